@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace wscvt {
+
+/// What kind of thing went wrong; a caller branches on this and shows `what()` to a person.
+enum class ErrorCode {
+  InvalidInput,      ///< the mesh, the file's content or an option is not usable
+  NotStarShaped,     ///< rays from the centre meet the surface more often than the caller allows
+  NumericalFailure,  ///< a solve or a triangulation broke down on usable input
+  InputOutput,       ///< a file could not be opened, read or written
+  Cancelled,         ///< the progress callback asked to stop
+};
+
+/// Every exception the library throws on purpose. The sentence says what is wrong, where, and what
+/// to do about it.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+
+  ErrorCode code() const noexcept { return code_; }
+
+ private:
+  ErrorCode code_;
+};
+
+}  // namespace wscvt

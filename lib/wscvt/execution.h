@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wscvt {
+
+/// Called on the thread that called the library, with the share of the work done in [0, 1] and the
+/// name of the stage. Returning false cancels: the library throws Error(Cancelled).
+using ProgressCallback = std::function<bool(double fraction, const std::string& stage)>;
+
+/// How to run: number of threads, and progress with cancel. Cheap to copy.
+///
+/// Results never depend on the number of threads: work is cut into blocks whose bounds follow from
+/// the problem size alone, and partial sums are added in block order.
+class Execution {
+ public:
+  /// `threads`: 0 means as many as the machine has. Throws Error(InvalidInput) below 0.
+  explicit Execution(int threads = 0, ProgressCallback progress = {});
+
+  int threads() const { return threads_; }
+
+  /// Reports progress; throws Error(Cancelled) if the callback asks to stop. `fraction` is relative
+  /// to the part of the work this Execution stands for (see `part`).
+  void report(double fraction, const std::string& stage) const;
+
+  /// The same execution, whose progress fills only [begin, end] of this one's.
+  Execution part(double begin, double end) const;
+
+  /// Calls body(begin, end) for consecutive blocks of at most `block` indices covering [0, count),
+  /// possibly at the same time. Exceptions from the body reach the caller.
+  void parallel_for(std::size_t count, std::size_t block,
+                    const std::function<void(std::size_t, std::size_t)>& body) const;
+
+  /// Sum over the blocks of partial(begin, end), added in block order: the same bits on any number
+  /// of threads. `Value` needs copying, `+=` and a start value `zero`.
+  template <class Value, class Partial>
+  Value parallel_sum(std::size_t count, std::size_t block, Value zero, const Partial& partial) const {
+    const std::size_t blocks = (count + block - 1) / block;
+    std::vector<Value> partials(blocks, zero);
+    parallel_for(count, block, [&](std::size_t begin, std::size_t end) {
+      partials[begin / block] = partial(begin, end);
+    });
+    Value sum = zero;
+    for (const Value& value : partials) sum += value;
+    return sum;
+  }
+
+ private:
+  class Arena;
+  int threads_;
+  std::shared_ptr<Arena> arena_;
+  ProgressCallback progress_;
+  double progress_begin_ = 0.0;
+  double progress_end_ = 1.0;
+};
+
+}  // namespace wscvt

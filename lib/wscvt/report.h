@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wscvt/remesh.h"
+
+namespace wscvt {
+
+/// The result as lines of plain text for a log: input counts and repairs, folded share, fit degree
+/// and residual, iterations and why they stopped, N and faces, quality before and after, the table
+/// descriptor / original / remesh / error %, warnings.
+std::vector<std::string> report_lines(const RemeshResult& result);
+
+/// The same as a JSON document (UTF-8, two-space indent, keys in a fixed order).
+std::string report_json(const RemeshResult& result);
+
+}  // namespace wscvt
