@@ -24,12 +24,13 @@ TEST(Execution, ParallelForCoversEveryIndexOnce) {
 
 TEST(Execution, SumHasTheSameBitsOnAnyNumberOfThreads) {
   const auto sum = [](int threads) {
-    return Execution(threads).parallel_sum(
-        std::size_t{100000}, 333, 0.0, [](std::size_t begin, std::size_t end) {
-          double part = 0.0;
-          for (std::size_t i = begin; i < end; ++i) part += std::sin(static_cast<double>(i));
-          return part;
-        });
+    return Execution(threads).parallel_sum(std::size_t{100000}, 333, 0.0,
+                                           [](std::size_t begin, std::size_t end) {
+                                             double part = 0.0;
+                                             for (std::size_t i = begin; i < end; ++i)
+                                               part += std::sin(static_cast<double>(i));
+                                             return part;
+                                           });
   };
   const double one = sum(1);
   for (const int threads : {2, 3, 7}) {
@@ -39,10 +40,10 @@ TEST(Execution, SumHasTheSameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(Execution, ExceptionFromAThreadReachesTheCaller) {
-  EXPECT_THROW(Execution(2).parallel_for(
-                   100, 1, [](std::size_t begin, std::size_t) {
-                     if (begin == 57) throw std::runtime_error("here");
-                   }),
+  EXPECT_THROW(Execution(2).parallel_for(100, 1,
+                                         [](std::size_t begin, std::size_t) {
+                                           if (begin == 57) throw std::runtime_error("here");
+                                         }),
                std::runtime_error);
 }
 

@@ -39,7 +39,8 @@ class Execution {
   /// Sum over the blocks of partial(begin, end), added in block order: the same bits on any number
   /// of threads. `Value` needs copying, `+=` and a start value `zero`.
   template <class Value, class Partial>
-  Value parallel_sum(std::size_t count, std::size_t block, Value zero, const Partial& partial) const {
+  Value parallel_sum(std::size_t count, std::size_t block, Value zero,
+                     const Partial& partial) const {
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<Value> partials(blocks, zero);
     parallel_for(count, block, [&](std::size_t begin, std::size_t end) {

@@ -30,10 +30,10 @@ class HarmonicSurface : public RadialSurface {
 /// How the fit went.
 struct HarmonicFitReport {
   int requested_degree = 0;
-  int degree = 0;            ///< lowered when the points cannot carry the requested one
-  std::size_t points = 0;    ///< that entered the fit
-  double residual = 0.0;     ///< weighted rms of r_i - r(u_i), length
-  double condition = 0.0;    ///< condition estimate of the weighted normal equations
+  int degree = 0;                ///< lowered when the points cannot carry the requested one
+  std::size_t points = 0;        ///< that entered the fit
+  double residual = 0.0;         ///< weighted rms of r_i - r(u_i), length
+  double condition = 0.0;        ///< condition estimate of the weighted normal equations
   double smallest_radius = 0.0;  ///< of the series on a fine grid, > 0
 };
 

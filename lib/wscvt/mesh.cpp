@@ -17,13 +17,13 @@ Mesh to_mesh(const IndexedMesh& mesh) {
     const Triangle& t = mesh.triangles[f];
     for (const std::int32_t v : t) {
       if (v < 0 || static_cast<std::size_t>(v) >= vertices) {
-        throw Error(ErrorCode::InvalidInput,
-                    "Triangle " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                        ", but the mesh has " + std::to_string(vertices) + " vertices.");
+        throw Error(ErrorCode::InvalidInput, "Triangle " + std::to_string(f) + " names vertex " +
+                                                 std::to_string(v) + ", but the mesh has " +
+                                                 std::to_string(vertices) + " vertices.");
       }
     }
-    const auto face =
-        result.add_face(Mesh::VertexHandle(t[0]), Mesh::VertexHandle(t[1]), Mesh::VertexHandle(t[2]));
+    const auto face = result.add_face(Mesh::VertexHandle(t[0]), Mesh::VertexHandle(t[1]),
+                                      Mesh::VertexHandle(t[2]));
     if (!face.is_valid()) {
       throw Error(ErrorCode::InvalidInput,
                   "Triangle " + std::to_string(f) +

@@ -46,11 +46,13 @@ struct CheckedMesh {
 /// volume. Throws Error(InvalidInput) with what to do about it when the mesh is empty, has
 /// coordinates that are not finite, indices out of range, boundary or non-manifold edges, is not
 /// orientable, encloses no volume, or falls into parts of comparable volume.
-CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options, const Execution& execution);
+CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
+                       const Execution& execution);
 
 /// Share of the sphere, seen from `centre`, that the closed mesh covers more than once: the solid
 /// angle of its faces that look back at the centre, / 4 pi. 0 for a star-shaped mesh; at least 1
 /// when `centre` lies outside.
-double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre, const Execution& execution);
+double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
+                          const Execution& execution);
 
 }  // namespace wscvt

@@ -26,10 +26,10 @@ struct Histogram {
 
 /// How even a triangle mesh is.
 struct MeshQuality {
-  Statistics edge_length;        ///< over the edges, each once; length
-  double edge_variation = 0.0;   ///< standard deviation / mean of the edge length (ECV)
-  Statistics edge_ratio;         ///< longest / shortest edge over the triangles; >= 1
-  double smallest_angle = 0.0;   ///< degrees
+  Statistics edge_length;            ///< over the edges, each once; length
+  double edge_variation = 0.0;       ///< standard deviation / mean of the edge length (ECV)
+  Statistics edge_ratio;             ///< longest / shortest edge over the triangles; >= 1
+  double smallest_angle = 0.0;       ///< degrees
   double mean_smallest_angle = 0.0;  ///< mean over the triangles of each one's smallest, degrees
   double valence_six_share = 0.0;    ///< share of the vertices with six neighbours
 };

@@ -12,7 +12,8 @@ class MeshSurface : public RadialSurface {
  public:
   /// Keeps a copy of the mesh moved by -centre and scaled by 1/unit. Throws Error(InvalidInput)
   /// when the mesh is empty or the centre lies on it or outside.
-  MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit, const Execution& execution);
+  MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
+              const Execution& execution);
 
   const IndexedMesh& mesh() const { return mesh_; }
 

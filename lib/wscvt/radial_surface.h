@@ -18,9 +18,9 @@ using Matrix3 = Eigen::Matrix3d;
 /// grad_Omega r; `hessian` is symmetric, its tangential block is the covariant Hessian on the
 /// sphere, and hessian * u = -gradient.
 struct RadialJet {
-  double radius = 0.0;                   ///< length units of the surface, > 0
-  Vector3 gradient = Vector3::Zero();    ///< length units per radian
-  Matrix3 hessian = Matrix3::Zero();     ///< length units per radian^2
+  double radius = 0.0;                 ///< length units of the surface, > 0
+  Vector3 gradient = Vector3::Zero();  ///< length units per radian
+  Matrix3 hessian = Matrix3::Zero();   ///< length units per radian^2
 };
 
 /// How far a RadialJet is to be filled in.
@@ -51,7 +51,8 @@ class RadialSurface {
                               const Execution& execution) const;
 
   /// As `evaluate_radii`, for a whole array and on the threads of `execution`.
-  std::vector<double> radii(const std::vector<Vector3>& directions, const Execution& execution) const;
+  std::vector<double> radii(const std::vector<Vector3>& directions,
+                            const Execution& execution) const;
 
   /// Radius in one direction.
   double radius(const Vector3& direction) const;
@@ -74,15 +75,16 @@ RadialJet jet_from_extension(double radius, const Vector3& gradient, const Matri
 
 /// Integrals over a radial surface about its origin, by Gauss-Legendre x trapezoid quadrature.
 struct SurfaceIntegrals {
-  double volume = 0.0;                   ///< length^3
-  double area = 0.0;                     ///< length^2
-  Vector3 centroid = Vector3::Zero();    ///< of the enclosed volume
-  double gradient_square = 0.0;          ///< integral of |grad_Omega r|^2 dOmega, length^2
+  double volume = 0.0;                 ///< length^3
+  double area = 0.0;                   ///< length^2
+  Vector3 centroid = Vector3::Zero();  ///< of the enclosed volume
+  double gradient_square = 0.0;        ///< integral of |grad_Omega r|^2 dOmega, length^2
 };
 
-/// Computes the integrals with `polar_nodes` Gauss-Legendre nodes in cos(theta) and twice as many in
-/// azimuth; exact for series of degree below polar_nodes / 3. Throws Error(InvalidInput) if
+/// Computes the integrals with `polar_nodes` Gauss-Legendre nodes in cos(theta) and twice as many
+/// in azimuth; exact for series of degree below polar_nodes / 3. Throws Error(InvalidInput) if
 /// polar_nodes < 1.
-SurfaceIntegrals integrate(const RadialSurface& surface, int polar_nodes, const Execution& execution);
+SurfaceIntegrals integrate(const RadialSurface& surface, int polar_nodes,
+                           const Execution& execution);
 
 }  // namespace wscvt

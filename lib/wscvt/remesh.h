@@ -24,8 +24,8 @@ enum class SeedStart {
 
 /// Which curvature the curvature weighting reads.
 enum class CurvatureSource {
-  Series,       ///< analytic, from the fitted series
-  QuadricFit,   ///< the paper's local quadric fit on the scan (2-ring)
+  Series,      ///< analytic, from the fitted series
+  QuadricFit,  ///< the paper's local quadric fit on the scan (2-ring)
 };
 
 /// Where the nodes are put along their directions.
@@ -36,13 +36,13 @@ enum class NodePlacement {
 
 /// Everything a caller may choose; the defaults work.
 struct RemeshOptions {
-  int node_count = 1000;                             ///< N, in [4, maximum_node_count]
+  int node_count = 1000;  ///< N, in [4, maximum_node_count]
   Weighting weighting = Weighting::RadialDistance;
-  double curvature_alpha = 1.0;                      ///< eq. 11's alpha, in [-3, 3]
+  double curvature_alpha = 1.0;  ///< eq. 11's alpha, in [-3, 3]
   CurvatureSource curvature_source = CurvatureSource::Series;
-  int degree = 20;                                   ///< of the harmonic series, in [1, 60]
+  int degree = 20;  ///< of the harmonic series, in [1, 60]
   NodePlacement placement = NodePlacement::FittedSurface;
-  double fold_limit = 0.05;                          ///< refuse above this share of 4 pi, in [0, 1)
+  double fold_limit = 0.05;  ///< refuse above this share of 4 pi, in [0, 1)
   SeedStart seed_start = SeedStart::WarpedLattice;
   std::uint64_t random_seed = 1;
   RelaxationOptions relaxation;
@@ -56,16 +56,17 @@ inline constexpr int maximum_node_count = 1000000;
 inline constexpr double fold_warning_limit = 0.01;
 
 struct RemeshResult {
-  Mesh mesh;                          ///< exactly N vertices and 2 N - 4 faces, input coordinates
-  std::vector<Vector3> directions;    ///< unit, from `centre` to each vertex
+  Mesh mesh;                        ///< exactly N vertices and 2 N - 4 faces, input coordinates
+  std::vector<Vector3> directions;  ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
-  std::vector<double> curvatures;     ///< largest absolute principal curvature of the surface, 1/length
-  std::vector<double> cell_areas;     ///< surface area of each node's power cell, length^2
-  Vector3 centre = Vector3::Zero();   ///< the volume centroid of the input
+  std::vector<double>
+      curvatures;  ///< largest absolute principal curvature of the surface, 1/length
+  std::vector<double> cell_areas;    ///< surface area of each node's power cell, length^2
+  Vector3 centre = Vector3::Zero();  ///< the volume centroid of the input
   MeshCheckReport input;
-  double folded_share = 0.0;          ///< of 4 pi
-  HarmonicFitReport fit;              ///< lengths in input units
-  std::vector<double> coefficients;   ///< of the fitted series about `centre`, input units
+  double folded_share = 0.0;         ///< of 4 pi
+  HarmonicFitReport fit;             ///< lengths in input units
+  std::vector<double> coefficients;  ///< of the fitted series about `centre`, input units
   RelaxationReport relaxation;
   MeshQuality original_quality;
   MeshQuality quality;

@@ -40,8 +40,7 @@ std::vector<Vector3> random_directions(int count, std::uint64_t seed);
 /// marginal distribution in z and the conditional one in azimuth, tabulated on `rows` latitude
 /// bands. `density` is called for arrays of directions. Throws Error(InvalidInput) if count < 1 or
 /// the density is not positive and finite everywhere.
-using DensityFunction =
-    std::function<std::vector<double>(const std::vector<Vector3>& directions)>;
+using DensityFunction = std::function<std::vector<double>(const std::vector<Vector3>& directions)>;
 std::vector<Vector3> warped_lattice(int count, const DensityFunction& density, int rows);
 
 /// Equal-angle grid: two poles and `rings` parallels of 2 * (rings + 1) points at equal angles
