@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "wscvt/execution.h"
 #include "wscvt/mesh.h"
 
 namespace wscvt {
@@ -34,14 +35,18 @@ struct MeshQuality {
   double valence_six_share = 0.0;    ///< share of the vertices with six neighbours
 };
 
-/// Measures a closed mesh. Throws Error(InvalidInput) if it has no faces.
-MeshQuality measure_quality(const IndexedMesh& mesh);
+/// Measures a closed, consistently oriented mesh without edges of no length (what check_mesh
+/// gives). Throws Error(InvalidInput) if it has no faces.
+MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution = Execution(1));
 
 /// Distributions of edge length / mean edge length over [0, 3], and of the edge ratio over [1, 3].
 struct QualityHistograms {
   Histogram relative_edge_length;
   Histogram edge_ratio;
 };
+
+/// Histograms of `bins` >= 1 bins for a mesh as measure_quality takes it. Throws
+/// Error(InvalidInput) if the mesh has no faces or `bins` is 0.
 QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins);
 
 }  // namespace wscvt

@@ -10,10 +10,11 @@ namespace wscvt {
 
 /// The result as lines of plain text for a log: input counts and repairs, folded share, fit degree
 /// and residual, iterations and why they stopped, N and faces, quality before and after, the table
-/// descriptor / original / remesh / error %, warnings.
+/// descriptor / original / remesh / error %, warnings. The decimal sign is a point in every locale.
 std::vector<std::string> report_lines(const RemeshResult& result);
 
-/// The same as a JSON document (UTF-8, two-space indent, keys in a fixed order).
+/// The same as a JSON document (UTF-8, two-space indent, keys in a fixed order). Numbers that are
+/// not finite become null.
 std::string report_json(const RemeshResult& result);
 
 }  // namespace wscvt

@@ -6,23 +6,30 @@
 
 namespace wscvt {
 
-/// Shape descriptors of a closed, outward mesh.
+/// Shape descriptors of a closed, outward mesh that follow from integrals over it: cheap enough for
+/// every remesh. See detailed_descriptors.h for the others.
 struct ShapeDescriptors {
   double volume = 0.0;        ///< length^3
   double area = 0.0;          ///< length^2
   double aspect_ratio = 0.0;  ///< S/L of the inertia-equivalent ellipsoid, in (0, 1]
-  double sphericity = 0.0;    ///< Wadell: (36 pi V^2)^(1/3) / A, in (0, 1]
-  double sdq = 0.0;           ///< invariant root-mean-square gradient, see the .cpp; no unit
+  double sphericity = 0.0;    ///< Wadell (1932): (36 pi V^2)^(1/3) / A, in (0, 1]
+  /// Root-mean-square gradient of the radius, in the form that does not depend on the orientation:
+  /// Sdq^2 = (1/A) integral of |grad_Omega r|^2 dOmega = (1/A) sum A_f (1 - c_f^2) / c_f, with c_f
+  /// the cosine between a face's normal and the direction of its centroid from the volume centroid.
+  /// c_f is taken as at least 0.05, so that folds do not count as infinitely steep. No unit; 0 for
+  /// a sphere.
+  double sdq = 0.0;
   Vector3 centroid = Vector3::Zero();  ///< of the volume
-  /// Semi-axes of the homogeneous ellipsoid with the same volume moments, S <= I <= L; length.
+  /// Semi-axes of the homogeneous ellipsoid with the same second moments of volume per volume (the
+  /// inertia ellipsoid), S <= I <= L; length.
   Vector3 inertia_semi_axes = Vector3::Zero();
 };
 
-/// Measures a closed outward mesh. Sdq is taken about the volume centroid. Throws
+/// Measures a closed outward mesh, as accurately far from the origin as near it. Throws
 /// Error(InvalidInput) when the volume is not positive.
 ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execution);
 
-/// 100 (value / reference - 1).
+/// 100 (value / reference - 1); 0 when the two are equal, even at zero.
 double relative_error_percent(double value, double reference);
 
 }  // namespace wscvt

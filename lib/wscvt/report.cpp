@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+
+#include "wscvt/descriptor_table.h"
+
+namespace wscvt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// ---- words
+
+const char* name_of(Weighting weighting) {
+  switch (weighting) {
+    case Weighting::Constant:
+      return "constant";
+    case Weighting::RadialDistance:
+      return "radial distance (WSCVT-D)";
+    case Weighting::Curvature:
+      return "curvature (WSCVT-C)";
+    case Weighting::Area:
+      return "area";
+  }
+  return "unknown";
+}
+
+const char* name_of(CurvatureSource source) {
+  switch (source) {
+    case CurvatureSource::Series:
+      return "series";
+    case CurvatureSource::QuadricFit:
+      return "quadric fit";
+  }
+  return "unknown";
+}
+
+const char* name_of(NodePlacement placement) {
+  switch (placement) {
+    case NodePlacement::FittedSurface:
+      return "fitted surface";
+    case NodePlacement::OriginalMesh:
+      return "original mesh";
+  }
+  return "unknown";
+}
+
+const char* name_of(SeedStart start) {
+  switch (start) {
+    case SeedStart::WarpedLattice:
+      return "warped lattice";
+    case SeedStart::Random:
+      return "random";
+  }
+  return "unknown";
+}
+
+// ---- text
+
+/// `significant` digits, without an exponent between 1e-4 and 1e`significant`, "-" for a NaN.
+std::string number(double value, int significant = 6) {
+  if (std::isnan(value)) return "-";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(significant) << value;
+  return text.str();
+}
+
+/// "+0.34 %"-style without the sign of the unit: a sign and three decimals, more for tiny errors.
+std::string signed_percent(double value) {
+  if (!std::isfinite(value)) return "-";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::showpos;
+  if (value != 0.0 && std::abs(value) < 1e-3) {
+    text << std::scientific << std::setprecision(1);
+  } else {
+    text << std::fixed << std::setprecision(3);
+  }
+  text << value;
+  return text.str();
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+constexpr std::size_t topic_width = 12;
+
+std::string line(const std::string& topic, const std::string& text) {
+  std::string result = topic;
+  result.resize(std::max(topic_width, result.size() + 1), ' ');
+  return result + text;
+}
+
+/// Rows of cells as lines: the first column to the left, the others to the right.
+std::vector<std::string> aligned(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::vector<std::string> lines;
+  for (const auto& row : rows) {
+    std::string text;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string padding(widths[c] - row[c].size(), ' ');
+      text += c == 0 ? row[c] + padding : "  " + padding + row[c];
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    lines.push_back(std::move(text));
+  }
+  return lines;
+}
+
+std::vector<std::string> repairs(const MeshCheckReport& input) {
+  std::vector<std::string> parts;
+  const auto add = [&parts](std::size_t count, const char* one, const char* many,
+                            const char* what) {
+    if (count > 0) parts.push_back(counted(count, one, many) + " " + what);
+  };
+  add(input.welded_vertices, "equal vertex", "equal vertices", "merged");
+  add(input.unreferenced_vertices, "unused vertex", "unused vertices", "dropped");
+  add(input.degenerate_faces, "degenerate face", "degenerate faces", "dropped");
+  add(input.duplicate_faces, "duplicate face", "duplicate faces", "dropped");
+  add(input.reoriented_faces, "face", "faces", "turned outward");
+  if (input.components > 1) {
+    parts.push_back(counted(input.components - 1, "smaller component", "smaller components") +
+                    " dropped (" + counted(input.dropped_faces, "face", "faces") + ", " +
+                    number(100.0 * input.dropped_volume_share, 3) + " % of the volume)");
+  }
+  return parts;
+}
+
+void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
+  const MeshCheckReport& input = result.input;
+  lines.push_back(line("Input", counted(input.input_vertices, "vertex", "vertices") + ", " +
+                                    counted(input.input_faces, "face", "faces")));
+  const std::vector<std::string> done = repairs(input);
+  lines.push_back(line("Repairs", done.empty() ? "none needed" : joined(done)));
+  lines.push_back(line("Used", counted(input.vertices, "vertex", "vertices") + ", " +
+                                   counted(input.faces, "face", "faces") + ", closed, genus " +
+                                   std::to_string(input.genus) + ", equivalent radius " +
+                                   number(input.equivalent_radius)));
+  lines.push_back(line("Fold", number(100.0 * result.folded_share, 3) +
+                                   " % of the solid angle is covered more than once (limit " +
+                                   number(100.0 * result.options.fold_limit, 3) + " %)"));
+}
+
+void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
+  const HarmonicFitReport& fit = result.fit;
+  std::string text = "spherical harmonics of degree " + std::to_string(fit.degree);
+  if (fit.degree < fit.requested_degree) {
+    text += " (lowered from " + std::to_string(fit.requested_degree) + ": " +
+            counted(fit.points, "point carries", "points carry") + " no more)";
+  }
+  text += ", residual " + number(fit.residual, 3);
+  const double radius = result.input.equivalent_radius;
+  if (radius > 0.0) {
+    text += " (" + number(100.0 * fit.residual / radius, 3) + " % of the equivalent radius)";
+  }
+  lines.push_back(line("Fit", text));
+}
+
+void append_relaxation(const RemeshResult& result, std::vector<std::string>& lines) {
+  const RemeshOptions& options = result.options;
+  std::string seeds = name_of(options.seed_start);
+  if (options.seed_start == SeedStart::Random) {
+    seeds += " start, seed " + std::to_string(options.random_seed);
+  }
+  std::string weighting = name_of(options.weighting);
+  if (options.weighting == Weighting::Curvature) {
+    weighting += ", alpha " + number(options.curvature_alpha, 3) + ", curvature from the " +
+                 name_of(options.curvature_source);
+  }
+  lines.push_back(line("Weighting", weighting + "; seeds: " + seeds));
+
+  const RelaxationReport& relaxation = result.relaxation;
+  const auto iterations = static_cast<std::size_t>(std::max(relaxation.iterations, 0));
+  std::string text = relaxation.converged
+                         ? "converged after " + counted(iterations, "iteration", "iterations")
+                         : "not converged: stopped at the limit of " +
+                               counted(iterations, "iteration", "iterations");
+  if (!relaxation.history.empty()) {
+    const RelaxationStep& last = relaxation.history.back();
+    text += ", displacement " + number(last.displacement, 2) + " h (tolerance " +
+            number(options.relaxation.displacement_tolerance, 2) + "), cell area spread " +
+            number(last.area_spread, 2) + " (tolerance " +
+            number(options.relaxation.area_tolerance, 2) + ")";
+  }
+  lines.push_back(line("Relaxation", text));
+}
+
+void append_quality(const RemeshResult& result, std::vector<std::string>& lines) {
+  const MeshQuality& a = result.original_quality;
+  const MeshQuality& b = result.quality;
+  const auto row = [](const char* label, double before, double after) {
+    return std::vector<std::string>{label, number(before, 4), number(after, 4)};
+  };
+  const std::vector<std::vector<std::string>> rows = {
+      {"Quality", "original", "remesh"},
+      row("  edge length, mean", a.edge_length.mean, b.edge_length.mean),
+      row("  edge length, deviation", a.edge_length.standard_deviation,
+          b.edge_length.standard_deviation),
+      row("  edge length, deviation / mean", a.edge_variation, b.edge_variation),
+      row("  edge ratio of the triangles, mean", a.edge_ratio.mean, b.edge_ratio.mean),
+      row("  edge ratio of the triangles, deviation", a.edge_ratio.standard_deviation,
+          b.edge_ratio.standard_deviation),
+      row("  edge ratio of the triangles, largest", a.edge_ratio.maximum, b.edge_ratio.maximum),
+      row("  smallest angle, degrees", a.smallest_angle, b.smallest_angle),
+      row("  smallest angle of the triangles, mean", a.mean_smallest_angle, b.mean_smallest_angle),
+      row("  vertices with six neighbours, %", 100.0 * a.valence_six_share,
+          100.0 * b.valence_six_share),
+  };
+  for (std::string& text : aligned(rows)) lines.push_back(std::move(text));
+}
+
+void append_descriptors(const RemeshResult& result, std::vector<std::string>& lines) {
+  std::vector<std::vector<std::string>> rows = {{"Descriptor", "original", "remesh", "error %"}};
+  for (const DescriptorComparison& row :
+       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh))) {
+    rows.push_back({"  " + row.label, number(row.reference), number(row.value),
+                    signed_percent(row.error_percent)});
+  }
+  for (std::string& text : aligned(rows)) lines.push_back(std::move(text));
+}
+
+// ---- JSON
+
+Json json_of(const Vector3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json json_of(const Statistics& s) {
+  return {{"mean", s.mean},
+          {"standard_deviation", s.standard_deviation},
+          {"minimum", s.minimum},
+          {"maximum", s.maximum}};
+}
+
+Json json_of(const MeshQuality& q) {
+  return {{"edge_length", json_of(q.edge_length)},
+          {"edge_variation", q.edge_variation},
+          {"edge_ratio", json_of(q.edge_ratio)},
+          {"smallest_angle_degrees", q.smallest_angle},
+          {"mean_smallest_angle_degrees", q.mean_smallest_angle},
+          {"valence_six_share", q.valence_six_share}};
+}
+
+Json json_of(const RemeshOptions& o) {
+  return {{"node_count", o.node_count},
+          {"weighting", name_of(o.weighting)},
+          {"curvature_alpha", o.curvature_alpha},
+          {"curvature_source", name_of(o.curvature_source)},
+          {"degree", o.degree},
+          {"placement", name_of(o.placement)},
+          {"fold_limit", o.fold_limit},
+          {"seed_start", name_of(o.seed_start)},
+          {"random_seed", o.random_seed},
+          {"relaxation",
+           {{"maximum_iterations", o.relaxation.maximum_iterations},
+            {"displacement_tolerance", o.relaxation.displacement_tolerance},
+            {"area_tolerance", o.relaxation.area_tolerance},
+            {"over_relaxation", o.relaxation.over_relaxation}}},
+          {"check", {{"dropped_volume_limit", o.check.dropped_volume_limit}}}};
+}
+
+Json json_of(const MeshCheckReport& i) {
+  return {{"vertices", i.input_vertices},
+          {"faces", i.input_faces},
+          {"welded_vertices", i.welded_vertices},
+          {"unreferenced_vertices", i.unreferenced_vertices},
+          {"degenerate_faces", i.degenerate_faces},
+          {"duplicate_faces", i.duplicate_faces},
+          {"reoriented_faces", i.reoriented_faces},
+          {"components", i.components},
+          {"dropped_faces", i.dropped_faces},
+          {"dropped_volume_share", i.dropped_volume_share},
+          {"used_vertices", i.vertices},
+          {"used_faces", i.faces},
+          {"genus", i.genus},
+          {"centroid", json_of(i.centroid)},
+          {"equivalent_radius", i.equivalent_radius}};
+}
+
+Json json_of(const HarmonicFitReport& f, double equivalent_radius) {
+  return {{"requested_degree", f.requested_degree},
+          {"degree", f.degree},
+          {"points", f.points},
+          {"residual", f.residual},
+          {"residual_percent_of_equivalent_radius", 100.0 * f.residual / equivalent_radius},
+          {"condition", f.condition},
+          {"smallest_radius", f.smallest_radius}};
+}
+
+Json json_of(const RelaxationReport& r) {
+  Json displacement = Json::array();
+  Json area_spread = Json::array();
+  Json flips = Json::array();
+  for (const RelaxationStep& step : r.history) {
+    displacement.push_back(step.displacement);
+    area_spread.push_back(step.area_spread);
+    flips.push_back(step.flips);
+  }
+  return {{"converged", r.converged},
+          {"iterations", r.iterations},
+          {"rebuilds", r.rebuilds},
+          {"history",
+           {{"displacement", std::move(displacement)},
+            {"area_spread", std::move(area_spread)},
+            {"flips", std::move(flips)}}}};
+}
+
+Json json_of(const std::vector<DescriptorComparison>& rows) {
+  Json result = Json::object();
+  for (const DescriptorComparison& row : rows) {
+    result[row.key] = {{"label", row.label},
+                       {"unit", row.unit},
+                       {"original", row.reference},
+                       {"remesh", row.value},
+                       {"error_percent", row.error_percent}};
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> report_lines(const RemeshResult& result) {
+  std::vector<std::string> lines;
+  append_input(result, lines);
+  append_fit(result, lines);
+  append_relaxation(result, lines);
+  lines.push_back(line("Result", counted(result.mesh.n_vertices(), "node", "nodes") + ", " +
+                                     counted(result.mesh.n_faces(), "face", "faces") +
+                                     ", nodes on the " + name_of(result.options.placement)));
+  append_quality(result, lines);
+  append_descriptors(result, lines);
+  for (const std::string& warning : result.warnings) lines.push_back(line("Warning", warning));
+  return lines;
+}
+
+std::string report_json(const RemeshResult& result) {
+  Json report = {
+      {"format", "wscvt-report"},
+      {"version", 1},
+      {"options", json_of(result.options)},
+      {"input", json_of(result.input)},
+      {"centre", json_of(result.centre)},
+      {"folded_share", result.folded_share},
+      {"fit", json_of(result.fit, result.input.equivalent_radius)},
+      {"relaxation", json_of(result.relaxation)},
+      {"result", {{"vertices", result.mesh.n_vertices()}, {"faces", result.mesh.n_faces()}}},
+      {"quality",
+       {{"original", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
+      {"descriptors", json_of(compare_descriptors(list_descriptors(result.original),
+                                                  list_descriptors(result.remesh)))},
+      {"warnings", result.warnings},
+  };
+  // A warning may quote a file name that is not UTF-8.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace wscvt

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <locale>
+#include <nlohmann/json.hpp>
+
+#include "test_shapes.h"
+#include "wscvt/descriptor_table.h"
+
+namespace wscvt {
+namespace {
+
+/// A result as the remesher fills it in, with a sphere of 10242 nodes as the scan.
+RemeshResult example() {
+  const Execution execution(1);
+  const IndexedMesh scan = test::sphere(5);
+  const IndexedMesh coarse = test::sphere(3);
+  RemeshResult result;
+  result.mesh = to_mesh(coarse);
+  result.original = describe_shape(scan, execution);
+  result.remesh = describe_shape(coarse, execution);
+  result.original_quality = measure_quality(scan);
+  result.quality = measure_quality(coarse);
+  result.input.input_vertices = scan.points.size();
+  result.input.input_faces = scan.triangles.size();
+  result.input.vertices = scan.points.size();
+  result.input.faces = scan.triangles.size();
+  result.input.components = 1;
+  result.input.equivalent_radius = 1.0;
+  result.fit.requested_degree = 20;
+  result.fit.degree = 20;
+  result.fit.points = scan.points.size();
+  result.fit.residual = 0.0039;
+  result.relaxation.converged = true;
+  result.relaxation.iterations = 2;
+  result.relaxation.history = {{0.1, 0.2, 30}, {9e-4, 0.05, 1}};
+  return result;
+}
+
+std::string text_of(const RemeshResult& result) {
+  std::string text;
+  for (const std::string& line : report_lines(result)) text += line + "\n";
+  return text;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Report, TextSaysWhatHappened) {
+  const std::string text = text_of(example());
+  for (const char* part :
+       {"10242 vertices, 20480 faces", "none needed", "genus 0", "0 % of the solid angle",
+        "degree 20, residual 0.0039 (0.39 % of the equivalent radius)", "WSCVT-D",
+        "converged after 2 iterations", "displacement 0.0009 h", "642 nodes, 1280 faces",
+        "error %"}) {
+    EXPECT_TRUE(contains(text, part)) << part << "\nnot in\n" << text;
+  }
+  EXPECT_FALSE(contains(text, "lowered"));
+  EXPECT_FALSE(contains(text, "Warning"));
+}
+
+TEST(Report, TextHasARowForEveryDescriptor) {
+  const std::vector<std::string> lines = report_lines(example());
+  for (const DescriptorValue& row : list_descriptors(ShapeDescriptors())) {
+    EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                            [&](const std::string& l) { return contains(l, row.label); }),
+              1)
+        << row.label;
+  }
+}
+
+TEST(Report, TableColumnsLineUp) {
+  const std::vector<std::string> lines = report_lines(example());
+  const auto head = std::find_if(lines.begin(), lines.end(), [](const std::string& l) {
+    return l.rfind("Descriptor", 0) == 0;
+  });
+  ASSERT_NE(head, lines.end());
+  const std::size_t rows = list_descriptors(ShapeDescriptors()).size();
+  ASSERT_GE(static_cast<std::size_t>(lines.end() - head), rows + 1);
+  for (std::size_t i = 1; i <= rows; ++i) {
+    EXPECT_EQ((head + static_cast<std::ptrdiff_t>(i))->size(), head->size());
+  }
+}
+
+TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
+  RemeshResult result = example();
+  result.input.welded_vertices = 1;
+  result.input.degenerate_faces = 4;
+  result.input.components = 3;
+  result.input.dropped_faces = 100;
+  result.input.dropped_volume_share = 0.0123;
+  result.folded_share = 0.0005;
+  result.fit.requested_degree = 20;
+  result.fit.degree = 9;
+  result.fit.points = 230;
+  result.relaxation.converged = false;
+  result.warnings = {"First warning.", "Second warning."};
+  const std::string text = text_of(result);
+  for (const char* part :
+       {"1 equal vertex merged", "4 degenerate faces dropped",
+        "2 smaller components dropped (100 faces, 1.23 % of the volume)",
+        "0.05 % of the solid angle", "degree 9 (lowered from 20: 230 points carry no more)",
+        "not converged: stopped at the limit of 2 iterations", "First warning.",
+        "Second warning."}) {
+    EXPECT_TRUE(contains(text, part)) << part << "\nnot in\n" << text;
+  }
+}
+
+TEST(Report, TextNamesSeedAndAlphaOnlyWhereTheyMatter) {
+  RemeshResult result = example();
+  EXPECT_FALSE(contains(text_of(result), "alpha"));
+  result.options.weighting = Weighting::Curvature;
+  result.options.curvature_alpha = 1.25;
+  result.options.seed_start = SeedStart::Random;
+  result.options.random_seed = 77;
+  EXPECT_TRUE(contains(text_of(result), "alpha 1.25"));
+  EXPECT_TRUE(contains(text_of(result), "seed 77"));
+}
+
+/// Writes numbers as in German.
+class CommaDecimals : public std::numpunct<char> {
+ protected:
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(Report, DoesNotDependOnTheLocale) {
+  const RemeshResult result = example();
+  const std::string text = text_of(result);
+  const std::string json = report_json(result);
+  const std::locale before = std::locale::global(std::locale(std::locale(), new CommaDecimals));
+  const std::string text_after = text_of(result);
+  const std::string json_after = report_json(result);
+  std::locale::global(before);
+  EXPECT_EQ(text, text_after);
+  EXPECT_EQ(json, json_after);
+}
+
+TEST(Report, JsonHoldsTheNumbersToTheLastBit) {
+  const RemeshResult result = example();
+  const auto json = nlohmann::json::parse(report_json(result));
+  EXPECT_EQ(json.at("format"), "wscvt-report");
+  EXPECT_EQ(json.at("result").at("vertices"), 642);
+  EXPECT_EQ(json.at("fit").at("residual").get<double>(), result.fit.residual);
+  EXPECT_EQ(json.at("quality").at("remesh").at("edge_length").at("mean").get<double>(),
+            result.quality.edge_length.mean);
+  const auto& volume = json.at("descriptors").at("volume");
+  EXPECT_EQ(volume.at("original").get<double>(), result.original.volume);
+  EXPECT_EQ(volume.at("remesh").get<double>(), result.remesh.volume);
+  EXPECT_EQ(volume.at("error_percent").get<double>(),
+            relative_error_percent(result.remesh.volume, result.original.volume));
+  EXPECT_EQ(json.at("relaxation").at("history").at("flips"), nlohmann::json({30, 1}));
+  EXPECT_TRUE(json.at("warnings").empty());
+}
+
+TEST(Report, JsonStaysValidWithNumbersAndBytesItCannotHold) {
+  RemeshResult result = example();
+  result.remesh.sdq = std::numeric_limits<double>::quiet_NaN();
+  result.original.sdq = 0.0;
+  result.input.equivalent_radius = 0.0;
+  result.warnings = {"file \xff.ply", "a \"quote\"\n"};
+  const auto json = nlohmann::json::parse(report_json(result));
+  EXPECT_TRUE(json.at("descriptors").at("sdq_invariant").at("remesh").is_null());
+  EXPECT_EQ(json.at("warnings").at(1), "a \"quote\"\n");
+  EXPECT_FALSE(text_of(result).empty());
+}
+
+TEST(Report, JsonKeysKeepTheirOrder) {
+  const std::string json = report_json(example());
+  std::size_t last = 0;
+  for (const char* key : {"\"format\"", "\"options\"", "\"input\"", "\"fit\"", "\"relaxation\"",
+                          "\"quality\"", "\"descriptors\"", "\"warnings\""}) {
+    const std::size_t place = json.find(key, last);
+    ASSERT_NE(place, std::string::npos) << key;
+    last = place;
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
