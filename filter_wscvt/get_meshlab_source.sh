@@ -1,0 +1,55 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Fetches the source package of the installed MeshLab, whose headers no Debian package carries.
+#   filter_wscvt/get_meshlab_source.sh FOLDER
+# FOLDER is created, and is what CMake wants as MESHLAB_SOURCE_DIR; nothing is done if it is there.
+# Needs dpkg-dev, no root: the source entry and apt's lists are kept in a folder of our own.
+set -eu
+
+folder=${1:?usage: get_meshlab_source.sh FOLDER}
+if [ -f "$folder/ML_VERSION" ]; then exit 0; fi
+
+version=$(dpkg-query -W -f '${Version}' meshlab 2>/dev/null) || {
+  echo "MeshLab is not installed; run: apt-get install meshlab" >&2
+  exit 1
+}
+# "meshlab | version | URI suite/component architecture Packages" -> URI
+uri=$(apt-cache madison meshlab | awk -F '|' -v version="$version" \
+  '{ gsub(/ /, "", $2) } $2 == version && $3 ~ /Packages/ { split($3, at, " "); print at[1]; exit }')
+if [ -z "$uri" ]; then
+  echo "apt does not know where meshlab $version comes from; run: apt-get update" >&2
+  exit 1
+fi
+uri=${uri%/}
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir -p "$scratch/lists/partial" "$scratch/archives/partial" "$scratch/parts"
+
+# The machine's own entries for that archive, with their keys and options, asked for sources.
+for list in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
+  case $list in
+    *.list)
+      if [ -f "$list" ]; then
+        grep -F "$uri" "$list" | sed -n 's/^[[:space:]]*deb[[:space:]]/deb-src /p' \
+          >> "$scratch/parts/source.list" || true
+      fi ;;
+    *.sources)
+      if [ -f "$list" ]; then
+        awk -v uri="$uri" 'BEGIN { RS = ""; ORS = "\n\n" } index($0, uri)' "$list" |
+          sed -E 's/^Types:.*/Types: deb-src/' >> "$scratch/parts/source.sources"
+      fi ;;
+  esac
+done
+
+in_private() {
+  "$@" -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$scratch/parts" \
+    -o Dir::State::Lists="$scratch/lists" -o Dir::Cache="$scratch" -o APT::Sandbox::User=root
+}
+in_private apt-get update
+(cd "$scratch" && in_private apt-get source "meshlab=$version")
+
+mkdir -p "$(dirname "$folder")"
+unpacked=$(find "$scratch" -mindepth 2 -maxdepth 2 -name ML_VERSION -printf '%h\n')
+mv "$unpacked" "$folder"
+echo "The source of MeshLab $version is in $folder."

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vcg/complex/allocate.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "wscvt/error.h"
+#include "wscvt/mesh.h"
+
+namespace wscvt::filter {
+
+/// Flat copy of a VCG triangle mesh without its deleted vertices and faces, the others in order.
+/// Throws Error(InvalidInput) when a face refers to no vertex of the mesh or to a deleted one, or
+/// there are more vertices than 32-bit indices reach.
+template <class VcgMesh>
+IndexedMesh to_indexed_mesh(const VcgMesh& mesh) {
+  constexpr std::int32_t deleted = -1;
+  if (mesh.vert.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw Error(ErrorCode::InvalidInput,
+                "The mesh has more than 2147483647 vertices; simplify it first.");
+  }
+  IndexedMesh result;
+  result.points.reserve(static_cast<std::size_t>(mesh.vn));
+  result.triangles.reserve(static_cast<std::size_t>(mesh.fn));
+  std::vector<std::int32_t> new_index(mesh.vert.size(), deleted);
+  for (std::size_t v = 0; v < mesh.vert.size(); ++v) {
+    if (mesh.vert[v].IsD()) continue;
+    new_index[v] = static_cast<std::int32_t>(result.points.size());
+    const auto& p = mesh.vert[v].cP();
+    result.points.emplace_back(p[0], p[1], p[2]);
+  }
+  for (std::size_t f = 0; f < mesh.face.size(); ++f) {
+    if (mesh.face[f].IsD()) continue;
+    Triangle triangle{};
+    for (int k = 0; k < 3; ++k) {
+      const auto* vertex = mesh.face[f].cV(k);
+      const auto v = vertex == nullptr ? -1 : vertex - mesh.vert.data();
+      if (v < 0 || static_cast<std::size_t>(v) >= new_index.size() ||
+          new_index[static_cast<std::size_t>(v)] == deleted) {
+        throw Error(ErrorCode::InvalidInput,
+                    "Face " + std::to_string(f) +
+                        " refers to a vertex that is not there; remove unreferenced and "
+                        "degenerate elements first.");
+      }
+      triangle[static_cast<std::size_t>(k)] = new_index[static_cast<std::size_t>(v)];
+    }
+    result.triangles.push_back(triangle);
+  }
+  return result;
+}
+
+/// Replaces the content of a VCG mesh; vertices and faces keep their order. `qualities` has one
+/// value a vertex.
+template <class VcgMesh>
+void assign(VcgMesh& target, const IndexedMesh& source, const std::vector<double>& qualities) {
+  using Scalar = typename VcgMesh::ScalarType;
+  target.Clear();
+  vcg::tri::Allocator<VcgMesh>::AddVertices(target, source.points.size());
+  for (std::size_t v = 0; v < source.points.size(); ++v) {
+    const Vector3& p = source.points[v];
+    target.vert[v].P() = typename VcgMesh::CoordType(
+        static_cast<Scalar>(p.x()), static_cast<Scalar>(p.y()), static_cast<Scalar>(p.z()));
+    target.vert[v].Q() = static_cast<typename VcgMesh::VertexType::QualityType>(qualities[v]);
+  }
+  vcg::tri::Allocator<VcgMesh>::AddFaces(target, source.triangles.size());
+  for (std::size_t f = 0; f < source.triangles.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(source.triangles[f][static_cast<std::size_t>(k)]);
+      target.face[f].V(k) = &target.vert[v];
+    }
+  }
+}
+
+}  // namespace wscvt::filter
