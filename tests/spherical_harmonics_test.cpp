@@ -120,7 +120,7 @@ TEST(SphericalHarmonics, SeriesAgreesWithBasisAndWithLegendreForm) {
     double trigonometric = 0.0;
     std::vector<double> legendre(static_cast<std::size_t>(degree) + 1);
     for (int m = 0; m <= degree; ++m) {
-      associated_legendre(degree, m, u[i].z(), sine, legendre.data());
+      associated_legendre(degree, m, &u[i].z(), &sine, 1, legendre.data());
       for (int l = m; l <= degree; ++l) {
         const double p = legendre[static_cast<std::size_t>(l - m)];
         trigonometric += a[harmonic_index(l, m)] * p * std::cos(m * azimuth);
@@ -218,8 +218,9 @@ TEST(SphericalHarmonics, RefusesWhatIsNotASeries) {
   EXPECT_THROW(HarmonicSeries({1.0, 2.0}), Error);
   EXPECT_THROW(harmonic_values(-1, nullptr, 0), Error);
   EXPECT_THROW(harmonic_values(maximum_harmonic_degree + 1, nullptr, 0), Error);
+  const double half = 0.5;
   double value = 0.0;
-  EXPECT_THROW(associated_legendre(2, 3, 0.5, 0.5, &value), Error);
+  EXPECT_THROW(associated_legendre(2, 3, &half, &half, 1, &value), Error);
 }
 
 }  // namespace

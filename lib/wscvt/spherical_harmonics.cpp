@@ -240,22 +240,24 @@ RadialJet jet_of_lane(const ExtensionLanes& sums, std::size_t i, const Vector3& 
 
 }  // namespace
 
-void associated_legendre(int degree, int m, double cosine, double sine, double* values) {
+void associated_legendre(int degree, int m, const double* cosines, const double* sines,
+                         std::size_t count, double* values) {
   check_degree(degree);
   if (m < 0 || m > degree) {
     throw Error(ErrorCode::InvalidInput,
                 "The order of an associated Legendre function is " + std::to_string(m) +
                     "; give one from 0 to the degree " + std::to_string(degree) + ".");
   }
-  double previous = 0.0;
-  double value = sectoral_constant(m) * std::pow(sine, m);
-  values[0] = value;
+  const double constant = sectoral_constant(m);
+  for (std::size_t j = 0; j < count; ++j) values[j] = constant * std::pow(sines[j], m);
   for (int l = m + 1; l <= degree; ++l) {
     const Recurrence step = recurrence(l, m);
-    const double next = step.alpha * cosine * value - step.beta * previous;
-    previous = value;
-    value = next;
-    values[l - m] = value;
+    const double* previous = values;
+    values += count;
+    for (std::size_t j = 0; j < count; ++j) values[j] = step.alpha * cosines[j] * previous[j];
+    if (l == m + 1) continue;
+    const double* before = previous - count;
+    for (std::size_t j = 0; j < count; ++j) values[j] -= step.beta * before[j];
   }
 }
 

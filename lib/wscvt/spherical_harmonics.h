@@ -39,11 +39,12 @@ constexpr std::size_t harmonic_count(int degree) {
 /// Error(InvalidInput) when the degree is not in [0, maximum_harmonic_degree].
 std::vector<double> harmonic_values(int degree, const Vector3* directions, std::size_t count);
 
-/// sqrt(2 - delta_m0) P_lm(cos theta) for l = m ... degree at one latitude, into values[l - m].
-/// `sine` = sin theta >= 0 is given apart from `cosine` to keep its digits near the poles. Throws
-/// Error(InvalidInput) when the degree is not in [0, maximum_harmonic_degree] or m not in [0,
-/// degree].
-void associated_legendre(int degree, int m, double cosine, double sine, double* values);
+/// sqrt(2 - delta_m0) P_lm(cos theta) for l = m ... degree on a set of latitudes, latitudes
+/// innermost: values[(l - m) * count + j]. `sines[j]` = sin theta_j >= 0 is given apart from
+/// `cosines[j]` to keep its digits near the poles. Throws Error(InvalidInput) when the degree is
+/// not in [0, maximum_harmonic_degree] or m not in [0, degree].
+void associated_legendre(int degree, int m, const double* cosines, const double* sines,
+                         std::size_t count, double* values);
 
 /// A series f(u) = sum a_lm Y_lm(u), laid out for summing it in many directions without storing the
 /// basis. It is summed in the Cartesian form Y_lm = Q_lm(z) Re or Im (x + iy)^m with
