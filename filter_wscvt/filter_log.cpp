@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 #include "wscvt/report.h"
 
@@ -22,21 +23,23 @@ std::string quality_line(const RemeshResult& result, const FilterSettings& setti
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   std::ostringstream line;
   line.imbue(std::locale::classic());
-  line << "Vertex quality: " << parameter->choices[static_cast<std::size_t>(settings.quality)];
+  line << "Stored      vertex quality: "
+       << parameter->choices[static_cast<std::size_t>(settings.quality)];
   if (lowest != values.end()) line << ", " << *lowest << " to " << *highest;
   return line.str();
 }
 
-std::string run_line(const RemeshResult& result, double seconds) {
+std::string seconds_line(double seconds) {
   std::ostringstream line;
   line.imbue(std::locale::classic());
-  line << "Seconds: " << std::fixed << std::setprecision(2) << seconds << "; seed: ";
-  if (result.options.seed_start == SeedStart::Random) {
-    line << result.options.random_seed;
-  } else {
-    line << "none used (warped lattice)";
-  }
+  line << "Seconds     " << std::fixed << std::setprecision(2) << seconds;
   return line.str();
+}
+
+std::string seed_line(const RemeshOptions& options) {
+  return options.seed_start == SeedStart::Random
+             ? "Seed        " + std::to_string(options.random_seed)
+             : "Seed        not used by the warped lattice";
 }
 
 }  // namespace
@@ -46,7 +49,8 @@ std::vector<std::string> log_lines(const RemeshResult& result, const FilterSetti
   std::vector<std::string> lines{""};
   for (std::string& line : report_lines(result)) lines.push_back(std::move(line));
   lines.push_back(quality_line(result, settings));
-  lines.push_back(run_line(result, seconds));
+  lines.push_back(seconds_line(seconds));
+  lines.push_back(seed_line(result.options));
   for (std::string& line : lines) line.resize(std::min(line.size(), longest_line));
   return lines;
 }

@@ -76,20 +76,17 @@ std::string filter_name() { return "Remeshing: Weighted Spherical Centroidal Vor
 
 std::string filter_help() {
   return "Turns a dense closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
-         "for</b>, with even triangles and little change of volume, area and shape. A series of "
-         "spherical harmonics is fitted to the surface; nodes on the sphere are relaxed to a "
-         "weighted spherical centroidal Voronoi tessellation, put back on the surface and "
-         "joined by the dual triangulation. The result is closed, 2-manifold, outward and free "
-         "of self-intersections; the same input and parameters give the same mesh. The errors of "
-         "volume, area, aspect ratio, sphericity and slope (Sdq) are listed in the log.<br>"
+         "for</b>: a series of spherical harmonics is fitted to the surface, nodes on the sphere "
+         "are relaxed to a weighted centroidal Voronoi tessellation and put back on the surface. "
+         "The result is closed, 2-manifold, outward and free of self-intersections; the log lists "
+         "its errors in volume, area and shape.<br>"
          "<b>It repairs</b> equal points, degenerate faces, orientation and small loose parts, and "
-         "says so in the log. <b>It refuses</b> meshes that are open, not manifold, without "
-         "volume, with coordinates that are not finite or in parts of comparable volume, and those "
-         "where rays from the centroid meet the surface more than once over more than the fold "
-         "limit. A filter that refuses changes nothing.<br>"
-         "See:<br><i>Wu F., Huang L., Lai Z.</i><br><b>\"A spherical Voronoi tessellation-based "
-         "approach for particle surface discretization and reconstruction\"</b><br>Engineering "
-         "Mechanics, 2022, doi 10.6052/j.issn.1000-4750.2022.07.0614";
+         "says so in the log. <b>It refuses</b>, and changes nothing, when the mesh is open, not "
+         "manifold, without volume, not finite or in parts of comparable volume, or folds back "
+         "over more directions than the fold limit.<br>"
+         "See: <i>Wu F., Huang L., Lai Z.</i> <b>\"A spherical Voronoi tessellation-based approach "
+         "for particle surface discretization and reconstruction\"</b>, Engineering Mechanics, "
+         "2022, doi 10.6052/j.issn.1000-4750.2022.07.0614";
 }
 
 std::vector<FilterParameter> filter_parameters() {
@@ -140,8 +137,8 @@ std::vector<FilterParameter> filter_parameters() {
              "What the vertex quality of the result holds. Radial distance: from the centroid, in "
              "units of the mesh. Curvature: the largest absolute principal curvature, 1/unit. Cell "
              "area: surface area of the node's cell, unit^2."),
-      flag("ColorByQuality", false, "Colour by quality",
-           "Colours the vertices of the result by their quality, from red (lowest) through green "
+      flag("ColorByQuality", false, "Color by quality",
+           "Colors the vertices of the result by their quality, from red (lowest) through green "
            "to blue (highest)."),
   };
 }

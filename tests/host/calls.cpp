@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calls.h"
+
+#include <limits>
+
+#include "sample_meshes.h"
+
+namespace wscvt::host_test {
+
+std::vector<Call> refused_calls() {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  return {
+      {"NoMesh", std::nullopt, {}, {"no mesh"}},
+      {"EmptyMesh", IndexedMesh{}, {}, {"empty"}},
+      {"PointsWithoutFaces", IndexedMesh{sphere().points, {}}, {}, {"faces"}},
+      {"OpenMesh", without_a_patch(), {}, {"boundary"}},
+      {"TwoHalves", two_grains(), {}, {"parts"}},
+      {"NonManifoldEdge", with_non_manifold_edge(), {}, {"manifold"}},
+      {"NotANumber", with_coordinate(not_a_number), {}, {"finite"}},
+      {"Infinite", with_coordinate(infinity), {}, {"finite"}},
+      {"NoVolume", flat_grain(), {}, {"volume"}},
+      {"FoldAboveLimit", bent_grain(), {}, {"fold"}},
+      {"TooFewNodes", grain(), {{"NodeCount", "3"}}, {"NodeCount", "4"}},
+      {"NegativeNodes", grain(), {{"NodeCount", "-7"}}, {"NodeCount", "4"}},
+      {"TooManyNodes", grain(), {{"NodeCount", "1000001"}}, {"NodeCount", "1000000"}},
+      {"DegreeZero", grain(), {{"HarmonicDegree", "0"}}, {"HarmonicDegree", "60"}},
+      {"DegreeTooHigh", grain(), {{"HarmonicDegree", "61"}}, {"HarmonicDegree", "60"}},
+      {"WeightingAboveRange", grain(), {{"Weighting", "4"}}, {"Weighting", "WSCVT-C"}},
+      {"WeightingBelowRange", grain(), {{"Weighting", "-1"}}, {"Weighting", "WSCVT-C"}},
+      {"PlacementOutOfRange", grain(), {{"Placement", "2"}}, {"Placement"}},
+      {"SeedStartOutOfRange", grain(), {{"SeedStart", "2"}}, {"SeedStart"}},
+      {"QualityOutOfRange", grain(), {{"Quality", "3"}}, {"Quality"}},
+      {"AlphaOutOfRange", grain(), {{"CurvatureAlpha", "3.1"}}, {"CurvatureAlpha", "3.1"}},
+      {"AlphaNotANumber", grain(), {{"CurvatureAlpha", "nan"}}, {"CurvatureAlpha"}},
+      {"FoldLimitNegative", grain(), {{"FoldLimit", "-0.1"}}, {"FoldLimit", "-0.1"}},
+      {"FoldLimitAll", grain(), {{"FoldLimit", "100"}}, {"FoldLimit", "99"}},
+      {"FoldLimitInfinite", grain(), {{"FoldLimit", "inf"}}, {"FoldLimit"}},
+      {"SeedNegative", grain(), {{"RandomSeed", "-1"}}, {"RandomSeed"}},
+      {"IterationsNegative", grain(), {{"MaxIterations", "-1"}}, {"MaxIterations"}},
+  };
+}
+
+std::vector<Call> extreme_calls() {
+  return {
+      {"CurvatureOnASphere", sphere(), {{"Weighting", "2"}, {"NodeCount", "300"}}, {}},
+      {"AMillionUnitsAway",
+       moved(scaled(grain(), 100.0), Vector3(1e6, -1e6, 1e6)),
+       {{"NodeCount", "300"}},
+       {}},
+      {"AMicrometreAcross", scaled(grain(), 0.5e-6), {{"NodeCount", "300"}}, {}},
+      {"FourNodes", grain(), {{"NodeCount", "4"}}, {}},
+      {"RandomSeeds", grain(), {{"NodeCount", "200"}, {"SeedStart", "1"}, {"RandomSeed", "7"}}, {}},
+      {"OnTheOriginalMesh", grain(), {{"NodeCount", "500"}, {"Placement", "1"}}, {}},
+  };
+}
+
+}  // namespace wscvt::host_test

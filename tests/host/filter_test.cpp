@@ -1,0 +1,546 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The plugin as it was built, loaded into this process, which plays the host.
+#include <common/filterscript.h>
+#include <common/interfaces.h>
+#include <common/mlexception.h>
+#include <gtest/gtest.h>
+
+#include <QFileInfo>
+#include <QPluginLoader>
+#include <QThread>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "calls.h"
+#include "mesh_conversion.h"
+#include "parameters.h"
+#include "programs.h"
+#include "sample_meshes.h"
+#include "wscvt/remesh.h"
+
+namespace wscvt::host_test {
+namespace {
+
+const QString filter_menu_text = "Remeshing: Weighted Spherical Centroidal Voronoi";
+
+/// The plugin's one filter.
+class LoadedFilter {
+ public:
+  LoadedFilter() : loader_(QStringLiteral(WSCVT_PLUGIN_FILE)) {
+    filter_ = qobject_cast<MeshFilterInterface*>(loader_.instance());
+    if (filter_ == nullptr) throw std::runtime_error(loader_.errorString().toStdString());
+    filter_->setLog(&log_);
+  }
+
+  MeshFilterInterface& filter() { return *filter_; }
+  QAction* action() { return filter_->actions().front(); }
+
+  RichParameterList parameters(MeshDocument& document) {
+    RichParameterList list;
+    filter_->initParameterSet(action(), document, list);
+    return list;
+  }
+
+  bool apply(MeshDocument& document, const RichParameterList& parameters,
+             vcg::CallBackPos* callback = nullptr) {
+    return filter_->applyFilter(action(), document, parameters, callback);
+  }
+
+  QStringList log() {
+    QStringList lines;
+    log_.print(lines);
+    return lines;
+  }
+
+ private:
+  QPluginLoader loader_;
+  MeshFilterInterface* filter_ = nullptr;
+  GLLogStream log_;
+};
+
+MeshModel& add_layer(MeshDocument& document, const IndexedMesh& mesh) {
+  MeshModel& layer = *document.addNewMesh("", "scan.ply", true);
+  filter::assign(layer.cm, mesh, std::vector<double>(mesh.points.size(), 0.25));
+  layer.UpdateBoxAndNormals();
+  return layer;
+}
+
+/// Sets a parameter from its text, as MeshLab does for a script.
+void set_from_text(RichParameterList& list, const std::string& name, const std::string& text) {
+  RichParameter& parameter = list.getParameterByName(QString::fromStdString(name));
+  const QString value = QString::fromStdString(text);
+  if (parameter.value().isEnum()) {
+    parameter.setValue(EnumValue(value.toInt()));
+  } else if (parameter.value().isInt()) {
+    parameter.setValue(IntValue(value.toInt()));
+  } else if (parameter.value().isFloat()) {
+    parameter.setValue(FloatValue(value.toFloat()));
+  } else {
+    parameter.setValue(BoolValue(value == "true"));
+  }
+}
+
+/// Everything about a layer that a user could notice.
+struct LayerState {
+  QString label;
+  int mask = 0;
+  int vertex_count = 0;
+  int face_count = 0;
+  std::array<float, 16> transform{};
+  std::vector<float> vertices;  ///< point, normal, quality, flags
+  std::vector<std::ptrdiff_t> faces;
+
+  bool operator==(const LayerState& other) const {
+    const auto same_bits = [](const std::vector<float>& a, const std::vector<float>& b) {
+      return a.size() == b.size() &&
+             std::equal(a.begin(), a.end(), b.begin(), [](float x, float y) {
+               return x == y || (std::isnan(x) && std::isnan(y));
+             });
+    };
+    return label == other.label && mask == other.mask && vertex_count == other.vertex_count &&
+           face_count == other.face_count && transform == other.transform &&
+           same_bits(vertices, other.vertices) && faces == other.faces;
+  }
+};
+
+LayerState state_of(MeshModel& layer) {
+  LayerState state;
+  state.label = layer.label();
+  state.mask = layer.dataMask();
+  state.vertex_count = layer.cm.vn;
+  state.face_count = layer.cm.fn;
+  std::copy(layer.cm.Tr.V(), layer.cm.Tr.V() + 16, state.transform.begin());
+  for (const auto& vertex : layer.cm.vert) {
+    for (int k = 0; k < 3; ++k) state.vertices.push_back(vertex.cP()[k]);
+    for (int k = 0; k < 3; ++k) state.vertices.push_back(vertex.cN()[k]);
+    state.vertices.push_back(vertex.cQ());
+    state.vertices.push_back(static_cast<float>(vertex.cFlags()));
+  }
+  for (const auto& face : layer.cm.face) {
+    for (int k = 0; k < 3; ++k) state.faces.push_back(face.cV(k) - layer.cm.vert.data());
+    state.faces.push_back(face.cFlags());
+  }
+  return state;
+}
+
+std::vector<LayerState> state_of(MeshDocument& document) {
+  std::vector<LayerState> states;
+  for (MeshModel* layer : document.meshList) states.push_back(state_of(*layer));
+  return states;
+}
+
+TEST(Filter, NameMenuAndConditionsAreFrozen) {
+  LoadedFilter loaded;
+  ASSERT_EQ(loaded.filter().actions().size(), 1);
+  EXPECT_EQ(loaded.action()->text(), filter_menu_text);
+  EXPECT_EQ(loaded.filter().getClass(loaded.action()), MeshFilterInterface::Remeshing);
+  EXPECT_EQ(loaded.filter().filterArity(loaded.action()), MeshFilterInterface::SINGLE_MESH);
+  EXPECT_EQ(loaded.filter().getPreConditions(loaded.action()), MeshModel::MM_FACENUMBER);
+  const int changes = MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
+  EXPECT_EQ(loaded.filter().postCondition(loaded.action()) & changes, changes);
+}
+
+TEST(Filter, HelpNamesTheMethodAndItsSource) {
+  LoadedFilter loaded;
+  const QString help = loaded.filter().filterInfo(loaded.action());
+  for (const char* words :
+       {"Wu F., Huang L., Lai Z.", "10.6052/j.issn.1000-4750.2022.07.0614", "refuses", "repairs"}) {
+    EXPECT_TRUE(help.contains(words)) << words;
+  }
+}
+
+TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  QStringList actual;
+  for (const RichParameter& parameter : loaded.parameters(document)) {
+    QDomDocument xml;
+    const QDomElement element = parameter.fillToXMLDocument(xml);
+    actual << parameter.name() + " " + parameter.stringType() + " " + element.attribute("value");
+    EXPECT_FALSE(parameter.fieldDescription().isEmpty()) << parameter.name().toStdString();
+    EXPECT_GT(parameter.toolTip().size(), 40) << parameter.name().toStdString();
+  }
+  const QStringList frozen{
+      "NodeCount RichInt 1000",     "Weighting RichEnum 1", "HarmonicDegree RichInt 20",
+      "CurvatureAlpha RichFloat 1", "Placement RichEnum 0", "FoldLimit RichFloat 5",
+      "SeedStart RichEnum 0",       "RandomSeed RichInt 1", "MaxIterations RichInt 1000",
+      "NewLayer RichBool true",     "Quality RichEnum 0",   "ColorByQuality RichBool false"};
+  EXPECT_EQ(actual.join("\n").toStdString(), frozen.join("\n").toStdString());
+}
+
+TEST(Filter, ChoicesAreFrozen) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  const RichParameterList list = loaded.parameters(document);
+  const auto choices = [&](const char* name) {
+    return dynamic_cast<const RichEnum&>(list.getParameterByName(name)).enumvalues;
+  };
+  EXPECT_EQ(choices("Weighting"),
+            QStringList({"Constant", "WSCVT-D (radial distance)", "WSCVT-C (curvature)", "Area"}));
+  EXPECT_EQ(choices("Placement"), QStringList({"Fitted surface", "Original mesh"}));
+  EXPECT_EQ(choices("SeedStart"), QStringList({"Warped lattice", "Random"}));
+  EXPECT_EQ(choices("Quality"), QStringList({"Radial distance", "Curvature", "Cell area"}));
+}
+
+class FilterScripts : public ::testing::TestWithParam<std::pair<const char*, int>> {};
+
+/// A script that lacks a parameter or misspells one ends meshlabserver by a failed assertion.
+TEST_P(FilterScripts, HoldExactlyTheFiltersParameters) {
+  const auto [file, weighting] = GetParam();
+  FilterScript script;
+  ASSERT_TRUE(script.open(script_path(file)));
+  ASSERT_EQ(script.size(), 1);
+  EXPECT_EQ(script[0].filterName(), filter_menu_text);
+
+  LoadedFilter loaded;
+  MeshDocument document;
+  RichParameterList expected = loaded.parameters(document);
+  expected.setValue("Weighting", EnumValue(weighting));
+  RichParameterList actual = script[0].second;
+  ASSERT_EQ(actual.size(), expected.size());
+  auto wanted = expected.begin();
+  for (const RichParameter& parameter : actual) {
+    QDomDocument xml;
+    const QDomElement is = parameter.fillToXMLDocument(xml, false);
+    const QDomElement should_be = (*wanted).fillToXMLDocument(xml, false);
+    ASSERT_EQ(is.attributes().count(), should_be.attributes().count())
+        << parameter.name().toStdString();
+    for (int k = 0; k < is.attributes().count(); ++k) {
+      const QString attribute = is.attributes().item(k).nodeName();
+      EXPECT_EQ(is.attribute(attribute).toStdString(), should_be.attribute(attribute).toStdString())
+          << parameter.name().toStdString() << ' ' << attribute.toStdString();
+    }
+    ++wanted;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, FilterScripts,
+                         ::testing::Values(std::pair{"constant.mlx", 0},
+                                           std::pair{"wscvt_d.mlx", 1}, std::pair{"wscvt_c.mlx", 2},
+                                           std::pair{"area.mlx", 3}),
+                         [](const auto& test) {
+                           return QFileInfo(test.param.first).baseName().toStdString();
+                         });
+
+TEST(Filter, AddsACurrentLayerAndKeepsTheScan) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  scan.cm.Tr.SetTranslate(1.0F, 2.0F, 3.0F);
+  const LayerState before = state_of(scan);
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(300));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.filter().errorMsg().toStdString();
+
+  ASSERT_EQ(document.size(), 2);
+  EXPECT_TRUE(state_of(scan) == before);
+  MeshModel& result = *document.mm();
+  EXPECT_NE(&result, &scan);
+  EXPECT_EQ(result.label().toStdString(), "scan WSCVT-D 300");
+  EXPECT_EQ(result.cm.vn, 300);
+  EXPECT_EQ(result.cm.fn, 2 * 300 - 4);
+  EXPECT_TRUE(result.cm.Tr == scan.cm.Tr);
+  EXPECT_TRUE(result.hasDataMask(MeshModel::MM_VERTQUALITY));
+  EXPECT_FALSE(result.hasDataMask(MeshModel::MM_VERTCOLOR));
+  EXPECT_FALSE(result.cm.bbox.IsNull());
+  for (const auto& face : result.cm.face) EXPECT_NEAR(face.cN().Norm(), 1.0F, 1e-5F);
+}
+
+TEST(Filter, ReplacesTheScanWhenAsked) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  scan.cm.Tr.SetTranslate(1.0F, 2.0F, 3.0F);
+  scan.updateDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO |
+                      MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_FACECOLOR |
+                      MeshModel::MM_VERTCURVDIR | MeshModel::MM_VERTCOLOR);
+  const auto transform = scan.cm.Tr;
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(250));
+  parameters.setValue("NewLayer", BoolValue(false));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.filter().errorMsg().toStdString();
+
+  ASSERT_EQ(document.size(), 1);
+  EXPECT_EQ(document.mm(), &scan);
+  EXPECT_EQ(scan.cm.vn, 250);
+  EXPECT_EQ(scan.cm.fn, 2 * 250 - 4);
+  EXPECT_EQ(scan.cm.vert.size(), 250U);
+  EXPECT_TRUE(scan.cm.Tr == transform);
+  // What described the old elements is gone, and what the host asks for next can be made anew.
+  EXPECT_FALSE(scan.hasDataMask(MeshModel::MM_WEDGTEXCOORD));
+  EXPECT_FALSE(scan.hasDataMask(MeshModel::MM_VERTCOLOR));
+  scan.updateDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
+  for (const auto& face : scan.cm.face) {
+    for (int k = 0; k < 3; ++k) EXPECT_NE(face.cFFp(k), &face);
+  }
+}
+
+TEST(Filter, GivesWhatTheLibraryGives) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  const IndexedMesh as_loaded = filter::to_indexed_mesh(scan.cm);  // rounded to float
+  const auto qualities = [](const RemeshResult& result) {
+    return std::vector<const std::vector<double>*>{&result.radial_distances, &result.curvatures,
+                                                   &result.cell_areas};
+  };
+  RemeshOptions options;
+  options.node_count = 200;
+  options.weighting = Weighting::Area;
+  const RemeshResult expected = remesh(as_loaded, options);
+  const IndexedMesh mesh = to_indexed(expected.mesh);
+  for (int quality = 0; quality < 3; ++quality) {
+    document.setCurrentMesh(scan.id());
+    RichParameterList parameters = loaded.parameters(document);
+    parameters.setValue("NodeCount", IntValue(200));
+    parameters.setValue("Weighting", EnumValue(3));
+    parameters.setValue("Quality", EnumValue(quality));
+    ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.filter().errorMsg().toStdString();
+    const CMeshO& actual = document.mm()->cm;
+    ASSERT_EQ(actual.vert.size(), mesh.points.size());
+    ASSERT_EQ(actual.face.size(), mesh.triangles.size());
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(actual.vert[v].cP()[k], static_cast<float>(mesh.points[v][k]));
+      }
+      EXPECT_EQ(actual.vert[v].cQ(),
+                static_cast<float>((*qualities(expected)[static_cast<std::size_t>(quality)])[v]));
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(actual.face[f].cV(static_cast<int>(k)) - actual.vert.data(),
+                  mesh.triangles[f][k]);
+      }
+    }
+  }
+}
+
+TEST(Filter, SkipsDeletedElements) {
+  LoadedFilter loaded;
+  const IndexedMesh mesh = grain();
+  MeshDocument clean;
+  add_layer(clean, mesh);
+  MeshDocument littered;
+  IndexedMesh with_litter = mesh;
+  for (Triangle& t : with_litter.triangles) {
+    for (std::int32_t& v : t) v += 3;
+  }
+  with_litter.points.insert(with_litter.points.begin(),
+                            {Vector3(9, 9, 9), Vector3(10, 9, 9), Vector3(9, 10, 9)});
+  with_litter.triangles.insert(with_litter.triangles.begin(), Triangle{0, 1, 2});
+  MeshModel& scan = add_layer(littered, with_litter);
+  vcg::tri::Allocator<CMeshO>::DeleteFace(scan.cm, scan.cm.face[0]);
+  for (std::size_t v = 0; v < 3; ++v) {
+    vcg::tri::Allocator<CMeshO>::DeleteVertex(scan.cm, scan.cm.vert[v]);
+  }
+
+  for (MeshDocument* document : {&clean, &littered}) {
+    RichParameterList parameters = loaded.parameters(*document);
+    parameters.setValue("NodeCount", IntValue(100));
+    ASSERT_TRUE(loaded.apply(*document, parameters)) << loaded.filter().errorMsg().toStdString();
+  }
+  EXPECT_TRUE(state_of(*clean.mm()) == state_of(*littered.mm()));
+}
+
+TEST(Filter, ColorsFromRedToBlueWhenAsked) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  add_layer(document, grain());
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(300));
+  parameters.setValue("ColorByQuality", BoolValue(true));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.filter().errorMsg().toStdString();
+  MeshModel& result = *document.mm();
+  EXPECT_TRUE(result.hasDataMask(MeshModel::MM_VERTCOLOR));
+  const auto [lowest, highest] =
+      std::minmax_element(result.cm.vert.begin(), result.cm.vert.end(),
+                          [](const auto& a, const auto& b) { return a.cQ() < b.cQ(); });
+  EXPECT_LT(lowest->cQ(), highest->cQ());
+  EXPECT_TRUE(lowest->cC() == vcg::Color4b(vcg::Color4b::Red));
+  EXPECT_TRUE(highest->cC() == vcg::Color4b(vcg::Color4b::Blue));
+}
+
+TEST(Filter, LogBeginsEmptyAndHoldsTheTableSecondsAndSeed) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  add_layer(document, grain());
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(300));
+  parameters.setValue("SeedStart", EnumValue(1));
+  parameters.setValue("RandomSeed", IntValue(42));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.filter().errorMsg().toStdString();
+  const QStringList lines = loaded.log();
+  ASSERT_FALSE(lines.isEmpty());
+  EXPECT_EQ(lines.front(), "");
+  for (const QString& line : lines) {
+    EXPECT_LT(line.toUtf8().size(), 4096);
+    EXPECT_FALSE(line.contains('\n')) << line.toStdString();
+  }
+  const QString log = lines.join("\n");
+  for (const char* words : {"volume", "area", "aspect", "sphericity", "Sdq", "error", "seconds",
+                            "Seed        42", "300", "596"}) {
+    EXPECT_TRUE(log.contains(words, Qt::CaseInsensitive)) << words << " is not in\n"
+                                                          << log.toStdString();
+  }
+}
+
+// The host's callback is a bare function, so what it saw is kept beside it.
+int callback_calls = 0;
+int callback_cancels_at = 0;
+std::set<int> callback_positions;
+bool callback_on_other_thread = false;
+
+bool watching_callback(const int position, const char* text) {
+  ++callback_calls;
+  callback_positions.insert(position);
+  if (text == nullptr || QThread::currentThread() != qApp->thread()) {
+    callback_on_other_thread = true;
+  }
+  return callback_cancels_at == 0 || callback_calls < callback_cancels_at;
+}
+
+TEST(Filter, ReportsProgressOnTheMainThread) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  add_layer(document, grain());
+  callback_calls = 0;
+  callback_cancels_at = 0;
+  callback_positions.clear();
+  callback_on_other_thread = false;
+  ASSERT_TRUE(loaded.apply(document, loaded.parameters(document), watching_callback));
+  EXPECT_FALSE(callback_on_other_thread);
+  EXPECT_GE(callback_positions.size(), 5U);
+  EXPECT_GE(*callback_positions.begin(), 0);
+  EXPECT_LE(*callback_positions.rbegin(), 100);
+}
+
+TEST(Filter, StopsWhenTheCallbackSaysSoAndChangesNothing) {
+  LoadedFilter loaded;
+  for (const bool new_layer : {true, false}) {
+    for (const int cancel_at : {1, 3}) {
+      MeshDocument document;
+      add_layer(document, grain());
+      const auto before = state_of(document);
+      RichParameterList parameters = loaded.parameters(document);
+      parameters.setValue("NewLayer", BoolValue(new_layer));
+      callback_calls = 0;
+      callback_cancels_at = cancel_at;
+      EXPECT_FALSE(loaded.apply(document, parameters, watching_callback));
+      EXPECT_EQ(callback_calls, cancel_at);
+      EXPECT_TRUE(loaded.filter().errorMsg().contains("cancel", Qt::CaseInsensitive))
+          << loaded.filter().errorMsg().toStdString();
+      EXPECT_TRUE(state_of(document) == before);
+    }
+  }
+}
+
+TEST(Filter, ClearsTheMessageOfAnEarlierRun) {
+  LoadedFilter loaded;
+  MeshDocument empty;
+  EXPECT_FALSE(loaded.apply(empty, loaded.parameters(empty)));
+  EXPECT_FALSE(loaded.filter().errorMsg().isEmpty());
+  MeshDocument document;
+  add_layer(document, grain());
+  EXPECT_TRUE(loaded.apply(document, loaded.parameters(document)));
+  EXPECT_TRUE(loaded.filter().errorMsg().isEmpty());
+}
+
+TEST(Filter, TakesDefaultsForMissingParametersAndRefusesWrongTypes) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  RichParameterList only_count;
+  only_count.addParam(RichInt("NodeCount", 50));
+  EXPECT_TRUE(loaded.apply(document, only_count)) << loaded.filter().errorMsg().toStdString();
+  EXPECT_EQ(document.mm()->cm.vn, 50);
+
+  document.setCurrentMesh(scan.id());
+  RichParameterList wrong_type;
+  wrong_type.addParam(RichString("NodeCount", "50"));
+  EXPECT_FALSE(loaded.apply(document, wrong_type));
+  EXPECT_TRUE(loaded.filter().errorMsg().contains("NodeCount"))
+      << loaded.filter().errorMsg().toStdString();
+}
+
+class FilterRefuses : public ::testing::TestWithParam<Call> {};
+
+TEST_P(FilterRefuses, WithASentenceAndChangesNothing) {
+  const Call& call = GetParam();
+  LoadedFilter loaded;
+  for (const bool new_layer : {true, false}) {
+    MeshDocument document;
+    if (call.mesh) add_layer(document, *call.mesh);
+    RichParameterList parameters = loaded.parameters(document);
+    parameters.setValue("NewLayer", BoolValue(new_layer));
+    for (const auto& [name, value] : call.parameters) set_from_text(parameters, name, value);
+    const auto before = state_of(document);
+    EXPECT_FALSE(loaded.apply(document, parameters));
+    EXPECT_TRUE(state_of(document) == before) << "the document has changed";
+    const QString message = loaded.filter().errorMsg();
+    EXPECT_GT(message.size(), 20);
+    EXPECT_TRUE(message.endsWith('.')) << message.toStdString();
+    for (const std::string& word : call.words) {
+      EXPECT_TRUE(message.contains(QString::fromStdString(word), Qt::CaseInsensitive))
+          << word << " is not in: " << message.toStdString();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, FilterRefuses, ::testing::ValuesIn(refused_calls()),
+                         [](const auto& test) { return test.param.name; });
+
+class FilterCopesWith : public ::testing::TestWithParam<Call> {};
+
+TEST_P(FilterCopesWith, AnUnusualCall) {
+  const Call& call = GetParam();
+  LoadedFilter loaded;
+  MeshDocument document;
+  add_layer(document, *call.mesh);
+  RichParameterList parameters = loaded.parameters(document);
+  for (const auto& [name, value] : call.parameters) set_from_text(parameters, name, value);
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.filter().errorMsg().toStdString();
+  const int nodes = parameters.getInt("NodeCount");
+  EXPECT_EQ(document.mm()->cm.vn, nodes);
+  EXPECT_EQ(document.mm()->cm.fn, 2 * nodes - 4);
+  for (const auto& vertex : document.mm()->cm.vert) {
+    EXPECT_TRUE(std::isfinite(vertex.cP()[0] + vertex.cP()[1] + vertex.cP()[2] + vertex.cQ()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, FilterCopesWith, ::testing::ValuesIn(extreme_calls()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(FilterParameters, TypedValueIsTheShortestDecimal) {
+  EXPECT_EQ(filter::typed_value(0.1F), 0.1);
+  EXPECT_EQ(filter::typed_value(5.0F), 5.0);
+  EXPECT_EQ(filter::typed_value(-2.75F), -2.75);
+  EXPECT_EQ(filter::typed_value(1e-6F), 1e-6);
+  EXPECT_TRUE(std::isnan(filter::typed_value(std::nanf(""))));
+  EXPECT_TRUE(std::isinf(filter::typed_value(HUGE_VALF)));
+}
+
+TEST(FilterParameters, DefaultsAreTheLibrarysAndLieInTheirRanges) {
+  const filter::FilterSettings settings = filter::read_settings({});
+  const RemeshOptions defaults;
+  EXPECT_EQ(settings.options.node_count, defaults.node_count);
+  EXPECT_EQ(settings.options.weighting, defaults.weighting);
+  EXPECT_EQ(settings.options.degree, defaults.degree);
+  EXPECT_EQ(settings.options.curvature_alpha, defaults.curvature_alpha);
+  EXPECT_EQ(settings.options.placement, defaults.placement);
+  EXPECT_EQ(settings.options.fold_limit, defaults.fold_limit);
+  EXPECT_EQ(settings.options.seed_start, defaults.seed_start);
+  EXPECT_EQ(settings.options.random_seed, defaults.random_seed);
+  EXPECT_EQ(settings.options.relaxation.maximum_iterations, defaults.relaxation.maximum_iterations);
+  for (const filter::FilterParameter& parameter : filter::filter_parameters()) {
+    EXPECT_NO_THROW(filter::read_settings({{parameter.name, parameter.default_value}}));
+    EXPECT_NO_THROW(filter::read_settings({{parameter.name, parameter.minimum}}));
+    EXPECT_NO_THROW(filter::read_settings({{parameter.name, parameter.maximum}}));
+    EXPECT_ANY_THROW(filter::read_settings({{parameter.name, parameter.minimum - 1}}));
+    EXPECT_ANY_THROW(filter::read_settings({{parameter.name, parameter.maximum + 1}}));
+    EXPECT_ANY_THROW(filter::read_settings({{parameter.name, std::nan("")}}));
+  }
+}
+
+}  // namespace
+}  // namespace wscvt::host_test
