@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "test_shapes.h"
@@ -12,13 +14,37 @@
 namespace wscvt {
 namespace {
 
-TEST(DescriptorTable, KeysAreDistinctLowerCaseNames) {
+void expect_distinct_names(const std::vector<DescriptorValue>& rows) {
   std::set<std::string> keys;
-  for (const DescriptorValue& row : list_descriptors(ShapeDescriptors())) {
+  std::set<std::string> labels;
+  for (const DescriptorValue& row : rows) {
     EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+    EXPECT_TRUE(labels.insert(row.label).second) << row.label;
     EXPECT_EQ(row.key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos)
         << row.key;
     EXPECT_FALSE(row.label.empty());
+  }
+}
+
+TEST(DescriptorTable, KeysAreDistinctLowerCaseNames) {
+  expect_distinct_names(list_descriptors(ShapeDescriptors()));
+  expect_distinct_names(list_descriptors(DetailedDescriptors()));
+}
+
+TEST(DescriptorTable, SameKeysForTheSameDescriptors) {
+  DetailedDescriptors detailed;
+  detailed.basic = describe_shape(test::box(1, 2, 3), Execution(1));
+  const Vector3 axes = 2.0 * detailed.basic.inertia_semi_axes;
+  detailed.inertia_axes = {axes[0], axes[1], axes[2]};
+  detailed.inertia_ratios = form_ratios(detailed.inertia_axes);
+  const auto all = list_descriptors(detailed);
+  for (const DescriptorValue& row : list_descriptors(detailed.basic)) {
+    const auto same = std::find_if(
+        all.begin(), all.end(), [&](const DescriptorValue& other) { return other.key == row.key; });
+    ASSERT_NE(same, all.end()) << row.key;
+    EXPECT_EQ(same->label, row.label);
+    EXPECT_EQ(same->unit, row.unit);
+    EXPECT_DOUBLE_EQ(same->value, row.value);
   }
 }
 
@@ -49,6 +75,40 @@ TEST(DescriptorTable, RefusesListsOfDifferentKinds) {
   const std::vector<DescriptorValue> b = {{"two", "two", "", 1.0}};
   EXPECT_THROW(compare_descriptors(a, b), Error);
   EXPECT_THROW(compare_descriptors(a, {}), Error);
+}
+
+/// A row whose numbers need their last bit, and one that is not finite.
+std::vector<DescriptorComparison> two_rows() {
+  return {{"volume", "volume", "length^3", 0.1, 0.2, 100.0},
+          {"ssk", "skewness, of heights", "", 1.0 / 3.0, std::nan(""), std::nan("")}};
+}
+
+TEST(DescriptorTable, LinesNameTheColumns) {
+  const std::vector<std::string> lines = table_lines(two_rows(), {"scan", "mesh"});
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_NE(lines[0].find("scan"), std::string::npos);
+  EXPECT_NE(lines[0].find("mesh"), std::string::npos);
+  EXPECT_NE(lines[1].find("+100.000"), std::string::npos);
+  EXPECT_EQ(lines[2].back(), '-');
+  EXPECT_EQ(table_lines({{"one", "first", "", 1.5}}).back(), "  first       1.5");
+}
+
+TEST(DescriptorTable, JsonHoldsTheNumbers) {
+  const auto json = nlohmann::ordered_json::parse(table_json(two_rows(), ComparisonNames()));
+  EXPECT_EQ(json.begin().key(), "volume");
+  EXPECT_EQ(json.at("ssk").at("original").get<double>(), 1.0 / 3.0);
+  EXPECT_TRUE(json.at("ssk").at("remesh").is_null());
+  const auto single = nlohmann::json::parse(table_json({{"one", "first", "length", 0.1}}));
+  EXPECT_EQ(single.at("one").at("value").get<double>(), 0.1);
+  EXPECT_EQ(single.at("one").at("unit"), "length");
+}
+
+TEST(DescriptorTable, CsvIsAHeaderAndARow) {
+  EXPECT_EQ(table_csv(two_rows(), {"scan", "mesh"}),
+            "volume_scan,volume_mesh,volume_error_percent,ssk_scan,ssk_mesh,ssk_error_percent\r\n"
+            "0.1,0.2,100,0.3333333333333333,,\r\n");
+  EXPECT_EQ(table_csv({{"one", "first", "", 1.5}, {"two", "second", "", 2.0}}),
+            "one,two\r\n1.5,2\r\n");
 }
 
 }  // namespace

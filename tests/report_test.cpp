@@ -171,6 +171,24 @@ TEST(Report, JsonStaysValidWithNumbersAndBytesItCannotHold) {
   EXPECT_FALSE(text_of(result).empty());
 }
 
+TEST(Report, CsvIsAHeaderAndARowOfAsManyFields) {
+  RemeshResult result = example();
+  result.warnings = {"One, with a comma.", "Two \"quoted\"."};
+  const std::string csv = report_csv(result);
+  const std::size_t header_end = csv.find("\r\n");
+  ASSERT_NE(header_end, std::string::npos);
+  EXPECT_EQ(csv.find("\r\n", header_end + 2), csv.size() - 2);
+  const std::string header = csv.substr(0, header_end);
+  const std::string row = csv.substr(header_end + 2);
+  // The warnings' quoted field holds one comma of its own.
+  EXPECT_EQ(std::count(header.begin(), header.end(), ',') + 1,
+            std::count(row.begin(), row.end(), ','));
+  EXPECT_EQ(header.rfind("nodes,faces,weighting", 0), 0U);
+  EXPECT_EQ(row.rfind("642,1280,radial distance (WSCVT-D)", 0), 0U);
+  EXPECT_TRUE(contains(header, "volume_original,volume_remesh,volume_error_percent"));
+  EXPECT_TRUE(contains(row, "\"One, with a comma. Two \"\"quoted\"\".\"\r\n"));
+}
+
 TEST(Report, JsonKeysKeepTheirOrder) {
   const std::string json = report_json(example());
   std::size_t last = 0;

@@ -2,14 +2,11 @@
 #include "wscvt/report.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iomanip>
-#include <locale>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 
 #include "wscvt/descriptor_table.h"
+#include "wscvt/text_format.h"
 
 namespace wscvt {
 
@@ -65,30 +62,6 @@ const char* name_of(SeedStart start) {
 
 // ---- text
 
-/// `significant` digits, without an exponent between 1e-4 and 1e`significant`, "-" for a NaN.
-std::string number(double value, int significant = 6) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::setprecision(significant) << value;
-  return text.str();
-}
-
-/// "+0.34 %"-style without the sign of the unit: a sign and three decimals, more for tiny errors.
-std::string signed_percent(double value) {
-  if (!std::isfinite(value)) return "-";
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::showpos;
-  if (value != 0.0 && std::abs(value) < 1e-3) {
-    text << std::scientific << std::setprecision(1);
-  } else {
-    text << std::fixed << std::setprecision(3);
-  }
-  text << value;
-  return text.str();
-}
-
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
@@ -107,26 +80,6 @@ std::string line(const std::string& topic, const std::string& text) {
   return result + text;
 }
 
-/// Rows of cells as lines: the first column to the left, the others to the right.
-std::vector<std::string> aligned(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-  }
-  std::vector<std::string> lines;
-  for (const auto& row : rows) {
-    std::string text;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string padding(widths[c] - row[c].size(), ' ');
-      text += c == 0 ? row[c] + padding : "  " + padding + row[c];
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    lines.push_back(std::move(text));
-  }
-  return lines;
-}
-
 std::vector<std::string> repairs(const MeshCheckReport& input) {
   std::vector<std::string> parts;
   const auto add = [&parts](std::size_t count, const char* one, const char* many,
@@ -141,7 +94,7 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
   if (input.components > 1) {
     parts.push_back(counted(input.components - 1, "smaller component", "smaller components") +
                     " dropped (" + counted(input.dropped_faces, "face", "faces") + ", " +
-                    number(100.0 * input.dropped_volume_share, 3) + " % of the volume)");
+                    format_number(100.0 * input.dropped_volume_share, 3) + " % of the volume)");
   }
   return parts;
 }
@@ -155,10 +108,10 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
   lines.push_back(line("Used", counted(input.vertices, "vertex", "vertices") + ", " +
                                    counted(input.faces, "face", "faces") + ", closed, genus " +
                                    std::to_string(input.genus) + ", equivalent radius " +
-                                   number(input.equivalent_radius)));
-  lines.push_back(line("Fold", number(100.0 * result.folded_share, 3) +
+                                   format_number(input.equivalent_radius)));
+  lines.push_back(line("Fold", format_number(100.0 * result.folded_share, 3) +
                                    " % of the solid angle is covered more than once (limit " +
-                                   number(100.0 * result.options.fold_limit, 3) + " %)"));
+                                   format_number(100.0 * result.options.fold_limit, 3) + " %)"));
 }
 
 void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
@@ -168,10 +121,10 @@ void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
     text += " (lowered from " + std::to_string(fit.requested_degree) + ": " +
             counted(fit.points, "point carries", "points carry") + " no more)";
   }
-  text += ", residual " + number(fit.residual, 3);
+  text += ", residual " + format_number(fit.residual, 3);
   const double radius = result.input.equivalent_radius;
   if (radius > 0.0) {
-    text += " (" + number(100.0 * fit.residual / radius, 3) + " % of the equivalent radius)";
+    text += " (" + format_number(100.0 * fit.residual / radius, 3) + " % of the equivalent radius)";
   }
   lines.push_back(line("Fit", text));
 }
@@ -184,7 +137,7 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
   }
   std::string weighting = name_of(options.weighting);
   if (options.weighting == Weighting::Curvature) {
-    weighting += ", alpha " + number(options.curvature_alpha, 3) + ", curvature from the " +
+    weighting += ", alpha " + format_number(options.curvature_alpha, 3) + ", curvature from the " +
                  name_of(options.curvature_source);
   }
   lines.push_back(line("Weighting", weighting + "; seeds: " + seeds));
@@ -197,10 +150,10 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
                                counted(iterations, "iteration", "iterations");
   if (!relaxation.history.empty()) {
     const RelaxationStep& last = relaxation.history.back();
-    text += ", displacement " + number(last.displacement, 2) + " h (tolerance " +
-            number(options.relaxation.displacement_tolerance, 2) + "), cell area spread " +
-            number(last.area_spread, 2) + " (tolerance " +
-            number(options.relaxation.area_tolerance, 2) + ")";
+    text += ", displacement " + format_number(last.displacement, 2) + " h (tolerance " +
+            format_number(options.relaxation.displacement_tolerance, 2) + "), cell area spread " +
+            format_number(last.area_spread, 2) + " (tolerance " +
+            format_number(options.relaxation.area_tolerance, 2) + ")";
   }
   lines.push_back(line("Relaxation", text));
 }
@@ -209,7 +162,7 @@ void append_quality(const RemeshResult& result, std::vector<std::string>& lines)
   const MeshQuality& a = result.original_quality;
   const MeshQuality& b = result.quality;
   const auto row = [](const char* label, double before, double after) {
-    return std::vector<std::string>{label, number(before, 4), number(after, 4)};
+    return std::vector<std::string>{label, format_number(before, 4), format_number(after, 4)};
   };
   const std::vector<std::vector<std::string>> rows = {
       {"Quality", "original", "remesh"},
@@ -226,17 +179,11 @@ void append_quality(const RemeshResult& result, std::vector<std::string>& lines)
       row("  vertices with six neighbours, %", 100.0 * a.valence_six_share,
           100.0 * b.valence_six_share),
   };
-  for (std::string& text : aligned(rows)) lines.push_back(std::move(text));
+  for (std::string& text : aligned_lines(rows)) lines.push_back(std::move(text));
 }
 
-void append_descriptors(const RemeshResult& result, std::vector<std::string>& lines) {
-  std::vector<std::vector<std::string>> rows = {{"Descriptor", "original", "remesh", "error %"}};
-  for (const DescriptorComparison& row :
-       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh))) {
-    rows.push_back({"  " + row.label, number(row.reference), number(row.value),
-                    signed_percent(row.error_percent)});
-  }
-  for (std::string& text : aligned(rows)) lines.push_back(std::move(text));
+std::vector<DescriptorComparison> comparison(const RemeshResult& result) {
+  return compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
 }
 
 // ---- JSON
@@ -323,17 +270,36 @@ Json json_of(const RelaxationReport& r) {
             {"flips", std::move(flips)}}}};
 }
 
-Json json_of(const std::vector<DescriptorComparison>& rows) {
-  Json result = Json::object();
-  for (const DescriptorComparison& row : rows) {
-    result[row.key] = {{"label", row.label},
-                       {"unit", row.unit},
-                       {"original", row.reference},
-                       {"remesh", row.value},
-                       {"error_percent", row.error_percent}};
+// ---- CSV
+
+/// The columns of a CSV report, names and values side by side.
+class Record {
+ public:
+  void add(const std::string& name, const std::string& value) {
+    names_.push_back(name);
+    values_.push_back(value);
   }
-  return result;
-}
+  void add(const std::string& name, double value) { add(name, format_exact(value)); }
+  void add_count(const std::string& name, std::size_t value) { add(name, std::to_string(value)); }
+
+  void add(const std::string& prefix, const MeshQuality& q) {
+    add(prefix + "_edge_length_mean", q.edge_length.mean);
+    add(prefix + "_edge_length_standard_deviation", q.edge_length.standard_deviation);
+    add(prefix + "_edge_variation", q.edge_variation);
+    add(prefix + "_edge_ratio_mean", q.edge_ratio.mean);
+    add(prefix + "_edge_ratio_standard_deviation", q.edge_ratio.standard_deviation);
+    add(prefix + "_edge_ratio_maximum", q.edge_ratio.maximum);
+    add(prefix + "_smallest_angle_degrees", q.smallest_angle);
+    add(prefix + "_mean_smallest_angle_degrees", q.mean_smallest_angle);
+    add(prefix + "_valence_six_share", q.valence_six_share);
+  }
+
+  std::string text() const { return csv_record(names_) + csv_record(values_); }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::string> values_;
+};
 
 }  // namespace
 
@@ -346,7 +312,9 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
                                      counted(result.mesh.n_faces(), "face", "faces") +
                                      ", nodes on the " + name_of(result.options.placement)));
   append_quality(result, lines);
-  append_descriptors(result, lines);
+  for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
+    lines.push_back(std::move(text));
+  }
   for (const std::string& warning : result.warnings) lines.push_back(line("Warning", warning));
   return lines;
 }
@@ -364,12 +332,48 @@ std::string report_json(const RemeshResult& result) {
       {"result", {{"vertices", result.mesh.n_vertices()}, {"faces", result.mesh.n_faces()}}},
       {"quality",
        {{"original", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
-      {"descriptors", json_of(compare_descriptors(list_descriptors(result.original),
-                                                  list_descriptors(result.remesh)))},
+      {"descriptors", Json::parse(table_json(comparison(result), ComparisonNames()))},
       {"warnings", result.warnings},
   };
   // A warning may quote a file name that is not UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_csv(const RemeshResult& result) {
+  const RemeshOptions& options = result.options;
+  Record record;
+  record.add_count("nodes", result.mesh.n_vertices());
+  record.add_count("faces", result.mesh.n_faces());
+  record.add("weighting", name_of(options.weighting));
+  record.add("curvature_alpha", options.curvature_alpha);
+  record.add("curvature_source", name_of(options.curvature_source));
+  record.add("placement", name_of(options.placement));
+  record.add("seed_start", name_of(options.seed_start));
+  record.add("random_seed", std::to_string(options.random_seed));
+  record.add_count("input_vertices", result.input.input_vertices);
+  record.add_count("input_faces", result.input.input_faces);
+  record.add_count("used_vertices", result.input.vertices);
+  record.add_count("used_faces", result.input.faces);
+  record.add("equivalent_radius", result.input.equivalent_radius);
+  record.add("folded_share", result.folded_share);
+  record.add("requested_degree", std::to_string(result.fit.requested_degree));
+  record.add("degree", std::to_string(result.fit.degree));
+  record.add("residual", result.fit.residual);
+  record.add("converged", result.relaxation.converged ? "true" : "false");
+  record.add("iterations", std::to_string(result.relaxation.iterations));
+  record.add("original", result.original_quality);
+  record.add("remesh", result.quality);
+  for (const DescriptorComparison& row : comparison(result)) {
+    record.add(row.key + "_original", row.reference);
+    record.add(row.key + "_remesh", row.value);
+    record.add(row.key + "_error_percent", row.error_percent);
+  }
+  std::string warnings;
+  for (const std::string& warning : result.warnings) {
+    warnings += (warnings.empty() ? "" : " ") + warning;
+  }
+  record.add("warnings", warnings);
+  return record.text();
 }
 
 }  // namespace wscvt

@@ -17,4 +17,9 @@ std::vector<std::string> report_lines(const RemeshResult& result);
 /// not finite become null.
 std::string report_json(const RemeshResult& result);
 
+/// The same without the iteration's history as CSV after RFC 4180: a header and one row, so that
+/// the rows of many remeshes make one table. Numbers read back to the same bits; those that are not
+/// finite are empty. Warnings stand in the last column.
+std::string report_csv(const RemeshResult& result);
+
 }  // namespace wscvt

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wscvt {
+
+// Numbers and tables as text, the same in every locale.
+
+/// A number for reading, with `significant` digits; "-" for one that is not a number.
+std::string format_number(double value, int significant = 6);
+
+/// An error in per cent for reading, with its sign and three decimals, in exponent form below
+/// 0.001; "-" for one that is not finite.
+std::string format_error(double percent);
+
+/// A number for another program: the shortest text that reads back to the same bits; empty for one
+/// that is not finite.
+std::string format_exact(double value);
+
+/// Rows of cells as lines: the first column flush left, the others flush right, two spaces apart.
+std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows);
+
+/// One record of a CSV file after RFC 4180, with its CR LF: fields that hold a comma, a quote or a
+/// line break are quoted, quotes doubled.
+std::string csv_record(const std::vector<std::string>& fields);
+
+}  // namespace wscvt
