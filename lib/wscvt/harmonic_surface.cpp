@@ -339,14 +339,6 @@ LeastSquares least_squares(const NormalEquations& equations, const Samples& samp
   return result;
 }
 
-double smallest_radius_on_grid(const Vector& coefficients, int degree, const Execution& execution) {
-  const int rows = std::max(smallest_grid, rows_per_degree * degree);
-  const HarmonicTransform transform(degree, SphereGrid::row_cosines(rows),
-                                    SphereGrid::row_sines(rows), 2 * rows, execution);
-  const std::vector<double> radii = transform.synthesize(to_array(coefficients), execution);
-  return *std::min_element(radii.begin(), radii.end());
-}
-
 }  // namespace
 
 HarmonicSurface::HarmonicSurface(std::vector<double> coefficients)
@@ -368,6 +360,14 @@ void HarmonicSurface::evaluate(const Vector3* directions, std::size_t count,
 void HarmonicSurface::evaluate_radii(const Vector3* directions, std::size_t count,
                                      double* radii) const {
   series_.sum(directions, count, radii);
+}
+
+double smallest_radius(const HarmonicSurface& surface, const Execution& execution) {
+  const int rows = std::max(smallest_grid, rows_per_degree * surface.degree());
+  const HarmonicTransform transform(surface.degree(), SphereGrid::row_cosines(rows),
+                                    SphereGrid::row_sines(rows), 2 * rows, execution);
+  const std::vector<double> radii = transform.synthesize(surface.coefficients(), execution);
+  return *std::min_element(radii.begin(), radii.end());
 }
 
 HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vector<double>& radii,
@@ -395,14 +395,15 @@ HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vec
     if (!probed.converged || probed.condition > largest_condition) continue;
     const LeastSquares fit = least_squares(*equations, samples, trial, execution);
     if (!fit.converged) continue;
-    const double smallest = smallest_radius_on_grid(fit.coefficients, trial, execution);
+    HarmonicSurface surface(to_array(fit.coefficients));
+    const double smallest = smallest_radius(surface, execution);
     if (!(smallest > 0.0)) continue;
     report.degree = trial;
     report.residual = fit.residual;
     report.condition = probed.condition;
     report.smallest_radius = smallest;
     execution.report(1.0, "Fitting spherical harmonics");
-    return {HarmonicSurface(to_array(fit.coefficients)), report};
+    return {std::move(surface), report};
   }
   throw Error(ErrorCode::NumericalFailure,
               "No spherical-harmonic series of degree " + std::to_string(degree) +

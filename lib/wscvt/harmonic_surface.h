@@ -28,6 +28,10 @@ class HarmonicSurface : public RadialSurface {
   HarmonicSeries series_;
 };
 
+/// Smallest radius of the series on an equal-angle grid of eight rows a degree (32 at least),
+/// length; a surface that is not positive everywhere is not star-shaped about the origin.
+double smallest_radius(const HarmonicSurface& surface, const Execution& execution);
+
 /// How the fit went.
 struct HarmonicFitReport {
   int requested_degree = 0;

@@ -21,7 +21,9 @@ class Ellipsoid : public RadialSurface {
 
 /// Superellipsoid (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981), with
 /// e1 = `polar_exponent`, e2 = `azimuthal_exponent`; both 1 give the ellipsoid, towards 0 a box.
-/// Derivatives are analytic; they do not exist on the coordinate planes when an exponent exceeds 1.
+/// Derivatives are analytic. Second ones do not exist on the coordinate planes when an exponent
+/// exceeds 1, nor at the poles when the polar one is 1 and the azimuthal one is not: there they
+/// stay finite, and mean nothing.
 class Superellipsoid : public RadialSurface {
  public:
   /// Semi-axes > 0, exponents in [0.1, 2], else Error(InvalidInput).
