@@ -8,12 +8,18 @@
 namespace wscvt {
 
 /// Reads a triangle mesh into flat arrays; polygons are cut into fans. The format follows from the
-/// extension: PLY, STL, OBJ, OFF. Throws Error(InputOutput) when the file cannot be read or its
-/// format is not known.
+/// extension, in either case: PLY, STL, OBJ, OFF, text or binary. Coordinates keep the precision of
+/// the file. Nothing is repaired: an STL file comes back with the corners of each triangle as
+/// points of their own or already merged (see check_mesh). Throws Error(InputOutput) when the file
+/// cannot be read, is cut short or names vertices it does not hold, or when the extension is not
+/// known.
 IndexedMesh read_mesh(const std::string& path);
 
-/// Writes a mesh, in the format of the extension (PLY binary, STL binary, OBJ, OFF), whole or not
-/// at all: it is written beside the target and renamed. Throws Error(InputOutput).
+/// Writes a mesh in the format of the extension, whole or not at all: it is written beside the
+/// target and renamed. PLY is binary with double coordinates, OBJ and OFF text with 17 digits, so
+/// these three lose nothing; STL is binary with the float coordinates of that format. Throws
+/// Error(InputOutput) when the file cannot be written or the extension is not known, and leaves an
+/// existing file as it was.
 void write_mesh(const IndexedMesh& mesh, const std::string& path);
 
 }  // namespace wscvt
