@@ -133,4 +133,63 @@ inline IndexedMesh shuffled(const IndexedMesh& mesh, std::uint64_t seed) {
   return result;
 }
 
+/// Torus about the z axis, 2 segments^2 faces.
+inline IndexedMesh torus(double major_radius, double minor_radius, int segments) {
+  IndexedMesh mesh;
+  const double step = 2.0 * pi / segments;
+  for (int i = 0; i < segments; ++i) {
+    for (int j = 0; j < segments; ++j) {
+      const double ring = major_radius + minor_radius * std::cos(step * j);
+      mesh.points.emplace_back(ring * std::cos(step * i), ring * std::sin(step * i),
+                               minor_radius * std::sin(step * j));
+      const int a = i * segments + j;
+      const int b = (i + 1) % segments * segments + j;
+      const int c = (i + 1) % segments * segments + (j + 1) % segments;
+      const int d = i * segments + (j + 1) % segments;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  }
+  return mesh;
+}
+
+/// Points and faces of both, side by side.
+inline IndexedMesh joined(const IndexedMesh& a, const IndexedMesh& b) {
+  IndexedMesh result = a;
+  result.points.insert(result.points.end(), b.points.begin(), b.points.end());
+  const auto first = static_cast<std::int32_t>(a.points.size());
+  for (const Triangle& t : b.triangles) {
+    result.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return result;
+}
+
+/// Every face with corners of its own, as in an STL file.
+inline IndexedMesh unwelded(const IndexedMesh& mesh) {
+  IndexedMesh result;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::int32_t>(result.points.size());
+    for (const std::int32_t v : t) result.points.emplace_back(mesh.points[v]);
+    result.triangles.push_back({first, first + 1, first + 2});
+  }
+  return result;
+}
+
+/// Number of edges not shared by exactly two faces that run along it in opposite ways: 0 for a
+/// closed, consistently oriented surface.
+inline std::size_t bad_edges(const IndexedMesh& mesh) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<int, int>> uses;  // forward, backward
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = t[k];
+      const std::int32_t b = t[(k + 1) % 3];
+      auto& use = uses[std::minmax(a, b)];
+      ++(a < b ? use.first : use.second);
+    }
+  }
+  return static_cast<std::size_t>(std::count_if(uses.begin(), uses.end(), [](const auto& entry) {
+    return entry.second != std::make_pair(1, 1);
+  }));
+}
+
 }  // namespace wscvt::test

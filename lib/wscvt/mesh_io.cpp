@@ -258,21 +258,24 @@ IndexedMesh read_stl_blocks(std::istream& stream, std::uint32_t triangles,
 IndexedMesh read_with_library(std::istream& stream, Format format, const std::string& path) {
   std::vector<LibraryPoint> points;
   std::vector<Polygon> polygons;
+  const auto silent = CGAL::parameters::verbose(false);  // not every default is
   bool good = false;
   try {
     switch (format) {
       case Format::Ply:
-        good = CGAL::IO::read_PLY(stream, points, polygons);
+        good = CGAL::IO::read_PLY(stream, points, polygons, silent);
         break;
       case Format::Stl:
-        good = CGAL::IO::read_STL(stream, points, polygons);
+        // The library takes a text that breaks off early for an empty file.
+        good = CGAL::IO::read_STL(stream, points, polygons, silent) && !polygons.empty();
         break;
       case Format::Obj:
         // The library calls a file without faces bad; that is for the mesh check to say.
-        good = CGAL::IO::read_OBJ(stream, points, polygons) || (stream.eof() && polygons.empty());
+        good = CGAL::IO::read_OBJ(stream, points, polygons, silent) ||
+               (stream.eof() && polygons.empty());
         break;
       case Format::Off:
-        good = CGAL::IO::read_OFF(stream, points, polygons);
+        good = CGAL::IO::read_OFF(stream, points, polygons, silent);
         break;
     }
   } catch (const std::exception&) {
