@@ -108,22 +108,22 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
 }
 
 std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values) {
-  std::vector<std::vector<std::string>> rows = {{"Descriptor", "value"}};
+  std::vector<std::vector<std::string>> cells = {{"Descriptor", "value"}};
   for (const DescriptorValue& row : values) {
-    rows.push_back({"  " + row.label, format_number(row.value)});
+    cells.push_back({"  " + row.label, format_number(row.value)});
   }
-  return aligned_lines(rows);
+  return aligned_lines(cells);
 }
 
-std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& comparison,
+std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& rows,
                                      const ComparisonNames& names) {
-  std::vector<std::vector<std::string>> rows = {
+  std::vector<std::vector<std::string>> cells = {
       {"Descriptor", names.reference, names.value, "error %"}};
-  for (const DescriptorComparison& row : comparison) {
-    rows.push_back({"  " + row.label, format_number(row.reference), format_number(row.value),
-                    format_error(row.error_percent)});
+  for (const DescriptorComparison& row : rows) {
+    cells.push_back({"  " + row.label, format_number(row.reference), format_number(row.value),
+                     format_error(row.error_percent)});
   }
-  return aligned_lines(rows);
+  return aligned_lines(cells);
 }
 
 std::string table_json(const std::vector<DescriptorValue>& values) {
