@@ -1,0 +1,31 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs what the library, the plugin and their tests need on Debian 12. As root or with sudo;
+# when everything is there already, neither is needed.
+set -eu
+
+packages="
+  g++ cmake ninja-build clang-format clang-tidy dpkg-dev
+  libopenmesh-dev libeigen3-dev libcgal-dev libtbb-dev nlohmann-json3-dev libcli11-dev
+  libgtest-dev libbenchmark-dev
+  meshlab qtbase5-dev libqt5xmlpatterns5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev
+  xvfb xauth xdotool imagemagick"
+
+missing=
+for package in $packages; do
+  state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+  [ "$state" = "install ok installed" ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "These packages are missing, and neither root nor sudo is at hand:$missing" >&2
+    exit 1
+  }
+  as_root=sudo
+fi
+$as_root apt-get update
+# shellcheck disable=SC2086
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
