@@ -15,4 +15,7 @@ namespace wscvt::filter {
 std::vector<std::string> log_lines(const RemeshResult& result, const FilterSettings& settings,
                                    double seconds);
 
+/// A line for a host that shows its log as HTML: columns keep their width, signs stay signs.
+std::string html_line(const std::string& line);
+
 }  // namespace wscvt::filter

@@ -3,6 +3,7 @@
 
 #include <vcg/complex/algorithms/update/color.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <new>
@@ -60,6 +61,13 @@ wscvt::ProgressCallback progress_to(vcg::CallBackPos* callback) {
   return [callback](double fraction, const std::string& stage) {
     return callback(static_cast<int>(100.0 * fraction), stage.c_str());
   };
+}
+
+/// MeshLab's window renders the log as HTML; meshlabserver, which has no window, prints it.
+bool log_is_shown_as_html() {
+  const QWidgetList widgets = QApplication::topLevelWidgets();
+  return std::any_of(widgets.begin(), widgets.end(),
+                     [](const QWidget* widget) { return widget->inherits("QMainWindow"); });
 }
 
 /// Puts the result into a layer, which keeps its transform.
@@ -199,14 +207,18 @@ void FilterWscvt::remesh_current_layer(MeshDocument& document, const RichParamet
   }
 
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  for (const std::string& line : log_lines(result, settings, elapsed.count())) Log(line);
+  const bool html = log_is_shown_as_html();
+  for (const std::string& line : log_lines(result, settings, elapsed.count())) {
+    Log(html ? html_line(line) : line);
+  }
 }
 
 bool FilterWscvt::fail(const QString& sentence) {
-  // The message box reads HTML; the log, which is all that meshlabserver shows, reads plain text.
+  // The message box reads HTML. meshlabserver does not print the message, only the log.
   errorMessage = sentence.toHtmlEscaped();
+  const std::string line = sentence.toStdString();
   Log(std::string());
-  Log(GLLogStream::WARNING, sentence.toStdString());
+  Log(GLLogStream::WARNING, log_is_shown_as_html() ? html_line(line) : line);
   return false;
 }
 

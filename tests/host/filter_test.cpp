@@ -13,6 +13,7 @@
 #include <set>
 
 #include "calls.h"
+#include "filter_log.h"
 #include "mesh_conversion.h"
 #include "parameters.h"
 #include "programs.h"
@@ -383,6 +384,13 @@ TEST(Filter, LogBeginsEmptyAndHoldsTheTableSecondsAndSeed) {
     EXPECT_TRUE(log.contains(words, Qt::CaseInsensitive)) << words << " is not in\n"
                                                           << log.toStdString();
   }
+}
+
+TEST(Filter, LogLinesKeepColumnsAndSignsAsHtml) {
+  EXPECT_EQ(filter::html_line("a b"), "a b");
+  EXPECT_EQ(filter::html_line("a  b c"), "a\u00a0\u00a0b c");
+  EXPECT_EQ(filter::html_line(" a b"), "\u00a0a\u00a0b");
+  EXPECT_EQ(filter::html_line("1 < 2 & 3 > 2"), "1 &lt; 2 &amp; 3 > 2");
 }
 
 // The host's callback is a bare function, so what it saw is kept beside it.
