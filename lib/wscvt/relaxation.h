@@ -3,27 +3,62 @@
 
 #include <vector>
 
+#include "wscvt/execution.h"
+#include "wscvt/mesh.h"
+#include "wscvt/sphere_triangulation.h"
+#include "wscvt/weights.h"
+
 namespace wscvt {
 
+/// In which geometry cells are made centroidal.
+enum class RelaxationMetric {
+  Sphere,   ///< power cells on the unit sphere, weighted: the paper's method
+  Surface,  ///< Voronoi cells on the surface itself: the most even triangles
+};
+
 struct RelaxationOptions {
+  RelaxationMetric metric = RelaxationMetric::Sphere;
   int maximum_iterations = 1000;         ///< >= 0
-  double displacement_tolerance = 1e-3;  ///< rms displacement / h, h = sqrt(4 pi / N); > 0
+  double displacement_tolerance = 1e-3;  ///< rms displacement / h; > 0
   double area_tolerance = 0.07;          ///< spread of cell area / target; > 0
   double over_relaxation = 1.8;          ///< step factor towards the centroid, in (0, 2)
+  bool acceleration = true;              ///< momentum with restarts on top of the over-relaxed step
 };
 
 /// One line of the iteration's history.
 struct RelaxationStep {
-  double displacement = 0.0;  ///< rms distance seed to cell centroid / h
+  double displacement = 0.0;  ///< rms distance seed to cell centroid / h, h = sqrt(total area / N)
   double area_spread = 0.0;   ///< standard deviation of (cell area / its target)
-  int flips = 0;              ///< edges flipped to restore the regular triangulation
+  int flips = 0;              ///< edges flipped to restore the triangulation
 };
 
 struct RelaxationReport {
   bool converged = false;
   int iterations = 0;
-  int rebuilds = 0;  ///< triangulations built from scratch because a flip stuck, after the first
+  int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
+  double weight_scale = 1.0;  ///< below 1: weights were damped so that no seed lost its cell
   std::vector<RelaxationStep> history;
 };
+
+struct RelaxationResult {
+  std::vector<Vector3> seeds;         ///< unit vectors, in the order given
+  SphereTriangulation triangulation;  ///< of those seeds, as the metric defines it
+  std::vector<double> cell_areas;     ///< solid angles (Sphere) or surface areas (Surface)
+  RelaxationReport report;
+};
+
+/// Moves the seeds towards the centroids of their cells until both the rms displacement and the
+/// spread of (cell area / target) are below their tolerances, or the iterations are used up (which
+/// is a field of the report, not an error).
+///
+/// Each step goes `over_relaxation` times the way from seed to centroid. With `acceleration` the
+/// steps carry Nesterov's momentum, dropped whenever it points uphill (O'Donoghue and Candes 2015,
+/// "Adaptive restart for accelerated gradient schemes"). The target cell area is 3.118 w + C on the
+/// sphere and inversely proportional to the wanted density on the surface.
+///
+/// Throws Error(InvalidInput) for options out of range or fewer than 4 seeds,
+/// Error(NumericalFailure) when the seeds cannot be triangulated, Error(Cancelled).
+RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
+                       const RelaxationOptions& options, const Execution& execution);
 
 }  // namespace wscvt
