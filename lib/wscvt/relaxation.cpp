@@ -30,9 +30,11 @@ void check(const RelaxationOptions& options, std::size_t seeds) {
   if (!(options.displacement_tolerance > 0.0) || !(options.area_tolerance > 0.0)) {
     refuse("The tolerances for displacement and cell area must be above 0.");
   }
-  if (!(options.over_relaxation > 0.0) || !(options.over_relaxation < 2.0)) {
+  const double limit = options.acceleration ? 4.0 / 3.0 : 2.0;
+  if (!(options.over_relaxation > 0.0) || !(options.over_relaxation < limit)) {
     refuse("The over-relaxation factor is " + std::to_string(options.over_relaxation) +
-           "; give a number above 0 and below 2, such as 1.8.");
+           "; give a number above 0 and below " +
+           (options.acceleration ? "4/3, such as 1.2." : "2, such as 1.8."));
   }
 }
 
