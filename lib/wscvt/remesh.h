@@ -59,9 +59,8 @@ struct RemeshResult {
   Mesh mesh;                        ///< exactly N vertices and 2 N - 4 faces, input coordinates
   std::vector<Vector3> directions;  ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
-  std::vector<double>
-      curvatures;  ///< largest absolute principal curvature of the surface, 1/length
-  std::vector<double> cell_areas;    ///< surface area of each node's power cell, length^2
+  std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
+  std::vector<double> cell_areas;  ///< surface area of each node's power cell, length^2
   Vector3 centre = Vector3::Zero();  ///< the volume centroid of the input
   MeshCheckReport input;
   double folded_share = 0.0;         ///< of 4 pi
@@ -76,10 +75,11 @@ struct RemeshResult {
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// Remeshes a dense scan to exactly N nodes. The input is not changed. Throws Error: InvalidInput
+/// Remeshes a dense scan to exactly N nodes. The scan is taken by value, since it is mended and
+/// centred; a caller that needs it no more moves it in. Throws Error: InvalidInput
 /// for options out of range and meshes that cannot be mended (see check_mesh), NotStarShaped when
 /// the folded share exceeds the limit, NumericalFailure, Cancelled.
-RemeshResult remesh(const IndexedMesh& scan, const RemeshOptions& options,
+RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
 RemeshResult remesh(const Mesh& scan, const RemeshOptions& options,
                     const Execution& execution = Execution());

@@ -26,6 +26,8 @@ const char* name_of(Weighting weighting) {
       return "curvature (WSCVT-C)";
     case Weighting::Area:
       return "area";
+    case Weighting::ErrorAdaptive:
+      return "error-adaptive";
   }
   return "unknown";
 }

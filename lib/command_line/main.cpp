@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The remesher without a display: one scan in, one remesh and its report out.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "wscvt/error.h"
+#include "wscvt/mesh_io.h"
+#include "wscvt/remesh.h"
+#include "wscvt/report.h"
+
+namespace {
+
+using wscvt::RemeshOptions;
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) {
+    throw wscvt::Error(wscvt::ErrorCode::InputOutput,
+                       "Cannot write the report '" + path + "'; check the folder and its rights.");
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Remesh a dense scan of a grain to exactly N nodes (WSCVT)."};
+  std::string input;
+  std::string output;
+  std::string json;
+  int threads = 0;
+  bool quiet = false;
+  RemeshOptions options;
+  app.add_option("input", input, "Scan: PLY, STL, OBJ or OFF")->required();
+  app.add_option("output", output, "Remesh: PLY, STL, OBJ or OFF")->required();
+  app.add_option("-n,--nodes", options.node_count, "Number of nodes, from 4")
+      ->capture_default_str();
+  const std::map<std::string, wscvt::Weighting> weightings = {
+      {"constant", wscvt::Weighting::Constant},
+      {"radial-distance", wscvt::Weighting::RadialDistance},
+      {"curvature", wscvt::Weighting::Curvature},
+      {"area", wscvt::Weighting::Area},
+      {"error-adaptive", wscvt::Weighting::ErrorAdaptive}};
+  app.add_option("-w,--weighting", options.weighting, "What a node's cell size follows")
+      ->transform(CLI::CheckedTransformer(weightings))
+      ->default_str("radial-distance");
+  const std::map<std::string, wscvt::RelaxationMetric> metrics = {
+      {"sphere", wscvt::RelaxationMetric::Sphere}, {"surface", wscvt::RelaxationMetric::Surface}};
+  app.add_option("-m,--metric", options.relaxation.metric, "Where cells are made centroidal")
+      ->transform(CLI::CheckedTransformer(metrics))
+      ->default_str("sphere");
+  const std::map<std::string, wscvt::NodePlacement> placements = {
+      {"fitted", wscvt::NodePlacement::FittedSurface},
+      {"original", wscvt::NodePlacement::OriginalMesh}};
+  app.add_option("-p,--placement", options.placement, "Nodes on the fitted series or on the scan")
+      ->transform(CLI::CheckedTransformer(placements))
+      ->default_str("fitted");
+  app.add_option("-d,--degree", options.degree, "Degree of the harmonic series, 1 to 60")
+      ->capture_default_str();
+  app.add_option("-a,--alpha", options.curvature_alpha, "Curvature exponent, -3 to 3")
+      ->capture_default_str();
+  app.add_option("-i,--iterations", options.relaxation.maximum_iterations,
+                 "Limit of the relaxation")
+      ->capture_default_str();
+  app.add_option("--tolerance", options.relaxation.displacement_tolerance,
+                 "Relaxation stops below this rms displacement / cell size")
+      ->capture_default_str();
+  app.add_option("--fold-limit", options.fold_limit,
+                 "Largest share of the solid angle that may be folded, 0 to 1")
+      ->capture_default_str();
+  app.add_option("-t,--threads", threads, "Number of threads, 0 for all")->capture_default_str();
+  app.add_option("-j,--json", json, "Write the report to this file as JSON");
+  app.add_flag("-q,--quiet", quiet, "No report on the standard output");
+  CLI11_PARSE(app, argc, argv);
+
+  const wscvt::RemeshResult result =
+      wscvt::remesh(wscvt::read_mesh(input), options, wscvt::Execution(threads));
+  wscvt::write_mesh(wscvt::to_indexed(result.mesh), output);
+  if (!json.empty()) write_text(json, wscvt::report_json(result));
+  if (!quiet) {
+    for (const std::string& line : wscvt::report_lines(result)) std::puts(line.c_str());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
