@@ -16,28 +16,6 @@ namespace {
 
 constexpr std::size_t block_size = 4096;
 
-void check(const RelaxationOptions& options, std::size_t seeds) {
-  const auto refuse = [](const std::string& sentence) {
-    throw Error(ErrorCode::InvalidInput, sentence);
-  };
-  if (seeds < 4) {
-    refuse("Relaxation needs at least 4 seeds, not " + std::to_string(seeds) + ".");
-  }
-  if (options.maximum_iterations < 0) {
-    refuse("The largest number of iterations is " + std::to_string(options.maximum_iterations) +
-           "; give 0 or more.");
-  }
-  if (!(options.displacement_tolerance > 0.0) || !(options.area_tolerance > 0.0)) {
-    refuse("The tolerances for displacement and cell area must be above 0.");
-  }
-  const double limit = options.acceleration ? 4.0 / 3.0 : 2.0;
-  if (!(options.over_relaxation > 0.0) || !(options.over_relaxation < limit)) {
-    refuse("The over-relaxation factor is " + std::to_string(options.over_relaxation) +
-           "; give a number above 0 and below " +
-           (options.acceleration ? "4/3, such as 1.2." : "2, such as 1.8."));
-  }
-}
-
 double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>& to,
                    const Execution& execution) {
   const double sum =
@@ -54,6 +32,8 @@ class Evaluation {
  public:
   Evaluation(const SeedModel& model, RelaxationMetric metric, const Execution& execution)
       : model_(model), metric_(metric), execution_(execution) {}
+
+  void start_from(SphereTriangulation triangulation) { triangulation_ = std::move(triangulation); }
 
   /// Repairs or rebuilds the triangulation for `seeds` and computes the cells.
   void at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
@@ -189,14 +169,19 @@ class Evaluation {
   int flips_ = 0;
 };
 
-}  // namespace
-
-RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
-                       const RelaxationOptions& options, const Execution& execution) {
-  check(options, seeds.size());
+RelaxationResult relax_from(std::vector<Vector3> seeds,
+                            std::optional<SphereTriangulation> triangulation,
+                            const SeedModel& model, const RelaxationOptions& options,
+                            const Execution& execution) {
+  check_relaxation_options(options);
   const std::size_t count = seeds.size();
+  if (count < 4) {
+    throw Error(ErrorCode::InvalidInput,
+                "Relaxation needs at least 4 seeds, not " + std::to_string(count) + ".");
+  }
   RelaxationReport report;
   Evaluation evaluation(model, options.metric, execution);
+  if (triangulation) evaluation.start_from(*std::move(triangulation));
   evaluation.at(seeds, report);
 
   // `seeds` is where the cells were evaluated; `arrived` where the last plain step ended.
@@ -242,6 +227,38 @@ RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
   }
   return {std::move(seeds), evaluation.take_triangulation(), evaluation.take_areas(),
           std::move(report)};
+}
+
+}  // namespace
+
+void check_relaxation_options(const RelaxationOptions& options) {
+  const auto refuse = [](const std::string& sentence) {
+    throw Error(ErrorCode::InvalidInput, sentence);
+  };
+  if (options.maximum_iterations < 0) {
+    refuse("The largest number of iterations is " + std::to_string(options.maximum_iterations) +
+           "; give 0 or more.");
+  }
+  if (!(options.displacement_tolerance > 0.0) || !(options.area_tolerance > 0.0)) {
+    refuse("The tolerances for displacement and cell area must be above 0.");
+  }
+  const double limit = options.acceleration ? 4.0 / 3.0 : 2.0;
+  if (!(options.over_relaxation > 0.0) || !(options.over_relaxation < limit)) {
+    refuse("The over-relaxation factor is " + std::to_string(options.over_relaxation) +
+           "; give a number above 0 and below " +
+           (options.acceleration ? "4/3, such as 1.2." : "2, such as 1.8."));
+  }
+}
+
+RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
+                       const RelaxationOptions& options, const Execution& execution) {
+  return relax_from(std::move(seeds), std::nullopt, model, options, execution);
+}
+
+RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangulation,
+                       const SeedModel& model, const RelaxationOptions& options,
+                       const Execution& execution) {
+  return relax_from(std::move(seeds), std::move(triangulation), model, options, execution);
 }
 
 }  // namespace wscvt

@@ -34,9 +34,16 @@ struct RelaxationStep {
   int flips = 0;              ///< edges flipped to restore the triangulation
 };
 
+/// A coarser tessellation that was relaxed first (see multilevel_relaxation.h).
+struct RelaxationLevel {
+  int seeds = 0;
+  int iterations = 0;
+};
+
 struct RelaxationReport {
   bool converged = false;
-  int iterations = 0;
+  int iterations = 0;                           ///< with all the seeds
+  std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
   int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
   double weight_scale = 1.0;  ///< below 1: weights were damped so that no seed lost its cell
   std::vector<RelaxationStep> history;
@@ -62,5 +69,13 @@ struct RelaxationResult {
 /// Error(NumericalFailure) when the seeds cannot be triangulated, Error(Cancelled).
 RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
                        const RelaxationOptions& options, const Execution& execution);
+
+/// The same from a triangulation of the seeds, which saves building one.
+RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangulation,
+                       const SeedModel& model, const RelaxationOptions& options,
+                       const Execution& execution);
+
+/// Throws Error(InvalidInput) for options out of range.
+void check_relaxation_options(const RelaxationOptions& options);
 
 }  // namespace wscvt

@@ -54,6 +54,9 @@ void check(const RemeshOptions& options) {
   require_enumerator(options.curvature_source, CurvatureSource::QuadricFit, "The curvature source");
   require_enumerator(options.placement, NodePlacement::OriginalMesh, "The placement of the nodes");
   require_enumerator(options.seed_start, SeedStart::Random, "The start of the seeds");
+  require(options.levels.coarsest_seeds >= 4, "The size of the coarsest level",
+          std::to_string(options.levels.coarsest_seeds), "4 or more");
+  check_relaxation_options(options.relaxation);
   require_enumerator(options.relaxation.metric, RelaxationMetric::Surface,
                      "The metric of the relaxation");
 }
@@ -68,8 +71,7 @@ bool can_be_triangulated(const std::vector<Vector3>& seeds) {
 }
 
 std::vector<Vector3> start_seeds(const RemeshOptions& options, const SurfaceSeedModel& model,
-                                 const Execution& execution) {
-  const int count = options.node_count;
+                                 int count, const Execution& execution) {
   if (options.seed_start == SeedStart::Random) {
     // Few random points often leave the centre outside; the next seeds of the same row are tried.
     for (std::uint64_t attempt = 0; attempt < 200; ++attempt) {
@@ -232,8 +234,12 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   weighting.curvature_alpha = options.curvature_alpha;
   const SurfaceSeedModel model(fit.surface, weighting, curvatures ? &*curvatures : nullptr,
                                execution);
-  RelaxationResult relaxed = relax(start_seeds(options, model, execution), model,
-                                   options.relaxation, execution.part(0.4, 0.9));
+  MultilevelOptions levels = options.levels;
+  if (options.seed_start != SeedStart::Multilevel) levels.coarsest_seeds = options.node_count;
+  const int coarsest = level_sizes(options.node_count, levels.coarsest_seeds).front();
+  RelaxationResult relaxed =
+      relax_multilevel(start_seeds(options, model, coarsest, execution), options.node_count, model,
+                       options.relaxation, levels, execution.part(0.4, 0.9));
 
   execution.report(0.9, "Placing the nodes");
   Nodes nodes = place_nodes(fit.surface, relaxed, options, execution);

@@ -10,6 +10,7 @@
 #include "wscvt/mesh.h"
 #include "wscvt/mesh_check.h"
 #include "wscvt/mesh_quality.h"
+#include "wscvt/multilevel_relaxation.h"
 #include "wscvt/relaxation.h"
 #include "wscvt/shape_descriptors.h"
 #include "wscvt/weights.h"
@@ -18,7 +19,8 @@ namespace wscvt {
 
 /// Where the seeds start.
 enum class SeedStart {
-  WarpedLattice,  ///< Fibonacci lattice warped to the target density: fast, no randomness
+  Multilevel,     ///< warped lattice of a few hundred, subdivided and relaxed level by level
+  WarpedLattice,  ///< all N in a Fibonacci lattice warped to the wanted density
   Random,         ///< uniform directions from `random_seed`
 };
 
@@ -43,9 +45,10 @@ struct RemeshOptions {
   int degree = 20;  ///< of the harmonic series, in [1, 60]
   NodePlacement placement = NodePlacement::FittedSurface;
   double fold_limit = 0.05;  ///< refuse above this share of 4 pi, in [0, 1)
-  SeedStart seed_start = SeedStart::WarpedLattice;
+  SeedStart seed_start = SeedStart::Multilevel;
   std::uint64_t random_seed = 1;
   RelaxationOptions relaxation;
+  MultilevelOptions levels;
   MeshCheckOptions check;
 };
 

@@ -176,6 +176,25 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
   set_triangles(std::move(triangles), seeds.size());
 }
 
+SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
+                                         std::vector<Triangle> triangles) {
+  const auto count = static_cast<std::int32_t>(seeds.size());
+  bool usable = count >= 4;
+  for (const Triangle& t : triangles) {
+    for (const std::int32_t v : t) usable = usable && v >= 0 && v < count;
+  }
+  if (usable && covers_sphere(triangles, seeds)) {
+    set_triangles(std::move(triangles), seeds.size());
+    usable = std::find(opposite_.begin(), opposite_.end(), -1) == opposite_.end();
+  } else {
+    usable = false;
+  }
+  if (!usable) {
+    throw Error(ErrorCode::InvalidInput, "The triangles do not cover the sphere once with all " +
+                                             std::to_string(count) + " seeds as corners.");
+  }
+}
+
 void SphereTriangulation::set_triangles(std::vector<Triangle> triangles, std::size_t vertices) {
   for (Triangle& t : triangles) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());

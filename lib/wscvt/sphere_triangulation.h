@@ -24,6 +24,10 @@ class SphereTriangulation {
   explicit SphereTriangulation(const std::vector<Vector3>& seeds,
                                const std::vector<double>& weights = {});
 
+  /// Takes over given triangles. Throws Error(InvalidInput) unless they are 2 N - 4 triangles,
+  /// counter-clockwise on the sphere, that form a closed 2-manifold on all N seeds.
+  SphereTriangulation(const std::vector<Vector3>& seeds, std::vector<Triangle> triangles);
+
   std::size_t vertex_count() const { return first_half_edge_.size(); }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// The half-edge that runs the other way, for each half-edge.

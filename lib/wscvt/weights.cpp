@@ -231,7 +231,7 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   const double mean_cell = 4.0 * pi / count;
   const double smallest = smallest_cell_share * mean_cell;
   const auto cell = [&](double value, double offset) {
-    return std::max(smallest, cell_area_per_weight * weight_from(value, wanted_) + offset);
+    return std::max(smallest, cell_area_per_weight * weight_from(value, count, wanted_) + offset);
   };
   const int rounds = options.weighting == Weighting::Curvature ? 4 : 1;
   for (int round = 0; round < rounds; ++round) {
@@ -255,8 +255,8 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   }
 }
 
-double SurfaceSeedModel::weight_from(double field, const Deviation& over_seeds) const {
-  const double count = options_.node_count;
+double SurfaceSeedModel::weight_from(double field, double count,
+                                     const Deviation& over_seeds) const {
   switch (options_.weighting) {
     case Weighting::RadialDistance:  // eq. 10
       return area_ / (count * pi * field * field);
@@ -308,9 +308,9 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
   result.clear();
   if (options_.weighting == Weighting::Constant) return;
   look_up_field(seeds, execution, result);
+  const auto count = static_cast<double>(seeds.size());
   Deviation over_seeds;
   if (options_.weighting == Weighting::Curvature) {
-    const auto count = static_cast<double>(seeds.size());
     for (const double value : result) over_seeds.mean += value / count;
     double squares = 0.0;
     for (const double value : result) {
@@ -318,7 +318,7 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
     }
     over_seeds.deviation = std::sqrt(squares / (count - 1.0));
   }
-  for (double& value : result) value = weight_from(value, over_seeds);
+  for (double& value : result) value = weight_from(value, count, over_seeds);
 }
 
 void SurfaceSeedModel::radii(const std::vector<Vector3>& seeds, const Execution& execution,
@@ -346,7 +346,7 @@ std::vector<double> SurfaceSeedModel::number_densities(const std::vector<Vector3
   look_up_field(directions, execution, result);
   for (double& value : result) {
     value = 1.0 / std::max(smallest_cell_share * mean_cell,
-                           cell_area_per_weight * weight_from(value, wanted_) + offset_);
+                           cell_area_per_weight * weight_from(value, count, wanted_) + offset_);
   }
   return result;
 }

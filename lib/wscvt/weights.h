@@ -29,7 +29,7 @@ class SeedModel {
  public:
   virtual ~SeedModel() = default;
 
-  /// Power weights in steradian; left empty when all are equal.
+  /// Power weights in steradian for as many seeds as are given; left empty when all are equal.
   virtual void weights(const std::vector<Vector3>& seeds, const Execution& execution,
                        std::vector<double>& result) const = 0;
 
@@ -84,7 +84,7 @@ class SurfaceSeedModel : public SeedModel {
     double mean = 0.0;
     double deviation = 0.0;
   };
-  double weight_from(double field, const Deviation& over_seeds) const;
+  double weight_from(double field, double count, const Deviation& over_seeds) const;
   void look_up_field(const std::vector<Vector3>& seeds, const Execution& execution,
                      std::vector<double>& result) const;
   void look_up(const SphereGrid& grid, const std::vector<Vector3>& seeds,
