@@ -193,7 +193,10 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
     const RelaxationStep& step = evaluation.step();
     report.converged = step.displacement < options.displacement_tolerance &&
                        step.area_spread < options.area_tolerance;
-    if (report.converged || report.iterations >= options.maximum_iterations) break;
+    report.settled = !report.converged && step.displacement < 0.01 * options.displacement_tolerance;
+    if (report.converged || report.settled || report.iterations >= options.maximum_iterations) {
+      break;
+    }
     ++report.iterations;
     execution.report(static_cast<double>(report.iterations) / (report.iterations + 50.0),
                      "Relaxing the seeds");

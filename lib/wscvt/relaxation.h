@@ -41,7 +41,10 @@ struct RelaxationLevel {
 };
 
 struct RelaxationReport {
-  bool converged = false;
+  bool converged = false;  ///< displacement and area spread both below their tolerances
+  /// The seeds have come to rest (a hundredth of the displacement tolerance) although the cells'
+  /// areas spread more than asked for: few nodes on a strongly bent surface cannot do better.
+  bool settled = false;
   int iterations = 0;                           ///< with all the seeds
   std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
   int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
@@ -57,8 +60,8 @@ struct RelaxationResult {
 };
 
 /// Moves the seeds towards the centroids of their cells until both the rms displacement and the
-/// spread of (cell area / target) are below their tolerances, or the iterations are used up (which
-/// is a field of the report, not an error).
+/// spread of (cell area / target) are below their tolerances, or the seeds have come to rest, or
+/// the iterations are used up; which of these is said in the report.
 ///
 /// Each step goes `over_relaxation` times the way from seed to centroid. With `acceleration` the
 /// steps carry Nesterov's momentum, dropped whenever it points uphill (O'Donoghue and Candes 2015,

@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <utility>
 
-#include "wscvt/curvature.h"
 #include "wscvt/error.h"
-#include "wscvt/mesh_surface.h"
 #include "wscvt/radial_samples.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -88,22 +85,6 @@ std::vector<Vector3> start_seeds(const RemeshOptions& options, const SurfaceSeed
   return fibonacci_lattice(count);
 }
 
-CurvatureSamples scan_curvatures(const IndexedMesh& scan, const RadialSamples& samples,
-                                 const Execution& execution) {
-  // The paper fits over one ring, which scans leave under-determined.
-  constexpr int rings = 2;
-  const std::vector<PrincipalCurvatures> of_vertices =
-      quadric_fit_curvatures(scan, rings, execution);
-  CurvatureSamples result;
-  result.directions = samples.directions;
-  result.weights = samples.weights;
-  result.curvatures.reserve(samples.vertices.size());
-  for (const std::int32_t vertex : samples.vertices) {
-    result.curvatures.push_back(of_vertices[vertex]);
-  }
-  return result;
-}
-
 /// Nodes on `surface` along the relaxed seeds, in the surface's own units and about the origin.
 struct Nodes {
   std::vector<double> radii;
@@ -167,7 +148,11 @@ void add_warnings(RemeshResult& result) {
          " to " + std::to_string(result.fit.degree) + ", which is what the scan's " +
          std::to_string(result.fit.points) + " points can carry.");
   }
-  if (!result.relaxation.converged) {
+  if (result.relaxation.settled) {
+    warn("The seeds came to rest with the cells' areas still spread by " +
+         percent(result.relaxation.history.back().area_spread) +
+         " about their targets; more nodes follow the surface more evenly.");
+  } else if (!result.relaxation.converged) {
     warn("The relaxation stopped at its limit of " + std::to_string(result.relaxation.iterations) +
          " iterations before it converged; raise the limit for the last bit of evenness.");
   }
@@ -223,17 +208,11 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   result.original_quality = measure_quality(grain);
 
   execution.report(0.35, "Weighing the seeds");
-  std::optional<CurvatureSamples> curvatures;
-  if (options.weighting == Weighting::Curvature &&
-      options.curvature_source == CurvatureSource::QuadricFit) {
-    curvatures = scan_curvatures(grain, samples, execution);
-  }
   WeightingOptions weighting;
   weighting.weighting = options.weighting;
   weighting.node_count = options.node_count;
   weighting.curvature_alpha = options.curvature_alpha;
-  const SurfaceSeedModel model(fit.surface, weighting, curvatures ? &*curvatures : nullptr,
-                               execution);
+  const SurfaceSeedModel model(fit.surface, weighting, nullptr, execution);
   MultilevelOptions levels = options.levels;
   if (options.seed_start != SeedStart::Multilevel) levels.coarsest_seeds = options.node_count;
   const int coarsest = level_sizes(options.node_count, levels.coarsest_seeds).front();
@@ -243,10 +222,6 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
 
   execution.report(0.9, "Placing the nodes");
   Nodes nodes = place_nodes(fit.surface, relaxed, options, execution);
-  if (options.placement == NodePlacement::OriginalMesh) {
-    nodes.radii =
-        MeshSurface(grain, Vector3::Zero(), 1.0, execution).radii(relaxed.seeds, execution);
-  }
   IndexedMesh placed;
   placed.points.resize(relaxed.seeds.size());
   for (std::size_t i = 0; i < placed.points.size(); ++i) {

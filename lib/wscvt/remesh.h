@@ -44,7 +44,8 @@ struct RemeshOptions {
   CurvatureSource curvature_source = CurvatureSource::Series;
   int degree = 20;  ///< of the harmonic series, in [1, 60]
   NodePlacement placement = NodePlacement::FittedSurface;
-  double fold_limit = 0.05;  ///< refuse above this share of 4 pi, in [0, 1)
+  bool node_curvatures = false;  ///< fill RemeshResult::curvatures
+  double fold_limit = 0.05;      ///< refuse above this share of 4 pi, in [0, 1)
   SeedStart seed_start = SeedStart::Multilevel;
   std::uint64_t random_seed = 1;
   RelaxationOptions relaxation;
