@@ -64,7 +64,7 @@ TEST(Weights, AreaGivesEverySeedTheSameSurface) {
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     RadialJet jet;
     ellipsoid().evaluate(&seeds[i], 1, Derivatives::First, &jet);
-    EXPECT_NEAR(cell_area_per_weight * weights[i] * area_element(jet) / (area / 1000.0), 1.0, 2e-4);
+    EXPECT_NEAR(cell_area_per_weight * weights[i] * area_element(jet) / (area / 500.0), 1.0, 2e-4);
   }
 }
 

@@ -54,10 +54,22 @@ const char* name_of(NodePlacement placement) {
 
 const char* name_of(SeedStart start) {
   switch (start) {
+    case SeedStart::Multilevel:
+      return "multilevel";
     case SeedStart::WarpedLattice:
       return "warped lattice";
     case SeedStart::Random:
       return "random";
+  }
+  return "unknown";
+}
+
+const char* name_of(RelaxationMetric metric) {
+  switch (metric) {
+    case RelaxationMetric::Sphere:
+      return "sphere";
+    case RelaxationMetric::Surface:
+      return "surface";
   }
   return "unknown";
 }
@@ -146,10 +158,17 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
 
   const RelaxationReport& relaxation = result.relaxation;
   const auto iterations = static_cast<std::size_t>(std::max(relaxation.iterations, 0));
-  std::string text = relaxation.converged
-                         ? "converged after " + counted(iterations, "iteration", "iterations")
-                         : "not converged: stopped at the limit of " +
-                               counted(iterations, "iteration", "iterations");
+  std::string text =
+      relaxation.converged ? "converged after " + counted(iterations, "iteration", "iterations")
+      : relaxation.settled ? "settled after " + counted(iterations, "iteration", "iterations")
+                           : "not converged: stopped at the limit of " +
+                                 counted(iterations, "iteration", "iterations");
+  for (auto level = relaxation.coarser_levels.rbegin(); level != relaxation.coarser_levels.rend();
+       ++level) {
+    text += (level == relaxation.coarser_levels.rbegin() ? " (after " : ", ") +
+            std::to_string(level->iterations) + " with " + std::to_string(level->seeds) + " seeds";
+  }
+  if (!relaxation.coarser_levels.empty()) text += ")";
   if (!relaxation.history.empty()) {
     const RelaxationStep& last = relaxation.history.back();
     text += ", displacement " + format_number(last.displacement, 2) + " h (tolerance " +
@@ -222,7 +241,9 @@ Json json_of(const RemeshOptions& o) {
            {{"maximum_iterations", o.relaxation.maximum_iterations},
             {"displacement_tolerance", o.relaxation.displacement_tolerance},
             {"area_tolerance", o.relaxation.area_tolerance},
-            {"over_relaxation", o.relaxation.over_relaxation}}},
+            {"acceleration", o.relaxation.acceleration},
+            {"over_relaxation", o.relaxation.over_relaxation},
+            {"metric", name_of(o.relaxation.metric)}}},
           {"check", {{"dropped_volume_limit", o.check.dropped_volume_limit}}}};
 }
 
@@ -263,8 +284,14 @@ Json json_of(const RelaxationReport& r) {
     area_spread.push_back(step.area_spread);
     flips.push_back(step.flips);
   }
+  Json levels = Json::array();
+  for (const RelaxationLevel& level : r.coarser_levels) {
+    levels.push_back({{"seeds", level.seeds}, {"iterations", level.iterations}});
+  }
   return {{"converged", r.converged},
+          {"settled", r.settled},
           {"iterations", r.iterations},
+          {"coarser_levels", std::move(levels)},
           {"rebuilds", r.rebuilds},
           {"history",
            {{"displacement", std::move(displacement)},
