@@ -29,8 +29,9 @@ struct Cell {
 };
 
 /// Climbs away from the nearest surface point with shrinking steps.
-void climb(const MeshDistance& surface, InscribedSphere& sphere, double step) {
-  for (; step > 1e-7 * sphere.radius; step *= 0.7) {
+void climb(const MeshDistance& surface, InscribedSphere& sphere, double first_step) {
+  double step = first_step;
+  while (step > 1e-7 * sphere.radius) {
     for (int attempt = 0; attempt < 4; ++attempt) {
       const Vector3 away = sphere.centre - surface.nearest_point(sphere.centre);
       const Vector3 candidate =
@@ -41,6 +42,7 @@ void climb(const MeshDistance& surface, InscribedSphere& sphere, double step) {
       sphere.centre = candidate;
       sphere.radius = reached;
     }
+    step *= 0.7;
   }
 }
 
