@@ -105,10 +105,10 @@ double rms_difference(const std::vector<double>& a, const Eigen::VectorXd& b) {
 
 TEST(HarmonicFit, SpreadPointsAgreeWithPlainLeastSquares) {
   // Harmonics beyond the fitted degree make a residual that is not white.
-  const TestSamples samples = noisy_samples(20000, 26, 2e-3);
-  const HarmonicFit result = fit(samples, 20);
-  const PlainFit plain = plain_least_squares(samples, 20);
-  EXPECT_EQ(result.report.degree, 20);
+  const TestSamples samples = noisy_samples(6000, 20, 2e-3);
+  const HarmonicFit result = fit(samples, 14);
+  const PlainFit plain = plain_least_squares(samples, 14);
+  EXPECT_EQ(result.report.degree, 14);
   EXPECT_EQ(result.report.points, samples.radii.size());
   // Required is 1e-3 of the residual; measured is 4e-6.
   EXPECT_LT(rms_difference(result.surface.coefficients(), plain.coefficients),
@@ -224,8 +224,8 @@ TEST(HarmonicFit, LowersTheDegreeWhenPointsAreFew) {
 }
 
 TEST(HarmonicFit, LowersTheDegreeWhenPartOfTheSphereIsBare) {
-  TestSamples all = noisy_samples(20000, 6, 0.0);
-  for (const std::size_t limit : {std::size_t{1500}, std::size_t{10000}}) {
+  TestSamples all = noisy_samples(5000, 6, 0.0);
+  for (const std::size_t limit : {std::size_t{600}, std::size_t{3000}}) {
     TestSamples samples;
     for (std::size_t i = 0; i < all.radii.size() && samples.radii.size() < limit; ++i) {
       if (all.directions[i].z() > 0.7) continue;
@@ -233,8 +233,8 @@ TEST(HarmonicFit, LowersTheDegreeWhenPartOfTheSphereIsBare) {
       samples.radii.push_back(all.radii[i]);
       samples.weights.push_back(1.0);
     }
-    const HarmonicFit result = fit(samples, 20);
-    EXPECT_LT(result.report.degree, 20);
+    const HarmonicFit result = fit(samples, 12);
+    EXPECT_LT(result.report.degree, 12);
     EXPECT_GT(result.report.degree, 0);
     EXPECT_LE(result.report.condition, 1000.0);
     EXPECT_GT(result.report.smallest_radius, 0.0);

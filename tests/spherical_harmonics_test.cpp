@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "wscvt/error.h"
@@ -17,6 +18,7 @@ std::vector<double> random_coefficients(int degree, std::uint64_t seed) {
   const std::vector<Vector3> random =
       random_directions(static_cast<int>(harmonic_count(degree)), seed);
   std::vector<double> coefficients;
+  coefficients.reserve(random.size());
   for (const Vector3& u : random) coefficients.push_back(u.x());
   return coefficients;
 }
@@ -59,22 +61,29 @@ TEST(SphericalHarmonics, OrthonormalUnderQuadratureToDegree60) {
   const SphereQuadrature quadrature = gauss_legendre_sphere(degree + 1);
   const std::size_t count = quadrature.directions.size();
   const auto width = static_cast<Eigen::Index>(harmonic_count(degree));
-  const std::vector<double> values = harmonic_values(degree, quadrature.directions.data(), count);
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> basis(values.data(), static_cast<Eigen::Index>(count), width);
-  const Eigen::Map<const Eigen::VectorXd> weights(quadrature.weights.data(),
-                                                  static_cast<Eigen::Index>(count));
-  // The whole Gram matrix is large: every 61st harmonic, and the last two degrees, against all.
+  // The whole Gram matrix is large: some harmonics of all and of the last two degrees, against all.
   std::vector<Eigen::Index> chosen;
-  for (Eigen::Index k = 0; k < width; k += 61) chosen.push_back(k);
-  for (Eigen::Index k = 59 * 59; k < width; k += 11) chosen.push_back(k);
-  Eigen::MatrixXd left(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(chosen.size()));
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    left.col(static_cast<Eigen::Index>(k)) = weights.cwiseProduct(basis.col(chosen[k]));
+  for (Eigen::Index k = 0; k < width; k += 211) chosen.push_back(k);
+  for (Eigen::Index k = 59 * 59; k < width; k += 29) chosen.push_back(k);
+  const auto chosen_count = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(chosen_count, width);
+  constexpr std::size_t block = 500;
+  for (std::size_t begin = 0; begin < count; begin += block) {
+    const std::size_t size = std::min(block, count - begin);
+    const auto rows = static_cast<Eigen::Index>(size);
+    const std::vector<double> values =
+        harmonic_values(degree, quadrature.directions.data() + begin, size);
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const Rows> basis(values.data(), rows, width);
+    const Eigen::Map<const Eigen::VectorXd> weights(quadrature.weights.data() + begin, rows);
+    Eigen::MatrixXd left(rows, chosen_count);
+    for (Eigen::Index k = 0; k < chosen_count; ++k) {
+      left.col(k) = weights.cwiseProduct(basis.col(chosen[static_cast<std::size_t>(k)]));
+    }
+    gram += left.transpose() * basis;
   }
-  Eigen::MatrixXd gram = left.transpose() * basis;
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    gram(static_cast<Eigen::Index>(k), chosen[k]) -= 1.0;
+  for (Eigen::Index k = 0; k < chosen_count; ++k) {
+    gram(k, chosen[static_cast<std::size_t>(k)]) -= 1.0;
   }
   // Rounding of recurrences of 60 steps and of sums over 7,442 nodes.
   EXPECT_LT(gram.cwiseAbs().maxCoeff(), 1e-12);

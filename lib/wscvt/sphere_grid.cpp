@@ -161,21 +161,19 @@ SphereGrid::SphereGrid(int rows, int channels, int stencil)
             std::to_string(rows) + ", " + std::to_string(channels) + " and " +
             std::to_string(stencil) + ".");
   }
-  nodes_.assign(static_cast<std::size_t>(rows_ + 2 * halo_) *
-                    static_cast<std::size_t>(2 * rows_ + 2 * halo_) *
-                    static_cast<std::size_t>(channels_),
-                0.0);
+  nodes_.assign(
+      static_cast<std::size_t>(rows_ + 2 * halo_) * stride() * static_cast<std::size_t>(channels_),
+      0.0);
 }
 
 SphereGrid::SphereGrid(int rows, int channels, int stencil, const FieldFunction& field,
                        const Execution& execution)
     : SphereGrid(rows, channels, stencil) {
   const std::vector<Vector3> u = directions();
-  const auto columns = static_cast<std::size_t>(2 * rows_);
   execution.parallel_for(static_cast<std::size_t>(rows_), 4,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t row = begin; row < end; ++row) {
-                             field(u.data() + row * columns, columns,
+                             field(u.data() + row * columns(), columns(),
                                    nodes_.data() + offset(static_cast<int>(row), 0));
                            }
                          });
@@ -184,8 +182,7 @@ SphereGrid::SphereGrid(int rows, int channels, int stencil, const FieldFunction&
 
 SphereGrid::SphereGrid(int rows, int channels, int stencil, const std::vector<double>& values)
     : SphereGrid(rows, channels, stencil) {
-  const std::size_t width =
-      static_cast<std::size_t>(2 * rows_) * static_cast<std::size_t>(channels_);
+  const std::size_t width = columns() * static_cast<std::size_t>(channels_);
   if (values.size() != static_cast<std::size_t>(rows_) * width) {
     throw Error(ErrorCode::InvalidInput,
                 "A grid of the sphere with " + std::to_string(rows_) + " rows and " +
@@ -200,9 +197,12 @@ SphereGrid::SphereGrid(int rows, int channels, int stencil, const std::vector<do
   fill_halo();
 }
 
+std::size_t SphereGrid::columns() const { return 2 * static_cast<std::size_t>(rows_); }
+
+std::size_t SphereGrid::stride() const { return columns() + 2 * static_cast<std::size_t>(halo_); }
+
 std::size_t SphereGrid::offset(int row, int column) const {
-  const auto stride = static_cast<std::size_t>(2 * rows_ + 2 * halo_);
-  return (static_cast<std::size_t>(row + halo_) * stride +
+  return (static_cast<std::size_t>(row + halo_) * stride() +
           static_cast<std::size_t>(column + halo_)) *
          static_cast<std::size_t>(channels_);
 }
@@ -225,8 +225,9 @@ std::vector<Vector3> SphereGrid::directions() const {
   const std::vector<double> cosines = row_cosines(rows_);
   const std::vector<double> sines = row_sines(rows_);
   std::vector<Vector3> result;
-  result.reserve(cosines.size() * static_cast<std::size_t>(2 * rows_));
+  result.reserve(cosines.size() * columns());
   std::vector<Eigen::Vector2d> circle;
+  circle.reserve(columns());
   for (int k = 0; k < 2 * rows_; ++k) {
     circle.emplace_back(std::cos(k * pi / rows_), std::sin(k * pi / rows_));
   }
@@ -240,8 +241,7 @@ std::vector<Vector3> SphereGrid::directions() const {
 
 std::vector<double> SphereGrid::values() const {
   std::vector<double> result;
-  const std::size_t width =
-      static_cast<std::size_t>(2 * rows_) * static_cast<std::size_t>(channels_);
+  const std::size_t width = columns() * static_cast<std::size_t>(channels_);
   result.reserve(static_cast<std::size_t>(rows_) * width);
   for (int row = 0; row < rows_; ++row) {
     const double* begin = nodes_.data() + offset(row, 0);
@@ -287,17 +287,15 @@ void SphereGrid::fold_halo() {
 }
 
 void SphereGrid::interpolate(const Vector3* directions, std::size_t count, double* values) const {
-  const auto stride = static_cast<std::size_t>(2 * rows_ + 2 * halo_);
   const auto channels = static_cast<std::size_t>(channels_);
   const auto function = stencil_ == 4 ? interpolate_stencils<4> : interpolate_stencils<6>;
-  function(nodes_.data(), rows_, stride, channels, directions, count, values);
+  function(nodes_.data(), rows_, stride(), channels, directions, count, values);
 }
 
 void SphereGrid::spread_block(const Vector3* directions, std::size_t count, const double* values) {
-  const auto stride = static_cast<std::size_t>(2 * rows_ + 2 * halo_);
   const auto channels = static_cast<std::size_t>(channels_);
   const auto function = stencil_ == 4 ? spread_stencils<4> : spread_stencils<6>;
-  function(nodes_.data(), rows_, stride, channels, directions, count, values);
+  function(nodes_.data(), rows_, stride(), channels, directions, count, values);
 }
 
 SphereGrid SphereGrid::spread(int rows, int channels, int stencil,

@@ -67,6 +67,8 @@ class SphereGrid {
   void fill_halo();
   void fold_halo();
   void spread_block(const Vector3* directions, std::size_t count, const double* values);
+  std::size_t columns() const;
+  std::size_t stride() const;  ///< nodes from one row to the next
   std::size_t offset(int row, int column) const;
 
   int rows_;
