@@ -73,6 +73,20 @@ TEST_F(MeshIo, WritesAndReadsBackEveryFormat) {
   }
 }
 
+TEST_F(MeshIo, WritesPlyInSinglePrecisionWhenTold) {
+  const IndexedMesh mesh = test::lumpy(2);
+  write_mesh(mesh, path("a.ply"), PlyCoordinates::Float);
+  const IndexedMesh back = read_mesh(path("a.ply"));
+  EXPECT_EQ(back.triangles, mesh.triangles);
+  ASSERT_EQ(back.points.size(), mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto expected = static_cast<float>(mesh.points[i][axis]);
+      EXPECT_EQ(back.points[i][axis], static_cast<double>(expected));
+    }
+  }
+}
+
 TEST_F(MeshIo, WritesStlInSinglePrecision) {
   const IndexedMesh mesh = test::lumpy(3);
   write_mesh(mesh, path("a.stl"));
@@ -92,12 +106,14 @@ TEST_F(MeshIo, WritesStlInSinglePrecision) {
 TEST_F(MeshIo, ReadsBinaryPlyWithOtherProperties) {
   // Float and double, other properties around, polygons, both names of the list.
   for (const bool doubles : {false, true}) {
-    const std::string type = doubles ? "double" : "float";
-    std::string content = "ply\nformat binary_little_endian 1.0\ncomment made by hand\n";
-    content += "element vertex 5\nproperty uchar red\nproperty " + type + " x\nproperty " + type +
-               " y\nproperty float quality\nproperty " + type + " z\n";
-    content += std::string("element face 3\nproperty int flags\nproperty list uint8 uint32 ") +
-               (doubles ? "vertex_index" : "vertex_indices") + "\nproperty uchar red\nend_header\n";
+    const char* const type = doubles ? "double" : "float";
+    std::ostringstream header;
+    header << "ply\nformat binary_little_endian 1.0\ncomment made by hand\nelement vertex 5\n"
+           << "property uchar red\nproperty " << type << " x\nproperty " << type
+           << " y\nproperty float quality\nproperty " << type << " z\nelement face 3\n"
+           << "property int flags\nproperty list uint8 uint32 "
+           << (doubles ? "vertex_index" : "vertex_indices") << "\nproperty uchar red\nend_header\n";
+    std::string content = header.str();
     for (int i = 0; i < 5; ++i) {
       content += bytes(std::uint8_t{7});
       const double x = i + 0.25;
@@ -142,9 +158,11 @@ TEST_F(MeshIo, ReadsOtherLayoutsOfPly) {
     big += bytes(std::uint8_t{3});
     for (const std::int32_t v : t) big += bytes(v, true);
   }
-  for (const std::string& where :
-       {file("text.ply", "ply\nformat ascii" + header + text.str()),
-        file("big.ply", "ply\nformat binary_big_endian" + header + big)}) {
+  std::string text_file = "ply\nformat ascii";
+  text_file.append(header).append(text.str());
+  std::string big_file = "ply\nformat binary_big_endian";
+  big_file.append(header).append(big);
+  for (const std::string& where : {file("text.ply", text_file), file("big.ply", big_file)}) {
     const IndexedMesh back = read_mesh(where);
     EXPECT_EQ(back.points, mesh.points);
     EXPECT_EQ(back.triangles, mesh.triangles);

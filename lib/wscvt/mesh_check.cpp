@@ -587,27 +587,18 @@ double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
     for (std::size_t i = begin; i < end; ++i)
       directions[i] = (mesh.points[i] - centre).normalized();
   });
-  // A face that fills half the sphere holds the centre.
-  constexpr double hemisphere = 2.0 * 3.14159265358979323846 - 1e-9;
-  using Sums = Vector3;  // outward, backward, faces that hold the centre
-  const Sums sums = execution.parallel_sum(mesh.triangles.size(), block_size, Sums(Sums::Zero()),
-                                           [&](std::size_t begin, std::size_t end) {
-                                             Sums part = Sums::Zero();
-                                             for (std::size_t f = begin; f < end; ++f) {
-                                               const Triangle& t = mesh.triangles[f];
-                                               const double angle = solid_angle(
-                                                   directions[index(t[0])], directions[index(t[1])],
-                                                   directions[index(t[2])]);
-                                               part[angle < 0.0 ? 1 : 0] += std::abs(angle);
-                                               if (std::abs(angle) > hemisphere) part[2] += 1.0;
-                                             }
-                                             return part;
-                                           });
-  constexpr double four_pi = 4.0 * 3.14159265358979323846;
-  const double folded = 2.0 * sums[1] / four_pi;  // closed: as much outward again
-  // The angles of a closed surface add up to 4 pi inside and to 0 outside.
-  const bool inside = sums[2] == 0.0 && sums[0] - sums[1] > 0.5 * four_pi;
-  return inside ? folded : 1.0 + folded;
+  return execution
+      .parallel_sum(mesh.triangles.size(), block_size, SolidAngleSums(),
+                    [&](std::size_t begin, std::size_t end) {
+                      SolidAngleSums part;
+                      for (std::size_t f = begin; f < end; ++f) {
+                        const Triangle& t = mesh.triangles[f];
+                        part.add(solid_angle(directions[index(t[0])], directions[index(t[1])],
+                                             directions[index(t[2])]));
+                      }
+                      return part;
+                    })
+      .folded_share();
 }
 
 }  // namespace wscvt

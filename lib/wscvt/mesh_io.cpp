@@ -293,17 +293,28 @@ IndexedMesh read_with_library(std::istream& stream, Format format, const std::st
   return mesh;
 }
 
-void write_ply(std::ostream& stream, const IndexedMesh& mesh) {
-  stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.points.size()
-         << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
-         << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
-  std::array<unsigned char, 24> vertex{};
-  for (const Vector3& p : mesh.points) {
+template <class Number>
+void write_points(std::ostream& stream, const std::vector<Vector3>& points) {
+  std::array<unsigned char, 3 * sizeof(Number)> vertex{};
+  for (const Vector3& p : points) {
     for (std::size_t k = 0; k < 3; ++k) {
-      boost::endian::endian_store<double, 8, boost::endian::order::little>(
-          vertex.data() + 8 * k, p[static_cast<Eigen::Index>(k)]);
+      boost::endian::endian_store<Number, sizeof(Number), boost::endian::order::little>(
+          vertex.data() + sizeof(Number) * k, static_cast<Number>(p[static_cast<Eigen::Index>(k)]));
     }
     stream.write(reinterpret_cast<const char*>(vertex.data()), vertex.size());
+  }
+}
+
+void write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
+  const std::string type = coordinates == PlyCoordinates::Double ? "double" : "float";
+  stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.points.size();
+  for (const char* name : {" x", " y", " z"}) stream << "\nproperty " << type << name;
+  stream << "\nelement face " << mesh.triangles.size()
+         << "\nproperty list uchar int vertex_indices\nend_header\n";
+  if (coordinates == PlyCoordinates::Double) {
+    write_points<double>(stream, mesh.points);
+  } else {
+    write_points<float>(stream, mesh.points);
   }
   std::array<unsigned char, 13> face{3};
   for (const Triangle& t : mesh.triangles) {
@@ -314,7 +325,12 @@ void write_ply(std::ostream& stream, const IndexedMesh& mesh) {
   }
 }
 
-bool write_with_library(std::ostream& stream, Format format, const IndexedMesh& mesh) {
+bool write_as(std::ostream& stream, Format format, const IndexedMesh& mesh,
+              PlyCoordinates coordinates) {
+  if (format == Format::Ply) {
+    write_ply(stream, mesh, coordinates);
+    return true;
+  }
   std::vector<LibraryPoint> points;
   points.reserve(mesh.points.size());
   for (const Vector3& p : mesh.points) points.emplace_back(p.x(), p.y(), p.z());
@@ -329,8 +345,7 @@ bool write_with_library(std::ostream& stream, Format format, const IndexedMesh& 
     case Format::Off:
       return CGAL::IO::write_OFF(stream, points, mesh.triangles, digits);
     case Format::Ply:
-      write_ply(stream, mesh);
-      return true;
+      break;
   }
   return false;
 }
@@ -360,7 +375,7 @@ IndexedMesh read_mesh(const std::string& path) {
   return read_with_library(stream, format, path);
 }
 
-void write_mesh(const IndexedMesh& mesh, const std::string& path) {
+void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format format = format_of(path);
   const std::string temporary = path + ".part";
   bool good = false;
@@ -370,7 +385,7 @@ void write_mesh(const IndexedMesh& mesh, const std::string& path) {
     if (!stream) {
       fail(path, "cannot be written; check that the folder is there and can be written to.");
     }
-    good = write_with_library(stream, format, mesh);
+    good = write_as(stream, format, mesh, coordinates);
     stream.close();
     good = good && stream.good();
   }
