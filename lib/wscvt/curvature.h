@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "wscvt/execution.h"
-#include "wscvt/mesh.h"
+#include "wscvt/indexed_mesh.h"
 #include "wscvt/radial_surface.h"
 
 namespace wscvt {

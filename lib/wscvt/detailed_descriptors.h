@@ -3,8 +3,8 @@
 
 #include "wscvt/execution.h"
 #include "wscvt/form_axes.h"
+#include "wscvt/indexed_mesh.h"
 #include "wscvt/inscribed_sphere.h"
-#include "wscvt/mesh.h"
 #include "wscvt/orientation_tensor.h"
 #include "wscvt/roughness.h"
 #include "wscvt/roundness.h"

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "wscvt/execution.h"
-#include "wscvt/mesh.h"
+#include "wscvt/indexed_mesh.h"
 
 namespace wscvt {
 

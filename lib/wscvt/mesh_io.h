@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "wscvt/mesh.h"
+#include "wscvt/indexed_mesh.h"
 
 namespace wscvt {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "wscvt/execution.h"
-#include "wscvt/mesh.h"
+#include "wscvt/indexed_mesh.h"
 
 namespace wscvt {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "wscvt/execution.h"
-#include "wscvt/mesh.h"
+#include "wscvt/indexed_mesh.h"
 
 namespace wscvt {
 

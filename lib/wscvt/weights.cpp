@@ -346,7 +346,8 @@ std::vector<double> SurfaceSeedModel::number_densities(const std::vector<Vector3
   look_up_field(directions, execution, result);
   for (double& value : result) {
     value = 1.0 / std::max(smallest_cell_share * mean_cell,
-                           cell_area_per_weight * weight_from(value, options_.node_count, wanted_) + offset_);
+                           cell_area_per_weight * weight_from(value, options_.node_count, wanted_) +
+                               offset_);
   }
   return result;
 }

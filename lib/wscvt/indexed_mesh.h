@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace wscvt {
+
+using Vector3 = Eigen::Vector3d;
+
+/// Three indices into the points, counter-clockwise seen from outside.
+using Triangle = std::array<std::int32_t, 3>;
+
+/// Points and triangles in flat arrays: the form in which a dense scan is held (no half-edges) and
+/// in which geometry is computed.
+struct IndexedMesh {
+  std::vector<Vector3> points;
+  std::vector<Triangle> triangles;
+};
+
+}  // namespace wscvt
