@@ -9,11 +9,13 @@
 
 namespace wscvt {
 
-/// Principal curvatures at every vertex of a closed mesh by the least-squares quadric
-/// z = a x^2 + b y^2 + c x y + d x + e y + f over the vertices within `rings` edges, in the frame
-/// of the angle-weighted normal (the paper, section 2.3; `rings` = 1 as printed is under-determined
-/// on scans, 2 is the default). First derivatives are kept in the curvature formula. 1/length of
-/// the mesh, positive where convex. Throws Error(InvalidInput) if rings < 1.
+/// Principal curvatures at every vertex of a closed, oriented mesh (see check_mesh) by the
+/// least-squares quadric z = a x^2 + b y^2 + c x y + d x + e y + f over the vertex and those within
+/// `rings` edges of it, in the frame of the angle-weighted normal (the paper, section 2.3). The
+/// paper's one ring is often under-determined on scans, where the quadric of least norm is taken;
+/// two rings are the working choice. First derivatives are kept in the curvature formula. 1/length
+/// of the mesh, positive where convex; zero at a vertex whose ring lies in one point. Throws
+/// Error(InvalidInput) if rings < 1.
 std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh, int rings,
                                                         const Execution& execution);
 
