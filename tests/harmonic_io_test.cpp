@@ -33,7 +33,7 @@ class HarmonicIo : public testing::Test {
     try {
       json ? read_harmonics(path_) : read_complex_harmonics(path_);
     } catch (const Error& error) {
-      const std::string what = error.what();
+      std::string what = error.what();
       if (error.code() == ErrorCode::InvalidInput && what.find(path_) != std::string::npos) {
         return what;
       }

@@ -81,6 +81,7 @@ TEST(SphereGrid, InterpolatesWithinItsErrorBoundAlsoAcrossThePoles) {
 TEST(SphereGrid, ReturnsNodeValuesAtNodes) {
   const int rows = 16;
   std::vector<double> values;
+  values.reserve(2 * rows * rows);
   for (int i = 0; i < 2 * rows * rows; ++i) values.push_back(std::sin(0.7 * i));
   for (const int stencil : {4, 6}) {
     const SphereGrid grid(rows, 1, stencil, values);
@@ -97,8 +98,10 @@ TEST(SphereGrid, SpreadIsTheTransposeOfInterpolation) {
   const int rows = 12;
   const std::vector<Vector3> u = directions_with_poles();
   std::vector<double> field;
+  field.reserve(2 * rows * rows);
   for (int i = 0; i < 2 * rows * rows; ++i) field.push_back(std::cos(1.3 * i));
   std::vector<double> weights;
+  weights.reserve(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) {
     weights.push_back(std::sin(0.3 * static_cast<double>(i)));
   }
