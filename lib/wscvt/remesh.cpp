@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wscvt/error.h"
+#include "wscvt/mesh_surface.h"
 #include "wscvt/radial_samples.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -184,7 +185,8 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   });
 
   execution.report(0.15, "Looking for folds");
-  result.folded_share = folded_solid_angle(grain, Vector3::Zero(), execution);
+  const RadialSamples samples = radial_samples(grain, execution);
+  result.folded_share = samples.folded_share;
   if (result.folded_share > options.fold_limit) {
     throw Error(ErrorCode::NotStarShaped,
                 "Seen from its centre the grain folds over itself on " +
@@ -194,7 +196,6 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
                     "attached pieces from the scan, or raise the limit and check the result.");
   }
   execution.report(0.2, "Fitting harmonics");
-  const RadialSamples samples = radial_samples(grain, execution);
   const HarmonicFit fit =
       fit_harmonics(samples.directions, samples.radii, samples.weights, options.degree, execution);
   result.fit = fit.report;
@@ -222,6 +223,10 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
 
   execution.report(0.9, "Placing the nodes");
   Nodes nodes = place_nodes(fit.surface, relaxed, options, execution);
+  if (options.placement == NodePlacement::OriginalMesh) {
+    nodes.radii =
+        MeshSurface(grain, Vector3::Zero(), 1.0, execution).radii(relaxed.seeds, execution);
+  }
   IndexedMesh placed;
   placed.points.resize(relaxed.seeds.size());
   for (std::size_t i = 0; i < placed.points.size(); ++i) {

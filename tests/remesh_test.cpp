@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "grains/ct_grain.h"
+#include "wscvt/error.h"
+#include "wscvt/mesh_io.h"
+#include "wscvt/sphere_sampling.h"
+#include "wscvt/sphere_triangulation.h"
+
+namespace wscvt {
+namespace {
+
+const IndexedMesh& sand() {
+  static const IndexedMesh mesh = read_mesh(std::string(WSCVT_MESHES_DIR) + "/sand_5658.ply");
+  return mesh;
+}
+
+RemeshOptions options_of(int nodes, Weighting weighting,
+                         RelaxationMetric metric = RelaxationMetric::Sphere) {
+  RemeshOptions options;
+  options.node_count = nodes;
+  options.weighting = weighting;
+  options.relaxation.metric = metric;
+  return options;
+}
+
+// Closed, oriented outward, 2-manifold, star-shaped about the centre, of genus 0.
+void expect_promises(const RemeshResult& result, int nodes) {
+  const IndexedMesh mesh = to_indexed(result.mesh);
+  ASSERT_EQ(mesh.points.size(), static_cast<std::size_t>(nodes));
+  ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(2 * nodes - 4));
+  std::map<std::pair<std::int32_t, std::int32_t>, int> directed;
+  std::vector<int> triangles_at(mesh.points.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3 a = mesh.points[t[0]] - result.centre;
+    const Vector3 b = mesh.points[t[1]] - result.centre;
+    const Vector3 c = mesh.points[t[2]] - result.centre;
+    ASSERT_GT(a.dot(b.cross(c)), 0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(++directed[std::make_pair(t[k], t[(k + 1) % 3])], 1);
+      ++triangles_at[t[k]];
+    }
+  }
+  for (const auto& [edge, count] : directed) {
+    ASSERT_EQ(directed.count(std::make_pair(edge.second, edge.first)), 1U);
+  }
+  for (const int count : triangles_at) ASSERT_GE(count, 3);
+  ASSERT_EQ(result.directions.size(), mesh.points.size());
+  ASSERT_EQ(result.cell_areas.size(), mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Vector3 expected = result.centre + result.radial_distances[i] * result.directions[i];
+    ASSERT_NEAR((mesh.points[i] - expected).norm(), 0.0,
+                1e-12 * result.radial_distances[i] + 1e-15);
+  }
+}
+
+class EveryCountAndWeighting : public testing::TestWithParam<std::tuple<int, Weighting>> {};
+
+TEST_P(EveryCountAndWeighting, GivesAClosedStarShapedMeshOfExactlyThatCount) {
+  const auto [nodes, weighting] = GetParam();
+  for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
+    expect_promises(remesh(sand(), options_of(nodes, weighting, metric), Execution(1)), nodes);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Remesh, EveryCountAndWeighting,
+                         testing::Combine(testing::Values(4, 5, 12, 100, 1000, 7228),
+                                          testing::Values(Weighting::Constant,
+                                                          Weighting::RadialDistance,
+                                                          Weighting::Curvature, Weighting::Area,
+                                                          Weighting::ErrorAdaptive)));
+
+TEST(Remesh, EveryStartAndPlacementKeepsThePromises) {
+  for (const auto start : {SeedStart::Multilevel, SeedStart::WarpedLattice, SeedStart::Random}) {
+    for (const auto placement : {NodePlacement::FittedSurface, NodePlacement::OriginalMesh}) {
+      for (const int nodes : {4, 5, 300}) {
+        RemeshOptions options = options_of(nodes, Weighting::Area);
+        options.seed_start = start;
+        options.placement = placement;
+        expect_promises(remesh(sand(), options, Execution(1)), nodes);
+      }
+    }
+  }
+}
+
+TEST(Remesh, NodesOnTheOriginalMeshLieOnIt) {
+  RemeshOptions options = options_of(200, Weighting::Area);
+  options.placement = NodePlacement::OriginalMesh;
+  const RemeshResult result = remesh(sand(), options, Execution(1));
+  const IndexedMesh mesh = to_indexed(result.mesh);
+  for (const Vector3& p : mesh.points) {
+    double nearest_plane = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : sand().triangles) {
+      const Vector3& a = sand().points[t[0]];
+      if ((a - p).squaredNorm() > 0.02) continue;
+      const Vector3 n = (sand().points[t[1]] - a).cross(sand().points[t[2]] - a);
+      if (n.norm() > 0.0)
+        nearest_plane = std::min(nearest_plane, std::abs(n.normalized().dot(p - a)));
+    }
+    EXPECT_LT(nearest_plane, 1e-9);
+  }
+}
+
+TEST(Remesh, SphereGivesSphere) {
+  IndexedMesh sphere;
+  sphere.points = fibonacci_lattice(3000);
+  sphere.triangles = SphereTriangulation(sphere.points).triangles();
+  for (const Weighting weighting :
+       {Weighting::Constant, Weighting::RadialDistance, Weighting::Curvature, Weighting::Area,
+        Weighting::ErrorAdaptive}) {
+    SCOPED_TRACE(static_cast<int>(weighting));
+    const RemeshResult result = remesh(sphere, options_of(500, weighting), Execution(1));
+    // The scan's 3000 vertices lie on the unit sphere up to the centroid of its polyhedron.
+    for (const double r : result.radial_distances) EXPECT_NEAR(r, 1.0, 1e-4);
+    EXPECT_NEAR(result.remesh.aspect_ratio, 1.0, 2e-3);
+    EXPECT_LT(result.remesh.sdq, 0.1);
+    EXPECT_LT(result.quality.edge_variation, 0.07);
+  }
+}
+
+TEST(Remesh, RotatedScanGivesTheSameDescriptors) {
+  const Eigen::AngleAxisd rotation(1.1, Vector3(0.3, -0.5, 0.8).normalized());
+  IndexedMesh rotated = sand();
+  for (Vector3& p : rotated.points) p = rotation * p;
+  const RemeshResult a = remesh(sand(), options_of(1000, Weighting::Area), Execution(1));
+  const RemeshResult b = remesh(rotated, options_of(1000, Weighting::Area), Execution(1));
+  EXPECT_NEAR(b.original.volume / a.original.volume, 1.0, 1e-12);
+  EXPECT_NEAR(b.original.sdq / a.original.sdq, 1.0, 1e-9);
+  // The series of a rotated scan is the rotated series; only its lattice of nodes differs, so what
+  // is left is a share of the discretisation error (volume 0.7 %, Sdq 1 % at N = 1000).
+  EXPECT_NEAR(b.fit.residual / a.fit.residual, 1.0, 1e-5);
+  EXPECT_NEAR(b.remesh.volume / a.remesh.volume, 1.0, 1e-3);
+  EXPECT_NEAR(b.remesh.area / a.remesh.area, 1.0, 1e-3);
+  EXPECT_NEAR(b.remesh.sphericity / a.remesh.sphericity, 1.0, 1e-3);
+  EXPECT_NEAR(b.remesh.aspect_ratio / a.remesh.aspect_ratio, 1.0, 2e-3);
+  EXPECT_NEAR(b.remesh.sdq / a.remesh.sdq, 1.0, 1e-2);
+}
+
+TEST(Remesh, FarAwayOrTinyGrainsGiveTheSameMesh) {
+  const RemeshResult near = remesh(sand(), options_of(400, Weighting::Curvature), Execution(1));
+  const IndexedMesh reference = to_indexed(near.mesh);
+  struct Placement {
+    double size;
+    Vector3 offset;
+  };
+  for (const Placement& placement :
+       {Placement{1e-6, Vector3::Zero()}, Placement{1.0, Vector3(1e6, -1e6, 1e6)},
+        Placement{1e9, Vector3::Zero()}}) {
+    IndexedMesh moved = sand();
+    for (Vector3& p : moved.points) p = placement.offset + placement.size * p;
+    const RemeshResult result = remesh(moved, options_of(400, Weighting::Curvature), Execution(1));
+    const IndexedMesh mesh = to_indexed(result.mesh);
+    EXPECT_EQ(mesh.triangles, reference.triangles);
+    // Coordinates of size 1e6 carry 1e-10; the relaxation may amplify that.
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      const Vector3 back = (mesh.points[i] - placement.offset) / placement.size;
+      EXPECT_NEAR((back - reference.points[i]).norm(), 0.0, 1e-6);
+    }
+    EXPECT_NEAR(result.remesh.sdq / near.remesh.sdq, 1.0, 1e-6);
+  }
+}
+
+TEST(Remesh, ShuffledVerticesAndFacesGiveTheSameTriangulation) {
+  std::mt19937 generator(17);
+  std::vector<std::int32_t> order(sand().points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), generator);
+  IndexedMesh shuffled;
+  shuffled.points.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) shuffled.points[order[i]] = sand().points[i];
+  for (Triangle t : sand().triangles) {
+    for (std::int32_t& v : t) v = order[v];
+    std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(generator() % 3), t.end());
+    shuffled.triangles.push_back(t);
+  }
+  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), generator);
+  const RemeshResult a = remesh(sand(), options_of(1000, Weighting::RadialDistance), Execution(1));
+  const RemeshResult b =
+      remesh(shuffled, options_of(1000, Weighting::RadialDistance), Execution(1));
+  EXPECT_EQ(to_indexed(a.mesh).triangles, to_indexed(b.mesh).triangles);
+}
+
+TEST(Remesh, SameBytesOnAnyNumberOfThreads) {
+  for (const auto weighting : {Weighting::RadialDistance, Weighting::Curvature}) {
+    const auto run = [&](int threads) {
+      RemeshOptions options = options_of(5000, weighting, RelaxationMetric::Surface);
+      options.placement = NodePlacement::OriginalMesh;
+      options.node_curvatures = true;
+      return remesh(sand(), options, Execution(threads));
+    };
+    const RemeshResult one = run(1);
+    const RemeshResult two = run(2);
+    EXPECT_EQ(to_indexed(one.mesh).points, to_indexed(two.mesh).points);
+    EXPECT_EQ(to_indexed(one.mesh).triangles, to_indexed(two.mesh).triangles);
+    EXPECT_EQ(one.coefficients, two.coefficients);
+    EXPECT_EQ(one.curvatures, two.curvatures);
+    EXPECT_EQ(one.remesh.sdq, two.remesh.sdq);
+    EXPECT_EQ(one.quality.edge_variation, two.quality.edge_variation);
+  }
+}
+
+TEST(Remesh, CellAreasAddUpToTheSurface) {
+  for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
+    const RemeshResult result =
+        remesh(sand(), options_of(2000, Weighting::Area, metric), Execution(1));
+    const double total = std::accumulate(result.cell_areas.begin(), result.cell_areas.end(), 0.0);
+    EXPECT_NEAR(total / result.original.area, 1.0, 0.01);
+  }
+}
+
+TEST(Remesh, CurvatureWeightingPutsMoreNodesWhereCurvatureIsHigh) {
+  RemeshOptions options = options_of(1000, Weighting::Curvature);
+  options.node_curvatures = true;
+  RemeshOptions constant = options_of(1000, Weighting::Constant);
+  constant.node_curvatures = true;
+  const auto median = [](std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + 500, values.end());
+    return values[500];
+  };
+  const RemeshResult sharp = remesh(sand(), options, Execution(1));
+  const RemeshResult even = remesh(sand(), constant, Execution(1));
+  EXPECT_GT(median(sharp.curvatures), 1.1 * median(even.curvatures));
+}
+
+TEST(Remesh, CoefficientsDescribeTheFittedSurface) {
+  const RemeshResult result = remesh(sand(), options_of(300, Weighting::Area), Execution(1));
+  const HarmonicSurface series(result.coefficients);
+  for (std::size_t i = 0; i < result.directions.size(); ++i) {
+    EXPECT_NEAR(series.radius(result.directions[i]), result.radial_distances[i], 1e-12);
+  }
+}
+
+// The table of the design, section 6: errors of the remesh against the fitted surface in %, nodes
+// on that surface; and the evenness of its edges.
+struct DesignLimits {
+  int nodes;
+  double volume, area, aspect_ratio;
+  double variation_radial_distance, variation_area;
+};
+
+TEST(Remesh, ReferenceGrainsStayWithinTheDesignsTable) {
+  const std::vector<DesignLimits> table = {{100, 7.5, 6.6, 1.5, 0.14, 0.13},
+                                           {500, 1.45, 1.8, 0.3, 0.14, 0.13},
+                                           {1000, 0.75, 0.95, 0.15, 0.15, 0.13},
+                                           {2000, 0.38, 0.5, 0.1, 0.16, 0.13}};
+  for (const test::Grain& grain : test::reference_grains()) {
+    const IndexedMesh scan = test::ct_mesh_of_about(grain, 7000);
+    for (const DesignLimits& limits : table) {
+      SCOPED_TRACE(testing::Message() << grain.name << ", N = " << limits.nodes);
+      const RemeshResult printed =
+          remesh(scan, options_of(limits.nodes, Weighting::RadialDistance), Execution());
+      const HarmonicSurface series(printed.coefficients);
+      const SurfaceIntegrals exact = integrate(series, 80, Execution());
+      const SphereQuadrature fine = gauss_legendre_sphere(100);
+      IndexedMesh dense;
+      dense.points = fine.directions;
+      dense.triangles = SphereTriangulation(fine.directions).triangles();
+      const std::vector<double> radii = series.radii(dense.points, Execution());
+      for (std::size_t i = 0; i < radii.size(); ++i) dense.points[i] *= radii[i];
+      const double aspect_ratio = describe_shape(dense, Execution()).aspect_ratio;
+      EXPECT_LT(std::abs(relative_error_percent(printed.remesh.volume, exact.volume)),
+                limits.volume);
+      EXPECT_LT(std::abs(relative_error_percent(printed.remesh.area, exact.area)), limits.area);
+      EXPECT_LT(std::abs(relative_error_percent(printed.remesh.aspect_ratio, aspect_ratio)),
+                limits.aspect_ratio);
+      EXPECT_LT(printed.quality.edge_variation, limits.variation_radial_distance);
+      EXPECT_TRUE(printed.relaxation.converged);
+      const RemeshResult area =
+          remesh(scan, options_of(limits.nodes, Weighting::Area), Execution());
+      EXPECT_LT(area.quality.edge_variation, limits.variation_area);
+    }
+  }
+}
+
+TEST(Remesh, LowersTheDegreeToWhatThePointsCarryAndSaysSo) {
+  IndexedMesh coarse;
+  coarse.points = fibonacci_lattice(230);
+  coarse.triangles = SphereTriangulation(coarse.points).triangles();
+  for (Vector3& p : coarse.points) p = p.cwiseProduct(Vector3(1.2, 1.0, 0.8));
+  const RemeshResult result = remesh(coarse, options_of(100, Weighting::Area), Execution(1));
+  EXPECT_LT(result.fit.degree, 20);
+  EXPECT_EQ(result.fit.requested_degree, 20);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.front().find("degree was lowered from 20"), std::string::npos);
+}
+
+TEST(Remesh, ProgressRisesAndCancels) {
+  double last = 0.0;
+  bool rising = true;
+  const Execution watching(1, [&](double fraction, const std::string& stage) {
+    rising = rising && fraction >= last && fraction <= 1.0 && !stage.empty();
+    last = fraction;
+    return true;
+  });
+  remesh(sand(), options_of(2000, Weighting::Area), watching);
+  EXPECT_TRUE(rising);
+  EXPECT_EQ(last, 1.0);
+  int calls = 0;
+  const Execution cancelling(1, [&](double, const std::string&) { return ++calls < 6; });
+  try {
+    remesh(sand(), options_of(2000, Weighting::Area), cancelling);
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+  }
+}
+
+void expect_refused(const IndexedMesh& scan, const RemeshOptions& options, ErrorCode code,
+                    const std::string& part_of_the_sentence) {
+  try {
+    remesh(scan, options, Execution(1));
+    ADD_FAILURE() << "accepted; expected: " << part_of_the_sentence;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code);
+    EXPECT_NE(std::string(error.what()).find(part_of_the_sentence), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
+  const auto refused = [](const auto& change, const std::string& sentence) {
+    RemeshOptions options;
+    change(options);
+    expect_refused(sand(), options, ErrorCode::InvalidInput, sentence);
+  };
+  refused([](RemeshOptions& o) { o.node_count = 3; }, "from 4 to");
+  refused([](RemeshOptions& o) { o.node_count = maximum_node_count + 1; }, "from 4 to");
+  refused([](RemeshOptions& o) { o.degree = 0; }, "from 1 to 60");
+  refused([](RemeshOptions& o) { o.degree = 61; }, "from 1 to 60");
+  refused([](RemeshOptions& o) { o.fold_limit = 1.0; }, "less than 100 %");
+  refused([](RemeshOptions& o) { o.fold_limit = std::nan(""); }, "less than 100 %");
+  refused([](RemeshOptions& o) { o.curvature_alpha = 4.0; }, "from -3 to 3");
+  refused([](RemeshOptions& o) { o.weighting = static_cast<Weighting>(17); }, "weighting");
+  refused([](RemeshOptions& o) { o.seed_start = static_cast<SeedStart>(-1); }, "start");
+  refused([](RemeshOptions& o) { o.placement = static_cast<NodePlacement>(9); }, "placement");
+  refused([](RemeshOptions& o) { o.levels.coarsest_seeds = 1; }, "coarsest level");
+  refused([](RemeshOptions& o) { o.relaxation.maximum_iterations = -1; }, "iterations");
+}
+
+TEST(Remesh, RefusesAFoldAboveTheLimit) {
+  // A mushroom: seen from the centroid, the rim of the cap hides a part of itself.
+  IndexedMesh mesh;
+  mesh.points = fibonacci_lattice(4000);
+  mesh.triangles = SphereTriangulation(mesh.points).triangles();
+  for (Vector3& p : mesh.points) {
+    // Points of the lower half are drawn up into a bowl.
+    if (p.z() < 0.0) p.z() = 0.6 * -p.z();
+  }
+  expect_refused(mesh, RemeshOptions(), ErrorCode::NotStarShaped, "folds over itself");
+}
+
+TEST(Remesh, OpenMeshOverloadGivesTheSame) {
+  const RemeshResult flat = remesh(sand(), options_of(200, Weighting::Area), Execution(1));
+  const RemeshResult half_edges =
+      remesh(to_mesh(sand()), options_of(200, Weighting::Area), Execution(1));
+  EXPECT_EQ(to_indexed(flat.mesh).points, to_indexed(half_edges.mesh).points);
+}
+
+}  // namespace
+}  // namespace wscvt
