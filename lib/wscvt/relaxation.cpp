@@ -169,6 +169,29 @@ class Evaluation {
   int flips_ = 0;
 };
 
+/// Evaluates at `seeds`; when those have no triangulation, which happens to a handful of seeds on a
+/// long grain that a whole step would leave in one hemisphere, halfway back to where they were.
+/// False when nothing but their old place will do; the seeds then stand there.
+bool try_evaluation(Evaluation& evaluation, const std::vector<Vector3>& before,
+                    std::vector<Vector3>& seeds, RelaxationReport& report) {
+  constexpr int halvings = 6;
+  for (int attempt = 0;; ++attempt) {
+    try {
+      evaluation.at(seeds, report);
+      return true;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::NumericalFailure) throw;
+    }
+    if (attempt == halvings) break;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      seeds[i] = (seeds[i] + before[i]).normalized();
+    }
+  }
+  seeds = before;
+  evaluation.at(seeds, report);
+  return false;
+}
+
 RelaxationResult relax_from(std::vector<Vector3> seeds,
                             std::optional<SphereTriangulation> triangulation,
                             const SeedModel& model, const RelaxationOptions& options,
@@ -222,11 +245,16 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
     }
     execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        seeds[i] = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();
-        arrived[i] = stepped[i];
+        const Vector3 moved = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();
+        arrived[i] = seeds[i];
+        seeds[i] = moved;
       }
     });
-    evaluation.at(seeds, report);
+    if (!try_evaluation(evaluation, arrived, seeds, report)) {
+      report.settled = true;
+      break;
+    }
+    arrived.swap(stepped);
   }
   return {std::move(seeds), evaluation.take_triangulation(), evaluation.take_areas(),
           std::move(report)};

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
+#include "wscvt/curvature.h"
 #include "wscvt/error.h"
 #include "wscvt/mesh_surface.h"
 #include "wscvt/radial_samples.h"
@@ -84,6 +86,22 @@ std::vector<Vector3> start_seeds(const RemeshOptions& options, const SurfaceSeed
   std::vector<Vector3> seeds = warped_lattice(count, density, rows);
   if (count > 50 || can_be_triangulated(seeds)) return seeds;
   return fibonacci_lattice(count);
+}
+
+CurvatureSamples scan_curvatures(const IndexedMesh& scan, const RadialSamples& samples,
+                                 const Execution& execution) {
+  // The paper fits over one ring, which scans leave under-determined.
+  constexpr int rings = 2;
+  const std::vector<PrincipalCurvatures> of_vertices =
+      quadric_fit_curvatures(scan, rings, execution);
+  CurvatureSamples result;
+  result.directions = samples.directions;
+  result.weights = samples.weights;
+  result.curvatures.reserve(samples.vertices.size());
+  for (const std::int32_t vertex : samples.vertices) {
+    result.curvatures.push_back(of_vertices[vertex]);
+  }
+  return result;
 }
 
 /// Nodes on `surface` along the relaxed seeds, in the surface's own units and about the origin.
@@ -185,7 +203,7 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   });
 
   execution.report(0.15, "Looking for folds");
-  const RadialSamples samples = radial_samples(grain, execution);
+  const RadialSamples samples = radial_samples(grain, execution.part(0.15, 0.2));
   result.folded_share = samples.folded_share;
   if (result.folded_share > options.fold_limit) {
     throw Error(ErrorCode::NotStarShaped,
@@ -196,8 +214,8 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
                     "attached pieces from the scan, or raise the limit and check the result.");
   }
   execution.report(0.2, "Fitting harmonics");
-  const HarmonicFit fit =
-      fit_harmonics(samples.directions, samples.radii, samples.weights, options.degree, execution);
+  const HarmonicFit fit = fit_harmonics(samples.directions, samples.radii, samples.weights,
+                                        options.degree, execution.part(0.2, 0.3));
   result.fit = fit.report;
   result.fit.residual *= unit;
   result.fit.smallest_radius *= unit;
@@ -205,15 +223,21 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   for (double& coefficient : result.coefficients) coefficient *= unit;
 
   execution.report(0.3, "Measuring the scan");
-  result.original = describe_shape(grain, execution);
+  result.original = describe_shape(grain, execution.part(0.3, 0.35));
   result.original_quality = measure_quality(grain);
 
   execution.report(0.35, "Weighing the seeds");
+  std::optional<CurvatureSamples> curvatures;
+  if (options.weighting == Weighting::Curvature &&
+      options.curvature_source == CurvatureSource::QuadricFit) {
+    curvatures = scan_curvatures(grain, samples, execution);
+  }
   WeightingOptions weighting;
   weighting.weighting = options.weighting;
   weighting.node_count = options.node_count;
   weighting.curvature_alpha = options.curvature_alpha;
-  const SurfaceSeedModel model(fit.surface, weighting, nullptr, execution);
+  const SurfaceSeedModel model(fit.surface, weighting, curvatures ? &*curvatures : nullptr,
+                               execution);
   MultilevelOptions levels = options.levels;
   if (options.seed_start != SeedStart::Multilevel) levels.coarsest_seeds = options.node_count;
   const int coarsest = level_sizes(options.node_count, levels.coarsest_seeds).front();
@@ -236,7 +260,7 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   placed.triangles = relaxed.triangulation.triangles();
 
   execution.report(0.95, "Measuring the remesh");
-  result.remesh = describe_shape(placed, execution);
+  result.remesh = describe_shape(placed, execution.part(0.95, 1.0));
   result.quality = measure_quality(placed);
   scale(result.original, unit, result.centre);
   scale(result.remesh, unit, result.centre);
