@@ -110,7 +110,8 @@ void add_layer(MeshDocument& document, MeshModel& source, const wscvt::RemeshRes
 
 FilterWscvt::FilterWscvt() {
   typeList << remeshing_filter;
-  for (const FilterIDType filter : types()) actionList << new QAction(filterName(filter), this);
+  for (const FilterIDType filter : types())
+    actionList << new QAction(FilterWscvt::filterName(filter), this);
 }
 
 QString FilterWscvt::pluginName() const { return QStringLiteral("FilterWSCVT"); }
