@@ -39,7 +39,7 @@ std::string seconds_line(double seconds) {
 std::string seed_line(const RemeshOptions& options) {
   return options.seed_start == SeedStart::Random
              ? "Seed        " + std::to_string(options.random_seed)
-             : "Seed        not used by the warped lattice";
+             : "Seed        not used: nothing was random";
 }
 
 }  // namespace

@@ -97,10 +97,13 @@ std::vector<FilterParameter> filter_parameters() {
              "Vertices of the result, 4 to 1000000. The result has exactly this many, and twice as "
              "many faces less four. The chords lose about 660/N % of the volume."),
       choice("Weighting", static_cast<int>(defaults.weighting),
-             {"Constant", "WSCVT-D (radial distance)", "WSCVT-C (curvature)", "Area"}, "Weighting",
+             {"Constant", "WSCVT-D (radial distance)", "WSCVT-C (curvature)", "Area",
+              "Error-adaptive"},
+             "Weighting",
              "What decides how large the cell of a node is. Constant: equal solid angles. WSCVT-D: "
              "smaller solid angles far from the centroid, so even triangles. WSCVT-C: more nodes "
-             "where the surface bends. Area: equal surface areas."),
+             "where the surface bends. Area: equal surface areas. Error-adaptive: nodes where flat "
+             "triangles err most."),
       number("HarmonicDegree", ParameterKind::Integer, defaults.degree, 1, 60, "Harmonic degree",
              "Degree of the spherical-harmonic series fitted to the surface, 1 to 60. 20 suits "
              "most grains, 30 rough ones; lower smooths. Lowered, with a line in the log, when the "
@@ -118,18 +121,23 @@ std::vector<FilterParameter> filter_parameters() {
              "Largest share of directions, in % of the whole sphere, 0 to 99, in which the surface "
              "may be met more than once from the centroid. Such folds are bridged by their "
              "outermost sheet; above the limit the filter refuses."),
-      choice("SeedStart", static_cast<int>(defaults.seed_start), {"Warped lattice", "Random"},
-             "Start from",
-             "Warped lattice: a Fibonacci lattice adapted to the weighting; fast, nothing random. "
-             "Random: directions drawn with the random seed; needs many more iterations."),
+      choice("Metric", static_cast<int>(defaults.relaxation.metric), {"Sphere", "Surface"},
+             "Even on the",
+             "Sphere: cells are centroidal on the unit sphere, the published method. Surface: on "
+             "the grain's surface itself, which gives the most even triangles; slower."),
+      choice("SeedStart", static_cast<int>(defaults.seed_start),
+             {"Multilevel", "Warped lattice", "Random"}, "Start from",
+             "Multilevel: a few hundred nodes are relaxed, subdivided and relaxed again; fastest "
+             "and most even. Warped lattice: all nodes in a Fibonacci lattice adapted to the "
+             "weighting. Random: directions drawn with the random seed; needs many iterations."),
       number("RandomSeed", ParameterKind::Integer, static_cast<double>(defaults.random_seed), 0,
              std::numeric_limits<int>::max(), "Random seed",
-             "Start of the random directions, 0 to 2147483647; has no effect with a warped "
-             "lattice. The same seed gives the same mesh."),
+             "Start of the random directions, 0 to 2147483647; has no effect unless the "
+             "start is random. The same seed gives the same mesh."),
       number("MaxIterations", ParameterKind::Integer, defaults.relaxation.maximum_iterations, 0,
              100000, "Largest number of iterations",
              "Relaxation stops here if it has not converged before, 0 to 100000; the log says "
-             "which. About 30 are enough from a warped lattice."),
+             "which."),
       flag("NewLayer", true, "Result as a new layer",
            "Checked: the scan is kept and the result becomes a new, current layer. Unchecked: the "
            "result replaces the scan, which cannot be undone."),
@@ -160,11 +168,13 @@ FilterSettings read_settings(const ParameterValues& values) {
   options.curvature_alpha = checked.at("CurvatureAlpha");
   options.placement = static_cast<NodePlacement>(whole("Placement"));
   options.fold_limit = checked.at("FoldLimit") / 100.0;
+  options.relaxation.metric = static_cast<RelaxationMetric>(whole("Metric"));
   options.seed_start = static_cast<SeedStart>(whole("SeedStart"));
   options.random_seed = static_cast<std::uint64_t>(whole("RandomSeed"));
   options.relaxation.maximum_iterations = whole("MaxIterations");
   settings.new_layer = whole("NewLayer") != 0;
   settings.quality = static_cast<VertexQuality>(whole("Quality"));
+  options.node_curvatures = settings.quality == VertexQuality::Curvature;
   settings.colour_by_quality = whole("ColorByQuality") != 0;
   return settings;
 }
@@ -187,6 +197,8 @@ std::string weighting_name(Weighting weighting) {
       return "WSCVT-C";
     case Weighting::Area:
       return "Area";
+    case Weighting::ErrorAdaptive:
+      return "Error-adaptive";
   }
   return "unknown weighting";
 }

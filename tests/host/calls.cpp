@@ -26,10 +26,11 @@ std::vector<Call> refused_calls() {
       {"TooManyNodes", grain(), {{"NodeCount", "1000001"}}, {"NodeCount", "1000000"}},
       {"DegreeZero", grain(), {{"HarmonicDegree", "0"}}, {"HarmonicDegree", "60"}},
       {"DegreeTooHigh", grain(), {{"HarmonicDegree", "61"}}, {"HarmonicDegree", "60"}},
-      {"WeightingAboveRange", grain(), {{"Weighting", "4"}}, {"Weighting", "WSCVT-C"}},
+      {"WeightingAboveRange", grain(), {{"Weighting", "5"}}, {"Weighting", "WSCVT-C"}},
       {"WeightingBelowRange", grain(), {{"Weighting", "-1"}}, {"Weighting", "WSCVT-C"}},
       {"PlacementOutOfRange", grain(), {{"Placement", "2"}}, {"Placement"}},
-      {"SeedStartOutOfRange", grain(), {{"SeedStart", "2"}}, {"SeedStart"}},
+      {"MetricOutOfRange", grain(), {{"Metric", "2"}}, {"Metric", "Surface"}},
+      {"SeedStartOutOfRange", grain(), {{"SeedStart", "3"}}, {"SeedStart"}},
       {"QualityOutOfRange", grain(), {{"Quality", "3"}}, {"Quality"}},
       {"AlphaOutOfRange", grain(), {{"CurvatureAlpha", "3.1"}}, {"CurvatureAlpha", "3.1"}},
       {"AlphaNotANumber", grain(), {{"CurvatureAlpha", "nan"}}, {"CurvatureAlpha"}},
@@ -50,7 +51,7 @@ std::vector<Call> extreme_calls() {
        {}},
       {"AMicrometreAcross", scaled(grain(), 0.5e-6), {{"NodeCount", "300"}}, {}},
       {"FourNodes", grain(), {{"NodeCount", "4"}}, {}},
-      {"RandomSeeds", grain(), {{"NodeCount", "200"}, {"SeedStart", "1"}, {"RandomSeed", "7"}}, {}},
+      {"RandomSeeds", grain(), {{"NodeCount", "200"}, {"SeedStart", "2"}, {"RandomSeed", "7"}}, {}},
       {"OnTheOriginalMesh", grain(), {{"NodeCount", "500"}, {"Placement", "1"}}, {}},
   };
 }

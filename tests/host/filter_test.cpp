@@ -162,11 +162,19 @@ TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
     EXPECT_FALSE(parameter.fieldDescription().isEmpty()) << parameter.name().toStdString();
     EXPECT_GT(parameter.toolTip().size(), 40) << parameter.name().toStdString();
   }
-  const QStringList frozen{
-      "NodeCount RichInt 1000",     "Weighting RichEnum 1", "HarmonicDegree RichInt 20",
-      "CurvatureAlpha RichFloat 1", "Placement RichEnum 0", "FoldLimit RichFloat 5",
-      "SeedStart RichEnum 0",       "RandomSeed RichInt 1", "MaxIterations RichInt 1000",
-      "NewLayer RichBool true",     "Quality RichEnum 0",   "ColorByQuality RichBool false"};
+  const QStringList frozen{"NodeCount RichInt 1000",
+                           "Weighting RichEnum 1",
+                           "HarmonicDegree RichInt 20",
+                           "CurvatureAlpha RichFloat 1",
+                           "Placement RichEnum 0",
+                           "FoldLimit RichFloat 5",
+                           "Metric RichEnum 0",
+                           "SeedStart RichEnum 0",
+                           "RandomSeed RichInt 1",
+                           "MaxIterations RichInt 1000",
+                           "NewLayer RichBool true",
+                           "Quality RichEnum 0",
+                           "ColorByQuality RichBool false"};
   EXPECT_EQ(actual.join("\n").toStdString(), frozen.join("\n").toStdString());
 }
 
@@ -177,10 +185,11 @@ TEST(Filter, ChoicesAreFrozen) {
   const auto choices = [&](const char* name) {
     return dynamic_cast<const RichEnum&>(list.getParameterByName(name)).enumvalues;
   };
-  EXPECT_EQ(choices("Weighting"),
-            QStringList({"Constant", "WSCVT-D (radial distance)", "WSCVT-C (curvature)", "Area"}));
+  EXPECT_EQ(choices("Weighting"), QStringList({"Constant", "WSCVT-D (radial distance)",
+                                               "WSCVT-C (curvature)", "Area", "Error-adaptive"}));
+  EXPECT_EQ(choices("Metric"), QStringList({"Sphere", "Surface"}));
   EXPECT_EQ(choices("Placement"), QStringList({"Fitted surface", "Original mesh"}));
-  EXPECT_EQ(choices("SeedStart"), QStringList({"Warped lattice", "Random"}));
+  EXPECT_EQ(choices("SeedStart"), QStringList({"Multilevel", "Warped lattice", "Random"}));
   EXPECT_EQ(choices("Quality"), QStringList({"Radial distance", "Curvature", "Cell area"}));
 }
 
@@ -289,6 +298,7 @@ TEST(Filter, GivesWhatTheLibraryGives) {
   RemeshOptions options;
   options.node_count = 200;
   options.weighting = Weighting::Area;
+  options.node_curvatures = true;
   const RemeshResult expected = remesh(as_loaded, options);
   const IndexedMesh mesh = to_indexed(expected.mesh);
   for (int quality = 0; quality < 3; ++quality) {
@@ -368,7 +378,7 @@ TEST(Filter, LogBeginsEmptyAndHoldsTheTableSecondsAndSeed) {
   add_layer(document, grain());
   RichParameterList parameters = loaded.parameters(document);
   parameters.setValue("NodeCount", IntValue(300));
-  parameters.setValue("SeedStart", EnumValue(1));
+  parameters.setValue("SeedStart", EnumValue(2));
   parameters.setValue("RandomSeed", IntValue(42));
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.filter().errorMsg().toStdString();
   const QStringList lines = loaded.log();
@@ -537,6 +547,7 @@ TEST(FilterParameters, DefaultsAreTheLibrarysAndLieInTheirRanges) {
   EXPECT_EQ(settings.options.curvature_alpha, defaults.curvature_alpha);
   EXPECT_EQ(settings.options.placement, defaults.placement);
   EXPECT_EQ(settings.options.fold_limit, defaults.fold_limit);
+  EXPECT_EQ(settings.options.relaxation.metric, defaults.relaxation.metric);
   EXPECT_EQ(settings.options.seed_start, defaults.seed_start);
   EXPECT_EQ(settings.options.random_seed, defaults.random_seed);
   EXPECT_EQ(settings.options.relaxation.maximum_iterations, defaults.relaxation.maximum_iterations);
