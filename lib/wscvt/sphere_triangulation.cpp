@@ -264,6 +264,41 @@ void SphereTriangulation::flip(std::int32_t half_edge) {
   first_half_edge_[b] = ba + 1;
 }
 
+void SphereTriangulation::replace(const std::vector<std::int32_t>& triangles,
+                                  const std::vector<Triangle>& corners) {
+  struct DirectedEdge {
+    std::int32_t from;
+    std::int32_t to;
+    std::int32_t half_edge;
+  };
+  std::vector<DirectedEdge> outside;
+  for (const std::int32_t t : triangles) {
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::int32_t beyond = opposite_[h];
+      if (std::find(triangles.begin(), triangles.end(), beyond / 3) == triangles.end()) {
+        outside.push_back({origin(beyond), origin(h), beyond});
+      }
+    }
+  }
+  std::vector<DirectedEdge> edges = outside;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    triangles_[triangles[i]] = corners[i];
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t h = 3 * triangles[i] + k;
+      edges.push_back({corners[i][k], corners[i][(k + 1) % 3], h});
+      first_half_edge_[corners[i][k]] = h;
+    }
+  }
+  for (std::size_t i = outside.size(); i < edges.size(); ++i) {
+    for (const DirectedEdge& other : edges) {
+      if (other.from == edges[i].to && other.to == edges[i].from) {
+        opposite_[edges[i].half_edge] = other.half_edge;
+        opposite_[other.half_edge] = edges[i].half_edge;
+      }
+    }
+  }
+}
+
 template <class NeedsFlip>
 SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Vector3>& seeds,
                                                             const NeedsFlip& needs_flip,

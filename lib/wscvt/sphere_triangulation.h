@@ -74,6 +74,11 @@ class SphereTriangulation {
   /// Replaces the edge by the other diagonal of its two triangles.
   void flip(std::int32_t half_edge);
 
+  /// Replaces triangles by as many others that have, all together, the same outer edges: what a
+  /// flip does for two triangles, for patches of any size. A vertex may leave one patch and turn up
+  /// in another. The caller answers for the corners being such; they stand in the slots given.
+  void replace(const std::vector<std::int32_t>& triangles, const std::vector<Triangle>& corners);
+
  private:
   template <class NeedsFlip>
   Repair flip_while(const std::vector<Vector3>& seeds, const NeedsFlip& needs_flip,

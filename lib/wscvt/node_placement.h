@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/execution.h"
+#include "wscvt/mesh.h"
+#include "wscvt/radial_surface.h"
+
+namespace wscvt {
+
+/// Radii for which the flat triangles over `directions` are, all together, nearest to `surface`.
+///
+/// On a flat triangle 1/r is linear in the barycentric coordinates of the direction, so the radii
+/// come from one sparse symmetric solve. Its squares, of the difference in 1/r, are weighted with
+/// dOmega g r^4 cos^2(tilt), which makes them squares of the distance square to the surface,
+/// integrated over the surface. `samples` points in all are taken, at least 9 a triangle.
+///
+/// Every radius stays within a factor 4 of the surface's own in that direction. Throws
+/// Error(InvalidInput) if a direction belongs to no triangle, Error(NumericalFailure) when the
+/// system cannot be solved.
+std::vector<double> least_squares_radii(const std::vector<Vector3>& directions,
+                                        const std::vector<Triangle>& triangles,
+                                        const RadialSurface& surface, std::size_t samples,
+                                        const Execution& execution);
+
+/// Scales the points uniformly about the origin so that the closed outward mesh encloses `volume`
+/// (> 0, length^3) to rounding.
+void scale_to_volume(const std::vector<Triangle>& triangles, double volume,
+                     std::vector<Vector3>& points, const Execution& execution);
+
+}  // namespace wscvt
