@@ -54,10 +54,31 @@ int run(int argc, char** argv) {
       ->default_str("sphere");
   const std::map<std::string, wscvt::NodePlacement> placements = {
       {"fitted", wscvt::NodePlacement::FittedSurface},
-      {"original", wscvt::NodePlacement::OriginalMesh}};
-  app.add_option("-p,--placement", options.placement, "Nodes on the fitted series or on the scan")
+      {"original", wscvt::NodePlacement::OriginalMesh},
+      {"least-squares", wscvt::NodePlacement::LeastSquares}};
+  app.add_option("-p,--placement", options.placement,
+                 "Nodes on the fitted series, on the scan, or where the triangles fit the scan")
       ->transform(CLI::CheckedTransformer(placements))
       ->default_str("fitted");
+  app.add_option("-r,--refine", options.refinement.rounds,
+                 "Rounds of refinement towards the scan, 0 for none; needs least-squares")
+      ->capture_default_str();
+  const std::map<std::string, wscvt::ErrorMeasure> measures = {
+      {"volume", wscvt::ErrorMeasure::Volume},
+      {"area", wscvt::ErrorMeasure::Area},
+      {"sphericity", wscvt::ErrorMeasure::Sphericity},
+      {"inertia", wscvt::ErrorMeasure::Inertia},
+      {"distance", wscvt::ErrorMeasure::Distance}};
+  app.add_option("--target", options.error_target.percent,
+                 "Find the smallest number of nodes with an error of at most this many %")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--target-measure", options.error_target.measure, "Which error the target limits")
+      ->transform(CLI::CheckedTransformer(measures))
+      ->default_str("distance");
+  app.add_option("--largest", options.error_target.largest_node_count,
+                 "Largest number of nodes the target may take")
+      ->capture_default_str();
+  app.add_flag("--distances", options.distances, "Measure the distances to the scan");
   app.add_option("-d,--degree", options.degree, "Degree of the harmonic series, 1 to 60")
       ->capture_default_str();
   app.add_option("-a,--alpha", options.curvature_alpha, "Curvature exponent, -3 to 3")

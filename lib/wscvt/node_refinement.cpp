@@ -208,9 +208,8 @@ class Refinement {
   bool evaluate_flip(std::int32_t half_edge, double& gain, SampleList* first,
                      SampleList* second) const;
   Collapse cheapest_collapse(std::int32_t node, Workspace& work) const;
-  double collapse(std::int32_t node, std::size_t towards, const Workspace& work,
-                  double cosine_limit, double bound, std::vector<Triangle>* triangles,
-                  std::vector<SampleList>* lists) const;
+  double collapse(std::size_t towards, const Workspace& work, double cosine_limit, double bound,
+                  std::vector<Triangle>* triangles, std::vector<SampleList>* lists) const;
   bool split(std::int32_t half_edge, Workspace& work) const;
   void relocate(const Collapse& from, const Split& to, Workspace& work);
 
@@ -533,8 +532,8 @@ int Refinement::flip_edges() {
 /// Error of the triangles that take the place of a node's fan when all are joined to its neighbour
 /// `towards` (an index into the ring, which stands in work.fan); infinite when that breaks a
 /// promise or exceeds `bound`.
-double Refinement::collapse(std::int32_t /*node*/, std::size_t towards, const Workspace& work,
-                            double cosine_limit, double bound, std::vector<Triangle>* triangles,
+double Refinement::collapse(std::size_t towards, const Workspace& work, double cosine_limit,
+                            double bound, std::vector<Triangle>* triangles,
                             std::vector<SampleList>* lists) const {
   const std::vector<std::int32_t>& ring = work.fan.ring;
   const std::size_t count = ring.size();
@@ -575,7 +574,7 @@ Refinement::Collapse Refinement::cheapest_collapse(std::int32_t node, Workspace&
   std::int32_t h = triangulation_.first_half_edge()[node];
   for (std::size_t towards = 0; towards < work.fan.ring.size(); ++towards) {
     const double error =
-        collapse(node, towards, work, cosine_limit, best.cost + old_error, nullptr, nullptr);
+        collapse(towards, work, cosine_limit, best.cost + old_error, nullptr, nullptr);
     if (error - old_error < best.cost) {
       best.cost = error - old_error;
       best.half_edge = h;
@@ -620,7 +619,7 @@ void Refinement::relocate(const Collapse& from, const Split& to, Workspace& work
   const std::int32_t neighbour = triangulation_.origin(SphereTriangulation::next(from.half_edge));
   const auto towards = static_cast<std::size_t>(
       std::find(work.fan.ring.begin(), work.fan.ring.end(), neighbour) - work.fan.ring.begin());
-  collapse(node, towards, work, 1.0, infinity, &corners, &lists);
+  collapse(towards, work, 1.0, infinity, &corners, &lists);
   split(to.half_edge, work);
   positions_[node] = work.fan.position;
   node_errors_[node] = work.fan.node_error;
@@ -692,9 +691,28 @@ int Refinement::relocate_nodes() {
 
 }  // namespace
 
+void check_refinement_options(const RefinementOptions& options) {
+  if (options.rounds < 0 || options.rounds > 1000) {
+    throw Error(ErrorCode::InvalidInput, "The number of refinement rounds is " +
+                                             std::to_string(options.rounds) +
+                                             "; give 0 (none) to 1000.");
+  }
+  if (!(options.smallest_angle >= 0.0 && options.smallest_angle <= 40.0)) {
+    throw Error(ErrorCode::InvalidInput, "The smallest angle the refinement may make is " +
+                                             std::to_string(options.smallest_angle) +
+                                             " degrees; give 0 to 40.");
+  }
+  if (!(options.tolerance >= 0.0 && options.tolerance < 1.0)) {
+    throw Error(ErrorCode::InvalidInput, "The tolerance of the refinement is " +
+                                             std::to_string(options.tolerance) +
+                                             "; give a share of at least 0 and less than 1.");
+  }
+}
+
 RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation triangulation,
                           const MeshSurface& original, const RefinementOptions& options,
                           const Execution& execution) {
+  check_refinement_options(options);
   RefinementReport report;
   if (options.rounds == 0) return {std::move(positions), std::move(triangulation), report};
   Refinement refinement(std::move(positions), std::move(triangulation), original, options,
@@ -706,6 +724,7 @@ RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation tr
     RefinementStep step;
     step.moves = refinement.move_nodes();
     step.flips = refinement.flip_edges();
+    // The first rounds lower the distance by so much that relocations would be misjudged.
     if (round >= 2) step.relocations = refinement.relocate_nodes();
     const double share = std::sqrt(refinement.error() / before);
     report.converged = !(share < 1.0 - options.tolerance);

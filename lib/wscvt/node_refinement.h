@@ -12,8 +12,8 @@ namespace wscvt {
 
 struct RefinementOptions {
   int rounds = 0;                ///< at most so many, in [0, 1000]; 0: nothing is done
-  double smallest_angle = 18.0;  ///< kept from below in every triangle, degrees, in [0, 40]
-  double tolerance = 2e-3;       ///< stop when a round lowers the distance by less than this share
+  double smallest_angle = 15.5;  ///< no triangle is given a smaller one; degrees, in [0, 40]
+  double tolerance = 2e-3;       ///< stop when a round gains less than this share; in [0, 1)
 };
 
 /// One line of the refinement's history.
@@ -36,6 +36,25 @@ struct RefinedNodes {
   RefinementReport report;
 };
 
+/// Throws Error(InvalidInput) for options out of range.
+void check_refinement_options(const RefinementOptions& options);
+
+/// Brings a mesh nearer to the original at the same number of nodes.
+///
+/// What is lowered is the sum of squared distances from points spread evenly over the original to
+/// the plane of the triangle in their direction, after Hoppe et al. 1993, "Mesh optimization", with
+/// distances far above the rms counted more, and the nodes' own distances added. A round
+///  - moves every node, in all three dimensions, by a Gauss-Newton step in the triangles about it,
+///    so that nodes slide on to ridges by themselves;
+///  - flips edges, the most rewarding first;
+///  - takes nodes from where they help least (their triangles joined to a neighbour) to where they
+///    help most (an edge split), as long as that pays.
+/// Nothing is done that does not lower the sum, turns a triangle over on the sphere of directions,
+/// or makes the smallest angle of the triangles concerned smaller than the limit, or than before
+/// where it is below the limit already. So the mesh stays closed and star-shaped about the origin.
+///
+/// `positions` are about the origin, on a triangulation of their directions. Same bytes on any
+/// number of threads. Throws Error(InvalidInput) for options out of range, Error(Cancelled).
 RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation triangulation,
                           const MeshSurface& original, const RefinementOptions& options,
                           const Execution& execution);

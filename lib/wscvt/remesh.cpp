@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "wscvt/curvature.h"
 #include "wscvt/error.h"
 #include "wscvt/mesh_surface.h"
+#include "wscvt/node_placement.h"
 #include "wscvt/radial_samples.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -52,11 +54,27 @@ void check(const RemeshOptions& options) {
           std::to_string(options.curvature_alpha), "a number from -3 to 3");
   require_enumerator(options.weighting, Weighting::ErrorAdaptive, "The weighting");
   require_enumerator(options.curvature_source, CurvatureSource::QuadricFit, "The curvature source");
-  require_enumerator(options.placement, NodePlacement::OriginalMesh, "The placement of the nodes");
+  require_enumerator(options.placement, NodePlacement::LeastSquares, "The placement of the nodes");
   require_enumerator(options.seed_start, SeedStart::Random, "The start of the seeds");
   require(options.levels.coarsest_seeds >= 4, "The size of the coarsest level",
           std::to_string(options.levels.coarsest_seeds), "4 or more");
   check_relaxation_options(options.relaxation);
+  require_enumerator(options.error_target.measure, ErrorMeasure::Distance,
+                     "The measure of the error target");
+  require(options.error_target.percent >= 0.0 && std::isfinite(options.error_target.percent),
+          "The error target", std::to_string(options.error_target.percent),
+          "a positive number of per cent, or 0 for none");
+  require(options.error_target.largest_node_count >= 4 &&
+              options.error_target.largest_node_count <= maximum_node_count,
+          "The largest number of nodes to try",
+          std::to_string(options.error_target.largest_node_count),
+          "a whole number from 4 to " + std::to_string(maximum_node_count));
+  check_refinement_options(options.refinement);
+  if (options.refinement.rounds > 0 && options.placement != NodePlacement::LeastSquares) {
+    throw Error(ErrorCode::InvalidInput,
+                "Refinement takes the nodes off the surface they were to be placed on; place them "
+                "by least squares, or set the rounds of the refinement to 0.");
+  }
   require_enumerator(options.relaxation.metric, RelaxationMetric::Surface,
                      "The metric of the relaxation");
 }
@@ -104,30 +122,154 @@ CurvatureSamples scan_curvatures(const IndexedMesh& scan, const RadialSamples& s
   return result;
 }
 
-/// Nodes on `surface` along the relaxed seeds, in the surface's own units and about the origin.
-struct Nodes {
+/// A scan made ready: all that does not depend on the number of nodes. The grain has equivalent
+/// radius 1 about the origin, wherever and however large it was, so that tolerances and table
+/// floors mean the same for every scan.
+struct PreparedGrain {
+  RemeshResult report;  ///< what is known before there is a mesh; original and fit in grain units
+  double unit = 1.0;    ///< length of the input per length here
+  IndexedMesh mesh;
+  HarmonicSurface series;
+  std::optional<CurvatureSamples>
+      curvatures;  ///< of the scan itself, when the weighting reads them
+};
+
+PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
+  RemeshResult result;
+  CheckedMesh checked = check_mesh(std::move(scan), options.check, execution.part(0.0, 0.5));
+  result.input = checked.report;
+  result.centre = checked.report.centroid;
+  const double unit = checked.report.equivalent_radius;
+  IndexedMesh& grain = checked.mesh;
+  execution.parallel_for(grain.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      grain.points[i] = (grain.points[i] - result.centre) / unit;
+    }
+  });
+
+  execution.report(0.5, "Looking for folds");
+  const RadialSamples samples = radial_samples(grain, execution.part(0.5, 0.6));
+  result.folded_share = samples.folded_share;
+  if (result.folded_share > options.fold_limit) {
+    throw Error(ErrorCode::NotStarShaped,
+                "Seen from its centre the grain folds over itself on " +
+                    percent(result.folded_share) + " of the solid angle, above the limit of " +
+                    percent(options.fold_limit) +
+                    ". A radius in each direction cannot describe it: remove inner surfaces and "
+                    "attached pieces from the scan, or raise the limit and check the result.");
+  }
+  execution.report(0.6, "Fitting harmonics");
+  HarmonicFit fit = fit_harmonics(samples.directions, samples.radii, samples.weights,
+                                  options.degree, execution.part(0.6, 0.9));
+  result.fit = fit.report;
+  result.fit.residual *= unit;
+  result.fit.smallest_radius *= unit;
+  result.coefficients = fit.surface.coefficients();
+  for (double& coefficient : result.coefficients) coefficient *= unit;
+
+  execution.report(0.9, "Measuring the scan");
+  result.original = describe_shape(grain, execution.part(0.9, 1.0));
+  result.original_quality = measure_quality(grain);
+  std::optional<CurvatureSamples> curvatures;
+  if (options.weighting == Weighting::Curvature &&
+      options.curvature_source == CurvatureSource::QuadricFit) {
+    curvatures = scan_curvatures(grain, samples, execution);
+  }
+  return {std::move(result), unit, std::move(grain), std::move(fit.surface), std::move(curvatures)};
+}
+
+RelaxationResult relax_seeds(const PreparedGrain& grain, const RemeshOptions& options,
+                             const Execution& execution) {
+  execution.report(0.0, "Weighing the seeds");
+  WeightingOptions weighting;
+  weighting.weighting = options.weighting;
+  weighting.node_count = options.node_count;
+  weighting.curvature_alpha = options.curvature_alpha;
+  const SurfaceSeedModel model(grain.series, weighting,
+                               grain.curvatures ? &*grain.curvatures : nullptr, execution);
+  MultilevelOptions levels = options.levels;
+  if (options.seed_start != SeedStart::Multilevel) levels.coarsest_seeds = options.node_count;
+  const int coarsest = level_sizes(options.node_count, levels.coarsest_seeds).front();
+  return relax_multilevel(start_seeds(options, model, coarsest, execution), options.node_count,
+                          model, options.relaxation, levels, execution.part(0.1, 1.0));
+}
+
+/// The remesh in the grain's units and about the origin.
+struct PlacedNodes {
+  std::vector<Vector3> directions;
   std::vector<double> radii;
   std::vector<double> cell_areas;
   std::vector<double> curvatures;
+  IndexedMesh mesh;
+  RefinementReport refinement;
+
+  void put_on_radii() {
+    mesh.points.resize(directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) mesh.points[i] = radii[i] * directions[i];
+  }
 };
 
-Nodes place_nodes(const RadialSurface& surface, const RelaxationResult& relaxed,
-                  const RemeshOptions& options, const Execution& execution) {
-  const std::vector<Vector3>& seeds = relaxed.seeds;
-  const std::vector<RadialJet> jets = surface.jets(
-      seeds, options.node_curvatures ? Derivatives::Second : Derivatives::First, execution);
-  Nodes nodes;
-  nodes.radii.resize(seeds.size());
-  nodes.cell_areas = relaxed.cell_areas;
-  if (options.node_curvatures) nodes.curvatures.resize(seeds.size());
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
+void share_areas(const IndexedMesh& mesh, std::vector<double>& areas) {
+  areas.assign(mesh.points.size(), 0.0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3& a = mesh.points[t[0]];
+    const double area = 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
+    for (const std::int32_t v : t) areas[v] += area / 3.0;
+  }
+}
+
+PlacedNodes place_nodes(const PreparedGrain& grain, RelaxationResult& relaxed,
+                        const RemeshOptions& options, const Execution& execution) {
+  // Points at which the least-squares radii read the scan.
+  constexpr std::size_t fit_samples = 60000;
+  execution.report(0.0, "Placing the nodes");
+  PlacedNodes nodes;
+  nodes.directions = std::move(relaxed.seeds);
+  nodes.cell_areas = std::move(relaxed.cell_areas);
+  SphereTriangulation& triangulation = relaxed.triangulation;
+  const std::vector<RadialJet> jets =
+      grain.series.jets(nodes.directions, Derivatives::First, execution);
+  nodes.radii.resize(jets.size());
+  for (std::size_t i = 0; i < jets.size(); ++i) {
     nodes.radii[i] = jets[i].radius;
     if (options.relaxation.metric == RelaxationMetric::Sphere) {
       nodes.cell_areas[i] *= area_element(jets[i]);
     }
-    if (options.node_curvatures) {
-      const PrincipalCurvatures k = principal_curvatures(jets[i], seeds[i]);
-      nodes.curvatures[i] = std::max(std::abs(k.maximum), std::abs(k.minimum));
+  }
+  std::optional<MeshSurface> scan;
+  if (options.placement != NodePlacement::FittedSurface) {
+    scan.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
+  }
+  if (options.placement == NodePlacement::OriginalMesh) {
+    nodes.radii = scan->radii(nodes.directions, execution);
+  }
+  nodes.put_on_radii();
+  triangulation.restore_surface_delaunay(nodes.directions, nodes.mesh.points, execution);
+  nodes.mesh.triangles = triangulation.triangles();
+  if (options.placement == NodePlacement::LeastSquares) {
+    nodes.radii =
+        least_squares_radii(nodes.directions, nodes.mesh.triangles, *scan, fit_samples, execution);
+    nodes.put_on_radii();
+    if (options.refinement.rounds > 0) {
+      RefinedNodes refined = refine_nodes(std::move(nodes.mesh.points), std::move(triangulation),
+                                          *scan, options.refinement, execution.part(0.1, 1.0));
+      nodes.mesh = {std::move(refined.positions), refined.triangulation.triangles()};
+      nodes.refinement = std::move(refined.report);
+    }
+    scale_to_volume(nodes.mesh.triangles, grain.report.original.volume, nodes.mesh.points,
+                    execution);
+    for (std::size_t i = 0; i < nodes.radii.size(); ++i) {
+      nodes.radii[i] = nodes.mesh.points[i].norm();
+      nodes.directions[i] = nodes.mesh.points[i] / nodes.radii[i];
+    }
+    if (options.refinement.rounds > 0) share_areas(nodes.mesh, nodes.cell_areas);
+  }
+  if (options.node_curvatures) {
+    const std::vector<RadialJet> curved =
+        grain.series.jets(nodes.directions, Derivatives::Second, execution);
+    for (std::size_t i = 0; i < curved.size(); ++i) {
+      const PrincipalCurvatures k = principal_curvatures(curved[i], nodes.directions[i]);
+      nodes.curvatures.push_back(std::max(std::abs(k.maximum), std::abs(k.minimum)));
     }
   }
   return nodes;
@@ -138,6 +280,7 @@ void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre) {
   descriptors.area *= unit * unit;
   descriptors.centroid = centre + unit * descriptors.centroid;
   descriptors.inertia_semi_axes *= unit;
+  descriptors.inertia_tensor *= std::pow(unit, 5);
 }
 
 void scale(MeshQuality& quality, double unit) {
@@ -145,6 +288,24 @@ void scale(MeshQuality& quality, double unit) {
   quality.edge_length.standard_deviation *= unit;
   quality.edge_length.minimum *= unit;
   quality.edge_length.maximum *= unit;
+}
+
+void scale(OneSidedDistance& distance, double unit) {
+  distance.maximum *= unit;
+  distance.root_mean_square *= unit;
+  distance.mean *= unit;
+}
+
+void scale(MeshDistances& distances, double unit) {
+  scale(distances.to_reference, unit);
+  scale(distances.from_reference, unit);
+  distances.hausdorff *= unit;
+  distances.root_mean_square *= unit;
+}
+
+void scale(RefinementReport& refinement, double unit) {
+  refinement.start_distance *= unit;
+  for (RefinementStep& step : refinement.history) step.distance *= unit;
 }
 
 void add_warnings(RemeshResult& result) {
@@ -180,102 +341,123 @@ void add_warnings(RemeshResult& result) {
          std::to_string(result.relaxation.weight_scale) +
          ", because seeds would have lost their cells; lower the curvature exponent alpha.");
   }
+  if (result.search && !result.search->met) {
+    warn("No number of nodes up to " + std::to_string(result.search->node_count) +
+         " meets the error target of " + percent(0.01 * result.options.error_target.percent) +
+         "; this is the result with that many. Raise the largest number of nodes to try, or the "
+         "target.");
+  }
 }
 
-}  // namespace
-
-RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
-  check(options);
-  RemeshResult result;
+RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& options,
+                             const Execution& execution) {
+  RemeshResult result = grain.report;
   result.options = options;
+  RelaxationResult relaxed = relax_seeds(grain, options, execution.part(0.0, 0.7));
+  PlacedNodes nodes = place_nodes(grain, relaxed, options, execution.part(0.7, 0.9));
 
-  CheckedMesh checked = check_mesh(std::move(scan), options.check, execution.part(0.0, 0.15));
-  result.input = checked.report;
-  result.centre = checked.report.centroid;
-  const double unit = checked.report.equivalent_radius;
-  // From here on the grain has equivalent radius 1 about the origin, wherever and however large it
-  // was, so that tolerances and table floors mean the same for every scan.
-  IndexedMesh& grain = checked.mesh;
-  execution.parallel_for(grain.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      grain.points[i] = (grain.points[i] - result.centre) / unit;
-    }
-  });
-
-  execution.report(0.15, "Looking for folds");
-  const RadialSamples samples = radial_samples(grain, execution.part(0.15, 0.2));
-  result.folded_share = samples.folded_share;
-  if (result.folded_share > options.fold_limit) {
-    throw Error(ErrorCode::NotStarShaped,
-                "Seen from its centre the grain folds over itself on " +
-                    percent(result.folded_share) + " of the solid angle, above the limit of " +
-                    percent(options.fold_limit) +
-                    ". A radius in each direction cannot describe it: remove inner surfaces and "
-                    "attached pieces from the scan, or raise the limit and check the result.");
+  execution.report(0.9, "Measuring the remesh");
+  result.remesh = describe_shape(nodes.mesh, execution.part(0.9, 0.92));
+  result.quality = measure_quality(nodes.mesh);
+  if (options.distances) {
+    result.distances = measure_distances(nodes.mesh, grain.mesh, options.distance_sampling,
+                                         execution.part(0.92, 0.98));
+    result.vertex_distances = MeshDistance(grain.mesh).distances(nodes.mesh.points, execution);
   }
-  execution.report(0.2, "Fitting harmonics");
-  const HarmonicFit fit = fit_harmonics(samples.directions, samples.radii, samples.weights,
-                                        options.degree, execution.part(0.2, 0.3));
-  result.fit = fit.report;
-  result.fit.residual *= unit;
-  result.fit.smallest_radius *= unit;
-  result.coefficients = fit.surface.coefficients();
-  for (double& coefficient : result.coefficients) coefficient *= unit;
 
-  execution.report(0.3, "Measuring the scan");
-  result.original = describe_shape(grain, execution.part(0.3, 0.35));
-  result.original_quality = measure_quality(grain);
-
-  execution.report(0.35, "Weighing the seeds");
-  std::optional<CurvatureSamples> curvatures;
-  if (options.weighting == Weighting::Curvature &&
-      options.curvature_source == CurvatureSource::QuadricFit) {
-    curvatures = scan_curvatures(grain, samples, execution);
-  }
-  WeightingOptions weighting;
-  weighting.weighting = options.weighting;
-  weighting.node_count = options.node_count;
-  weighting.curvature_alpha = options.curvature_alpha;
-  const SurfaceSeedModel model(fit.surface, weighting, curvatures ? &*curvatures : nullptr,
-                               execution);
-  MultilevelOptions levels = options.levels;
-  if (options.seed_start != SeedStart::Multilevel) levels.coarsest_seeds = options.node_count;
-  const int coarsest = level_sizes(options.node_count, levels.coarsest_seeds).front();
-  RelaxationResult relaxed =
-      relax_multilevel(start_seeds(options, model, coarsest, execution), options.node_count, model,
-                       options.relaxation, levels, execution.part(0.4, 0.9));
-
-  execution.report(0.9, "Placing the nodes");
-  Nodes nodes = place_nodes(fit.surface, relaxed, options, execution);
-  if (options.placement == NodePlacement::OriginalMesh) {
-    nodes.radii =
-        MeshSurface(grain, Vector3::Zero(), 1.0, execution).radii(relaxed.seeds, execution);
-  }
-  IndexedMesh placed;
-  placed.points.resize(relaxed.seeds.size());
-  for (std::size_t i = 0; i < placed.points.size(); ++i) {
-    placed.points[i] = nodes.radii[i] * relaxed.seeds[i];
-  }
-  relaxed.triangulation.restore_surface_delaunay(relaxed.seeds, placed.points, execution);
-  placed.triangles = relaxed.triangulation.triangles();
-
-  execution.report(0.95, "Measuring the remesh");
-  result.remesh = describe_shape(placed, execution.part(0.95, 1.0));
-  result.quality = measure_quality(placed);
+  const double unit = grain.unit;
   scale(result.original, unit, result.centre);
   scale(result.remesh, unit, result.centre);
   scale(result.original_quality, unit);
   scale(result.quality, unit);
-  for (Vector3& point : placed.points) point = result.centre + unit * point;
+  scale(nodes.refinement, unit);
+  if (result.distances) scale(*result.distances, unit);
+  for (Vector3& point : nodes.mesh.points) point = result.centre + unit * point;
   for (double& radius : nodes.radii) radius *= unit;
   for (double& area : nodes.cell_areas) area *= unit * unit;
   for (double& curvature : nodes.curvatures) curvature /= unit;
-  result.mesh = to_mesh(placed);
-  result.directions = std::move(relaxed.seeds);
+  for (double& distance : result.vertex_distances) distance *= unit;
+  result.mesh = to_mesh(nodes.mesh);
+  result.directions = std::move(nodes.directions);
   result.radial_distances = std::move(nodes.radii);
   result.cell_areas = std::move(nodes.cell_areas);
   result.curvatures = std::move(nodes.curvatures);
+  result.refinement = std::move(nodes.refinement);
   result.relaxation = std::move(relaxed.report);
+  return result;
+}
+
+RemeshResult remesh_to_target(const PreparedGrain& grain, const RemeshOptions& options,
+                              const Execution& execution) {
+  const ErrorTarget& target = options.error_target;
+  // The result with the smallest node count that met the target, or with the largest tried.
+  RemeshResult best;
+  bool best_meets = false;
+  int trials = 0;
+  const auto error = [&](int node_count) {
+    RemeshOptions trial = options;
+    trial.node_count = node_count;
+    trial.distances = options.distances || target.measure == ErrorMeasure::Distance;
+    // How many trials there will be is not known; about ten are usual.
+    const double begin = 1.0 - std::pow(0.85, trials);
+    const double end = 1.0 - std::pow(0.85, ++trials);
+    RemeshResult result;
+    try {
+      result = remesh_prepared(grain, trial, execution.part(begin, end));
+    } catch (const Error& failure) {
+      // So few nodes that they do not surround the centre.
+      if (failure.code() != ErrorCode::NumericalFailure) throw;
+      return std::numeric_limits<double>::infinity();
+    }
+    const double percent_off = error_percent(result, target.measure);
+    const bool meets = percent_off <= target.percent;
+    const int best_count = static_cast<int>(best.mesh.n_vertices());
+    if (meets ? !best_meets || node_count < best_count : !best_meets && node_count > best_count) {
+      best = std::move(result);
+      best_meets = meets;
+    }
+    return percent_off;
+  };
+  NodeCountSearch search =
+      smallest_node_count(target.percent, options.node_count, 4, target.largest_node_count, error);
+  if (best.mesh.n_vertices() == 0) {
+    throw Error(ErrorCode::NumericalFailure,
+                "None of the node counts tried could be remeshed; allow more nodes.");
+  }
+  best.search = std::move(search);
+  return best;
+}
+
+}  // namespace
+
+double error_percent(const RemeshResult& result, ErrorMeasure measure) {
+  const ShapeDescriptors& a = result.remesh;
+  const ShapeDescriptors& b = result.original;
+  switch (measure) {
+    case ErrorMeasure::Volume:
+      return std::abs(relative_error_percent(a.volume, b.volume));
+    case ErrorMeasure::Area:
+      return std::abs(relative_error_percent(a.area, b.area));
+    case ErrorMeasure::Sphericity:
+      return std::abs(relative_error_percent(a.sphericity, b.sphericity));
+    case ErrorMeasure::Inertia:
+      return inertia_error_percent(a, b);
+    case ErrorMeasure::Distance:
+      break;
+  }
+  if (!result.distances) {
+    throw Error(ErrorCode::InvalidInput,
+                "The result holds no distances; ask for them in the options of the remesh.");
+  }
+  return 100.0 * result.distances->root_mean_square / result.input.equivalent_radius;
+}
+
+RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
+  check(options);
+  const PreparedGrain grain = prepare(std::move(scan), options, execution.part(0.0, 0.3));
+  const Execution rest = execution.part(0.3, 1.0);
+  RemeshResult result = options.error_target.percent > 0.0 ? remesh_to_target(grain, options, rest)
+                                                           : remesh_prepared(grain, options, rest);
   add_warnings(result);
   execution.report(1.0, "Done");
   return result;

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "wscvt/distances.h"
 #include "wscvt/execution.h"
 #include "wscvt/harmonic_surface.h"
 #include "wscvt/mesh.h"
 #include "wscvt/mesh_check.h"
 #include "wscvt/mesh_quality.h"
 #include "wscvt/multilevel_relaxation.h"
+#include "wscvt/node_count_search.h"
+#include "wscvt/node_refinement.h"
 #include "wscvt/relaxation.h"
 #include "wscvt/shape_descriptors.h"
 #include "wscvt/weights.h"
@@ -34,16 +39,37 @@ enum class CurvatureSource {
 enum class NodePlacement {
   FittedSurface,  ///< on the fitted harmonic series
   OriginalMesh,   ///< on the scan itself, by rays
+  LeastSquares,   ///< off it, so that the triangles fit the scan best and the volume is the scan's
+};
+
+/// What an error target limits; each in % of the scan's own.
+enum class ErrorMeasure {
+  Volume,      ///< of the volume
+  Area,        ///< of the area
+  Sphericity,  ///< of Wadell's sphericity
+  Inertia,     ///< inertia_error_percent
+  Distance,    ///< two-sided rms distance, in % of the equivalent radius
+};
+
+/// Node count by error: the smallest N that meets it is looked for (see smallest_node_count).
+struct ErrorTarget {
+  ErrorMeasure measure = ErrorMeasure::Distance;
+  double percent = 0.0;            ///< 0: none, N is the options' node_count; else > 0
+  int largest_node_count = 20000;  ///< the search goes no further, in [4, maximum_node_count]
 };
 
 /// Everything a caller may choose; the defaults work.
 struct RemeshOptions {
-  int node_count = 1000;  ///< N, in [4, maximum_node_count]
+  int node_count = 1000;  ///< N, in [4, maximum_node_count]; with an error target the first N tried
+  ErrorTarget error_target;
   Weighting weighting = Weighting::RadialDistance;
   double curvature_alpha = 1.0;  ///< eq. 11's alpha, in [-3, 3]
   CurvatureSource curvature_source = CurvatureSource::Series;
   int degree = 20;  ///< of the harmonic series, in [1, 60]
   NodePlacement placement = NodePlacement::FittedSurface;
+  RefinementOptions refinement;  ///< of the nodes towards the scan; needs LeastSquares
+  bool distances = false;        ///< fill RemeshResult::distances and vertex_distances
+  DistanceOptions distance_sampling;
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
   double fold_limit = 0.05;      ///< refuse above this share of 4 pi, in [0, 1)
   SeedStart seed_start = SeedStart::Multilevel;
@@ -64,13 +90,19 @@ struct RemeshResult {
   std::vector<Vector3> directions;  ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
-  std::vector<double> cell_areas;  ///< surface area of each node's power cell, length^2
-  Vector3 centre = Vector3::Zero();  ///< the volume centroid of the input
+  /// Surface area of each node's power cell, or, after refinement, a third of its triangles';
+  /// length^2
+  std::vector<double> cell_areas;
+  std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
+  Vector3 centre = Vector3::Zero();      ///< the volume centroid of the input
   MeshCheckReport input;
   double folded_share = 0.0;         ///< of 4 pi
   HarmonicFitReport fit;             ///< lengths in input units
   std::vector<double> coefficients;  ///< of the fitted series about `centre`, input units
   RelaxationReport relaxation;
+  RefinementReport refinement;             ///< lengths in input units
+  std::optional<MeshDistances> distances;  ///< between remesh and scan, length; if asked for
+  std::optional<NodeCountSearch> search;   ///< what each N tried cost, in %; with an error target
   MeshQuality original_quality;
   MeshQuality quality;
   ShapeDescriptors original;
@@ -78,6 +110,10 @@ struct RemeshResult {
   RemeshOptions options;              ///< as used
   std::vector<std::string> warnings;  ///< sentences for the user
 };
+
+/// A result's error by a measure, in %, >= 0. Throws Error(InvalidInput) for Distance when the
+/// result holds no distances.
+double error_percent(const RemeshResult& result, ErrorMeasure measure);
 
 /// Remeshes a dense scan to exactly N nodes. The scan is taken by value, since it is mended and
 /// centred; a caller that needs it no more moves it in. Throws Error: InvalidInput

@@ -2,6 +2,7 @@
 #include "wscvt/report.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -48,6 +49,24 @@ const char* name_of(NodePlacement placement) {
       return "fitted surface";
     case NodePlacement::OriginalMesh:
       return "original mesh";
+    case NodePlacement::LeastSquares:
+      return "least squares";
+  }
+  return "unknown";
+}
+
+const char* name_of(ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::Volume:
+      return "volume";
+    case ErrorMeasure::Area:
+      return "area";
+    case ErrorMeasure::Sphericity:
+      return "sphericity";
+    case ErrorMeasure::Inertia:
+      return "inertia";
+    case ErrorMeasure::Distance:
+      return "rms distance";
   }
   return "unknown";
 }
@@ -179,6 +198,58 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
   lines.push_back(line("Relaxation", text));
 }
 
+void append_search(const RemeshResult& result, std::vector<std::string>& lines) {
+  if (!result.search) return;
+  const ErrorTarget& target = result.options.error_target;
+  std::string text = std::string(name_of(target.measure)) + " error of at most " +
+                     format_number(target.percent, 3) + " %: ";
+  text += result.search->met ? "met by " : "not met, not even by ";
+  text += std::to_string(result.search->node_count) + " nodes. Tried";
+  for (const NodeCountTrial& trial : result.search->trials) {
+    text += (&trial == &result.search->trials.front() ? " " : ", ") +
+            std::to_string(trial.node_count) + ": " + format_number(trial.error, 3) + " %";
+  }
+  lines.push_back(line("Target", text));
+}
+
+void append_refinement(const RemeshResult& result, std::vector<std::string>& lines) {
+  const RefinementReport& refinement = result.refinement;
+  if (refinement.history.empty()) return;
+  int flips = 0;
+  int relocations = 0;
+  for (const RefinementStep& step : refinement.history) {
+    flips += step.flips;
+    relocations += step.relocations;
+  }
+  std::string text =
+      (refinement.converged ? "converged after " : "not converged: stopped at the limit of ") +
+      counted(refinement.history.size(), "round", "rounds") + ", rms distance from " +
+      format_number(refinement.start_distance, 3) + " to " +
+      format_number(refinement.history.back().distance, 3) + ", " +
+      counted(static_cast<std::size_t>(flips), "edge", "edges") + " flipped, " +
+      counted(static_cast<std::size_t>(relocations), "node", "nodes") + " taken elsewhere";
+  lines.push_back(line("Refinement", text));
+}
+
+void append_distances(const RemeshResult& result, std::vector<std::string>& lines) {
+  if (!result.distances) return;
+  const auto row = [&](const char* label, double to, double from, double both) {
+    return std::vector<std::string>{
+        label, format_number(to, 4), format_number(from, 4), format_number(both, 4),
+        format_number(100.0 * both / result.input.equivalent_radius, 4)};
+  };
+  const OneSidedDistance& to = result.distances->to_reference;
+  const OneSidedDistance& from = result.distances->from_reference;
+  const std::vector<std::vector<std::string>> rows = {
+      {"Distance", "from remesh", "from original", "two-sided", "% of equivalent radius"},
+      row("  largest (Hausdorff)", to.maximum, from.maximum, result.distances->hausdorff),
+      row("  root mean square", to.root_mean_square, from.root_mean_square,
+          result.distances->root_mean_square),
+      row("  mean", to.mean, from.mean, std::max(to.mean, from.mean)),
+  };
+  for (std::string& text : aligned_lines(rows)) lines.push_back(std::move(text));
+}
+
 void append_quality(const RemeshResult& result, std::vector<std::string>& lines) {
   const MeshQuality& a = result.original_quality;
   const MeshQuality& b = result.quality;
@@ -234,6 +305,14 @@ Json json_of(const RemeshOptions& o) {
           {"curvature_source", name_of(o.curvature_source)},
           {"degree", o.degree},
           {"placement", name_of(o.placement)},
+          {"error_target",
+           {{"measure", name_of(o.error_target.measure)},
+            {"percent", o.error_target.percent},
+            {"largest_node_count", o.error_target.largest_node_count}}},
+          {"refinement",
+           {{"rounds", o.refinement.rounds},
+            {"smallest_angle_degrees", o.refinement.smallest_angle},
+            {"tolerance", o.refinement.tolerance}}},
           {"fold_limit", o.fold_limit},
           {"seed_start", name_of(o.seed_start)},
           {"random_seed", o.random_seed},
@@ -299,6 +378,45 @@ Json json_of(const RelaxationReport& r) {
             {"flips", std::move(flips)}}}};
 }
 
+Json json_of(const RefinementReport& r) {
+  Json distance = Json::array();
+  Json moves = Json::array();
+  Json flips = Json::array();
+  Json relocations = Json::array();
+  for (const RefinementStep& step : r.history) {
+    distance.push_back(step.distance);
+    moves.push_back(step.moves);
+    flips.push_back(step.flips);
+    relocations.push_back(step.relocations);
+  }
+  return {{"converged", r.converged},
+          {"start_distance", r.start_distance},
+          {"history",
+           {{"distance", std::move(distance)},
+            {"moves", std::move(moves)},
+            {"flips", std::move(flips)},
+            {"relocations", std::move(relocations)}}}};
+}
+
+Json json_of(const OneSidedDistance& d) {
+  return {{"maximum", d.maximum}, {"root_mean_square", d.root_mean_square}, {"mean", d.mean}};
+}
+
+Json json_of(const MeshDistances& d) {
+  return {{"from_remesh", json_of(d.to_reference)},
+          {"from_original", json_of(d.from_reference)},
+          {"hausdorff", d.hausdorff},
+          {"root_mean_square", d.root_mean_square}};
+}
+
+Json json_of(const NodeCountSearch& s) {
+  Json trials = Json::array();
+  for (const NodeCountTrial& trial : s.trials) {
+    trials.push_back({{"node_count", trial.node_count}, {"error_percent", trial.error}});
+  }
+  return {{"met", s.met}, {"node_count", s.node_count}, {"trials", std::move(trials)}};
+}
+
 // ---- CSV
 
 /// The columns of a CSV report, names and values side by side.
@@ -336,10 +454,16 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   std::vector<std::string> lines;
   append_input(result, lines);
   append_fit(result, lines);
+  append_search(result, lines);
   append_relaxation(result, lines);
-  lines.push_back(line("Result", counted(result.mesh.n_vertices(), "node", "nodes") + ", " +
-                                     counted(result.mesh.n_faces(), "face", "faces") +
-                                     ", nodes on the " + name_of(result.options.placement)));
+  append_refinement(result, lines);
+  lines.push_back(line(
+      "Result", counted(result.mesh.n_vertices(), "node", "nodes") + ", " +
+                    counted(result.mesh.n_faces(), "face", "faces") +
+                    (result.options.placement == NodePlacement::LeastSquares ? ", nodes fitted by "
+                                                                             : ", nodes on the ") +
+                    name_of(result.options.placement)));
+  append_distances(result, lines);
   append_quality(result, lines);
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
     lines.push_back(std::move(text));
@@ -364,6 +488,9 @@ std::string report_json(const RemeshResult& result) {
       {"descriptors", Json::parse(table_json(comparison(result), ComparisonNames()))},
       {"warnings", result.warnings},
   };
+  if (!result.refinement.history.empty()) report["refinement"] = json_of(result.refinement);
+  if (result.distances) report["distances"] = json_of(*result.distances);
+  if (result.search) report["search"] = json_of(*result.search);
   // A warning may quote a file name that is not UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -390,6 +517,9 @@ std::string report_csv(const RemeshResult& result) {
   record.add("residual", result.fit.residual);
   record.add("converged", result.relaxation.converged ? "true" : "false");
   record.add("iterations", std::to_string(result.relaxation.iterations));
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  record.add("rms_distance", result.distances ? result.distances->root_mean_square : unknown);
+  record.add("hausdorff_distance", result.distances ? result.distances->hausdorff : unknown);
   record.add("original", result.original_quality);
   record.add("remesh", result.quality);
   for (const DescriptorComparison& row : comparison(result)) {

@@ -123,6 +123,7 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   const Matrix3 second = moments.second / moments.volume - centroid * centroid.transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(second, Eigen::EigenvaluesOnly);
   result.inertia_semi_axes = (5.0 * solver.eigenvalues().cwiseMax(0.0)).cwiseSqrt();
+  result.inertia_tensor = moments.volume * (second.trace() * Matrix3::Identity() - second);
   result.aspect_ratio = result.inertia_semi_axes[0] / result.inertia_semi_axes[2];
 
   result.sdq = std::sqrt(gradient_square(mesh, result.centroid, execution) / moments.area);
@@ -132,6 +133,14 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
 double relative_error_percent(double value, double reference) {
   if (value == reference) return 0.0;
   return 100.0 * (value / reference - 1.0);
+}
+
+double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(reference.inertia_tensor);
+  const Matrix3 difference = solver.eigenvectors().transpose() *
+                             (value.inertia_tensor - reference.inertia_tensor) *
+                             solver.eigenvectors();
+  return 100.0 * difference.cwiseAbs().maxCoeff() / solver.eigenvalues()[2];
 }
 
 }  // namespace wscvt

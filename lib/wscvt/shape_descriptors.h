@@ -23,6 +23,8 @@ struct ShapeDescriptors {
   /// Semi-axes of the homogeneous ellipsoid with the same second moments of volume per volume (the
   /// inertia ellipsoid), S <= I <= L; length.
   Vector3 inertia_semi_axes = Vector3::Zero();
+  /// Tensor of inertia about the centroid at unit density; length^5.
+  Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();
 };
 
 /// Measures a closed outward mesh, as accurately far from the origin as near it. Throws
@@ -31,5 +33,9 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
 
 /// 100 (value / reference - 1); 0 when the two are equal, even at zero.
 double relative_error_percent(double value, double reference);
+
+/// Largest absolute entry of the difference of two inertia tensors, in the principal axes of the
+/// reference, in % of the reference's largest principal moment.
+double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference);
 
 }  // namespace wscvt
