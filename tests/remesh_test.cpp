@@ -13,6 +13,7 @@
 #include "grains/ct_grain.h"
 #include "wscvt/error.h"
 #include "wscvt/mesh_io.h"
+#include "wscvt/quadric_surface.h"
 #include "wscvt/sphere_sampling.h"
 #include "wscvt/sphere_triangulation.h"
 
@@ -358,6 +359,58 @@ TEST(Remesh, RefusesAFoldAboveTheLimit) {
     if (p.z() < 0.0) p.z() = 0.6 * -p.z();
   }
   expect_refused(mesh, RemeshOptions(), ErrorCode::NotStarShaped, "folds over itself");
+}
+
+TEST(Remesh, SurfacesFromFormulasAreDiscretisedAboutTheirOrigin) {
+  const Ellipsoid ellipsoid(Vector3(13.0, 9.0, 7.0));
+  for (const Weighting weighting : {Weighting::RadialDistance, Weighting::Curvature}) {
+    const RemeshResult result = remesh(ellipsoid, options_of(1000, weighting), Execution(1));
+    expect_promises(result, 1000);
+    EXPECT_EQ(result.centre, Vector3(0.0, 0.0, 0.0));
+    for (std::size_t i = 0; i < result.directions.size(); ++i) {
+      EXPECT_NEAR(result.radial_distances[i], ellipsoid.radius(result.directions[i]), 1e-12);
+    }
+    EXPECT_NEAR(result.original.volume / (4.0 / 3.0 * 3.14159265358979 * 13.0 * 9.0 * 7.0), 1.0,
+                1e-10);
+    // Chords lose 660 / N % of the volume (the design, section 5).
+    EXPECT_NEAR(relative_error_percent(result.remesh.volume, result.original.volume), -0.66, 0.2);
+    EXPECT_NEAR(result.original.inertia_semi_axes[2], 13.0, 0.005);
+  }
+}
+
+TEST(Remesh, CoefficientsOfARemeshGiveTheSameSurfaceAgain) {
+  const RemeshResult scan = remesh(sand(), options_of(500, Weighting::Area), Execution(1));
+  const RemeshResult series =
+      remesh(HarmonicSurface(scan.coefficients), options_of(500, Weighting::Area), Execution(1));
+  // The same surface and the same algorithm in units that differ by the scan's chords.
+  EXPECT_NEAR(series.remesh.volume / scan.remesh.volume, 1.0, 1e-3);
+  EXPECT_NEAR(series.remesh.sdq / scan.remesh.sdq, 1.0, 1e-2);
+}
+
+TEST(Remesh, SamplingsOfFigure1AreTriangulatedTheSameWay) {
+  const auto nodes_of = [](Sampling sampling, int nodes, std::size_t warnings) {
+    RemeshOptions options = options_of(nodes, Weighting::Area, RelaxationMetric::Surface);
+    options.sampling = sampling;
+    const RemeshResult result = remesh(sand(), options, Execution(1));
+    expect_promises(result, static_cast<int>(result.mesh.n_vertices()));
+    EXPECT_EQ(result.warnings.size(), warnings);
+    EXPECT_EQ(result.relaxation.iterations, 0);
+    return result.mesh.n_vertices();
+  };
+  EXPECT_EQ(nodes_of(Sampling::Fibonacci, 1000, 0), 1000U);
+  EXPECT_EQ(nodes_of(Sampling::EqualAngle, 1000, 1), 1014U);
+  EXPECT_EQ(nodes_of(Sampling::Icosahedron, 1000, 1), 1002U);
+  EXPECT_EQ(nodes_of(Sampling::Icosahedron, 642, 0), 642U);
+}
+
+TEST(Remesh, PointsWithoutFacesAreFitted) {
+  IndexedMesh points;
+  points.points = sand().points;
+  const RemeshResult cloud = remesh(points, options_of(500, Weighting::Area), Execution(1));
+  const RemeshResult scan = remesh(sand(), options_of(500, Weighting::Area), Execution(1));
+  expect_promises(cloud, 500);
+  EXPECT_NEAR(cloud.remesh.volume / scan.remesh.volume, 1.0, 2e-3);
+  EXPECT_NEAR(cloud.remesh.area / scan.remesh.area, 1.0, 5e-3);
 }
 
 TEST(Remesh, OpenMeshOverloadGivesTheSame) {

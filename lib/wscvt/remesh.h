@@ -22,6 +22,14 @@
 
 namespace wscvt {
 
+/// How the directions of the nodes are chosen.
+enum class Sampling {
+  Weighted,     ///< relaxed to a weighted centroidal tessellation: WSCVT
+  Fibonacci,    ///< Fibonacci lattice, as it is
+  EqualAngle,   ///< equal-angle grid with the number of points nearest to N
+  Icosahedron,  ///< subdivided icosahedron with the number of points nearest to N
+};
+
 /// Where the seeds start.
 enum class SeedStart {
   Multilevel,     ///< warped lattice of a few hundred, subdivided and relaxed level by level
@@ -62,6 +70,7 @@ struct ErrorTarget {
 struct RemeshOptions {
   int node_count = 1000;  ///< N, in [4, maximum_node_count]; with an error target the first N tried
   ErrorTarget error_target;
+  Sampling sampling = Sampling::Weighted;  ///< the others ignore weighting and relaxation
   Weighting weighting = Weighting::RadialDistance;
   double curvature_alpha = 1.0;  ///< eq. 11's alpha, in [-3, 3]
   CurvatureSource curvature_source = CurvatureSource::Series;
@@ -121,7 +130,16 @@ double error_percent(const RemeshResult& result, ErrorMeasure measure);
 /// the folded share exceeds the limit, NumericalFailure, Cancelled.
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
+///
+/// A scan of points without faces is triangulated first (see mesh_of_points).
 RemeshResult remesh(const Mesh& scan, const RemeshOptions& options,
+                    const Execution& execution = Execution());
+
+/// Discretises a surface given by a formula or by coefficients, about its own origin, in the same
+/// way. The surface takes the place of the fitted series, and of the scan where that is asked for;
+/// volume, area and sphericity of `original` are integrals over it, everything else is measured on
+/// a mesh of 40,962 of its points. `degree`, `check` and `fold_limit` have no meaning here.
+RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
                     const Execution& execution = Execution());
 
 }  // namespace wscvt

@@ -114,9 +114,9 @@ void relaxation_step(benchmark::State& state, RelaxationMetric metric) {
   // One evaluation at the start and one after each of the steps.
   count(state, nodes * (options.maximum_iterations + std::int64_t{1}));
   state.SetComplexityN(nodes);
-  state.counters["step"] = benchmark::Counter(
-      static_cast<double>(state.iterations() * (options.maximum_iterations + 1)),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["step"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * (options.maximum_iterations + 1)),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void relaxation(benchmark::State& state, RelaxationMetric metric) {
