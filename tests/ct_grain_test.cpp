@@ -81,13 +81,13 @@ TEST(CtGrain, HasTheVolumeOfTheUnitSphere) {
 TEST(CtGrain, IsScannedToAClosedStarShapedMesh) {
   for (const test::Grain& grain : test::reference_grains()) {
     SCOPED_TRACE(grain.name);
-    const CheckedMesh scan = checked(test::ct_mesh_of_about(grain, 7000));
-    EXPECT_NEAR(static_cast<double>(scan.report.vertices), 7000.0, 140.0);
+    const CheckedMesh scan = checked(test::ct_mesh_of_about(grain, 4000));
+    EXPECT_NEAR(static_cast<double>(scan.report.vertices), 4000.0, 80.0);
     EXPECT_EQ(scan.report.genus, 0);
     EXPECT_EQ(scan.report.components, 1U);
     EXPECT_EQ(test::bad_edges(scan.mesh), 0U);
     EXPECT_LT(fold_about_centroid(scan), 1e-3);
-    // Voxels of 0.06 round off edges and corners.
+    // Voxels of 0.08 round off edges and corners.
     EXPECT_NEAR(scan.report.equivalent_radius, 1.0, 0.01);
     EXPECT_NO_THROW(to_mesh(scan.mesh));
   }

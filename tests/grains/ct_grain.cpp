@@ -99,20 +99,26 @@ Grain scaled_grain(const std::string& name, const RadiusFunction& radii) {
   double cubes = 0.0;
   for (std::size_t i = 0; i < r.size(); ++i) cubes += quadrature.weights[i] * r[i] * r[i] * r[i];
   const double scale = std::cbrt(4.0 * pi / cubes);
-  return {name, product(radii, [scale](const std::vector<Vector3>& directions) {
-            return std::vector<double>(directions.size(), scale);
-          })};
+  Grain grain;
+  grain.name = name;
+  grain.radii = [radii, scale](const std::vector<Vector3>& directions) {
+    std::vector<double> scaled = radii(directions);
+    for (double& radius : scaled) radius *= scale;
+    return scaled;
+  };
+  return grain;
 }
 
 /// Gaussian of the given standard deviation, in nodes, along every axis; the border is continued.
 void blur(VoxelGrid& grid, double deviation) {
-  const int reach = static_cast<int>(4.0 * deviation + 0.5);
+  const int reach = static_cast<int>(std::ceil(4.0 * deviation));
   std::vector<double> kernel;
   for (int i = -reach; i <= reach; ++i) {
     kernel.push_back(std::exp(-0.5 * i * i / (deviation * deviation)));
   }
   const double total = std::accumulate(kernel.begin(), kernel.end(), 0.0);
   for (double& k : kernel) k /= total;
+  const double* const middle = kernel.data() + reach;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::vector<double> source = grid.values;
     for (int z = 0; z < grid.size[2]; ++z) {
@@ -122,8 +128,7 @@ void blur(VoxelGrid& grid, double deviation) {
           for (int i = -reach; i <= reach; ++i) {
             std::array<int, 3> at{x, y, z};
             at[axis] = std::clamp(at[axis] + i, 0, grid.size[axis] - 1);
-            sum += kernel[static_cast<std::size_t>(i + reach)] *
-                   source[grid.index(at[0], at[1], at[2])];
+            sum += middle[i] * source[grid.index(at[0], at[1], at[2])];
           }
           grid.values[grid.index(x, y, z)] = sum;
         }
@@ -177,7 +182,9 @@ VoxelGrid occupancy(const Grain& grain, const CtOptions& options) {
   const int n = options.supersampling;
   std::vector<Vector3> offsets;
   for (int i = 0; i < n * n * n; ++i) {
-    const Vector3 cell(i % n, i / n % n, i / (n * n));
+    const int row = i / n;
+    const int layer = row / n;
+    const Vector3 cell(i % n, row % n, layer);
     offsets.emplace_back(h * ((cell + Vector3::Constant(0.5)) / n - Vector3::Constant(0.5)));
   }
   std::vector<Vector3> points(offsets.size());

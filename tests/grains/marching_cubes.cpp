@@ -44,11 +44,12 @@ int edge_between(const std::array<CellEdge, edge_count>& edges, int a, int b) {
 std::array<std::array<int, 4>, 6> cell_faces() {
   std::array<std::array<int, 4>, 6> faces{};
   for (int axis = 0; axis < 3; ++axis) {
+    const auto face = 2 * static_cast<std::size_t>(axis);
     const int u = corner_bit((axis + 1) % 3);
     const int v = corner_bit((axis + 2) % 3);
     const int high = corner_bit(axis);
-    faces[static_cast<std::size_t>(2 * axis)] = {0, v, u | v, u};
-    faces[static_cast<std::size_t>(2 * axis + 1)] = {high, high | u, high | u | v, high | v};
+    faces[face] = {0, v, u | v, u};
+    faces[face + 1] = {high, high | u, high | u | v, high | v};
   }
   return faces;
 }
