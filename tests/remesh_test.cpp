@@ -420,5 +420,143 @@ TEST(Remesh, OpenMeshOverloadGivesTheSame) {
   EXPECT_EQ(to_indexed(flat.mesh).points, to_indexed(half_edges.mesh).points);
 }
 
+// ---- nodes off the surface
+
+RemeshOptions fitted_options(int nodes, int rounds = 0) {
+  RemeshOptions options = options_of(nodes, Weighting::ErrorAdaptive);
+  options.placement = NodePlacement::LeastSquares;
+  options.refinement.rounds = rounds;
+  options.distances = true;
+  options.distance_sampling.samples = 10000;
+  return options;
+}
+
+TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
+  for (const int nodes : {4, 60, 400}) {
+    SCOPED_TRACE(nodes);
+    RemeshOptions on_surface = fitted_options(nodes);
+    on_surface.placement = NodePlacement::OriginalMesh;
+    const RemeshResult on = remesh(sand(), on_surface, Execution(1));
+    const RemeshResult fitted = remesh(sand(), fitted_options(nodes), Execution(1));
+    const RemeshResult refined = remesh(sand(), fitted_options(nodes, 20), Execution(1));
+    for (const RemeshResult* result : {&fitted, &refined}) {
+      expect_promises(*result, nodes);
+      EXPECT_LT(error_percent(*result, ErrorMeasure::Volume), 1e-9);
+    }
+    // Four faces are too far from the surface for "nearest" to mean much.
+    if (nodes > 4) {
+      EXPECT_LT(fitted.distances->root_mean_square, on.distances->root_mean_square);
+      EXPECT_LT(refined.distances->root_mean_square, fitted.distances->root_mean_square);
+    }
+    EXPECT_EQ(on.refinement.history.size(), 0U);
+    EXPECT_GT(refined.refinement.history.size(), 0U);
+  }
+}
+
+TEST(RemeshLeastSquares, RefinedTrianglesKeepTheirSmallestAngle) {
+  const RemeshResult refined = remesh(sand(), fitted_options(400, 30), Execution(1));
+  EXPECT_GE(refined.quality.smallest_angle, 15.0);
+  double area = 0.0;
+  for (const double a : refined.cell_areas) area += a;
+  EXPECT_NEAR(area / refined.remesh.area, 1.0, 1e-12);
+}
+
+TEST(RemeshLeastSquares, FollowsTheScanWhereverAndHoweverLargeItIs) {
+  IndexedMesh moved = sand();
+  for (Vector3& p : moved.points) p = 4.0 * p + Vector3(16, -32, 64);
+  const RemeshResult a = remesh(sand(), fitted_options(150, 10), Execution(1));
+  const RemeshResult b = remesh(moved, fitted_options(150, 10), Execution(1));
+  EXPECT_LT(error_percent(b, ErrorMeasure::Volume), 1e-9);
+  // The shift rounds the scan's points, and a comparison may then come out otherwise.
+  EXPECT_NEAR(b.distances->root_mean_square / (4.0 * a.distances->root_mean_square), 1.0, 0.05);
+  EXPECT_NEAR(b.refinement.history.back().distance / (4.0 * a.refinement.history.back().distance),
+              1.0, 0.05);
+}
+
+TEST(RemeshLeastSquares, SameBytesOnAnyNumberOfThreads) {
+  const RemeshResult a = remesh(sand(), fitted_options(200, 5), Execution(1));
+  const RemeshResult b = remesh(sand(), fitted_options(200, 5), Execution(3));
+  EXPECT_EQ(to_indexed(a.mesh).points, to_indexed(b.mesh).points);
+  EXPECT_EQ(to_indexed(a.mesh).triangles, to_indexed(b.mesh).triangles);
+  EXPECT_EQ(a.vertex_distances, b.vertex_distances);
+}
+
+TEST(RemeshLeastSquares, RefinementNeedsIt) {
+  RemeshOptions options = options_of(100, Weighting::RadialDistance);
+  options.placement = NodePlacement::FittedSurface;
+  options.refinement.rounds = 1;
+  EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
+}
+
+TEST(RemeshDistances, AreThereOnDemandOnly) {
+  const RemeshResult without =
+      remesh(sand(), options_of(100, Weighting::RadialDistance), Execution(1));
+  EXPECT_FALSE(without.distances.has_value());
+  EXPECT_TRUE(without.vertex_distances.empty());
+  EXPECT_THROW(error_percent(without, ErrorMeasure::Distance), Error);
+  const RemeshResult with = remesh(sand(), fitted_options(100), Execution(1));
+  ASSERT_EQ(with.vertex_distances.size(), 100U);
+  const double largest =
+      *std::max_element(with.vertex_distances.begin(), with.vertex_distances.end());
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LE(largest, with.distances->to_reference.maximum * (1.0 + 1e-12));
+}
+
+TEST(RemeshErrorTarget, FindsTheSmallestCountThatMeetsIt) {
+  RemeshOptions options = fitted_options(200);
+  options.distances = false;
+  options.error_target.measure = ErrorMeasure::Distance;
+  options.error_target.percent = 1.0;
+  const RemeshResult result = remesh(sand(), options, Execution(1));
+  ASSERT_TRUE(result.search.has_value());
+  EXPECT_TRUE(result.search->met);
+  EXPECT_EQ(static_cast<int>(result.mesh.n_vertices()), result.search->node_count);
+  expect_promises(result, result.search->node_count);
+  EXPECT_LE(error_percent(result, ErrorMeasure::Distance), 1.0);
+  EXPECT_EQ(result.options.node_count, result.search->node_count);
+  // With a tenth fewer nodes the target is missed: errors go with 1 / N and waver by a few per
+  // cent.
+  RemeshOptions fewer = options;
+  fewer.error_target.percent = 0.0;
+  fewer.distances = true;
+  fewer.node_count = result.search->node_count * 9 / 10;
+  EXPECT_GT(error_percent(remesh(sand(), fewer, Execution(1)), ErrorMeasure::Distance), 1.0);
+}
+
+TEST(RemeshErrorTarget, EveryMeasureCanBeATarget) {
+  for (const auto measure : {ErrorMeasure::Volume, ErrorMeasure::Area, ErrorMeasure::Sphericity,
+                             ErrorMeasure::Inertia}) {
+    SCOPED_TRACE(static_cast<int>(measure));
+    RemeshOptions options = options_of(100, Weighting::RadialDistance);
+    options.placement = NodePlacement::FittedSurface;
+    options.error_target.measure = measure;
+    options.error_target.percent = 5.0;
+    options.error_target.largest_node_count = 3000;
+    const RemeshResult result = remesh(sand(), options, Execution(1));
+    EXPECT_TRUE(result.search->met);
+    EXPECT_LE(error_percent(result, measure), 5.0);
+  }
+}
+
+TEST(RemeshErrorTarget, SaysSoWhenTheLimitIsTooLow) {
+  RemeshOptions options = fitted_options(50);
+  options.error_target.percent = 0.01;
+  options.error_target.largest_node_count = 80;
+  const RemeshResult result = remesh(sand(), options, Execution(1));
+  EXPECT_FALSE(result.search->met);
+  EXPECT_EQ(result.mesh.n_vertices(), 80U);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.back().find("error target"), std::string::npos);
+}
+
+TEST(RemeshErrorTarget, RefusesTargetsThatMakeNoSense) {
+  RemeshOptions options = fitted_options(50);
+  options.error_target.percent = -1.0;
+  EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
+  options.error_target.percent = 1.0;
+  options.error_target.largest_node_count = 3;
+  EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
+}
+
 }  // namespace
 }  // namespace wscvt
