@@ -8,6 +8,7 @@
 #include <string>
 
 #include "wscvt/error.h"
+#include "wscvt/harmonic_io.h"
 #include "wscvt/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report.h"
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
   std::string input;
   std::string output;
   std::string json;
+  std::string coefficients;
   int threads = 0;
   bool quiet = false;
   RemeshOptions options;
@@ -79,6 +81,14 @@ int run(int argc, char** argv) {
                  "Largest number of nodes the target may take")
       ->capture_default_str();
   app.add_flag("--distances", options.distances, "Measure the distances to the scan");
+  const std::map<std::string, wscvt::Sampling> samplings = {
+      {"weighted", wscvt::Sampling::Weighted},
+      {"fibonacci", wscvt::Sampling::Fibonacci},
+      {"equal-angle", wscvt::Sampling::EqualAngle},
+      {"icosahedron", wscvt::Sampling::Icosahedron}};
+  app.add_option("-s,--sampling", options.sampling, "How the nodes' directions are chosen")
+      ->transform(CLI::CheckedTransformer(samplings))
+      ->default_str("weighted");
   app.add_option("-d,--degree", options.degree, "Degree of the harmonic series, 1 to 60")
       ->capture_default_str();
   app.add_option("-a,--alpha", options.curvature_alpha, "Curvature exponent, -3 to 3")
@@ -94,6 +104,7 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("-t,--threads", threads, "Number of threads, 0 for all")->capture_default_str();
   app.add_option("-j,--json", json, "Write the report to this file as JSON");
+  app.add_option("--coefficients", coefficients, "Write the fitted series to this file as JSON");
   app.add_flag("-q,--quiet", quiet, "No report on the standard output");
   CLI11_PARSE(app, argc, argv);
 
@@ -101,6 +112,9 @@ int run(int argc, char** argv) {
       wscvt::remesh(wscvt::read_mesh(input), options, wscvt::Execution(threads));
   wscvt::write_mesh(wscvt::to_indexed(result.mesh), output);
   if (!json.empty()) write_text(json, wscvt::report_json(result));
+  if (!coefficients.empty()) {
+    wscvt::write_harmonics(coefficients, wscvt::HarmonicSurface(result.coefficients));
+  }
   if (!quiet) {
     for (const std::string& line : wscvt::report_lines(result)) std::puts(line.c_str());
   }

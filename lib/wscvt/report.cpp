@@ -83,6 +83,20 @@ const char* name_of(SeedStart start) {
   return "unknown";
 }
 
+const char* name_of(Sampling sampling) {
+  switch (sampling) {
+    case Sampling::Weighted:
+      return "weighted";
+    case Sampling::Fibonacci:
+      return "Fibonacci lattice";
+    case Sampling::EqualAngle:
+      return "equal-angle grid";
+    case Sampling::Icosahedron:
+      return "subdivided icosahedron";
+  }
+  return "unknown";
+}
+
 const char* name_of(RelaxationMetric metric) {
   switch (metric) {
     case RelaxationMetric::Sphere:
@@ -134,6 +148,11 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
 
 void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
   const MeshCheckReport& input = result.input;
+  if (input.input_vertices == 0) {
+    lines.push_back(line("Input", "surface from a formula or coefficients, equivalent radius " +
+                                      format_number(input.equivalent_radius, 6)));
+    return;
+  }
   lines.push_back(line("Input", counted(input.input_vertices, "vertex", "vertices") + ", " +
                                     counted(input.input_faces, "face", "faces")));
   const std::vector<std::string> done = repairs(input);
@@ -148,6 +167,7 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
 }
 
 void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
+  if (result.fit.points == 0) return;
   const HarmonicFitReport& fit = result.fit;
   std::string text = "spherical harmonics of degree " + std::to_string(fit.degree);
   if (fit.degree < fit.requested_degree) {
@@ -164,6 +184,10 @@ void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
 
 void append_relaxation(const RemeshResult& result, std::vector<std::string>& lines) {
   const RemeshOptions& options = result.options;
+  if (options.sampling != Sampling::Weighted) {
+    lines.push_back(line("Sampling", name_of(options.sampling) + std::string(", not relaxed")));
+    return;
+  }
   std::string seeds = name_of(options.seed_start);
   if (options.seed_start == SeedStart::Random) {
     seeds += " start, seed " + std::to_string(options.random_seed);
@@ -304,6 +328,7 @@ Json json_of(const RemeshOptions& o) {
           {"curvature_alpha", o.curvature_alpha},
           {"curvature_source", name_of(o.curvature_source)},
           {"degree", o.degree},
+          {"sampling", name_of(o.sampling)},
           {"placement", name_of(o.placement)},
           {"error_target",
            {{"measure", name_of(o.error_target.measure)},
