@@ -36,7 +36,7 @@ TEST(CubeMap, VisitsEveryCellThatSeesATriangle) {
       const CubeMap cube(resolution);
       const std::vector<Vector3> d = random_directions(600, 17);
       for (std::size_t i = 0; i + 2 < d.size(); i += 3) {
-        const Vector3 a = d[i];
+        const Vector3& a = d[i];
         const Vector3 b = a + size * d[i + 1];
         const Vector3 c = a + size * d[i + 2];
         std::set<std::size_t> visited;
