@@ -78,8 +78,8 @@ std::string filter_help() {
   return "Turns a dense closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
          "for</b>: a series of spherical harmonics is fitted to the surface, nodes on the sphere "
          "are relaxed to a weighted centroidal Voronoi tessellation and put back on the surface. "
-         "The result is closed, 2-manifold, outward and free of self-intersections; the log lists "
-         "its errors in volume, area and shape.<br>"
+         "The result is closed, 2-manifold and free of self-intersections; its errors are in the "
+         "log.<br>"
          "<b>It repairs</b> equal points, degenerate faces, orientation and small loose parts, and "
          "says so in the log. <b>It refuses</b>, and changes nothing, when the mesh is open, not "
          "manifold, without volume, not finite or in parts of comparable volume, or folds back "
@@ -122,7 +122,7 @@ std::vector<FilterParameter> filter_parameters() {
              "may be met more than once from the centroid. Such folds are bridged by their "
              "outermost sheet; above the limit the filter refuses."),
       choice("Metric", static_cast<int>(defaults.relaxation.metric), {"Sphere", "Surface"},
-             "Even on the",
+             "Metric",
              "Sphere: cells are centroidal on the unit sphere, the published method. Surface: on "
              "the grain's surface itself, which gives the most even triangles; slower."),
       choice("SeedStart", static_cast<int>(defaults.seed_start),
