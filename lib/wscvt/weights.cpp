@@ -174,37 +174,85 @@ GridField smoothed_curvature(const RadialSurface& surface, const CurvatureSample
   return result;
 }
 
-SphereGrid tabulate(const RadialSurface& surface, int rows, Derivatives derivatives,
-                    double (*value)(const RadialJet&), const Execution& execution) {
-  return {rows, 1, 6,
-          [&](const Vector3* directions, std::size_t count, double* values) {
-            std::vector<RadialJet> jets(count);
-            surface.evaluate(directions, count, derivatives, jets.data());
-            for (std::size_t i = 0; i < count; ++i) values[i] = value(jets[i]);
-          },
-          execution};
+/// Radius and area element at the nodes of a grid, from one pass over the surface.
+struct TabulatedSurface {
+  std::vector<double> radii;
+  std::vector<double> area_elements;
+};
+
+TabulatedSurface tabulate(const RadialSurface& surface, int rows, const Execution& execution) {
+  const std::vector<Vector3> nodes = SphereGrid(rows, 1, 4).directions();
+  TabulatedSurface table;
+  table.radii.resize(nodes.size());
+  table.area_elements.resize(nodes.size());
+  execution.parallel_for(nodes.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::vector<RadialJet> jets(end - begin);
+    surface.evaluate(nodes.data() + begin, end - begin, Derivatives::First, jets.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      table.radii[i] = jets[i - begin].radius;
+      table.area_elements[i] = area_element(jets[i - begin]);
+    }
+  });
+  return table;
+}
+
+/// Mean and standard deviation of `field` weighted by `density`.
+FieldDeviation deviation_of(const GridField& field, const GridField& density) {
+  GridField product = density;
+  const auto moment = [&](const auto& f) {
+    for (std::size_t i = 0; i < product.values.size(); ++i) {
+      product.values[i] = density.values[i] * f(field.values[i]);
+    }
+    return product.integral([](double value) { return value; });
+  };
+  const double mass = moment([](double) { return 1.0; });
+  const double mean = moment([](double v) { return v; }) / mass;
+  const double variance = moment([&](double v) { return (v - mean) * (v - mean); }) / mass;
+  return {mean, std::sqrt(std::max(0.0, variance))};
+}
+
+/// C such that the integral over the sphere of 1 / max(smallest, cell + C) is `count`: Newton's
+/// method, kept inside the bracket where the integral, which falls with C, passes `count`.
+double solve_offset(const GridField& cells, double count, double smallest) {
+  const double mean_cell = 4.0 * pi / count;
+  double low = -20.0 * mean_cell;
+  double high = 20.0 * mean_cell;
+  double offset = 0.0;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const double excess = cells.integral([&](double cell) {
+      return 1.0 / std::max(smallest, cell + offset);
+    }) - count;
+    const double slope = -cells.integral([&](double cell) {
+      return cell + offset > smallest ? 1.0 / ((cell + offset) * (cell + offset)) : 0.0;
+    });
+    (excess > 0.0 ? low : high) = offset;
+    double next = offset - excess / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - offset) < 1e-9 * mean_cell) return next;
+    offset = next;
+  }
+  return offset;
 }
 
 }  // namespace
 
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
                                    const CurvatureSamples* samples, const Execution& execution)
-    : options_((check(options), options)),
-      radius_(tabulate(
-          surface, rows_for(options.node_count), Derivatives::None,
-          [](const RadialJet& jet) { return jet.radius; }, execution)) {
+    : options_((check(options), options)) {
   const int rows = rows_for(options.node_count);
   const double count = options.node_count;
-  area_element_.emplace(tabulate(surface, rows, Derivatives::First, area_element, execution));
+  TabulatedSurface table = tabulate(surface, rows, execution);
+  radius_.emplace(rows, 1, 6, table.radii);
+  area_element_.emplace(rows, 1, 6, table.area_elements);
   GridField area(rows);
-  area.values = area_element_->values();
+  area.values = std::move(table.area_elements);
   area_ = area.integral([](double g) { return g; });
 
   GridField field(rows);
   const double cap_radius = 0.6 * std::sqrt(4.0 * pi / count);
   const double radius = std::sqrt(area_ / (4.0 * pi));
   if (options.weighting == Weighting::RadialDistance) {
-    field.values = radius_.values();
+    field.values = std::move(table.radii);
   } else if (options.weighting == Weighting::Area) {
     field.values = area.values;
   } else if (options.weighting == Weighting::Curvature) {
@@ -228,35 +276,26 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   // The cells' areas 3.118 w + C add up to the sphere when C makes the integral of 1 / area equal
   // N. WSCVT-C's weights depend on mean and deviation over the seeds, which depend on their
   // density.
-  const double mean_cell = 4.0 * pi / count;
-  const double smallest = smallest_cell_share * mean_cell;
-  const auto cell = [&](double value, double offset) {
-    return std::max(smallest, cell_area_per_weight * weight_from(value, count, wanted_) + offset);
-  };
+  const double smallest = smallest_cell_share * 4.0 * pi / count;
+  GridField cells(rows);
   const int rounds = options.weighting == Weighting::Curvature ? 4 : 1;
   for (int round = 0; round < rounds; ++round) {
     if (options.weighting == Weighting::Curvature) {
-      const auto density = [&](double value) {
-        return round == 0 ? 1.0 : 1.0 / cell(value, offset_);
-      };
-      const double mass = field.integral(density);
-      const double mean = field.integral([&](double v) { return v * density(v); }) / mass;
-      const double variance =
-          field.integral([&](double v) { return (v - mean) * (v - mean) * density(v); }) / mass;
-      wanted_ = {mean, std::sqrt(std::max(0.0, variance))};
+      GridField density(rows);
+      for (std::size_t i = 0; i < density.values.size(); ++i) {
+        density.values[i] = round == 0 ? 1.0 : 1.0 / std::max(smallest, cells.values[i] + offset_);
+      }
+      wanted_ = deviation_of(field, density);
     }
-    double low = -20.0 * mean_cell;
-    double high = 20.0 * mean_cell;
-    for (int i = 0; i < 60; ++i) {
-      offset_ = 0.5 * (low + high);
-      const double cells = field.integral([&](double v) { return 1.0 / cell(v, offset_); });
-      (cells > count ? low : high) = offset_;
+    for (std::size_t i = 0; i < cells.values.size(); ++i) {
+      cells.values[i] = cell_area_per_weight * weight_from(field.values[i], count, wanted_);
     }
+    offset_ = solve_offset(cells, count, smallest);
   }
 }
 
 double SurfaceSeedModel::weight_from(double field, double count,
-                                     const Deviation& over_seeds) const {
+                                     const FieldDeviation& over_seeds) const {
   switch (options_.weighting) {
     case Weighting::RadialDistance:  // eq. 10
       return area_ / (count * pi * field * field);
@@ -291,7 +330,7 @@ void SurfaceSeedModel::look_up_field(const std::vector<Vector3>& seeds, const Ex
       result.assign(seeds.size(), 0.0);
       break;
     case Weighting::RadialDistance:
-      look_up(radius_, seeds, execution, result);
+      look_up(*radius_, seeds, execution, result);
       break;
     case Weighting::Area:
       look_up(*area_element_, seeds, execution, result);
@@ -309,7 +348,7 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
   if (options_.weighting == Weighting::Constant) return;
   look_up_field(seeds, execution, result);
   const auto count = static_cast<double>(seeds.size());
-  Deviation over_seeds;
+  FieldDeviation over_seeds;
   if (options_.weighting == Weighting::Curvature) {
     for (const double value : result) over_seeds.mean += value / count;
     double squares = 0.0;
@@ -323,7 +362,7 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
 
 void SurfaceSeedModel::radii(const std::vector<Vector3>& seeds, const Execution& execution,
                              std::vector<double>& result) const {
-  look_up(radius_, seeds, execution, result);
+  look_up(*radius_, seeds, execution, result);
 }
 
 void SurfaceSeedModel::surface_densities(const std::vector<Vector3>& seeds,

@@ -56,6 +56,12 @@ struct WeightingOptions {
   double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, in [0, 1.5]
 };
 
+/// Mean and standard deviation of a field over seeds.
+struct FieldDeviation {
+  double mean = 0.0;
+  double deviation = 0.0;
+};
+
 /// The weightings above for a given surface.
 ///
 /// Radius, area element and curvature are tabulated once, so a seed's weight costs a look-up and
@@ -80,25 +86,21 @@ class SurfaceSeedModel : public SeedModel {
                                        const Execution& execution) const;
 
  private:
-  struct Deviation {
-    double mean = 0.0;
-    double deviation = 0.0;
-  };
-  double weight_from(double field, double count, const Deviation& over_seeds) const;
+  double weight_from(double field, double count, const FieldDeviation& over_seeds) const;
   void look_up_field(const std::vector<Vector3>& seeds, const Execution& execution,
                      std::vector<double>& result) const;
   void look_up(const SphereGrid& grid, const std::vector<Vector3>& seeds,
                const Execution& execution, std::vector<double>& result) const;
 
   WeightingOptions options_;
-  SphereGrid radius_;
+  std::optional<SphereGrid> radius_;
   std::optional<SphereGrid> area_element_;
   /// Logarithm of 1 / curvature (WSCVT-C) or of the wanted density (ErrorAdaptive).
   std::optional<SphereGrid> field_;
-  double area_ = 0.0;    ///< S, of the surface
-  double total_ = 0.0;   ///< integral of the wanted density (ErrorAdaptive)
-  Deviation wanted_;     ///< of the field over the wanted density (WSCVT-C)
-  double offset_ = 0.0;  ///< C in "cell area = 3.118 w + C"
+  double area_ = 0.0;      ///< S, of the surface
+  double total_ = 0.0;     ///< integral of the wanted density (ErrorAdaptive)
+  FieldDeviation wanted_;  ///< of the field over the wanted density (WSCVT-C)
+  double offset_ = 0.0;    ///< C in "cell area = 3.118 w + C"
 };
 
 }  // namespace wscvt
