@@ -14,42 +14,42 @@ namespace wscvt {
 namespace {
 
 DetailedDescriptors describe(const IndexedMesh& mesh) {
-  return describe_shape_in_detail(mesh, DetailedOptions(), Execution(1));
+  return describe_shape_in_detail(mesh, DetailedOptions{15, 8, 64}, Execution(1));
 }
 
 TEST(DetailedDescriptors, Sphere) {
   const double radius = 3.0;
-  // Edges of 0.08 radii: chords 8e-4 radii deep.
-  const DetailedDescriptors d = describe(test::scaled(test::sphere(4), Vector3::Constant(radius)));
-  EXPECT_NEAR(d.equivalent_diameter, 2.0 * radius, 6e-3);
+  // Edges of 0.16 radii: chords 3e-3 radii deep.
+  const DetailedDescriptors d = describe(test::scaled(test::sphere(3), Vector3::Constant(radius)));
+  EXPECT_NEAR(d.equivalent_diameter, 2.0 * radius, 2.5e-2);
   for (const FormAxes& axes : {d.inertia_axes, d.box_axes}) {
-    EXPECT_NEAR(axes.shortest, 2.0 * radius, 1e-2);
-    EXPECT_NEAR(axes.longest, 2.0 * radius, 1e-2);
+    EXPECT_NEAR(axes.shortest, 2.0 * radius, 3e-2);
+    EXPECT_NEAR(axes.longest, 2.0 * radius, 3e-2);
   }
   EXPECT_NEAR(d.convexity, 1.0, 1e-12);
-  EXPECT_NEAR(d.inscribed_sphere.radius, radius, 6e-3);
+  EXPECT_NEAR(d.inscribed_sphere.radius, radius, 1.5e-2);
   EXPECT_NEAR(d.orientation.compactness, 1.0, 1e-9);
   EXPECT_EQ(d.folded_share, 0.0);
   ASSERT_TRUE(d.has_radius);
-  EXPECT_NEAR(d.roundness.roundness, 1.0, 5e-3);
-  EXPECT_LT(d.roughness.sq, 1e-3 * radius);
-  EXPECT_LT(d.printed_sdq, 0.1);
+  EXPECT_NEAR(d.roundness.roundness, 1.0, 2e-2);  // the facets bend the fitted series
+  EXPECT_LT(d.roughness.sq, 3e-3 * radius);
+  EXPECT_LT(d.printed_sdq, 0.15);
 }
 
 TEST(DetailedDescriptors, Ellipsoid) {
   const DetailedDescriptors d = describe(test::transformed(
-      test::scaled(test::sphere(4), {1.0, 1.5, 2.0}), test::random_rotation(4), {100, 200, 300}));
-  EXPECT_NEAR(d.equivalent_diameter, 2.0 * std::cbrt(3.0), 6e-3);
+      test::scaled(test::sphere(3), {1.0, 1.5, 2.0}), test::random_rotation(4), {100, 200, 300}));
+  EXPECT_NEAR(d.equivalent_diameter, 2.0 * std::cbrt(3.0), 2.5e-2);
   for (const FormAxes& axes : {d.inertia_axes, d.box_axes}) {
-    EXPECT_NEAR(axes.shortest, 2.0, 1e-2);
-    EXPECT_NEAR(axes.intermediate, 3.0, 2e-2);
-    EXPECT_NEAR(axes.longest, 4.0, 2e-2);
+    EXPECT_NEAR(axes.shortest, 2.0, 2e-2);
+    EXPECT_NEAR(axes.intermediate, 3.0, 3e-2);
+    EXPECT_NEAR(axes.longest, 4.0, 4e-2);
   }
   EXPECT_NEAR(d.inertia_ratios.zingg_elongation, 0.75, 1e-9);
   EXPECT_NEAR(d.inertia_ratios.zingg_flatness, 2.0 / 3.0, 1e-9);
   EXPECT_NEAR(d.inertia_ratios.krumbein_sphericity, std::cbrt(0.375), 1e-9);
   EXPECT_NEAR(d.convexity, 1.0, 1e-12);
-  EXPECT_NEAR(d.inscribed_sphere.radius, 1.0, 4e-3);
+  EXPECT_NEAR(d.inscribed_sphere.radius, 1.0, 1e-2);
   EXPECT_LT(d.roundness.roundness, 0.95);
   EXPECT_GT(d.roundness.roundness, 0.3);
 }
@@ -70,7 +70,7 @@ TEST(DetailedDescriptors, Cube) {
 }
 
 TEST(DetailedDescriptors, TurnAndScaleAsTheyShould) {
-  const IndexedMesh mesh = test::lumpy(3);
+  const IndexedMesh mesh = test::lumpy(2);
   const DetailedDescriptors a = describe(mesh);
   const double scale = 1e-6;
   const DetailedDescriptors b =

@@ -94,9 +94,9 @@ TEST(Distances, ChordsOfASphere) {
     deepest = std::min(deepest, n.dot(a));
   }
   const MeshDistances d =
-      measure_distances(coarse, test::sphere(6), DistanceOptions(), Execution(1));
-  // The fine sphere itself lies within (0.02)^2 / 8 of the true one.
-  EXPECT_NEAR(d.hausdorff, 1.0 - deepest, 1e-4);
+      measure_distances(coarse, test::sphere(5), DistanceOptions{10000}, Execution(1));
+  // The fine sphere itself lies within (0.04)^2 / 8 of the true one.
+  EXPECT_NEAR(d.hausdorff, 1.0 - deepest, 3e-4);
 }
 
 TEST(Distances, SamplesAreSpreadByAreaAndLieOnTheSurface) {

@@ -26,23 +26,23 @@ TEST(FormAxes, BoxInAnyPoseHasItsOwnEdges) {
 }
 
 TEST(FormAxes, EllipsoidHasItsAxes) {
-  // 642 points; above 10,000 the box is turned by extreme points only, tried with 10242. The box
+  // 162 points; above 2,000 the box is turned by extreme points only, tried with 2562. The box
   // of smallest volume is known to the optimisation's stop rule and the thinning, both below 0.2 %,
   // and the mesh by its chords.
-  for (const int times : {3, 5}) {
+  for (const int times : {2, 4}) {
     SCOPED_TRACE(times);
     const FormAxes axes =
         oriented_box_axes(test::transformed(test::scaled(test::sphere(times), {0.5, 0.75, 1.0}),
                                             test::random_rotation(11))
                               .points);
-    EXPECT_NEAR(axes.shortest, 1.0, 5e-3);
-    EXPECT_NEAR(axes.intermediate, 1.5, 5e-3);
-    EXPECT_NEAR(axes.longest, 2.0, 5e-3);
+    EXPECT_NEAR(axes.shortest, 1.0, times == 2 ? 5e-2 : 5e-3);
+    EXPECT_NEAR(axes.intermediate, 1.5, times == 2 ? 5e-2 : 5e-3);
+    EXPECT_NEAR(axes.longest, 2.0, times == 2 ? 5e-2 : 5e-3);
   }
 }
 
 TEST(FormAxes, NeverLargerThanTheAxisAlignedBox) {
-  const IndexedMesh mesh = test::lumpy(3);
+  const IndexedMesh mesh = test::lumpy(2);
   Vector3 lower = mesh.points[0];
   Vector3 upper = lower;
   for (const Vector3& p : mesh.points) {
@@ -56,7 +56,7 @@ TEST(FormAxes, NeverLargerThanTheAxisAlignedBox) {
 }
 
 TEST(FormAxes, SameBitsEveryTime) {
-  const IndexedMesh mesh = test::lumpy(3);
+  const IndexedMesh mesh = test::lumpy(2);
   const FormAxes first = oriented_box_axes(mesh.points);
   const FormAxes second = oriented_box_axes(mesh.points);
   EXPECT_EQ(first.shortest, second.shortest);

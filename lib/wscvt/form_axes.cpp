@@ -18,8 +18,8 @@ namespace wscvt {
 namespace {
 
 /// More points than this are thinned before the box is turned.
-constexpr std::size_t maximum_points = 10000;
-constexpr int thinning_directions = 4000;
+constexpr std::size_t maximum_points = 2000;
+constexpr int thinning_directions = 2000;
 
 /// The extreme points in directions spread over the sphere.
 std::vector<Vector3> extreme_points(const std::vector<Vector3>& points) {
