@@ -3,17 +3,10 @@
 
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "wscvt/remesh.h"
-
 namespace wscvt::filter {
-
-/// The filter's menu text. Saved scripts refer to it: it never changes.
-std::string filter_name();
-
-/// What the filter does, when it refuses and whose method it is, as the HTML a host shows.
-std::string filter_help();
 
 /// What a parameter holds.
 enum class ParameterKind {
@@ -21,13 +14,14 @@ enum class ParameterKind {
   Real,     ///< a decimal number
   Choice,   ///< an index into `choices`
   Flag,     ///< 0 or 1
+  Text,     ///< a file's or a layer's name, UTF-8
 };
 
-/// One parameter of the filter, free of any host's types.
+/// One parameter of a filter, free of any host's types.
 struct FilterParameter {
   std::string name;  ///< saved in scripts: never changes
   ParameterKind kind = ParameterKind::Integer;
-  double default_value = 0.0;
+  double default_value = 0.0;        ///< of a number; a Text is empty
   double minimum = 0.0;              ///< smallest value accepted
   double maximum = 0.0;              ///< largest value accepted
   std::vector<std::string> choices;  ///< of a Choice, in the order of their index
@@ -35,39 +29,50 @@ struct FilterParameter {
   std::string tooltip;
 };
 
-/// The parameters in the order in which a dialog shows them.
-std::vector<FilterParameter> filter_parameters();
+/// Parameters in the order in which a dialog shows them.
+using ParameterList = std::vector<FilterParameter>;
 
-/// What the result's vertex quality holds.
-enum class VertexQuality {
-  RadialDistance,  ///< from the centroid, length
-  Curvature,       ///< largest absolute principal curvature, 1/length
-  CellArea,        ///< surface area of the node's power cell, length^2
+FilterParameter integer_parameter(std::string name, int default_value, int minimum, int maximum,
+                                  std::string label, std::string tooltip);
+FilterParameter real_parameter(std::string name, double default_value, double minimum,
+                               double maximum, std::string label, std::string tooltip);
+FilterParameter choice_parameter(std::string name, int default_index,
+                                 std::vector<std::string> choices, std::string label,
+                                 std::string tooltip);
+FilterParameter flag_parameter(std::string name, bool default_value, std::string label,
+                               std::string tooltip);
+FilterParameter text_parameter(std::string name, std::string label, std::string tooltip);
+
+/// A number, with enumerations as index and flags as 0 or 1, or a text.
+using ParameterValue = std::variant<double, std::string>;
+
+/// Parameter values by name.
+using ParameterValues = std::map<std::string, ParameterValue>;
+
+/// The values of all parameters of a list, checked. Scripts check nothing, so every value is
+/// checked here.
+class CheckedValues {
+ public:
+  /// A name that is missing takes its default. Throws Error(InvalidInput) for a value that is not
+  /// finite, out of range, of the wrong sort or, except for a Real, not whole.
+  CheckedValues(const ParameterList& parameters, const ParameterValues& values);
+
+  double real(const std::string& name) const { return std::get<double>(values_.at(name)); }
+  int whole(const std::string& name) const { return static_cast<int>(real(name)); }
+  bool flag(const std::string& name) const { return real(name) != 0.0; }
+  const std::string& text(const std::string& name) const {
+    return std::get<std::string>(values_.at(name));
+  }
+  template <class Enumeration>
+  Enumeration choice(const std::string& name) const {
+    return static_cast<Enumeration>(whole(name));
+  }
+
+ private:
+  ParameterValues values_;
 };
-
-/// Everything the user chose.
-struct FilterSettings {
-  RemeshOptions options;
-  bool new_layer = true;
-  VertexQuality quality = VertexQuality::RadialDistance;
-  bool colour_by_quality = false;
-};
-
-/// Parameter values by name; enumerations as index, flags as 0 or 1.
-using ParameterValues = std::map<std::string, double>;
-
-/// Reads the settings; a name that is missing takes its default. Scripts check nothing, so every
-/// value is checked here. Throws Error(InvalidInput) for a value that is not finite, out of range
-/// or, except for a Real, not whole.
-FilterSettings read_settings(const ParameterValues& values);
 
 /// The decimal number a user typed, given the float a host made of it: 0.1, not 0.100000001.
 double typed_value(float value);
-
-/// Short name of a weighting for labels: Constant, WSCVT-D, WSCVT-C, Area.
-std::string weighting_name(Weighting weighting);
-
-/// Values of the chosen quality, one a vertex of the result.
-const std::vector<double>& quality_values(const RemeshResult& result, VertexQuality quality);
 
 }  // namespace wscvt::filter

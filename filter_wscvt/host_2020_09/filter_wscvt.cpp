@@ -7,37 +7,87 @@
 #include <chrono>
 #include <exception>
 #include <new>
+#include <optional>
+#include <utility>
 
-#include "filter_log.h"
+#include "creation_filter.h"
+#include "descriptor_filter.h"
+#include "log_text.h"
 #include "mesh_conversion.h"
+#include "node_parameters.h"
 #include "parameters.h"
+#include "remesh_filter.h"
+#include "remesh_report.h"
 #include "wscvt/error.h"
 #include "wscvt/execution.h"
+#include "wscvt/harmonic_io.h"
 #include "wscvt/remesh.h"
 
 namespace {
 
 using namespace wscvt::filter;
 
-constexpr MeshFilterInterface::FilterIDType remeshing_filter = 0;
+enum Filter : MeshFilterInterface::FilterIDType { Remesh, Create, Describe };
+
+/// What the host asks about a filter.
+struct FilterDescription {
+  std::string name;
+  std::string help;
+  ParameterList parameters;
+  MeshFilterInterface::FilterClass menu;
+  MeshFilterInterface::FILTER_ARITY arity;
+  int changes;  ///< parts of a mesh that are not as before
+};
+
+/// A new or changed mesh with its quality and, when asked for, its colour.
+constexpr int mesh_changes = MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL |
+                             MeshModel::MM_VERTNUMBER | MeshModel::MM_VERTQUALITY |
+                             MeshModel::MM_VERTCOLOR | MeshModel::MM_FACEVERT |
+                             MeshModel::MM_FACENORMAL | MeshModel::MM_FACENUMBER;
+
+FilterDescription description_of(MeshFilterInterface::FilterIDType filter) {
+  switch (filter) {
+    case Create:
+      return {creation_name(),           creation_help(),
+              creation_parameters(),     MeshFilterInterface::MeshCreation,
+              MeshFilterInterface::NONE, mesh_changes};
+    case Describe:
+      return {descriptor_name(),
+              descriptor_help(),
+              descriptor_parameters(),
+              MeshFilterInterface::Measure,
+              MeshFilterInterface::SINGLE_MESH,
+              MeshModel::MM_NONE};
+    default:
+      return {remesh_name(),
+              remesh_help(),
+              remesh_parameters(),
+              MeshFilterInterface::Remeshing,
+              MeshFilterInterface::SINGLE_MESH,
+              mesh_changes};
+  }
+}
 
 /// The parts of a result that MeshLab does not hold by default.
 constexpr int result_mask = MeshModel::MM_VERTQUALITY;
 
-/// Value of a parameter as a number. The host's getters end the program when a script gave the
+/// Value of a parameter. The host's getters end the program when a script gave the
 /// parameter another type, so the type is checked first.
-double value_of(const FilterParameter& parameter, const Value& value) {
+ParameterValue value_of(const FilterParameter& parameter, const Value& value) {
   switch (parameter.kind) {
     case ParameterKind::Integer:
     case ParameterKind::Choice:
-      if (value.isInt()) return value.getInt();
+      if (value.isInt()) return static_cast<double>(value.getInt());
       break;
     case ParameterKind::Real:
       if (value.isFloat()) return typed_value(value.getFloat());
-      if (value.isInt()) return value.getInt();
+      if (value.isInt()) return static_cast<double>(value.getInt());
       break;
     case ParameterKind::Flag:
       if (value.isBool()) return value.getBool() ? 1.0 : 0.0;
+      break;
+    case ParameterKind::Text:
+      if (value.isString()) return value.getString().trimmed().toStdString();
       break;
   }
   throw wscvt::Error(wscvt::ErrorCode::InvalidInput,
@@ -46,9 +96,9 @@ double value_of(const FilterParameter& parameter, const Value& value) {
                          ", which does not fit; take the types from the filter's own scripts.");
 }
 
-ParameterValues values_of(const RichParameterList& parameters) {
+ParameterValues values_of(const ParameterList& known, const RichParameterList& parameters) {
   ParameterValues values;
-  for (const FilterParameter& parameter : filter_parameters()) {
+  for (const FilterParameter& parameter : known) {
     const QString name = QString::fromStdString(parameter.name);
     if (!parameters.hasParameter(name)) continue;
     values[parameter.name] = value_of(parameter, parameters.getParameterByName(name).value());
@@ -70,9 +120,13 @@ bool log_is_shown_as_html() {
                      [](const QWidget* widget) { return widget->inherits("QMainWindow"); });
 }
 
+wscvt::Error no_mesh() {
+  return {wscvt::ErrorCode::InvalidInput, "There is no mesh to work on; open a scan first."};
+}
+
 /// Puts the result into a layer, which keeps its transform.
 void fill_layer(MeshModel& layer, const wscvt::RemeshResult& result,
-                const FilterSettings& settings) {
+                const ResultSettings& settings) {
   // Adjacency, colours, texture coordinates and the like belong to the elements that go.
   const int kept = MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_VERTFLAG |
                    MeshModel::MM_FACEVERT | MeshModel::MM_FACENORMAL | MeshModel::MM_FACEFLAG |
@@ -89,60 +143,108 @@ void fill_layer(MeshModel& layer, const wscvt::RemeshResult& result,
   layer.UpdateBoxAndNormals();
 }
 
-void add_layer(MeshDocument& document, MeshModel& source, const wscvt::RemeshResult& result,
-               const FilterSettings& settings) {
+/// Adds a current layer with the result; `source`, if there is one, gives it its transform.
+void add_layer(MeshDocument& document, const QString& name, const MeshModel* source,
+               const wscvt::RemeshResult& result, const ResultSettings& settings) {
+  const MeshModel* before = document.mm();
   const QString label = QStringLiteral("%1 %2 %3")
-                            .arg(QFileInfo(source.label()).completeBaseName())
-                            .arg(QString::fromStdString(weighting_name(settings.options.weighting)))
-                            .arg(settings.options.node_count);
+                            .arg(name)
+                            .arg(QString::fromStdString(nodes_name(result.options)))
+                            .arg(result.mesh.n_vertices());
   MeshModel* layer = document.addNewMesh(QString(), label, true);
   try {
-    layer->cm.Tr = source.cm.Tr;
+    if (source != nullptr) layer->cm.Tr = source->cm.Tr;
     fill_layer(*layer, result, settings);
   } catch (...) {
     document.delMesh(layer);
-    document.setCurrentMesh(source.id());
+    if (before != nullptr) document.setCurrentMesh(before->id());
     throw;
   }
 }
 
+/// A layer as the document shows it: its transform applied.
+NamedMesh shown_mesh(const MeshModel& layer) {
+  NamedMesh result{layer.label().toStdString(), to_indexed_mesh(layer.cm)};
+  const auto& transform = layer.cm.Tr;
+  for (wscvt::Vector3& point : result.mesh.points) {
+    wscvt::Vector3 moved;
+    for (int k = 0; k < 3; ++k) {
+      moved[k] = transform.ElementAt(k, 0) * point.x() + transform.ElementAt(k, 1) * point.y() +
+                 transform.ElementAt(k, 2) * point.z() + transform.ElementAt(k, 3);
+    }
+    point = moved;
+  }
+  return result;
+}
+
+const MeshModel& layer_with_label(const MeshDocument& document, const std::string& label) {
+  const QString wanted = QString::fromStdString(label);
+  const MeshModel* found = nullptr;
+  QStringList labels;
+  for (const MeshModel* layer : document.meshList) {
+    labels << "'" + layer->label() + "'";
+    if (layer->label() != wanted) continue;
+    if (found != nullptr) {
+      throw wscvt::Error(
+          wscvt::ErrorCode::InvalidInput,
+          "Two layers are called '" + label + "'; rename one of them. Nothing was changed.");
+    }
+    found = layer;
+  }
+  if (found == nullptr) {
+    throw wscvt::Error(wscvt::ErrorCode::InvalidInput,
+                       "Parameter ReferenceLayer: there is no layer called '" + label +
+                           "'; the layers are " + labels.join(", ").toStdString() + ".");
+  }
+  return *found;
+}
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 FilterWscvt::FilterWscvt() {
-  typeList << remeshing_filter;
+  typeList << Remesh << Create << Describe;
   for (const FilterIDType filter : types())
     actionList << new QAction(FilterWscvt::filterName(filter), this);
 }
 
 QString FilterWscvt::pluginName() const { return QStringLiteral("FilterWSCVT"); }
 
-QString FilterWscvt::filterName(FilterIDType /*filter*/) const {
-  return QString::fromStdString(wscvt::filter::filter_name());
+QString FilterWscvt::filterName(FilterIDType filter) const {
+  return QString::fromStdString(description_of(filter).name);
 }
 
-QString FilterWscvt::filterInfo(FilterIDType /*filter*/) const {
-  return QString::fromStdString(wscvt::filter::filter_help());
+QString FilterWscvt::filterInfo(FilterIDType filter) const {
+  return QString::fromStdString(description_of(filter).help);
 }
 
-MeshFilterInterface::FilterClass FilterWscvt::getClass(QAction* /*action*/) {
-  return MeshFilterInterface::Remeshing;
+MeshFilterInterface::FilterClass FilterWscvt::getClass(QAction* action) {
+  return description_of(ID(action)).menu;
 }
 
-MeshFilterInterface::FILTER_ARITY FilterWscvt::filterArity(QAction* /*action*/) const {
-  return MeshFilterInterface::SINGLE_MESH;
+MeshFilterInterface::FILTER_ARITY FilterWscvt::filterArity(QAction* action) const {
+  return description_of(ID(action)).arity;
 }
 
-int FilterWscvt::getPreConditions(QAction* /*action*/) const { return MeshModel::MM_FACENUMBER; }
-
-int FilterWscvt::postCondition(QAction* /*action*/) const {
-  return MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_VERTNUMBER |
-         MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR | MeshModel::MM_FACEVERT |
-         MeshModel::MM_FACENORMAL | MeshModel::MM_FACENUMBER;
+int FilterWscvt::getPreConditions(QAction* action) const {
+  // The remesher takes points without faces too.
+  return ID(action) == Describe ? MeshModel::MM_FACENUMBER : MeshModel::MM_NONE;
 }
 
-void FilterWscvt::initParameterSet(QAction* /*action*/, MeshDocument& /*document*/,
+int FilterWscvt::postCondition(QAction* action) const { return description_of(ID(action)).changes; }
+
+void FilterWscvt::initParameterSet(QAction* action, MeshDocument& /*document*/,
                                    RichParameterList& parameters) {
-  for (const FilterParameter& parameter : filter_parameters()) {
+  for (const FilterParameter& parameter : description_of(ID(action)).parameters) {
     const QString name = QString::fromStdString(parameter.name);
     const QString label = QString::fromStdString(parameter.label);
     const QString tooltip = QString::fromStdString(parameter.tooltip);
@@ -167,16 +269,28 @@ void FilterWscvt::initParameterSet(QAction* /*action*/, MeshDocument& /*document
       case ParameterKind::Flag:
         parameters.addParam(RichBool(name, parameter.default_value != 0.0, label, tooltip));
         break;
+      case ParameterKind::Text:
+        parameters.addParam(RichString(name, QString(), label, tooltip));
+        break;
     }
   }
 }
 
-bool FilterWscvt::applyFilter(QAction* /*action*/, MeshDocument& document,
+bool FilterWscvt::applyFilter(QAction* action, MeshDocument& document,
                               const RichParameterList& parameters, vcg::CallBackPos* callback) {
   errorMessage.clear();
   // An exception that leaves this function ends MeshLab.
   try {
-    remesh_current_layer(document, parameters, callback);
+    switch (ID(action)) {
+      case Create:
+        create_layer(document, parameters, callback);
+        break;
+      case Describe:
+        describe_current_layer(document, parameters, callback);
+        break;
+      default:
+        remesh_current_layer(document, parameters, callback);
+    }
     return true;
   } catch (const std::bad_alloc&) {
     return fail(QStringLiteral(
@@ -190,28 +304,65 @@ bool FilterWscvt::applyFilter(QAction* /*action*/, MeshDocument& document,
 
 void FilterWscvt::remesh_current_layer(MeshDocument& document, const RichParameterList& parameters,
                                        vcg::CallBackPos* callback) {
-  const auto start = std::chrono::steady_clock::now();
-  const FilterSettings settings = read_settings(values_of(parameters));
+  const Stopwatch stopwatch;
+  const RemeshSettings settings = read_remesh_settings(values_of(remesh_parameters(), parameters));
   MeshModel* source = document.mm();
-  if (source == nullptr) {
-    throw wscvt::Error(wscvt::ErrorCode::InvalidInput,
-                       "There is no mesh to work on; open a scan first.");
-  }
+  if (source == nullptr) throw no_mesh();
 
   const wscvt::Execution execution(0, progress_to(callback));
   const wscvt::RemeshResult result =
       wscvt::remesh(to_indexed_mesh(source->cm), settings.options, execution);
+  // Files first: when they cannot be written the document stays as it was.
+  if (!settings.coefficients_file.empty()) {
+    wscvt::write_harmonics(settings.coefficients_file, wscvt::HarmonicSurface(result.coefficients));
+  }
+  if (!settings.result.report_file.empty()) {
+    write_report(result, to_indexed_mesh(source->cm), settings.result.report_file);
+  }
   if (settings.new_layer) {
-    add_layer(document, *source, result, settings);
+    add_layer(document, QFileInfo(source->label()).completeBaseName(), source, result,
+              settings.result);
   } else {
-    fill_layer(*source, result, settings);
+    fill_layer(*source, result, settings.result);
   }
+  log(log_lines(result, settings.result.quality, stopwatch.seconds()));
+}
 
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const bool html = log_is_shown_as_html();
-  for (const std::string& line : log_lines(result, settings, elapsed.count())) {
-    Log(html ? html_line(line) : line);
+void FilterWscvt::create_layer(MeshDocument& document, const RichParameterList& parameters,
+                               vcg::CallBackPos* callback) {
+  const Stopwatch stopwatch;
+  const CreationSettings settings =
+      read_creation_settings(values_of(creation_parameters(), parameters));
+  const auto surface = make_surface(settings);
+  const wscvt::Execution execution(0, progress_to(callback));
+  const wscvt::RemeshResult result = wscvt::remesh(*surface, settings.options, execution);
+  write_report(result, wscvt::IndexedMesh(), settings.result.report_file);
+  add_layer(document, QString::fromStdString(surface_name(settings)), nullptr, result,
+            settings.result);
+  log(log_lines(result, settings.result.quality, stopwatch.seconds()));
+}
+
+void FilterWscvt::describe_current_layer(MeshDocument& document,
+                                         const RichParameterList& parameters,
+                                         vcg::CallBackPos* callback) {
+  const Stopwatch stopwatch;
+  const DescriptorSettings settings =
+      read_descriptor_settings(values_of(descriptor_parameters(), parameters));
+  if (document.mm() == nullptr) throw no_mesh();
+  std::optional<NamedMesh> reference;
+  if (!settings.reference_layer.empty()) {
+    reference = shown_mesh(layer_with_label(document, settings.reference_layer));
   }
+  const wscvt::Execution execution(0, progress_to(callback));
+  const DescriptorResult result =
+      measure_grains(shown_mesh(*document.mm()), std::move(reference), settings.options, execution);
+  write_report(result, settings.report_file);
+  log(descriptor_lines(result, stopwatch.seconds()));
+}
+
+void FilterWscvt::log(const std::vector<std::string>& lines) {
+  const bool html = log_is_shown_as_html();
+  for (const std::string& line : lines) Log(html ? html_line(line) : line);
 }
 
 bool FilterWscvt::fail(const QString& sentence) {

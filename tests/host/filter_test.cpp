@@ -13,10 +13,13 @@
 #include <set>
 
 #include "calls.h"
-#include "filter_log.h"
+#include "creation_filter.h"
+#include "descriptor_filter.h"
+#include "log_text.h"
 #include "mesh_conversion.h"
 #include "parameters.h"
 #include "programs.h"
+#include "remesh_filter.h"
 #include "sample_meshes.h"
 #include "wscvt/remesh.h"
 
@@ -25,17 +28,26 @@ namespace {
 
 const QString filter_menu_text = "Remeshing: Weighted Spherical Centroidal Voronoi";
 
-/// The plugin's one filter.
+const QString creation_menu_text = "Create: grain from ellipsoid, superellipsoid or harmonics";
+const QString descriptor_menu_text = "Grain shape descriptors";
+
+/// One of the plugin's filters, the remesher unless told otherwise.
 class LoadedFilter {
  public:
-  LoadedFilter() : loader_(QStringLiteral(WSCVT_PLUGIN_FILE)) {
+  explicit LoadedFilter(QString menu_text = filter_menu_text)
+      : menu_text_(std::move(menu_text)), loader_(QStringLiteral(WSCVT_PLUGIN_FILE)) {
     filter_ = qobject_cast<MeshFilterInterface*>(loader_.instance());
     if (filter_ == nullptr) throw std::runtime_error(loader_.errorString().toStdString());
     filter_->setLog(&log_);
   }
 
   MeshFilterInterface& filter() { return *filter_; }
-  QAction* action() { return filter_->actions().front(); }
+  QAction* action() {
+    for (QAction* action : filter_->actions()) {
+      if (action->text() == menu_text_) return action;
+    }
+    throw std::runtime_error("There is no filter " + menu_text_.toStdString());
+  }
 
   RichParameterList parameters(MeshDocument& document) {
     RichParameterList list;
@@ -55,6 +67,7 @@ class LoadedFilter {
   }
 
  private:
+  QString menu_text_;
   QPluginLoader loader_;
   MeshFilterInterface* filter_ = nullptr;
   GLLogStream log_;
@@ -77,6 +90,8 @@ void set_from_text(RichParameterList& list, const std::string& name, const std::
     parameter.setValue(IntValue(value.toInt()));
   } else if (parameter.value().isFloat()) {
     parameter.setValue(FloatValue(value.toFloat()));
+  } else if (parameter.value().isString()) {
+    parameter.setValue(StringValue(value));
   } else {
     parameter.setValue(BoolValue(value == "true"));
   }
@@ -131,15 +146,28 @@ std::vector<LayerState> state_of(MeshDocument& document) {
   return states;
 }
 
-TEST(Filter, NameMenuAndConditionsAreFrozen) {
+TEST(Filter, NamesMenusAndConditionsAreFrozen) {
   LoadedFilter loaded;
-  ASSERT_EQ(loaded.filter().actions().size(), 1);
-  EXPECT_EQ(loaded.action()->text(), filter_menu_text);
-  EXPECT_EQ(loaded.filter().getClass(loaded.action()), MeshFilterInterface::Remeshing);
-  EXPECT_EQ(loaded.filter().filterArity(loaded.action()), MeshFilterInterface::SINGLE_MESH);
-  EXPECT_EQ(loaded.filter().getPreConditions(loaded.action()), MeshModel::MM_FACENUMBER);
+  MeshFilterInterface& filter = loaded.filter();
+  ASSERT_EQ(filter.actions().size(), 3);
+  QAction* remesh = loaded.action();
+  EXPECT_EQ(filter.getClass(remesh), MeshFilterInterface::Remeshing);
+  EXPECT_EQ(filter.filterArity(remesh), MeshFilterInterface::SINGLE_MESH);
+  EXPECT_EQ(filter.getPreConditions(remesh), MeshModel::MM_NONE);  // points without faces too
   const int changes = MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
-  EXPECT_EQ(loaded.filter().postCondition(loaded.action()) & changes, changes);
+  EXPECT_EQ(filter.postCondition(remesh) & changes, changes);
+
+  QAction* create = LoadedFilter(creation_menu_text).action();
+  EXPECT_EQ(filter.getClass(create), MeshFilterInterface::MeshCreation);
+  EXPECT_EQ(filter.filterArity(create), MeshFilterInterface::NONE);
+  EXPECT_EQ(filter.getPreConditions(create), MeshModel::MM_NONE);
+  EXPECT_EQ(filter.postCondition(create) & changes, changes);
+
+  QAction* describe = LoadedFilter(descriptor_menu_text).action();
+  EXPECT_EQ(filter.getClass(describe), MeshFilterInterface::Measure);
+  EXPECT_EQ(filter.filterArity(describe), MeshFilterInterface::SINGLE_MESH);
+  EXPECT_EQ(filter.getPreConditions(describe), MeshModel::MM_FACENUMBER);
+  EXPECT_EQ(filter.postCondition(describe), MeshModel::MM_NONE);
 }
 
 TEST(Filter, HelpNamesTheMethodAndItsSource) {
@@ -151,31 +179,56 @@ TEST(Filter, HelpNamesTheMethodAndItsSource) {
   }
 }
 
-TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
-  LoadedFilter loaded;
+/// Names, types and defaults, one a line.
+QString parameters_of(const QString& menu_text) {
+  LoadedFilter loaded(menu_text);
   MeshDocument document;
-  QStringList actual;
+  QStringList lines;
   for (const RichParameter& parameter : loaded.parameters(document)) {
     QDomDocument xml;
     const QDomElement element = parameter.fillToXMLDocument(xml);
-    actual << parameter.name() + " " + parameter.stringType() + " " + element.attribute("value");
+    lines << (parameter.name() + " " + parameter.stringType() + " " + element.attribute("value"))
+                 .trimmed();
     EXPECT_FALSE(parameter.fieldDescription().isEmpty()) << parameter.name().toStdString();
     EXPECT_GT(parameter.toolTip().size(), 40) << parameter.name().toStdString();
   }
-  const QStringList frozen{"NodeCount RichInt 1000",
+  return lines.join("\n");
+}
+
+TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
+  const QStringList remesh{
+      "NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",    "TargetMeasure RichEnum 4",
+      "Sampling RichEnum 0",        "Weighting RichEnum 1",       "HarmonicDegree RichInt 20",
+      "CurvatureAlpha RichFloat 1", "Placement RichEnum 0",       "RefinementRounds RichInt 0",
+      "FoldLimit RichFloat 5",      "Metric RichEnum 0",          "SeedStart RichEnum 0",
+      "RandomSeed RichInt 1",       "MaxIterations RichInt 1000", "NewLayer RichBool true",
+      "Distances RichBool false",   "Quality RichEnum 0",         "ColorByQuality RichBool false",
+      "ReportFile RichString",      "CoefficientsFile RichString"};
+  EXPECT_EQ(parameters_of(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
+  const QStringList create{"Surface RichEnum 0",
+                           "SemiAxisX RichFloat 1",
+                           "SemiAxisY RichFloat 1",
+                           "SemiAxisZ RichFloat 1",
+                           "PolarExponent RichFloat 1",
+                           "AzimuthalExponent RichFloat 1",
+                           "CoefficientsFile RichString",
+                           "CoefficientDegree RichInt -1",
+                           "NodeCount RichInt 1000",
+                           "Sampling RichEnum 0",
                            "Weighting RichEnum 1",
-                           "HarmonicDegree RichInt 20",
                            "CurvatureAlpha RichFloat 1",
                            "Placement RichEnum 0",
-                           "FoldLimit RichFloat 5",
                            "Metric RichEnum 0",
                            "SeedStart RichEnum 0",
                            "RandomSeed RichInt 1",
                            "MaxIterations RichInt 1000",
-                           "NewLayer RichBool true",
                            "Quality RichEnum 0",
-                           "ColorByQuality RichBool false"};
-  EXPECT_EQ(actual.join("\n").toStdString(), frozen.join("\n").toStdString());
+                           "ColorByQuality RichBool false",
+                           "ReportFile RichString"};
+  EXPECT_EQ(parameters_of(creation_menu_text).toStdString(), create.join("\n").toStdString());
+  const QStringList describe{"ReferenceLayer RichString", "RoundnessDegree RichInt 15",
+                             "RoughnessDegree RichInt 8", "ReportFile RichString"};
+  EXPECT_EQ(parameters_of(descriptor_menu_text).toStdString(), describe.join("\n").toStdString());
 }
 
 TEST(Filter, ChoicesAreFrozen) {
@@ -188,25 +241,38 @@ TEST(Filter, ChoicesAreFrozen) {
   EXPECT_EQ(choices("Weighting"), QStringList({"Constant", "WSCVT-D (radial distance)",
                                                "WSCVT-C (curvature)", "Area", "Error-adaptive"}));
   EXPECT_EQ(choices("Metric"), QStringList({"Sphere", "Surface"}));
-  EXPECT_EQ(choices("Placement"), QStringList({"Fitted surface", "Original mesh"}));
+  EXPECT_EQ(choices("Placement"),
+            QStringList({"Fitted surface", "Original mesh", "Least squares (volume exact)"}));
+  EXPECT_EQ(choices("Sampling"), QStringList({"Weighted Voronoi", "Fibonacci lattice",
+                                              "Equal-angle grid", "Icosahedron"}));
+  EXPECT_EQ(choices("TargetMeasure"),
+            QStringList({"Volume", "Area", "Sphericity", "Inertia", "RMS distance"}));
   EXPECT_EQ(choices("SeedStart"), QStringList({"Multilevel", "Warped lattice", "Random"}));
-  EXPECT_EQ(choices("Quality"), QStringList({"Radial distance", "Curvature", "Cell area"}));
+  EXPECT_EQ(choices("Quality"),
+            QStringList({"Radial distance", "Curvature", "Cell area", "Distance to the original"}));
 }
 
-class FilterScripts : public ::testing::TestWithParam<std::pair<const char*, int>> {};
+struct Script {
+  const char* file;
+  QString menu_text;
+  std::map<std::string, std::string> values;  ///< that differ from the defaults
+};
+
+void PrintTo(const Script& script, std::ostream* out) { *out << script.file; }
+
+class FilterScripts : public ::testing::TestWithParam<Script> {};
 
 /// A script that lacks a parameter or misspells one ends meshlabserver by a failed assertion.
 TEST_P(FilterScripts, HoldExactlyTheFiltersParameters) {
-  const auto [file, weighting] = GetParam();
   FilterScript script;
-  ASSERT_TRUE(script.open(script_path(file)));
+  ASSERT_TRUE(script.open(script_path(GetParam().file)));
   ASSERT_EQ(script.size(), 1);
-  EXPECT_EQ(script[0].filterName(), filter_menu_text);
+  EXPECT_EQ(script[0].filterName(), GetParam().menu_text);
 
-  LoadedFilter loaded;
+  LoadedFilter loaded(GetParam().menu_text);
   MeshDocument document;
   RichParameterList expected = loaded.parameters(document);
-  expected.setValue("Weighting", EnumValue(weighting));
+  for (const auto& [name, value] : GetParam().values) set_from_text(expected, name, value);
   RichParameterList actual = script[0].second;
   ASSERT_EQ(actual.size(), expected.size());
   auto wanted = expected.begin();
@@ -225,13 +291,21 @@ TEST_P(FilterScripts, HoldExactlyTheFiltersParameters) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, FilterScripts,
-                         ::testing::Values(std::pair{"constant.mlx", 0},
-                                           std::pair{"wscvt_d.mlx", 1}, std::pair{"wscvt_c.mlx", 2},
-                                           std::pair{"area.mlx", 3}),
-                         [](const auto& test) {
-                           return QFileInfo(test.param.first).baseName().toStdString();
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    , FilterScripts,
+    ::testing::Values(Script{"constant.mlx", filter_menu_text, {{"Weighting", "0"}}},
+                      Script{"wscvt_d.mlx", filter_menu_text, {{"Weighting", "1"}}},
+                      Script{"wscvt_c.mlx", filter_menu_text, {{"Weighting", "2"}}},
+                      Script{"area.mlx", filter_menu_text, {{"Weighting", "3"}}},
+                      Script{"create_superellipsoid.mlx",
+                             creation_menu_text,
+                             {{"Surface", "1"},
+                              {"SemiAxisX", "1.5"},
+                              {"SemiAxisY", "1.2"},
+                              {"PolarExponent", "0.7"},
+                              {"AzimuthalExponent", "0.8"}}},
+                      Script{"descriptors.mlx", descriptor_menu_text, {}}),
+    [](const auto& test) { return QFileInfo(test.param.file).baseName().toStdString(); });
 
 TEST(Filter, AddsACurrentLayerAndKeepsTheScan) {
   LoadedFilter loaded;
@@ -293,15 +367,16 @@ TEST(Filter, GivesWhatTheLibraryGives) {
   const IndexedMesh as_loaded = filter::to_indexed_mesh(scan.cm);  // rounded to float
   const auto qualities = [](const RemeshResult& result) {
     return std::vector<const std::vector<double>*>{&result.radial_distances, &result.curvatures,
-                                                   &result.cell_areas};
+                                                   &result.cell_areas, &result.vertex_distances};
   };
   RemeshOptions options;
   options.node_count = 200;
   options.weighting = Weighting::Area;
   options.node_curvatures = true;
+  options.distances = true;
   const RemeshResult expected = remesh(as_loaded, options);
   const IndexedMesh mesh = to_indexed(expected.mesh);
-  for (int quality = 0; quality < 3; ++quality) {
+  for (int quality = 0; quality < 4; ++quality) {
     document.setCurrentMesh(scan.id());
     RichParameterList parameters = loaded.parameters(document);
     parameters.setValue("NodeCount", IntValue(200));
@@ -539,25 +614,49 @@ TEST(FilterParameters, TypedValueIsTheShortestDecimal) {
 }
 
 TEST(FilterParameters, DefaultsAreTheLibrarysAndLieInTheirRanges) {
-  const filter::FilterSettings settings = filter::read_settings({});
+  const RemeshOptions options = filter::read_remesh_settings({}).options;
   const RemeshOptions defaults;
-  EXPECT_EQ(settings.options.node_count, defaults.node_count);
-  EXPECT_EQ(settings.options.weighting, defaults.weighting);
-  EXPECT_EQ(settings.options.degree, defaults.degree);
-  EXPECT_EQ(settings.options.curvature_alpha, defaults.curvature_alpha);
-  EXPECT_EQ(settings.options.placement, defaults.placement);
-  EXPECT_EQ(settings.options.fold_limit, defaults.fold_limit);
-  EXPECT_EQ(settings.options.relaxation.metric, defaults.relaxation.metric);
-  EXPECT_EQ(settings.options.seed_start, defaults.seed_start);
-  EXPECT_EQ(settings.options.random_seed, defaults.random_seed);
-  EXPECT_EQ(settings.options.relaxation.maximum_iterations, defaults.relaxation.maximum_iterations);
-  for (const filter::FilterParameter& parameter : filter::filter_parameters()) {
-    EXPECT_NO_THROW(filter::read_settings({{parameter.name, parameter.default_value}}));
-    EXPECT_NO_THROW(filter::read_settings({{parameter.name, parameter.minimum}}));
-    EXPECT_NO_THROW(filter::read_settings({{parameter.name, parameter.maximum}}));
-    EXPECT_ANY_THROW(filter::read_settings({{parameter.name, parameter.minimum - 1}}));
-    EXPECT_ANY_THROW(filter::read_settings({{parameter.name, parameter.maximum + 1}}));
-    EXPECT_ANY_THROW(filter::read_settings({{parameter.name, std::nan("")}}));
+  EXPECT_EQ(options.node_count, defaults.node_count);
+  EXPECT_EQ(options.error_target.measure, defaults.error_target.measure);
+  EXPECT_EQ(options.error_target.percent, defaults.error_target.percent);
+  EXPECT_EQ(options.error_target.largest_node_count, defaults.error_target.largest_node_count);
+  EXPECT_EQ(options.sampling, defaults.sampling);
+  EXPECT_EQ(options.weighting, defaults.weighting);
+  EXPECT_EQ(options.degree, defaults.degree);
+  EXPECT_EQ(options.curvature_alpha, defaults.curvature_alpha);
+  EXPECT_EQ(options.placement, defaults.placement);
+  EXPECT_EQ(options.refinement.rounds, defaults.refinement.rounds);
+  EXPECT_EQ(options.distances, defaults.distances);
+  EXPECT_EQ(options.fold_limit, defaults.fold_limit);
+  EXPECT_EQ(options.relaxation.metric, defaults.relaxation.metric);
+  EXPECT_EQ(options.seed_start, defaults.seed_start);
+  EXPECT_EQ(options.random_seed, defaults.random_seed);
+  EXPECT_EQ(options.relaxation.maximum_iterations, defaults.relaxation.maximum_iterations);
+  const DetailedOptions details = filter::read_descriptor_settings({}).options;
+  EXPECT_EQ(details.roundness_degree, DetailedOptions().roundness_degree);
+  EXPECT_EQ(details.roughness_degree, DetailedOptions().roughness_degree);
+
+  for (const filter::ParameterList& list :
+       {filter::remesh_parameters(), filter::creation_parameters(),
+        filter::descriptor_parameters()}) {
+    for (const filter::FilterParameter& parameter : list) {
+      SCOPED_TRACE(parameter.name);
+      const auto read = [&](const filter::ParameterValue& value) {
+        return filter::CheckedValues(list, {{parameter.name, value}});
+      };
+      if (parameter.kind == filter::ParameterKind::Text) {
+        EXPECT_NO_THROW(read(std::string("name")));
+        EXPECT_ANY_THROW(read(1.0));
+        continue;
+      }
+      EXPECT_NO_THROW(read(parameter.default_value));
+      EXPECT_NO_THROW(read(parameter.minimum));
+      EXPECT_NO_THROW(read(parameter.maximum));
+      EXPECT_ANY_THROW(read(parameter.minimum - 1));
+      EXPECT_ANY_THROW(read(parameter.maximum + 1));
+      EXPECT_ANY_THROW(read(std::nan("")));
+      EXPECT_ANY_THROW(read(std::string("1")));
+    }
   }
 }
 

@@ -73,16 +73,21 @@ Outcome run_meshlabserver(const QStringList& arguments, const QString& folder) {
 
 QString script_path(const QString& name) { return QStringLiteral(WSCVT_SCRIPTS_DIR "/") + name; }
 
-void write_script(const std::map<std::string, std::string>& values, const QString& path) {
-  QFile original(script_path("wscvt_d.mlx"));
-  if (!original.open(QIODevice::ReadOnly)) throw std::runtime_error("wscvt_d.mlx is not there");
-  QString script = QString::fromUtf8(original.readAll());
+void write_script(const std::map<std::string, std::string>& values, const QString& path,
+                  const QString& original) {
+  QFile file(script_path(original));
+  if (!file.open(QIODevice::ReadOnly)) {
+    throw std::runtime_error(original.toStdString() + " is not there");
+  }
+  QString script = QString::fromUtf8(file.readAll());
   for (const auto& [name, value] : values) {
     const QRegularExpression parameter(
         QStringLiteral("<Param name=\"%1\" type=\"\\w+\" value=\"([^\"]*)")
             .arg(QString::fromStdString(name)));
     const QRegularExpressionMatch match = parameter.match(script);
-    if (!match.hasMatch()) throw std::runtime_error("wscvt_d.mlx has no parameter " + name);
+    if (!match.hasMatch()) {
+      throw std::runtime_error(original.toStdString() + " has no parameter " + name);
+    }
     script.replace(match.capturedStart(1), match.capturedLength(1), QString::fromStdString(value));
   }
   QFile changed(path);

@@ -44,9 +44,10 @@ Outcome run_meshlabserver(const QStringList& arguments, const QString& folder);
 /// Path of a script of the project, e.g. "wscvt_d.mlx".
 QString script_path(const QString& name);
 
-/// Writes wscvt_d.mlx with other values for some of its parameters. Throws std::runtime_error for
-/// a parameter that the script does not hold.
-void write_script(const std::map<std::string, std::string>& values, const QString& path);
+/// Writes a script of the project with other values for some of its parameters. Throws
+/// std::runtime_error for a parameter that the script does not hold.
+void write_script(const std::map<std::string, std::string>& values, const QString& path,
+                  const QString& original = "wscvt_d.mlx");
 
 /// Polls until the condition holds; false when `seconds` have passed.
 bool wait_until(const std::function<bool()>& condition, double seconds);

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "parameters.h"
+#include "node_parameters.h"
+#include "wscvt/indexed_mesh.h"
 #include "wscvt/remesh.h"
 
 namespace wscvt::filter {
@@ -12,10 +13,12 @@ namespace wscvt::filter {
 /// The log of a run: the library's report, what the vertex quality holds, seed and seconds. The
 /// first line is empty, because a host may have left progress text without a line end; every line
 /// is shorter than the 4096 characters at which hosts cut.
-std::vector<std::string> log_lines(const RemeshResult& result, const FilterSettings& settings,
+std::vector<std::string> log_lines(const RemeshResult& result, VertexQuality quality,
                                    double seconds);
 
-/// A line for a host that shows its log as HTML: columns keep their width, signs stay signs.
-std::string html_line(const std::string& line);
+/// Writes the report in the format of the file's extension; nothing for an empty name. `original`
+/// is the mesh as it was given, of which an HTML report shows the edges; empty when there was none.
+/// Throws Error(InputOutput).
+void write_report(const RemeshResult& result, const IndexedMesh& original, const std::string& path);
 
 }  // namespace wscvt::filter

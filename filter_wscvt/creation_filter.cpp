@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "creation_filter.h"
+
+#include <QFileInfo>
+
+#include "report_file.h"
+#include "wscvt/error.h"
+#include "wscvt/harmonic_io.h"
+#include "wscvt/quadric_surface.h"
+
+namespace wscvt::filter {
+
+namespace {
+
+constexpr int highest_degree = 200;
+
+FilterParameter semi_axis(const std::string& name, double default_value, const std::string& axis) {
+  return real_parameter(name, default_value, 1e-6, 1e6, "Semi-axis along " + axis,
+                        "Half the extent of the ellipsoid or superellipsoid along " + axis +
+                            ", in units of the mesh, 0.000001 to 1000000. Harmonics have a size "
+                            "of their own.");
+}
+
+FilterParameter exponent(const std::string& name, const std::string& label,
+                         const std::string& where) {
+  return real_parameter(name, 1.0, 0.1, 2.0, label,
+                        "Superellipsoid only, 0.1 to 2, no unit: how square it is " + where +
+                            ". 0.1 nearly a box, 1 round as the ellipsoid, 2 a bevelled edge.");
+}
+
+bool is_json(const std::string& path) {
+  return QFileInfo(QString::fromStdString(path)).suffix().toLower() == QLatin1String("json");
+}
+
+}  // namespace
+
+std::string creation_name() { return "Create: grain from ellipsoid, superellipsoid or harmonics"; }
+
+std::string creation_help() {
+  return "Makes a mesh of a number of nodes from a surface that is known exactly: an ellipsoid, a "
+         "superellipsoid or a series of spherical harmonics from a file, by the same weighted "
+         "Voronoi tessellation as the remesher. The result is closed, 2-manifold and outward and "
+         "becomes a new layer; the log lists its errors in volume, area and shape against the "
+         "surface itself.<br>"
+         "Harmonics are read from the text of the NIST/VCCTL particle shape sets (.dat, lines "
+         "<i>n m Re Im</i>, complex, orthonormal, Condon-Shortley phase) or from the .json that "
+         "the remesher saves. <b>It refuses</b> files that hold something else, and series whose "
+         "radius is not positive everywhere.<br>"
+         "See: <i>Wu F., Huang L., Lai Z.</i> <b>\"A spherical Voronoi tessellation-based approach "
+         "for particle surface discretization and reconstruction\"</b>, Engineering Mechanics, "
+         "2022, doi 10.6052/j.issn.1000-4750.2022.07.0614; <i>Barr A.</i> <b>\"Superquadrics and "
+         "angle-preserving transformations\"</b>, IEEE Computer Graphics and Applications, 1981";
+}
+
+ParameterList creation_parameters() {
+  return {
+      choice_parameter("Surface", 0, {"Ellipsoid", "Superellipsoid", "Harmonics from a file"},
+                       "Surface",
+                       "Ellipsoid: of the three semi-axes. Superellipsoid: of the semi-axes and "
+                       "the two exponents. Harmonics: of the coefficients in a file."),
+      semi_axis("SemiAxisX", 1.0, "x"),
+      semi_axis("SemiAxisY", 1.0, "y"),
+      semi_axis("SemiAxisZ", 1.0, "z"),
+      exponent("PolarExponent", "Polar exponent", "seen from the side"),
+      exponent("AzimuthalExponent", "Azimuthal exponent", "seen along z"),
+      text_parameter("CoefficientsFile", "Coefficients file",
+                     "Harmonics only: name of the file that holds the coefficients, .dat (text of "
+                     "the NIST/VCCTL particle shape sets) or .json (as the remesher saves it)."),
+      integer_parameter("CoefficientDegree", -1, -1, highest_degree, "Cut the series at degree",
+                        "Harmonics from a .dat file only: the series is cut at this degree, 0 to "
+                        "200; -1 keeps all. The tables beside the particle shape sets are those "
+                        "of cut series."),
+      node_count_parameter(),
+      sampling_parameter(),
+      weighting_parameter(),
+      curvature_alpha_parameter(),
+      choice_parameter("Placement", 0, {"On the surface", "Least squares (volume exact)"},
+                       "Place nodes",
+                       "On the surface: the nodes are points of it. Least squares: off it, so that "
+                       "the triangles fit it best and enclose exactly its volume."),
+      metric_parameter(),
+      seed_start_parameter(),
+      random_seed_parameter(),
+      maximum_iterations_parameter(),
+      choice_parameter("Quality", 0, quality_names(), "Vertex quality",
+                       "What the vertex quality of the result holds. Radial distance: from the "
+                       "origin, in units of the mesh. Curvature: the largest absolute principal "
+                       "curvature, 1/unit. Cell area: surface area of the node's cell, unit^2. "
+                       "Distance to the original: from each node to the surface."),
+      colour_by_quality_parameter(),
+      report_file_parameter(),
+  };
+}
+
+CreationSettings read_creation_settings(const ParameterValues& values) {
+  const CheckedValues checked(creation_parameters(), values);
+  CreationSettings settings;
+  settings.surface = checked.choice<GrainSurface>("Surface");
+  settings.semi_axes =
+      Vector3(checked.real("SemiAxisX"), checked.real("SemiAxisY"), checked.real("SemiAxisZ"));
+  settings.polar_exponent = checked.real("PolarExponent");
+  settings.azimuthal_exponent = checked.real("AzimuthalExponent");
+  settings.coefficients_file = checked.text("CoefficientsFile");
+  settings.coefficient_degree = checked.whole("CoefficientDegree");
+  if (settings.surface == GrainSurface::Harmonics) {
+    if (settings.coefficients_file.empty()) {
+      throw Error(ErrorCode::InvalidInput,
+                  "Parameter CoefficientsFile is empty; name the .dat or .json file that holds "
+                  "the coefficients of the harmonics. Nothing was changed.");
+    }
+    check_extension(settings.coefficients_file, {".dat", ".json"}, "CoefficientsFile");
+  }
+  settings.options = read_node_options(checked);
+  settings.options.placement =
+      checked.whole("Placement") == 0 ? NodePlacement::FittedSurface : NodePlacement::LeastSquares;
+  settings.result.quality = checked.choice<VertexQuality>("Quality");
+  request_quality(settings.options, settings.result.quality);
+  settings.result.colour_by_quality = checked.flag("ColorByQuality");
+  settings.result.report_file = checked.text("ReportFile");
+  check_report_file(settings.result.report_file);
+  return settings;
+}
+
+std::unique_ptr<const RadialSurface> make_surface(const CreationSettings& settings) {
+  switch (settings.surface) {
+    case GrainSurface::Ellipsoid:
+      break;
+    case GrainSurface::Superellipsoid:
+      return std::make_unique<Superellipsoid>(settings.semi_axes, settings.polar_exponent,
+                                              settings.azimuthal_exponent);
+    case GrainSurface::Harmonics:
+      return std::make_unique<HarmonicSurface>(
+          is_json(settings.coefficients_file)
+              ? read_harmonics(settings.coefficients_file)
+              : read_complex_harmonics(settings.coefficients_file, settings.coefficient_degree));
+  }
+  return std::make_unique<Ellipsoid>(settings.semi_axes);
+}
+
+std::string surface_name(const CreationSettings& settings) {
+  switch (settings.surface) {
+    case GrainSurface::Ellipsoid:
+      break;
+    case GrainSurface::Superellipsoid:
+      return "Superellipsoid";
+    case GrainSurface::Harmonics:
+      return QFileInfo(QString::fromStdString(settings.coefficients_file))
+          .completeBaseName()
+          .toStdString();
+  }
+  return "Ellipsoid";
+}
+
+}  // namespace wscvt::filter

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "node_parameters.h"
+#include "parameters.h"
+#include "wscvt/radial_surface.h"
+#include "wscvt/remesh.h"
+
+namespace wscvt::filter {
+
+/// The menu text. Saved scripts refer to it: it never changes.
+std::string creation_name();
+
+std::string creation_help();
+
+ParameterList creation_parameters();
+
+/// Which surface is made into a mesh.
+enum class GrainSurface { Ellipsoid, Superellipsoid, Harmonics };
+
+struct CreationSettings {
+  GrainSurface surface = GrainSurface::Ellipsoid;
+  Vector3 semi_axes = Vector3::Ones();  ///< length
+  double polar_exponent = 1.0;
+  double azimuthal_exponent = 1.0;
+  std::string coefficients_file;
+  int coefficient_degree = -1;  ///< the text form is cut there; -1: all
+  RemeshOptions options;
+  ResultSettings result;
+};
+
+/// Throws Error(InvalidInput) for values that do not fit and file names with other extensions.
+CreationSettings read_creation_settings(const ParameterValues& values);
+
+/// The surface; reads the file of its coefficients. Throws Error: InputOutput, InvalidInput.
+std::unique_ptr<const RadialSurface> make_surface(const CreationSettings& settings);
+
+/// Name of the surface for labels: Ellipsoid, Superellipsoid or the coefficients' file.
+std::string surface_name(const CreationSettings& settings);
+
+}  // namespace wscvt::filter

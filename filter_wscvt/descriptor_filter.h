@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parameters.h"
+#include "wscvt/detailed_descriptors.h"
+#include "wscvt/distances.h"
+#include "wscvt/execution.h"
+#include "wscvt/mesh_check.h"
+
+namespace wscvt::filter {
+
+/// The menu text. Saved scripts refer to it: it never changes.
+std::string descriptor_name();
+
+std::string descriptor_help();
+
+ParameterList descriptor_parameters();
+
+struct DescriptorSettings {
+  std::string reference_layer;  ///< label; empty: none
+  DetailedOptions options;
+  std::string report_file;  ///< empty: none
+};
+
+/// Throws Error(InvalidInput) for values that do not fit and file names with other extensions.
+DescriptorSettings read_descriptor_settings(const ParameterValues& values);
+
+/// A layer as the document shows it: its transform applied.
+struct NamedMesh {
+  std::string name;
+  IndexedMesh mesh;
+};
+
+struct MeasuredMesh {
+  std::string name;
+  CheckedMesh checked;
+  DetailedDescriptors descriptors;
+};
+
+struct DescriptorResult {
+  MeasuredMesh mesh;
+  std::optional<MeasuredMesh> reference;
+  std::optional<MeshDistances> distances;  ///< between the two; length
+};
+
+/// Throws Error as check_mesh does, with the layer's name in the sentence.
+DescriptorResult measure_grains(NamedMesh mesh, std::optional<NamedMesh> reference,
+                                const DetailedOptions& options, const Execution& execution);
+
+/// As log_lines of the remesher.
+std::vector<std::string> descriptor_lines(const DescriptorResult& result, double seconds);
+
+/// Writes the report in the format of the file's extension; nothing for an empty name. Throws
+/// Error(InputOutput).
+void write_report(const DescriptorResult& result, const std::string& path);
+
+}  // namespace wscvt::filter

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "parameters.h"
+#include "wscvt/remesh.h"
+
+namespace wscvt::filter {
+
+// The parameters of the filters that give a mesh of N nodes.
+
+FilterParameter node_count_parameter();
+FilterParameter sampling_parameter();
+FilterParameter weighting_parameter();
+FilterParameter curvature_alpha_parameter();
+FilterParameter metric_parameter();
+FilterParameter seed_start_parameter();
+FilterParameter random_seed_parameter();
+FilterParameter maximum_iterations_parameter();
+FilterParameter colour_by_quality_parameter();
+
+/// Reads all of the above but the last.
+RemeshOptions read_node_options(const CheckedValues& values);
+
+/// What the result's vertex quality holds.
+enum class VertexQuality {
+  RadialDistance,    ///< from the centroid, length
+  Curvature,         ///< largest absolute principal curvature, 1/length
+  CellArea,          ///< surface area of the node's cell, length^2
+  OriginalDistance,  ///< from the node to the original, length
+};
+
+/// Names of the vertex qualities in the order of the enumeration.
+std::vector<std::string> quality_names();
+
+/// Asks for what a vertex quality needs.
+void request_quality(RemeshOptions& options, VertexQuality quality);
+
+/// Values of the chosen quality, one a vertex of the result.
+const std::vector<double>& quality_values(const RemeshResult& result, VertexQuality quality);
+
+/// How the nodes were chosen, short, for labels: Constant, WSCVT-D, Fibonacci, ...
+std::string nodes_name(const RemeshOptions& options);
+
+/// What a filter does with a mesh of N nodes.
+struct ResultSettings {
+  VertexQuality quality = VertexQuality::RadialDistance;
+  bool colour_by_quality = false;
+  std::string report_file;  ///< empty: none
+};
+
+}  // namespace wscvt::filter

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "remesh_filter.h"
+
+#include <algorithm>
+
+#include "report_file.h"
+
+namespace wscvt::filter {
+
+std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Voronoi"; }
+
+std::string remesh_help() {
+  return "Turns a dense closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
+         "for</b>: a series of spherical harmonics is fitted to the surface, nodes on the sphere "
+         "are relaxed to a weighted centroidal Voronoi tessellation and put back on the surface. "
+         "The result is closed, 2-manifold and free of self-intersections; its errors are in the "
+         "log. Instead of a number an error target can be given.<br>"
+         "<b>It repairs</b> equal points, degenerate faces, orientation and small loose parts, and "
+         "says so in the log; points without faces are triangulated. <b>It refuses</b>, and "
+         "changes nothing, when the mesh is open, not manifold, without volume, not finite or in "
+         "parts of comparable volume, or folds back over more directions than the fold limit.<br>"
+         "See: <i>Wu F., Huang L., Lai Z.</i> <b>\"A spherical Voronoi tessellation-based approach "
+         "for particle surface discretization and reconstruction\"</b>, Engineering Mechanics, "
+         "2022, doi 10.6052/j.issn.1000-4750.2022.07.0614";
+}
+
+ParameterList remesh_parameters() {
+  const RemeshOptions defaults;
+  return {
+      node_count_parameter(),
+      real_parameter("ErrorTarget", defaults.error_target.percent, 0, 100, "Error target (%)",
+                     "0: the number of nodes counts. Above, up to 100: the smallest number of "
+                     "nodes whose error is at most this many % is looked for, from the number of "
+                     "nodes given; the log says what each number tried cost. Takes about ten times "
+                     "as long."),
+      choice_parameter("TargetMeasure", static_cast<int>(defaults.error_target.measure),
+                       {"Volume", "Area", "Sphericity", "Inertia", "RMS distance"},
+                       "Error target is of the",
+                       "Which error the target limits, each in % of the original's own: volume, "
+                       "area, Wadell's sphericity, the inertia tensor, or the two-sided rms "
+                       "distance, which is in % of the equivalent radius."),
+      sampling_parameter(),
+      weighting_parameter(),
+      integer_parameter(
+          "HarmonicDegree", defaults.degree, 1, 60, "Harmonic degree",
+          "Degree of the spherical-harmonic series fitted to the surface, 1 to 60. 20 suits "
+          "most grains, 30 rough ones; lower smooths. Lowered, with a line in the log, when the "
+          "mesh has too few points to carry it."),
+      curvature_alpha_parameter(),
+      choice_parameter(
+          "Placement", static_cast<int>(defaults.placement),
+          {"Fitted surface", "Original mesh", "Least squares (volume exact)"}, "Place nodes",
+          "Fitted surface: on the harmonic series, which is free of scanning noise. Original "
+          "mesh: on the scan itself, with its noise, where rays from the centroid leave it. Least "
+          "squares: off the surface, so that the triangles fit the scan best and enclose exactly "
+          "its volume."),
+      integer_parameter("RefinementRounds", defaults.refinement.rounds, 0, 1000,
+                        "Rounds of refinement",
+                        "After a least-squares placement, 0 to 1000: at most so many rounds of "
+                        "moving nodes, flipping edges and taking nodes to where they help most, "
+                        "all towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
+      real_parameter(
+          "FoldLimit", 100.0 * defaults.fold_limit, 0, 99, "Fold limit (%)",
+          "Largest share of directions, in % of the whole sphere, 0 to 99, in which the surface "
+          "may be met more than once from the centroid. Such folds are bridged by their "
+          "outermost sheet; above the limit the filter refuses."),
+      metric_parameter(),
+      seed_start_parameter(),
+      random_seed_parameter(),
+      maximum_iterations_parameter(),
+      flag_parameter(
+          "NewLayer", true, "Result as a new layer",
+          "Checked: the scan is kept and the result becomes a new, current layer. Unchecked: the "
+          "result replaces the scan, which cannot be undone."),
+      flag_parameter("Distances", defaults.distances, "Measure distances",
+                     "Measures the one- and two-sided Hausdorff, rms and mean distance between "
+                     "result and original, for the log and the report; takes about a second."),
+      choice_parameter(
+          "Quality", 0, quality_names(), "Vertex quality",
+          "What the vertex quality of the result holds. Radial distance: from the centroid, in "
+          "units of the mesh. Curvature: the largest absolute principal curvature, 1/unit. Cell "
+          "area: surface area of the node's cell, unit^2. Distance to the original: from each node "
+          "to the scan, in units of the mesh."),
+      colour_by_quality_parameter(),
+      report_file_parameter(),
+      text_parameter("CoefficientsFile", "Save coefficients to",
+                     "Name of a .json file for the coefficients of the fitted harmonic series, "
+                     "about the volume centroid and in units of the mesh, or nothing. The filter "
+                     "that creates grains reads it."),
+  };
+}
+
+RemeshSettings read_remesh_settings(const ParameterValues& values) {
+  const CheckedValues checked(remesh_parameters(), values);
+  RemeshSettings settings;
+  RemeshOptions& options = settings.options;
+  options = read_node_options(checked);
+  options.error_target.percent = checked.real("ErrorTarget");
+  options.error_target.measure = checked.choice<ErrorMeasure>("TargetMeasure");
+  options.error_target.largest_node_count =
+      std::max(options.error_target.largest_node_count, options.node_count);
+  options.degree = checked.whole("HarmonicDegree");
+  options.placement = checked.choice<NodePlacement>("Placement");
+  options.refinement.rounds = checked.whole("RefinementRounds");
+  options.fold_limit = checked.real("FoldLimit") / 100.0;
+  options.distances = checked.flag("Distances");
+  settings.new_layer = checked.flag("NewLayer");
+  settings.result.quality = checked.choice<VertexQuality>("Quality");
+  request_quality(options, settings.result.quality);
+  settings.result.colour_by_quality = checked.flag("ColorByQuality");
+  settings.result.report_file = checked.text("ReportFile");
+  check_report_file(settings.result.report_file);
+  settings.coefficients_file = checked.text("CoefficientsFile");
+  check_output_file(settings.coefficients_file, {".json"}, "CoefficientsFile");
+  return settings;
+}
+
+}  // namespace wscvt::filter

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report_file.h"
+
+#include <QFileInfo>
+#include <QSaveFile>
+#include <algorithm>
+
+#include "wscvt/error.h"
+
+namespace wscvt::filter {
+
+namespace {
+
+std::string extension_of(const std::string& path) {
+  const QString suffix = QFileInfo(QString::fromStdString(path)).suffix().toLower();
+  return suffix.isEmpty() ? std::string() : "." + suffix.toStdString();
+}
+
+const std::vector<std::string> report_extensions = {".html", ".json", ".csv"};
+
+[[noreturn]] void refuse_extension(const std::string& path,
+                                   const std::vector<std::string>& extensions,
+                                   const std::string& parameter) {
+  std::string wanted;
+  for (const std::string& extension : extensions) {
+    if (!wanted.empty()) wanted += extension == extensions.back() ? " or " : ", ";
+    wanted += extension;
+  }
+  throw Error(ErrorCode::InvalidInput,
+              "Parameter " + parameter + " is '" + path +
+                  "', whose extension does not fit; give a file name that ends in " + wanted +
+                  ". Nothing was changed.");
+}
+
+}  // namespace
+
+FilterParameter report_file_parameter() {
+  return text_parameter(
+      "ReportFile", "Report file",
+      "Name of a file for the report, or nothing. Its extension decides what it becomes: .html "
+      "(for reading), .json (everything) or .csv (one row, for tables). It is written whole or "
+      "not at all; an existing file is replaced.");
+}
+
+ReportFormat report_format(const std::string& path) {
+  if (path.empty()) return ReportFormat::None;
+  const std::string extension = extension_of(path);
+  if (extension == ".html") return ReportFormat::Html;
+  if (extension == ".json") return ReportFormat::Json;
+  if (extension == ".csv") return ReportFormat::Csv;
+  refuse_extension(path, report_extensions, "ReportFile");
+}
+
+void check_report_file(const std::string& path) {
+  check_output_file(path, report_extensions, "ReportFile");
+}
+
+void check_extension(const std::string& path, const std::vector<std::string>& extensions,
+                     const std::string& parameter) {
+  if (std::find(extensions.begin(), extensions.end(), extension_of(path)) == extensions.end()) {
+    refuse_extension(path, extensions, parameter);
+  }
+}
+
+void check_output_file(const std::string& path, const std::vector<std::string>& extensions,
+                       const std::string& parameter) {
+  if (path.empty()) return;
+  check_extension(path, extensions, parameter);
+  const QFileInfo folder(QFileInfo(QString::fromStdString(path)).absolutePath());
+  if (!folder.isDir()) {
+    throw Error(ErrorCode::InputOutput,
+                "Parameter " + parameter + " is '" + path + "', but there is no folder '" +
+                    folder.filePath().toStdString() + "'; create it first. Nothing was changed.");
+  }
+}
+
+void write_whole(const std::string& path, const std::string& content) {
+  QSaveFile file(QString::fromStdString(path));
+  const auto size = static_cast<qint64>(content.size());
+  if (!file.open(QIODevice::WriteOnly) || file.write(content.data(), size) != size ||
+      !file.commit()) {
+    throw Error(ErrorCode::InputOutput, "Cannot write '" + path +
+                                            "': " + file.errorString().toStdString() +
+                                            "; check the folder and its rights.");
+  }
+}
+
+}  // namespace wscvt::filter

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "parameters.h"
+
+namespace wscvt::filter {
+
+/// The parameter ReportFile of every filter.
+FilterParameter report_file_parameter();
+
+enum class ReportFormat { None, Html, Json, Csv };
+
+/// By the file's extension, in either case; None for an empty name. Throws Error(InvalidInput) for
+/// any other extension.
+ReportFormat report_format(const std::string& path);
+
+/// Refuses before work starts what could not be written after it: other extensions
+/// (InvalidInput) and folders that do not exist (InputOutput). An empty name is none.
+void check_report_file(const std::string& path);
+
+/// The same for a parameter that names a file to be written, with one of `extensions` (".json").
+void check_output_file(const std::string& path, const std::vector<std::string>& extensions,
+                       const std::string& parameter);
+
+/// Throws Error(InvalidInput) unless a file's name ends in one of `extensions`, in either case.
+void check_extension(const std::string& path, const std::vector<std::string>& extensions,
+                     const std::string& parameter);
+
+/// Writes a file whole or not at all: an existing one stays as it was when writing fails. Throws
+/// Error(InputOutput).
+void write_whole(const std::string& path, const std::string& content);
+
+}  // namespace wscvt::filter

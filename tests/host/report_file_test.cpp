@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report_file.h"
+
+#include <gtest/gtest.h>
+
+#include <QDir>
+#include <QFile>
+#include <QTemporaryDir>
+
+#include "remesh_report.h"
+#include "sample_meshes.h"
+#include "wscvt/error.h"
+#include "wscvt/report.h"
+
+namespace wscvt::host_test {
+namespace {
+
+using filter::ReportFormat;
+
+std::string content_of(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll().toStdString() : "cannot be read";
+}
+
+TEST(ReportFile, FormatFollowsFromTheExtension) {
+  EXPECT_EQ(filter::report_format(""), ReportFormat::None);
+  EXPECT_EQ(filter::report_format("a/b.html"), ReportFormat::Html);
+  EXPECT_EQ(filter::report_format("b.c.JSON"), ReportFormat::Json);
+  EXPECT_EQ(filter::report_format("b.Csv"), ReportFormat::Csv);
+  EXPECT_THROW(filter::report_format("b.txt"), Error);
+  EXPECT_THROW(filter::report_format("csv"), Error);
+}
+
+TEST(ReportFile, IsWrittenWholeOrNotAtAll) {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("report.json");
+  filter::write_whole(path.toStdString(), "first");
+  filter::write_whole(path.toStdString(), "second");
+  EXPECT_EQ(content_of(path), "second");
+  EXPECT_EQ(QDir(folder.path()).entryList(QDir::Files), QStringList("report.json"));
+
+  // A folder in its place cannot be replaced, and nothing is left beside it.
+  ASSERT_TRUE(QDir(folder.path()).mkdir("taken.csv"));
+  EXPECT_THROW(filter::write_whole(folder.filePath("taken.csv").toStdString(), "third"), Error);
+  EXPECT_EQ(QDir(folder.path()).entryList(QDir::Files), QStringList("report.json"));
+}
+
+TEST(ReportFile, HoldsTheLibrarysReportOrAPageWithTwoFigures) {
+  const IndexedMesh scan = grain();
+  RemeshOptions options;
+  options.node_count = 100;
+  const RemeshResult result = remesh(scan, options);
+  QTemporaryDir folder;
+  const auto written = [&](const QString& name, const IndexedMesh& original) {
+    const QString path = folder.filePath(name);
+    filter::write_report(result, original, path.toStdString());
+    return content_of(path);
+  };
+  EXPECT_EQ(written("report.json", scan), report_json(result));
+  EXPECT_EQ(written("report.csv", scan), report_csv(result));
+  for (const IndexedMesh& original : {scan, IndexedMesh{scan.points, {}}, IndexedMesh()}) {
+    const QString page = QString::fromStdString(written("report.html", original));
+    EXPECT_TRUE(page.startsWith("<!DOCTYPE html>"));
+    EXPECT_TRUE(page.endsWith("</html>\n"));
+    EXPECT_EQ(page.count("<svg"), 2);
+    EXPECT_EQ(page.count("</svg>"), 2);
+    EXPECT_FALSE(page.contains("<?xml"));
+    EXPECT_TRUE(page.contains("<td>volume</td>"));
+    EXPECT_EQ(page.contains(">original</text>"), !original.points.empty());
+  }
+}
+
+}  // namespace
+}  // namespace wscvt::host_test
