@@ -83,7 +83,8 @@ class CubeMap {
 
   std::size_t cell(int axis, bool negative, int row, int column) const {
     const auto n = static_cast<std::size_t>(resolution_);
-    const auto face = static_cast<std::size_t>(2 * axis + (negative ? 1 : 0));
+    const int face_index = 2 * axis + (negative ? 1 : 0);
+    const auto face = static_cast<std::size_t>(face_index);
     return (face * n + static_cast<std::size_t>(row)) * n + static_cast<std::size_t>(column);
   }
 

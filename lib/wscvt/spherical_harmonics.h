@@ -26,7 +26,8 @@ constexpr int maximum_harmonic_degree = 200;
 
 /// Place of Y_lm in an array of coefficients: l^2 + l + m, for -l <= m <= l.
 constexpr std::size_t harmonic_index(int l, int m) {
-  return static_cast<std::size_t>(l * l + l + m);
+  const int index = l * l + l + m;
+  return static_cast<std::size_t>(index);
 }
 
 /// Number of harmonics up to a degree: (degree + 1)^2.
