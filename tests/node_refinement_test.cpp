@@ -106,6 +106,20 @@ TEST(NodeRefinement, KeepsItsPromisesAndComesNearer) {
   }
 }
 
+TEST(NodeRefinement, MendsTheAnglesOfABadStart) {
+  const IndexedMesh body = test::lumpy(4);
+  Case start = on_surface(body, 200);
+  std::vector<Vector3> directions = random_directions(200, 5);
+  start.triangulation = SphereTriangulation(directions);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    start.positions[i] = start.original.radius(directions[i]) * directions[i];
+  }
+  ASSERT_LT(measure_quality(start.mesh()).smallest_angle, 5.0);
+  const RefinedNodes refined = refine(start, rounds(20));
+  expect_promises(refined, 200);
+  EXPECT_GE(measure_quality(mesh_of(refined)).smallest_angle, 15.5 - 1e-9);
+}
+
 TEST(NodeRefinement, ReportsTheDistanceThatIsThere) {
   const IndexedMesh body = test::lumpy(4);
   const RefinedNodes refined = refine(on_surface(body, 200), rounds(5));

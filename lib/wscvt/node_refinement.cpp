@@ -28,7 +28,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A plane that passes the origin at less than this share of its triangle's distance is too steep:
 /// far above rounding, so that what passes stays star-shaped.
-constexpr double smallest_plane_cosine = 0.05;
+constexpr double smallest_plane_cosine = 1e-3;
 
 /// Smallest share of the error of the triangles concerned that an edge flip has to save.
 constexpr double smallest_flip_gain = 1e-3;
@@ -144,6 +144,7 @@ class Refinement {
   /// Measures the rms distance, which also is what the errors are weighed by from here on.
   double measure();
 
+  void mend_angles();
   int move_nodes();
   int flip_edges();
   int relocate_nodes();
@@ -204,9 +205,15 @@ class Refinement {
   bool place(const Fan& from, const Vector3& position, double cosine_limit, Fan& to,
              std::vector<Vector3>& spokes) const;
   bool improve(Workspace& work, double cosine_limit) const;
+  double load_fan(std::int32_t node, Workspace& work) const;
+  void store_fan(std::int32_t node, const Workspace& work);
   bool move_node(std::int32_t node, Workspace& work);
-  bool evaluate_flip(std::int32_t half_edge, double& gain, SampleList* first,
-                     SampleList* second) const;
+  bool mend_node(std::int32_t node, Workspace& work);
+  template <class Move>
+  int for_each_node(const Move& move);
+  bool evaluate_flip(std::int32_t half_edge, double& gain) const;
+  bool flip_mends(std::int32_t half_edge) const;
+  void flip(std::int32_t half_edge);
   Collapse cheapest_collapse(std::int32_t node, Workspace& work) const;
   double collapse(std::size_t towards, const Workspace& work, double cosine_limit, double bound,
                   std::vector<Triangle>* triangles, std::vector<SampleList>* lists) const;
@@ -396,30 +403,60 @@ bool Refinement::improve(Workspace& work, double cosine_limit) const {
   return false;
 }
 
-bool Refinement::move_node(std::int32_t node, Workspace& work) {
+/// Puts a node's fan as it is into work.fan and returns the largest cosine in it.
+double Refinement::load_fan(std::int32_t node, Workspace& work) const {
   Fan& fan = work.fan;
   ring_of(node, fan.ring, &work.triangles);
   fan.position = positions_[node];
   fan.resize();
   fan.error = node_errors_[node];
-  double cosine_limit = cosine_limit_;
+  double largest_cosine = -1.0;
   const std::size_t count = fan.ring.size();
   for (std::size_t j = 0; j < count; ++j) {
     const std::int32_t t = work.triangles[j];
     fan.facets[j] = Facet(fan.position, positions_[fan.ring[j]],
                           positions_[fan.ring[j + 1 == count ? 0 : j + 1]]);
-    cosine_limit = std::max(cosine_limit, fan.facets[j].largest_cosine);
+    largest_cosine = std::max(largest_cosine, fan.facets[j].largest_cosine);
     fan.lists[j] = lists_[t];
     fan.error += errors_[t];
   }
-  if (!improve(work, cosine_limit)) return false;
+  return largest_cosine;
+}
+
+void Refinement::store_fan(std::int32_t node, const Workspace& work) {
+  const Fan& fan = work.fan;
   positions_[node] = fan.position;
   node_errors_[node] = fan.node_error;
-  for (std::size_t j = 0; j < count; ++j) {
+  for (std::size_t j = 0; j < fan.ring.size(); ++j) {
     lists_[work.triangles[j]] = fan.lists[j];
     errors_[work.triangles[j]] = fan.errors[j];
   }
+}
+
+bool Refinement::move_node(std::int32_t node, Workspace& work) {
+  const double cosine_limit = std::max(cosine_limit_, load_fan(node, work));
+  if (!improve(work, cosine_limit)) return false;
+  store_fan(node, work);
   return true;
+}
+
+/// Takes a node with a smaller angle about it than allowed towards the middle of its neighbours.
+bool Refinement::mend_node(std::int32_t node, Workspace& work) {
+  const double largest_cosine = load_fan(node, work);
+  if (largest_cosine <= cosine_limit_) return false;
+  Vector3 middle = Vector3::Zero();
+  for (const std::int32_t other : work.fan.ring) middle += positions_[other];
+  middle /= static_cast<double>(work.fan.ring.size());
+  const double wanted = std::max(cosine_limit_, largest_cosine - 1e-6);
+  for (const double share : {0.25, 0.5, 1.0}) {
+    const Vector3 position = work.fan.position + share * (middle - work.fan.position);
+    if (place(work.fan, position, wanted, work.trial, work.spokes)) {
+      std::swap(work.fan, work.trial);
+      store_fan(node, work);
+      return true;
+    }
+  }
+  return false;
 }
 
 std::vector<std::vector<std::int32_t>> Refinement::colour_nodes() const {
@@ -443,7 +480,8 @@ std::vector<std::vector<std::int32_t>> Refinement::colour_nodes() const {
   return classes;
 }
 
-int Refinement::move_nodes() {
+template <class Move>
+int Refinement::for_each_node(const Move& move) {
   int moved = 0;
   for (const std::vector<std::int32_t>& nodes : colour_nodes()) {
     // Nodes of one colour share no triangle, so they move at the same time.
@@ -451,16 +489,42 @@ int Refinement::move_nodes() {
                                      [&](std::size_t begin, std::size_t end) {
                                        Workspace work;
                                        int part = 0;
-                                       for (std::size_t i = begin; i < end; ++i)
-                                         part += move_node(nodes[i], work) ? 1 : 0;
+                                       for (std::size_t i = begin; i < end; ++i) {
+                                         part += move(nodes[i], work) ? 1 : 0;
+                                       }
                                        return part;
                                      });
   }
   return moved;
 }
 
-bool Refinement::evaluate_flip(std::int32_t half_edge, double& gain, SampleList* first,
-                               SampleList* second) const {
+int Refinement::move_nodes() {
+  return for_each_node([&](std::int32_t node, Workspace& work) { return move_node(node, work); });
+}
+
+/// Flips edges and moves nodes where an angle is smaller than allowed, whatever that does to the
+/// distance: where a scan folds, the outermost sheet has cliffs that the start follows badly.
+void Refinement::mend_angles() {
+  constexpr int passes = 10;
+  for (int pass = 0; pass < passes; ++pass) {
+    int changes = 0;
+    const auto count = static_cast<std::int32_t>(triangulation_.triangles().size());
+    for (std::int32_t t = 0; t < count; ++t) {
+      for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        if (facet(triangulation_.triangles()[t]).largest_cosine <= cosine_limit_) break;
+        if (!flip_mends(h)) continue;
+        flip(h);
+        ++changes;
+        break;
+      }
+    }
+    changes +=
+        for_each_node([&](std::int32_t node, Workspace& work) { return mend_node(node, work); });
+    if (changes == 0) return;
+  }
+}
+
+bool Refinement::evaluate_flip(std::int32_t half_edge, double& gain) const {
   const std::int32_t other = triangulation_.opposite()[half_edge];
   const std::int32_t t0 = half_edge / 3;
   const std::int32_t t1 = other / 3;
@@ -479,13 +543,44 @@ bool Refinement::evaluate_flip(std::int32_t half_edge, double& gain, SampleList*
   double error = 0.0;
   for (const std::int32_t t : {t0, t1}) {
     for (const std::int32_t s : lists_[t]) {
-      const bool at_a = divide.dot(samples_[s]) > 0.0;
-      error += penalty((at_a ? cad : dbc).residual(samples_[s]));
-      if (first != nullptr) (at_a ? first : second)->push_back(s);
+      error += penalty((divide.dot(samples_[s]) > 0.0 ? cad : dbc).residual(samples_[s]));
     }
   }
   gain = old_error - error;
   return gain > smallest_flip_gain * old_error;
+}
+
+/// Whether the smallest angle beside an edge grows when it is flipped.
+bool Refinement::flip_mends(std::int32_t half_edge) const {
+  const std::int32_t other = triangulation_.opposite()[half_edge];
+  const Vector3& a = positions_[triangulation_.origin(half_edge)];
+  const Vector3& b = positions_[triangulation_.origin(other)];
+  const Vector3& c = positions_[corner_left_of(half_edge)];
+  const Vector3& d = positions_[corner_left_of(other)];
+  const double largest_cosine =
+      std::max(Facet(a, b, c).largest_cosine, Facet(b, a, d).largest_cosine) - 1e-6;
+  return acceptable(Facet(c, a, d), largest_cosine) && acceptable(Facet(d, b, c), largest_cosine);
+}
+
+void Refinement::flip(std::int32_t half_edge) {
+  const std::int32_t t0 = half_edge / 3;
+  const std::int32_t t1 = triangulation_.opposite()[half_edge] / 3;
+  const Vector3& c = positions_[corner_left_of(half_edge)];
+  const Vector3& d = positions_[corner_left_of(triangulation_.opposite()[half_edge])];
+  const Vector3 divide = d.cross(c);
+  SampleList first;
+  SampleList second;
+  for (const std::int32_t t : {t0, t1}) {
+    for (const std::int32_t s : lists_[t]) {
+      (divide.dot(samples_[s]) > 0.0 ? first : second).push_back(s);
+    }
+  }
+  triangulation_.flip(half_edge);
+  lists_[t0].swap(first);
+  lists_[t1].swap(second);
+  for (const std::int32_t t : {t0, t1}) {
+    errors_[t] = error_of(facet(triangulation_.triangles()[t]), lists_[t]);
+  }
 }
 
 int Refinement::flip_edges() {
@@ -496,7 +591,7 @@ int Refinement::flip_edges() {
     for (std::size_t i = begin; i < end; ++i) {
       const auto h = static_cast<std::int32_t>(i);
       double gain = 0.0;
-      if (h < triangulation_.opposite()[h] && evaluate_flip(h, gain, nullptr, nullptr)) {
+      if (h < triangulation_.opposite()[h] && evaluate_flip(h, gain)) {
         gains[i] = gain;
       }
     }
@@ -508,22 +603,11 @@ int Refinement::flip_edges() {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [&](std::int32_t h, std::int32_t g) { return gains[h] > gains[g]; });
   int flips = 0;
-  SampleList first;
-  SampleList second;
   for (const std::int32_t h : candidates) {
     double gain = 0.0;
-    first.clear();
-    second.clear();
     // Flips beside this one may have changed its triangles.
-    if (!evaluate_flip(h, gain, &first, &second)) continue;
-    const std::int32_t t0 = h / 3;
-    const std::int32_t t1 = triangulation_.opposite()[h] / 3;
-    triangulation_.flip(h);
-    lists_[t0].swap(first);
-    lists_[t1].swap(second);
-    for (const std::int32_t t : {t0, t1}) {
-      errors_[t] = error_of(facet(triangulation_.triangles()[t]), lists_[t]);
-    }
+    if (!evaluate_flip(h, gain)) continue;
+    flip(h);
     ++flips;
   }
   return flips;
@@ -720,6 +804,7 @@ RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation tr
   report.start_distance = refinement.measure();
   for (int round = 0; round < options.rounds && !report.converged; ++round) {
     execution.report(static_cast<double>(round) / options.rounds, "Refining the nodes");
+    refinement.mend_angles();
     const double before = refinement.error();
     RefinementStep step;
     step.moves = refinement.move_nodes();

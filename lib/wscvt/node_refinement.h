@@ -52,6 +52,8 @@ void check_refinement_options(const RefinementOptions& options);
 /// Nothing is done that does not lower the sum, turns a triangle over on the sphere of directions,
 /// or makes the smallest angle of the triangles concerned smaller than the limit, or than before
 /// where it is below the limit already. So the mesh stays closed and star-shaped about the origin.
+/// Where the start has smaller angles than the limit, edges are flipped and nodes moved towards the
+/// middle of their neighbours first.
 ///
 /// `positions` are about the origin, on a triangulation of their directions. Same bytes on any
 /// number of threads. Throws Error(InvalidInput) for options out of range, Error(Cancelled).
