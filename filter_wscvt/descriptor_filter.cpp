@@ -10,6 +10,7 @@
 #include "report_file.h"
 #include "wscvt/descriptor_table.h"
 #include "wscvt/error.h"
+#include "wscvt/output_file.h"
 #include "wscvt/text_format.h"
 
 namespace wscvt::filter {
@@ -245,11 +246,11 @@ void write_report(const DescriptorResult& result, const std::string& path) {
     case ReportFormat::None:
       return;
     case ReportFormat::Html:
-      return write_whole(path, html_report(result));
+      return write_file(path, html_report(result));
     case ReportFormat::Json:
-      return write_whole(path, json_report(result));
+      return write_file(path, json_report(result));
     case ReportFormat::Csv:
-      return write_whole(path, csv_report(result));
+      return write_file(path, csv_report(result));
   }
 }
 

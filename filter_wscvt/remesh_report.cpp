@@ -11,6 +11,7 @@
 #include "report_file.h"
 #include "wscvt/descriptor_table.h"
 #include "wscvt/mesh_check.h"
+#include "wscvt/output_file.h"
 #include "wscvt/point_cloud.h"
 #include "wscvt/report.h"
 
@@ -74,11 +75,11 @@ void write_report(const RemeshResult& result, const IndexedMesh& original,
     case ReportFormat::None:
       return;
     case ReportFormat::Html:
-      return write_whole(path, html_report(result, original));
+      return write_file(path, html_report(result, original));
     case ReportFormat::Json:
-      return write_whole(path, report_json(result));
+      return write_file(path, report_json(result));
     case ReportFormat::Csv:
-      return write_whole(path, report_csv(result));
+      return write_file(path, report_csv(result));
   }
 }
 

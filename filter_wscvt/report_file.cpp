@@ -2,7 +2,6 @@
 #include "report_file.h"
 
 #include <QFileInfo>
-#include <QSaveFile>
 #include <algorithm>
 
 #include "wscvt/error.h"
@@ -71,17 +70,6 @@ void check_output_file(const std::string& path, const std::vector<std::string>& 
     throw Error(ErrorCode::InputOutput,
                 "Parameter " + parameter + " is '" + path + "', but there is no folder '" +
                     folder.filePath().toStdString() + "'; create it first. Nothing was changed.");
-  }
-}
-
-void write_whole(const std::string& path, const std::string& content) {
-  QSaveFile file(QString::fromStdString(path));
-  const auto size = static_cast<qint64>(content.size());
-  if (!file.open(QIODevice::WriteOnly) || file.write(content.data(), size) != size ||
-      !file.commit()) {
-    throw Error(ErrorCode::InputOutput, "Cannot write '" + path +
-                                            "': " + file.errorString().toStdString() +
-                                            "; check the folder and its rights.");
   }
 }
 

@@ -29,8 +29,4 @@ void check_output_file(const std::string& path, const std::vector<std::string>& 
 void check_extension(const std::string& path, const std::vector<std::string>& extensions,
                      const std::string& parameter);
 
-/// Writes a file whole or not at all: an existing one stays as it was when writing fails. Throws
-/// Error(InputOutput).
-void write_whole(const std::string& path, const std::string& content);
-
 }  // namespace wscvt::filter

@@ -3,29 +3,18 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <map>
 #include <string>
 
-#include "wscvt/error.h"
 #include "wscvt/harmonic_io.h"
 #include "wscvt/mesh_io.h"
+#include "wscvt/output_file.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report.h"
 
 namespace {
 
 using wscvt::RemeshOptions;
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) {
-    throw wscvt::Error(wscvt::ErrorCode::InputOutput,
-                       "Cannot write the report '" + path + "'; check the folder and its rights.");
-  }
-}
 
 int run(int argc, char** argv) {
   CLI::App app{"Remesh a dense scan of a grain to exactly N nodes (WSCVT)."};
@@ -91,7 +80,11 @@ int run(int argc, char** argv) {
       ->default_str("weighted");
   app.add_option("-d,--degree", options.degree, "Degree of the harmonic series, 1 to 60")
       ->capture_default_str();
-  app.add_option("-a,--alpha", options.curvature_alpha, "Curvature exponent, -3 to 3")
+  app.add_option("-a,--alpha", options.curvature_alpha,
+                 "Exponent of the curvature weighting, -3 to 3")
+      ->capture_default_str();
+  app.add_option("--adaptive-exponent", options.adaptive_exponent,
+                 "Curvature exponent of the error-adaptive weighting, 0 to 1.5")
       ->capture_default_str();
   app.add_option("-i,--iterations", options.relaxation.maximum_iterations,
                  "Limit of the relaxation")
@@ -111,7 +104,7 @@ int run(int argc, char** argv) {
   const wscvt::RemeshResult result =
       wscvt::remesh(wscvt::read_mesh(input), options, wscvt::Execution(threads));
   wscvt::write_mesh(wscvt::to_indexed(result.mesh), output);
-  if (!json.empty()) write_text(json, wscvt::report_json(result));
+  if (!json.empty()) wscvt::write_file(json, wscvt::report_json(result));
   if (!coefficients.empty()) {
     wscvt::write_harmonics(coefficients, wscvt::HarmonicSurface(result.coefficients));
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "wscvt/error.h"
+#include "wscvt/output_file.h"
 
 namespace wscvt {
 
@@ -162,14 +163,7 @@ void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
   json["format"] = format_tag;
   json["degree"] = surface.degree();
   json["coefficients"] = surface.coefficients();
-  std::ofstream stream(path);
-  stream << json.dump(1) << '\n';
-  stream.close();
-  if (!stream) {
-    throw Error(ErrorCode::InputOutput, "The file " + path +
-                                            " cannot be written; check the folder, its permissions "
-                                            "and the space left.");
-  }
+  write_file(path, json.dump(1) + "\n");
 }
 
 }  // namespace wscvt

@@ -24,7 +24,7 @@ HarmonicSurface read_harmonics(const std::string& path);
 
 /// Writes {"format": "wscvt-harmonics-1", "degree": L, "coefficients": [...]}: real orthonormal
 /// harmonics as in spherical_harmonics.h, a_lm at place l^2 + l + m. Reading gives the same bits
-/// back.
+/// back. Written whole or not at all, see write_file.
 void write_harmonics(const std::string& path, const HarmonicSurface& surface);
 
 }  // namespace wscvt

@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "wscvt/error.h"
+#include "wscvt/output_file.h"
 
 namespace wscvt {
 
@@ -377,25 +378,8 @@ IndexedMesh read_mesh(const std::string& path) {
 
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format format = format_of(path);
-  const std::string temporary = path + ".part";
-  bool good = false;
-  {
-    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-    stream.imbue(std::locale::classic());
-    if (!stream) {
-      fail(path, "cannot be written; check that the folder is there and can be written to.");
-    }
-    good = write_as(stream, format, mesh, coordinates);
-    stream.close();
-    good = good && stream.good();
-  }
-  std::error_code error;
-  if (good) std::filesystem::rename(temporary, path, error);
-  if (!good || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    fail(path, "could not be written whole and was left as it was; check the space on the disk.");
-  }
+  write_file(path,
+             [&](std::ostream& stream) { return write_as(stream, format, mesh, coordinates); });
 }
 
 }  // namespace wscvt

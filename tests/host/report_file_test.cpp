@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <QDir>
 #include <QFile>
 #include <QTemporaryDir>
 
@@ -29,20 +28,6 @@ TEST(ReportFile, FormatFollowsFromTheExtension) {
   EXPECT_EQ(filter::report_format("b.Csv"), ReportFormat::Csv);
   EXPECT_THROW(filter::report_format("b.txt"), Error);
   EXPECT_THROW(filter::report_format("csv"), Error);
-}
-
-TEST(ReportFile, IsWrittenWholeOrNotAtAll) {
-  QTemporaryDir folder;
-  const QString path = folder.filePath("report.json");
-  filter::write_whole(path.toStdString(), "first");
-  filter::write_whole(path.toStdString(), "second");
-  EXPECT_EQ(content_of(path), "second");
-  EXPECT_EQ(QDir(folder.path()).entryList(QDir::Files), QStringList("report.json"));
-
-  // A folder in its place cannot be replaced, and nothing is left beside it.
-  ASSERT_TRUE(QDir(folder.path()).mkdir("taken.csv"));
-  EXPECT_THROW(filter::write_whole(folder.filePath("taken.csv").toStdString(), "third"), Error);
-  EXPECT_EQ(QDir(folder.path()).entryList(QDir::Files), QStringList("report.json"));
 }
 
 TEST(ReportFile, HoldsTheLibrarysReportOrAPageWithTwoFigures) {

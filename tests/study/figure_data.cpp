@@ -30,7 +30,7 @@ void write_triangles(const std::string& path, const IndexedMesh& mesh,
     corner(t[2]);
     text += "\n\n";
   }
-  write_text(path, text);
+  write_file(path, text);
 }
 
 std::string file_name(const std::string& figure, const std::string& name, std::size_t nodes) {

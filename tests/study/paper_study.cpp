@@ -95,7 +95,7 @@ void run(const std::string& folder, const std::string& particles, int poses) {
     write_csv(folder + "/reference_particles.csv", table);
     tell("Reference particles: integrals of their harmonics against their table", table);
   }
-  write_text(folder + "/study.txt", text);
+  write_file(folder + "/study.txt", text);
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "wscvt/output_file.h"
 #include "wscvt/text_format.h"
 
 /// What the study measures, as rows of cells; the first row holds the names of the columns.
@@ -13,18 +12,10 @@ namespace wscvt::study {
 
 using Table = std::vector<std::vector<std::string>>;
 
-/// Writes `text` to a file; throws std::runtime_error when that fails.
-inline void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path);
-}
-
 inline void write_csv(const std::string& path, const Table& table) {
   std::string text;
   for (const auto& row : table) text += csv_record(row);
-  write_text(path, text);
+  write_file(path, text);
 }
 
 /// The table with a heading, for study.txt.
