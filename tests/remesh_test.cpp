@@ -342,6 +342,7 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
   refused([](RemeshOptions& o) { o.fold_limit = 1.0; }, "less than 100 %");
   refused([](RemeshOptions& o) { o.fold_limit = std::nan(""); }, "less than 100 %");
   refused([](RemeshOptions& o) { o.curvature_alpha = 4.0; }, "from -3 to 3");
+  refused([](RemeshOptions& o) { o.adaptive_exponent = 2.0; }, "from 0 to 1.5");
   refused([](RemeshOptions& o) { o.weighting = static_cast<Weighting>(17); }, "weighting");
   refused([](RemeshOptions& o) { o.seed_start = static_cast<SeedStart>(-1); }, "start");
   refused([](RemeshOptions& o) { o.placement = static_cast<NodePlacement>(9); }, "placement");

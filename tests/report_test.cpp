@@ -111,15 +111,19 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   }
 }
 
-TEST(Report, TextNamesSeedAndAlphaOnlyWhereTheyMatter) {
+TEST(Report, TextNamesSeedAndExponentsOnlyWhereTheyMatter) {
   RemeshResult result = example();
   EXPECT_FALSE(contains(text_of(result), "alpha"));
+  EXPECT_FALSE(contains(text_of(result), "exponent"));
   result.options.weighting = Weighting::Curvature;
   result.options.curvature_alpha = 1.25;
   result.options.seed_start = SeedStart::Random;
   result.options.random_seed = 77;
   EXPECT_TRUE(contains(text_of(result), "alpha 1.25"));
   EXPECT_TRUE(contains(text_of(result), "seed 77"));
+  result.options.weighting = Weighting::ErrorAdaptive;
+  result.options.adaptive_exponent = 0.75;
+  EXPECT_TRUE(contains(text_of(result), "curvature exponent 0.75"));
 }
 
 /// Writes numbers as in German.
@@ -183,8 +187,8 @@ TEST(Report, CsvIsAHeaderAndARowOfAsManyFields) {
   // The warnings' quoted field holds one comma of its own.
   EXPECT_EQ(std::count(header.begin(), header.end(), ',') + 1,
             std::count(row.begin(), row.end(), ','));
-  EXPECT_EQ(header.rfind("nodes,faces,weighting", 0), 0U);
-  EXPECT_EQ(row.rfind("642,1280,radial distance (WSCVT-D)", 0), 0U);
+  EXPECT_EQ(header.rfind("nodes,faces,sampling,weighting", 0), 0U);
+  EXPECT_EQ(row.rfind("642,1280,weighted,radial distance (WSCVT-D)", 0), 0U);
   EXPECT_TRUE(contains(header, "volume_original,volume_remesh,volume_error_percent"));
   EXPECT_TRUE(contains(row, "\"One, with a comma. Two \"\"quoted\"\".\"\r\n"));
 }

@@ -55,6 +55,9 @@ void check(const RemeshOptions& options) {
           "at least 0 % and less than 100 %");
   require(std::abs(options.curvature_alpha) <= 3.0, "The curvature exponent alpha",
           std::to_string(options.curvature_alpha), "a number from -3 to 3");
+  require(options.adaptive_exponent >= 0.0 && options.adaptive_exponent <= 1.5,
+          "The exponent of the error-adaptive weighting", std::to_string(options.adaptive_exponent),
+          "a number from 0 to 1.5");
   require_enumerator(options.sampling, Sampling::Icosahedron, "The sampling");
   require_enumerator(options.weighting, Weighting::ErrorAdaptive, "The weighting");
   require_enumerator(options.curvature_source, CurvatureSource::QuadricFit, "The curvature source");
@@ -254,6 +257,7 @@ RelaxationResult relax_seeds(const PreparedGrain& grain, const RemeshOptions& op
   weighting.weighting = options.weighting;
   weighting.node_count = options.node_count;
   weighting.curvature_alpha = options.curvature_alpha;
+  weighting.adaptive_exponent = options.adaptive_exponent;
   if (options.sampling != Sampling::Weighted) weighting.weighting = Weighting::Constant;
   const SurfaceSeedModel model(*grain.surface, weighting,
                                grain.curvatures ? &*grain.curvatures : nullptr, execution);

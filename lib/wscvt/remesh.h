@@ -72,7 +72,8 @@ struct RemeshOptions {
   ErrorTarget error_target;
   Sampling sampling = Sampling::Weighted;  ///< the others ignore weighting and relaxation
   Weighting weighting = Weighting::RadialDistance;
-  double curvature_alpha = 1.0;  ///< eq. 11's alpha, in [-3, 3]
+  double curvature_alpha = 1.0;          ///< eq. 11's alpha, in [-3, 3]
+  double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, in [0, 1.5]
   CurvatureSource curvature_source = CurvatureSource::Series;
   int degree = 20;  ///< of the harmonic series, in [1, 60]
   NodePlacement placement = NodePlacement::FittedSurface;

@@ -197,6 +197,9 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
     weighting += ", alpha " + format_number(options.curvature_alpha, 3) + ", curvature from the " +
                  name_of(options.curvature_source);
   }
+  if (options.weighting == Weighting::ErrorAdaptive) {
+    weighting += ", curvature exponent " + format_number(options.adaptive_exponent, 3);
+  }
   lines.push_back(line("Weighting", weighting + "; seeds: " + seeds));
 
   const RelaxationReport& relaxation = result.relaxation;
@@ -326,6 +329,7 @@ Json json_of(const RemeshOptions& o) {
   return {{"node_count", o.node_count},
           {"weighting", name_of(o.weighting)},
           {"curvature_alpha", o.curvature_alpha},
+          {"adaptive_exponent", o.adaptive_exponent},
           {"curvature_source", name_of(o.curvature_source)},
           {"degree", o.degree},
           {"sampling", name_of(o.sampling)},
@@ -525,8 +529,10 @@ std::string report_csv(const RemeshResult& result) {
   Record record;
   record.add_count("nodes", result.mesh.n_vertices());
   record.add_count("faces", result.mesh.n_faces());
+  record.add("sampling", name_of(options.sampling));
   record.add("weighting", name_of(options.weighting));
   record.add("curvature_alpha", options.curvature_alpha);
+  record.add("adaptive_exponent", options.adaptive_exponent);
   record.add("curvature_source", name_of(options.curvature_source));
   record.add("placement", name_of(options.placement));
   record.add("seed_start", name_of(options.seed_start));
