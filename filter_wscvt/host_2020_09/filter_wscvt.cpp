@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
+#include <limits>
 #include <new>
 #include <optional>
 #include <utility>
@@ -132,13 +134,19 @@ void fill_layer(MeshModel& layer, const wscvt::RemeshResult& result,
                    MeshModel::MM_FACEVERT | MeshModel::MM_FACENORMAL | MeshModel::MM_FACEFLAG |
                    MeshModel::MM_TRANSFMATRIX;
   layer.clearDataMask(~kept);
-  assign(layer.cm, wscvt::to_indexed(result.mesh), quality_values(result, settings.quality));
+  const std::vector<double>& quality = quality_values(result, settings.quality);
+  assign(layer.cm, wscvt::to_indexed(result.mesh), quality);
   layer.cm.svn = 0;
   layer.cm.sfn = 0;
   layer.updateDataMask(result_mask);
   if (settings.colour_by_quality) {
     layer.updateDataMask(MeshModel::MM_VERTCOLOR);
-    vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm);
+    // Left to find the range itself, the ramp adds an attribute to the mesh that is never freed.
+    const auto [low, high] = std::minmax_element(quality.begin(), quality.end());
+    const auto red = static_cast<Scalarm>(*low);
+    const auto blue = std::max(static_cast<Scalarm>(*high),
+                               std::nextafter(red, std::numeric_limits<Scalarm>::max()));
+    vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm, red, blue);
   }
   layer.UpdateBoxAndNormals();
 }

@@ -445,6 +445,7 @@ TEST(Filter, ColorsFromRedToBlueWhenAsked) {
   EXPECT_LT(lowest->cQ(), highest->cQ());
   EXPECT_TRUE(lowest->cC() == vcg::Color4b(vcg::Color4b::Red));
   EXPECT_TRUE(highest->cC() == vcg::Color4b(vcg::Color4b::Blue));
+  EXPECT_TRUE(result.cm.mesh_attr.empty()) << "an attribute that only the coloring needed";
 }
 
 TEST(Filter, LogBeginsEmptyAndHoldsTheTableSecondsAndSeed) {

@@ -184,9 +184,9 @@ struct BadCall {
 
 void PrintTo(const BadCall& call, std::ostream* out) { *out << call.name; }
 
-class OtherFilterRefuses : public ::testing::TestWithParam<BadCall> {};
+class ServerRefusesToo : public ::testing::TestWithParam<BadCall> {};
 
-TEST_P(OtherFilterRefuses, WithASentenceInTheLog) {
+TEST_P(ServerRefusesToo, WithASentenceInTheLog) {
   const BadCall& call = GetParam();
   QTemporaryDir folder;
   std::ofstream(folder.filePath("nonsense.dat").toStdString()) << "these are no coefficients\n";
@@ -209,7 +209,7 @@ const QString create = "create_superellipsoid.mlx";
 const QString describe = "descriptors.mlx";
 
 INSTANTIATE_TEST_SUITE_P(
-    , OtherFilterRefuses,
+    , ServerRefusesToo,
     ::testing::Values(
         BadCall{"ExponentTooSmall", create, {{"PolarExponent", "0.05"}}, false, {"PolarExponent"}},
         BadCall{
