@@ -139,10 +139,13 @@ std::string html_report(const DescriptorResult& result) {
   if (result.reference) report.add_paragraph("Compared with " + layer_line(*result.reference));
   for (const std::string& remark : all_remarks(result)) report.add_paragraph(remark);
   if (result.reference) {
-    report.add_table(comparison(result), {result.reference->name, result.mesh.name});
+    const ComparisonNames names = {result.reference->name, result.mesh.name};
+    report.add_table(comparison(result), names);
     report.add_lines("Distances", distance_lines(result));
+    report.add_histograms(result.reference->checked.mesh, result.mesh.checked.mesh, names);
   } else {
     report.add_table(list_descriptors(result.mesh.descriptors));
+    report.add_histograms({}, result.mesh.checked.mesh, {"", result.mesh.name});
   }
   return report.text();
 }

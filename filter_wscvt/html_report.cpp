@@ -45,7 +45,7 @@ void add_bars(QwtPlot& plot, const QString& title, const QColor& colour, const H
   QColor filling = colour;
   filling.setAlpha(110);
   // The plot owns what is attached to it.
-  auto* bars = new QwtPlotHistogram(title);
+  auto* bars = new QwtPlotHistogram(QwtText(title, QwtText::PlainText));
   bars->setStyle(QwtPlotHistogram::Outline);
   bars->setPen(colour, 1.0);
   bars->setBrush(filling);
@@ -165,7 +165,8 @@ void HtmlReport::add_lines(const std::string& title, const std::vector<std::stri
   body_ += "</pre>\n";
 }
 
-void HtmlReport::add_histograms(const IndexedMesh& original, const IndexedMesh& remesh) {
+void HtmlReport::add_histograms(const IndexedMesh& reference, const IndexedMesh& mesh,
+                                const ComparisonNames& names) {
   if (qobject_cast<QApplication*>(QCoreApplication::instance()) == nullptr) {
     throw Error(ErrorCode::InvalidInput,
                 "The report's figures cannot be drawn without a window system; ask for a .json or "
@@ -173,14 +174,15 @@ void HtmlReport::add_histograms(const IndexedMesh& original, const IndexedMesh& 
   }
   std::vector<NamedHistogram> lengths;
   std::vector<NamedHistogram> ratios;
-  const auto add = [&](const QString& name, const QColor& colour, const IndexedMesh& mesh) {
-    if (mesh.triangles.empty()) return;
-    QualityHistograms histograms = quality_histograms(mesh, histogram_bins);
-    lengths.push_back({name, colour, std::move(histograms.relative_edge_length)});
-    ratios.push_back({name, colour, std::move(histograms.edge_ratio)});
+  const auto add = [&](const std::string& name, const QColor& colour, const IndexedMesh& shown) {
+    if (shown.triangles.empty()) return;
+    QualityHistograms histograms = quality_histograms(shown, histogram_bins);
+    const QString title = QString::fromStdString(name);
+    lengths.push_back({title, colour, std::move(histograms.relative_edge_length)});
+    ratios.push_back({title, colour, std::move(histograms.edge_ratio)});
   };
-  add(QStringLiteral("original"), QColor(110, 110, 110), original);
-  add(QStringLiteral("remesh"), QColor(0, 90, 180), remesh);
+  add(names.reference, QColor(110, 110, 110), reference);
+  add(names.value, QColor(0, 90, 180), mesh);
   if (lengths.empty()) return;
   body_ += "<h2>Edges</h2>\n<div class=\"figures\">\n";
   body_ += figure(QStringLiteral("edge length / mean edge length"),

@@ -25,7 +25,8 @@ class HtmlReport {
   /// Distributions of the edge length and of the edge ratio, as the paper's figure 7. Each mesh as
   /// quality_histograms takes it; without faces it is left out. Throws Error(InvalidInput) when
   /// there is no QApplication to draw with.
-  void add_histograms(const IndexedMesh& original, const IndexedMesh& remesh);
+  void add_histograms(const IndexedMesh& reference, const IndexedMesh& mesh,
+                      const ComparisonNames& names);
 
   /// The whole document.
   std::string text() const;

@@ -62,7 +62,7 @@ std::string html_report(const RemeshResult& result, IndexedMesh original) {
   if (!original.triangles.empty()) {
     original = check_mesh(std::move(original), result.options.check, Execution()).mesh;
   }
-  report.add_histograms(original, to_indexed(result.mesh));
+  report.add_histograms(original, to_indexed(result.mesh), ComparisonNames());
   report.add_lines("Everything", report_lines(result));
   return report.text();
 }

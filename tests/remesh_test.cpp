@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,6 +12,7 @@
 #include <random>
 
 #include "grains/ct_grain.h"
+#include "test_shapes.h"
 #include "wscvt/error.h"
 #include "wscvt/mesh_io.h"
 #include "wscvt/quadric_surface.h"
@@ -78,7 +80,11 @@ INSTANTIATE_TEST_SUITE_P(Remesh, EveryCountAndWeighting,
                                           testing::Values(Weighting::Constant,
                                                           Weighting::RadialDistance,
                                                           Weighting::Curvature, Weighting::Area,
-                                                          Weighting::ErrorAdaptive)));
+                                                          Weighting::ErrorAdaptive)),
+                         [](const auto& test) {
+                           return "N" + std::to_string(std::get<0>(test.param)) + "Weighting" +
+                                  std::to_string(static_cast<int>(std::get<1>(test.param)));
+                         });
 
 TEST(Remesh, EveryStartAndPlacementKeepsThePromises) {
   for (const auto start : {SeedStart::Multilevel, SeedStart::WarpedLattice, SeedStart::Random}) {
@@ -451,6 +457,29 @@ TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
     }
     EXPECT_EQ(on.refinement.history.size(), 0U);
     EXPECT_GT(refined.refinement.history.size(), 0U);
+  }
+}
+
+// Section 6 of the design, fitted placement: rms distance in % of the equal-volume radius, on the
+// grains themselves, whose meshes here (chords of 10,242 vertices) are the originals.
+TEST(RemeshLeastSquares, ReferenceGrainsStayWithinTheDesignsTable) {
+  struct Limits {
+    int nodes;
+    std::array<double, 4> rms;
+  };
+  const std::vector<test::Grain> grains = test::reference_grains();
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const IndexedMesh grain = test::exact_mesh(grains[g], test::sphere(5));
+    for (const Limits& limits :
+         {Limits{100, {0.65, 0.85, 1.8, 2.7}}, Limits{500, {0.13, 0.16, 0.30, 1.4}},
+          Limits{1000, {0.07, 0.08, 0.14, 0.6}}, Limits{2000, {0.035, 0.04, 0.07, 0.25}}}) {
+      SCOPED_TRACE(grains[g].name + ", " + std::to_string(limits.nodes) + " nodes");
+      constexpr int rounds = 3;
+      const RemeshResult result = remesh(grain, fitted_options(limits.nodes, rounds));
+      EXPECT_LT(error_percent(result, ErrorMeasure::Volume), 1e-9);
+      EXPECT_LT(error_percent(result, ErrorMeasure::Distance), limits.rms[g]);
+      EXPECT_GE(result.quality.smallest_angle, 15.0);
+    }
   }
 }
 

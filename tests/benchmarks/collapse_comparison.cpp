@@ -2,8 +2,10 @@
 // Prints one table: this remesher and the two edge collapses of CGAL (Lindstrom and Turk 1998,
 // Garland and Heckbert 1997) on the same scans at the same number of nodes, all measured alike.
 //
-//   collapse_comparison [mesh file ...]      without files: the four reference grains and the
-//   sample
+//   collapse_comparison [--exact] [mesh file ...]
+//
+// Without files: scans of the four reference grains, and the sample; with --exact: the four grains
+// themselves, meshed from their formulas, so that no scanner's noise counts.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
@@ -13,6 +15,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,6 +27,7 @@
 #include <vector>
 
 #include "grains/ct_grain.h"
+#include "test_shapes.h"
 #include "wscvt/mesh_io.h"
 #include "wscvt/remesh.h"
 
@@ -171,14 +175,26 @@ IndexedMesh mended(IndexedMesh mesh) {
   return check_mesh(std::move(mesh), MeshCheckOptions(), Execution()).mesh;
 }
 
-int run(const std::vector<std::string>& files) {
+int run(int argc, char** argv) {
+  CLI::App app{"Compare with the edge collapses of CGAL at the same number of nodes."};
+  std::vector<std::string> files;
+  bool exact = false;
+  app.add_option("files", files, "Scans; none: the project's own");
+  app.add_flag("--exact", exact, "Without files: the reference grains as they are, not scanned");
+  CLI11_PARSE(app, argc, argv);
+
   std::vector<std::pair<std::string, IndexedMesh>> scans;
   if (files.empty()) {
     constexpr int vertices = 7000;
+    constexpr int subdivisions = 6;  // 40,962 vertices
     for (const test::Grain& grain : test::reference_grains()) {
-      scans.emplace_back(grain.name.substr(0, 10), mended(test::ct_mesh_of_about(grain, vertices)));
+      scans.emplace_back(grain.name.substr(0, 10),
+                         mended(exact ? test::exact_mesh(grain, test::sphere(subdivisions))
+                                      : test::ct_mesh_of_about(grain, vertices)));
     }
-    scans.emplace_back("sand_7228", mended(read_mesh(WSCVT_MESHES_DIR "/sand_7228.ply")));
+    if (!exact) {
+      scans.emplace_back("sand_7228", mended(read_mesh(WSCVT_MESHES_DIR "/sand_7228.ply")));
+    }
   }
   for (const std::string& file : files) {
     scans.emplace_back(file.substr(std::max<std::size_t>(file.size(), 14) - 14, 10),
@@ -216,7 +232,7 @@ int run(const std::vector<std::string>& files) {
 
 int main(int argc, char** argv) {
   try {
-    return run(std::vector<std::string>(argv + 1, argv + argc));
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

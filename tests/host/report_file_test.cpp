@@ -6,6 +6,7 @@
 #include <QFile>
 #include <QTemporaryDir>
 
+#include "descriptor_filter.h"
 #include "remesh_report.h"
 #include "sample_meshes.h"
 #include "wscvt/error.h"
@@ -52,6 +53,23 @@ TEST(ReportFile, HoldsTheLibrarysReportOrAPageWithTwoFigures) {
     EXPECT_FALSE(page.contains("<?xml"));
     EXPECT_TRUE(page.contains("<td>volume</td>"));
     EXPECT_EQ(page.contains(">original</text>"), !original.points.empty());
+  }
+}
+
+TEST(ReportFile, OfDescriptorsNamesTheLayersInItsFigures) {
+  // Measured is nothing here: the figures show the meshes.
+  const CheckedMesh checked = check_mesh(grain(), MeshCheckOptions(), Execution());
+  filter::DescriptorResult result;
+  result.mesh = {"remeshed.ply", checked, DetailedDescriptors()};
+  QTemporaryDir folder;
+  const QString path = folder.filePath("shape.html");
+  for (const bool compared : {false, true}) {
+    if (compared) result.reference = {"<b>scan</b>", checked, DetailedDescriptors()};
+    filter::write_report(result, path.toStdString());
+    const QString page = QString::fromStdString(content_of(path));
+    EXPECT_EQ(page.count("<svg"), 2);
+    EXPECT_TRUE(page.contains(">remeshed.ply</text>"));
+    EXPECT_EQ(page.contains(">&lt;b&gt;scan&lt;/b&gt;</text>"), compared);
   }
 }
 
