@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "plain_fit.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -57,61 +57,16 @@ HarmonicFit fit(const TestSamples& samples, int degree, int threads = 1) {
                        Execution(threads));
 }
 
-/// The weighted least squares solved directly, and its weighted rms residual.
-struct PlainFit {
-  Eigen::VectorXd coefficients;
-  double residual;
-};
-
-PlainFit plain_least_squares(const TestSamples& samples, int degree) {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto width = static_cast<Eigen::Index>(harmonic_count(degree));
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(width, width);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(width);
-  const std::size_t block = 500;
-  const auto each_block = [&](const auto& visit) {
-    for (std::size_t begin = 0; begin < samples.radii.size(); begin += block) {
-      const std::size_t count = std::min(block, samples.radii.size() - begin);
-      const auto size = static_cast<Eigen::Index>(count);
-      const std::vector<double> values =
-          harmonic_values(degree, samples.directions.data() + begin, count);
-      visit(Eigen::Map<const Rows>(values.data(), size, width),
-            Eigen::Map<const Eigen::VectorXd>(samples.weights.data() + begin, size),
-            Eigen::Map<const Eigen::VectorXd>(samples.radii.data() + begin, size));
-    }
-  };
-  each_block([&](const auto& basis, const auto& weights, const auto& radii) {
-    const Eigen::MatrixXd scaled = (weights.cwiseSqrt().asDiagonal() * basis).transpose();
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
-    right += basis.transpose() * weights.cwiseProduct(radii);
-  });
-  PlainFit result;
-  result.coefficients = normal.selfadjointView<Eigen::Lower>().llt().solve(right);
-  double sum = 0.0;
-  double weight_sum = 0.0;
-  each_block([&](const auto& basis, const auto& weights, const auto& radii) {
-    sum += weights.dot((radii - basis * result.coefficients).cwiseAbs2());
-    weight_sum += weights.sum();
-  });
-  result.residual = std::sqrt(sum / weight_sum);
-  return result;
-}
-
-/// rms over the sphere of the difference of two series of the same degree.
-double rms_difference(const std::vector<double>& a, const Eigen::VectorXd& b) {
-  const Eigen::Map<const Eigen::VectorXd> mapped(a.data(), static_cast<Eigen::Index>(a.size()));
-  return (mapped - b).norm() / std::sqrt(4.0 * pi);
-}
-
 TEST(HarmonicFit, SpreadPointsAgreeWithPlainLeastSquares) {
   // Harmonics beyond the fitted degree make a residual that is not white.
   const TestSamples samples = noisy_samples(6000, 20, 2e-3);
   const HarmonicFit result = fit(samples, 14);
-  const PlainFit plain = plain_least_squares(samples, 14);
+  const test::PlainFit plain =
+      test::plain_least_squares(samples.directions, samples.radii, samples.weights, 14);
   EXPECT_EQ(result.report.degree, 14);
   EXPECT_EQ(result.report.points, samples.radii.size());
   // Required is 1e-3 of the residual; measured is 4e-6.
-  EXPECT_LT(rms_difference(result.surface.coefficients(), plain.coefficients),
+  EXPECT_LT(test::rms_difference(result.surface.coefficients(), plain.coefficients),
             1e-4 * plain.residual);
   EXPECT_NEAR(result.report.residual, plain.residual, 1e-6 * plain.residual);
   EXPECT_GT(result.report.residual, 1e-4);
@@ -120,9 +75,10 @@ TEST(HarmonicFit, SpreadPointsAgreeWithPlainLeastSquares) {
 TEST(HarmonicFit, StoredPointsAgreeWithPlainLeastSquares) {
   const TestSamples samples = noisy_samples(900, 12, 2e-3);
   const HarmonicFit result = fit(samples, 10);
-  const PlainFit plain = plain_least_squares(samples, 10);
+  const test::PlainFit plain =
+      test::plain_least_squares(samples.directions, samples.radii, samples.weights, 10);
   EXPECT_EQ(result.report.degree, 10);
-  EXPECT_LT(rms_difference(result.surface.coefficients(), plain.coefficients),
+  EXPECT_LT(test::rms_difference(result.surface.coefficients(), plain.coefficients),
             1e-9 * plain.residual);
   EXPECT_NEAR(result.report.residual, plain.residual, 1e-9 * plain.residual);
 }
@@ -153,7 +109,8 @@ TEST(HarmonicFit, RecoversABandLimitedSurface) {
                                                    static_cast<Eigen::Index>(expected.size()));
     // The grid's interpolation errs by 2e-5 of the highest harmonics, themselves 1e-2 of the
     // radius.
-    EXPECT_LT(rms_difference(result.surface.coefficients(), mapped), count > 2000 ? 1e-7 : 1e-12);
+    EXPECT_LT(test::rms_difference(result.surface.coefficients(), mapped),
+              count > 2000 ? 1e-7 : 1e-12);
     EXPECT_LT(result.report.residual, count > 2000 ? 1e-6 : 1e-12);
   }
 }
