@@ -17,7 +17,7 @@ class HtmlReport {
 
   void add_paragraph(const std::string& text);
   void add_table(const std::vector<DescriptorValue>& values);
-  void add_table(const std::vector<DescriptorComparison>& rows, const ComparisonNames& names);
+  void add_table(const std::vector<DescriptorComparison>& comparison, const ComparisonNames& names);
 
   /// Lines whose columns are aligned, such as a log.
   void add_lines(const std::string& title, const std::vector<std::string>& lines);

@@ -3,7 +3,9 @@
 # Builds everything and passes every test: all tests in release with warnings as errors, the tests
 # again under the address and undefined-behaviour sanitizers, and formatting.
 #   tests/run_all.sh [install] [release] [sanitizers] [format] [tidy]
-# Without arguments: all but tidy, in this order; the static analysis takes as long as all the rest.
+# Without arguments: all but tidy, in this order; the static analysis takes half as long as all the
+# rest. The sanitized build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a
+# hundred times slower; those of Eigen and OpenMesh stay.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
