@@ -5,6 +5,8 @@
 #   compare_with_meshlab.sh WSCVT_PROGRAM SCAN.ply [NODES [RUNS]]
 # Prints the median wall time and the peak memory of each, and the ratios to the remesher.
 set -eu
+# One display for all runs, so that starting it is not part of MeshLab's time.
+[ -n "${DISPLAY:-}" ] || exec xvfb-run -a "$0" "$@"
 program=$1
 scan=$2
 nodes=${3:-1000}
@@ -70,7 +72,7 @@ run() {  # name, output file, command...
   echo "$name $median $(vertices "$out")"
 }
 
-server="xvfb-run -a meshlabserver -i $scan"
+server="meshlabserver -i $scan"
 {
   run wscvt "$work/ours.ply" "$program" "$scan" "$work/ours.ply" -n "$nodes" -w area -q
   run wscvt-surface "$work/surface.ply" \
