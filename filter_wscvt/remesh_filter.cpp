@@ -18,7 +18,7 @@ std::string remesh_help() {
          "<b>It repairs</b> equal points, degenerate faces, orientation and small loose parts, and "
          "says so in the log; points without faces are triangulated. <b>It refuses</b>, and "
          "changes nothing, when the mesh is open, not manifold, without volume, not finite or in "
-         "parts of comparable volume, or folds back over more directions than the fold limit.<br>"
+         "parts of comparable volume, or folds over itself beyond the fold limit.<br>"
          "See: <i>Wu F., Huang L., Lai Z.</i> <b>\"A spherical Voronoi tessellation-based approach "
          "for particle surface discretization and reconstruction\"</b>, Engineering Mechanics, "
          "2022, doi 10.6052/j.issn.1000-4750.2022.07.0614";
@@ -61,9 +61,11 @@ ParameterList remesh_parameters() {
                         "all towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
       real_parameter(
           "FoldLimit", 100.0 * defaults.fold_limit, 0, 99, "Fold limit (%)",
-          "Largest share of directions, in % of the whole sphere, 0 to 99, in which the surface "
-          "may be met more than once from the centroid. Such folds are bridged by their "
-          "outermost sheet; above the limit the filter refuses."),
+          "Where the surface folds, a ray from the centroid meets more than one sheet. Largest "
+          "solid "
+          "angle that all sheets beyond the first may fill together, in % of the whole sphere, 0 "
+          "to "
+          "99. Folds are bridged by their outermost sheet; above the limit the filter refuses."),
       metric_parameter(),
       seed_start_parameter(),
       random_seed_parameter(),

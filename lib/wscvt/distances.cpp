@@ -184,13 +184,17 @@ OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std:
 
 }  // namespace
 
-MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
-                                const DistanceOptions& options, const Execution& execution) {
+void check_distance_options(const DistanceOptions& options) {
   if (options.samples < 1 || options.samples > maximum_samples) {
     throw Error(ErrorCode::InvalidInput, "The number of distance samples is " +
                                              std::to_string(options.samples) +
                                              "; give 1 to 100000000 (100000 is usual).");
   }
+}
+
+MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
+                                const DistanceOptions& options, const Execution& execution) {
+  check_distance_options(options);
   MeshDistances result;
   execution.report(0.0, "Measuring distances");
   result.to_reference = one_sided(mesh, MeshDistance(reference), options.samples, execution);

@@ -46,6 +46,9 @@ struct DistanceOptions {
   std::size_t samples = 100000;
 };
 
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_distance_options(const DistanceOptions& options);
+
 /// Distances from the points of one surface to another; length.
 struct OneSidedDistance {
   double maximum = 0.0;           ///< over the samples and the vertices: one-sided Hausdorff
@@ -74,7 +77,8 @@ struct MeshDistances {
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 const DistanceOptions& options, const Execution& execution);
 
-/// The `count` points that measure_distances spreads over a surface.
+/// The `count` points that measure_distances spreads over a surface. Throws Error(InvalidInput) if
+/// the mesh has no faces or no area.
 std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count);
 
 }  // namespace wscvt

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "wscvt/error.h"
 #include "wscvt/solid_angle.h"
+#include "wscvt/text_format.h"
 
 namespace wscvt {
 
@@ -74,12 +74,13 @@ void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t bad_point =
       first_wrong(vertices, execution, [&](std::size_t i) { return !mesh.points[i].allFinite(); });
   if (bad_point < vertices) {
-    std::ostringstream sentence;
     const Vector3& p = mesh.points[bad_point];
-    sentence
-        << "Vertex " << bad_point << " is at (" << p.x() << ", " << p.y() << ", " << p.z()
-        << "), which is not a finite position; remove such vertices and close the holes first.";
-    refuse(sentence.str());
+    const auto coordinate = [](double value) {
+      return std::isnan(value) ? "nan" : format_number(value);
+    };
+    refuse("Vertex " + std::to_string(bad_point) + " is at (" + coordinate(p.x()) + ", " +
+           coordinate(p.y()) + ", " + coordinate(p.z()) +
+           "), which is not a finite position; remove such vertices and close the holes first.");
   }
   const std::size_t bad_face = first_wrong(faces, execution, [&](std::size_t f) {
     const Triangle& t = mesh.triangles[f];
@@ -376,16 +377,12 @@ std::size_t choose_main(const Components& components, const MeshCheckOptions& op
   if (total > 0.0) report.dropped_volume_share = 1.0 - std::abs(list[main].volume) / total;
   if (list.size() == 1) report.dropped_volume_share = 0.0;
   if (report.dropped_volume_share > options.dropped_volume_limit) {
-    std::ostringstream sentence;
-    sentence.precision(3);
-    sentence << "The mesh falls into " << list.size()
-             << " separate parts and the largest holds only "
-             << 100.0 * (1.0 - report.dropped_volume_share)
-             << " % of their volume, so there is no main body; keep one part, e.g. Filters > "
-                "Cleaning and Repairing > Remove Isolated pieces (wrt Face Num.), or split the "
-                "mesh into its "
-                "connected components, and remesh each on its own.";
-    refuse(sentence.str());
+    refuse("The mesh falls into " + std::to_string(list.size()) +
+           " separate parts and the largest holds only " +
+           format_percent(1.0 - report.dropped_volume_share) +
+           " of their volume, so there is no main body; keep one part, e.g. Filters > Cleaning and "
+           "Repairing > Remove Isolated pieces (wrt Face Num.), or split the mesh into its "
+           "connected components, and remesh each on its own.");
   }
   return main;
 }
@@ -522,10 +519,9 @@ void measure(const IndexedMesh& mesh, const Execution& execution, MeshCheckRepor
   report.volume = sums[0] / 6.0;
   report.area = sums[1] / 2.0;
   if (!(report.volume > flat_limit * std::pow(report.area, 1.5))) {
-    std::ostringstream sentence;
-    sentence << "The mesh encloses no volume: it is flat, with an area of " << report.area
-             << " and a volume of " << report.volume << "; load the closed surface of a grain.";
-    refuse(sentence.str());
+    refuse("The mesh encloses no volume: it is flat, with an area of " +
+           format_number(report.area) + " and a volume of " + format_number(report.volume) +
+           "; load the closed surface of a grain.");
   }
   report.centroid = origin + sums.segment<3>(2) / (4.0 * sums[0]);
   report.sliver_faces = static_cast<std::size_t>(sums[5]);
@@ -542,8 +538,8 @@ void measure(const IndexedMesh& mesh, const Execution& execution, MeshCheckRepor
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution) {
   if (!(options.dropped_volume_limit > 0.0 && options.dropped_volume_limit < 1.0)) {
-    refuse("The largest share of volume to drop is " +
-           std::to_string(options.dropped_volume_limit) + "; give a number between 0 and 1.");
+    refuse("The largest share of volume to drop is " + format_number(options.dropped_volume_limit) +
+           "; give a number between 0 and 1.");
   }
   const std::string stage = "Checking the mesh";
   CheckedMesh result;

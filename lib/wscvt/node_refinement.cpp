@@ -12,6 +12,7 @@
 
 #include "wscvt/distances.h"
 #include "wscvt/error.h"
+#include "wscvt/text_format.h"
 
 namespace wscvt {
 
@@ -783,12 +784,12 @@ void check_refinement_options(const RefinementOptions& options) {
   }
   if (!(options.smallest_angle >= 0.0 && options.smallest_angle <= 40.0)) {
     throw Error(ErrorCode::InvalidInput, "The smallest angle the refinement may make is " +
-                                             std::to_string(options.smallest_angle) +
+                                             format_number(options.smallest_angle) +
                                              " degrees; give 0 to 40.");
   }
   if (!(options.tolerance >= 0.0 && options.tolerance < 1.0)) {
     throw Error(ErrorCode::InvalidInput, "The tolerance of the refinement is " +
-                                             std::to_string(options.tolerance) +
+                                             format_number(options.tolerance) +
                                              "; give a share of at least 0 and less than 1.");
   }
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "wscvt/error.h"
+#include "wscvt/text_format.h"
 
 namespace wscvt {
 
@@ -15,7 +16,7 @@ void check_semi_axes(const Vector3& semi_axes) {
   for (int i = 0; i < 3; ++i) {
     if (!(semi_axes[i] > 0.0) || !std::isfinite(semi_axes[i])) {
       throw Error(ErrorCode::InvalidInput, "Semi-axis " + std::to_string(i + 1) + " is " +
-                                               std::to_string(semi_axes[i]) +
+                                               format_number(semi_axes[i]) +
                                                "; give three positive lengths.");
     }
   }
@@ -25,7 +26,7 @@ void check_exponent(const char* name, double exponent) {
   if (!(exponent >= 0.1 && exponent <= 2.0)) {
     throw Error(ErrorCode::InvalidInput, std::string("The ") + name +
                                              " exponent of the superellipsoid is " +
-                                             std::to_string(exponent) + "; give 0.1 to 2.");
+                                             format_number(exponent) + "; give 0.1 to 2.");
   }
 }
 

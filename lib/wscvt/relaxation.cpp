@@ -9,6 +9,7 @@
 
 #include "wscvt/error.h"
 #include "wscvt/power_cells.h"
+#include "wscvt/text_format.h"
 
 namespace wscvt {
 
@@ -251,7 +252,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
       }
     });
     if (!try_evaluation(evaluation, arrived, seeds, report)) {
-      report.settled = true;
+      report.stuck = true;
       break;
     }
     arrived.swap(stepped);
@@ -275,7 +276,7 @@ void check_relaxation_options(const RelaxationOptions& options) {
   }
   const double limit = options.acceleration ? 4.0 / 3.0 : 2.0;
   if (!(options.over_relaxation > 0.0) || !(options.over_relaxation < limit)) {
-    refuse("The over-relaxation factor is " + std::to_string(options.over_relaxation) +
+    refuse("The over-relaxation factor is " + format_number(options.over_relaxation) +
            "; give a number above 0 and below " +
            (options.acceleration ? "4/3, such as 1.2." : "2, such as 1.8."));
   }

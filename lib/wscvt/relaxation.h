@@ -45,6 +45,7 @@ struct RelaxationReport {
   /// The seeds have come to rest (a hundredth of the displacement tolerance) although the cells'
   /// areas spread more than asked for: few nodes on a strongly bent surface cannot do better.
   bool settled = false;
+  bool stuck = false;  ///< ended because even a short step further could not be triangulated
   int iterations = 0;                           ///< with all the seeds
   std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
   int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
@@ -61,7 +62,8 @@ struct RelaxationResult {
 
 /// Moves the seeds towards the centroids of their cells until both the rms displacement and the
 /// spread of (cell area / target) are below their tolerances, or the seeds have come to rest, or
-/// the iterations are used up; which of these is said in the report.
+/// they cannot go further without tearing the triangulation, or the iterations are used up; which
+/// of these is said in the report.
 ///
 /// Each step goes `over_relaxation` times the way from seed to centroid. With `acceleration` the
 /// steps carry Nesterov's momentum, dropped whenever it points uphill (O'Donoghue and Candes 2015,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "wscvt/point_cloud.h"
 #include "wscvt/radial_samples.h"
 #include "wscvt/sphere_sampling.h"
+#include "wscvt/text_format.h"
 
 namespace wscvt {
 
@@ -23,12 +23,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t block_size = 1024;
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
-  return text;
-}
 
 void require(bool fits, const std::string& what, const std::string& value,
              const std::string& range) {
@@ -44,6 +38,16 @@ void require_enumerator(Enumeration value, Enumeration last, const std::string& 
           "a number from 0 to " + std::to_string(static_cast<int>(last)));
 }
 
+WeightingOptions weighting_options(const RemeshOptions& options) {
+  WeightingOptions weighting;
+  weighting.weighting =
+      options.sampling == Sampling::Weighted ? options.weighting : Weighting::Constant;
+  weighting.node_count = options.node_count;
+  weighting.curvature_alpha = options.curvature_alpha;
+  weighting.adaptive_exponent = options.adaptive_exponent;
+  return weighting;
+}
+
 void check(const RemeshOptions& options) {
   require(options.node_count >= 4 && options.node_count <= maximum_node_count,
           "The number of nodes", std::to_string(options.node_count),
@@ -51,13 +55,9 @@ void check(const RemeshOptions& options) {
   require(options.degree >= 1 && options.degree <= 60, "The harmonic degree",
           std::to_string(options.degree), "a whole number from 1 to 60");
   require(options.fold_limit >= 0.0 && options.fold_limit < 1.0,
-          "The largest folded share of the solid angle", percent(options.fold_limit),
+          "The largest folded share of the solid angle", format_percent(options.fold_limit),
           "at least 0 % and less than 100 %");
-  require(std::abs(options.curvature_alpha) <= 3.0, "The curvature exponent alpha",
-          std::to_string(options.curvature_alpha), "a number from -3 to 3");
-  require(options.adaptive_exponent >= 0.0 && options.adaptive_exponent <= 1.5,
-          "The exponent of the error-adaptive weighting", std::to_string(options.adaptive_exponent),
-          "a number from 0 to 1.5");
+  check_weighting_options(weighting_options(options));
   require_enumerator(options.sampling, Sampling::Icosahedron, "The sampling");
   require_enumerator(options.weighting, Weighting::ErrorAdaptive, "The weighting");
   require_enumerator(options.curvature_source, CurvatureSource::QuadricFit, "The curvature source");
@@ -69,13 +69,20 @@ void check(const RemeshOptions& options) {
   require_enumerator(options.error_target.measure, ErrorMeasure::Distance,
                      "The measure of the error target");
   require(options.error_target.percent >= 0.0 && std::isfinite(options.error_target.percent),
-          "The error target", std::to_string(options.error_target.percent),
+          "The error target", format_number(options.error_target.percent),
           "a positive number of per cent, or 0 for none");
   require(options.error_target.largest_node_count >= 4 &&
               options.error_target.largest_node_count <= maximum_node_count,
           "The largest number of nodes to try",
           std::to_string(options.error_target.largest_node_count),
           "a whole number from 4 to " + std::to_string(maximum_node_count));
+  if (options.error_target.percent > 0.0 &&
+      (options.sampling == Sampling::EqualAngle || options.sampling == Sampling::Icosahedron)) {
+    throw Error(ErrorCode::InvalidInput,
+                "An error target needs a sampling with any number of nodes; take the weighted one "
+                "or the Fibonacci lattice, or set the target to 0.");
+  }
+  check_distance_options(options.distance_sampling);
   check_refinement_options(options.refinement);
   if (options.refinement.rounds > 0 && options.placement != NodePlacement::LeastSquares) {
     throw Error(ErrorCode::InvalidInput,
@@ -160,9 +167,10 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   result.folded_share = samples.folded_share;
   if (result.folded_share > options.fold_limit) {
     throw Error(ErrorCode::NotStarShaped,
-                "Seen from its centre the grain folds over itself on " +
-                    percent(result.folded_share) + " of the solid angle, above the limit of " +
-                    percent(options.fold_limit) +
+                "Seen from its centre the grain folds over itself: sheets beyond the first fill " +
+                    format_percent(result.folded_share) +
+                    " of the solid angle, above the limit of " +
+                    format_percent(options.fold_limit) +
                     ". A radius in each direction cannot describe it: remove inner surfaces and "
                     "attached pieces from the scan, or raise the limit and check the result.");
   }
@@ -253,13 +261,7 @@ std::vector<Vector3> unweighted_seeds(const RemeshOptions& options) {
 RelaxationResult relax_seeds(const PreparedGrain& grain, const RemeshOptions& options,
                              const Execution& execution) {
   execution.report(0.0, "Weighing the seeds");
-  WeightingOptions weighting;
-  weighting.weighting = options.weighting;
-  weighting.node_count = options.node_count;
-  weighting.curvature_alpha = options.curvature_alpha;
-  weighting.adaptive_exponent = options.adaptive_exponent;
-  if (options.sampling != Sampling::Weighted) weighting.weighting = Weighting::Constant;
-  const SurfaceSeedModel model(*grain.surface, weighting,
+  const SurfaceSeedModel model(*grain.surface, weighting_options(options),
                                grain.curvatures ? &*grain.curvatures : nullptr, execution);
   if (options.sampling != Sampling::Weighted) {
     RelaxationOptions none = options.relaxation;
@@ -391,8 +393,9 @@ void scale(RefinementReport& refinement, double unit) {
 void add_warnings(RemeshResult& result) {
   const auto warn = [&](const std::string& sentence) { result.warnings.push_back(sentence); };
   if (result.folded_share > fold_warning_limit) {
-    warn("The scan folds over itself on " + percent(result.folded_share) +
-         " of the solid angle seen from its centre; there the outermost sheet was taken. Check the "
+    warn("The scan folds over itself: sheets beyond the first fill " +
+         format_percent(result.folded_share) +
+         " of the solid angle seen from its centre; there the outermost was taken. Check the "
          "result against the scan.");
   }
   if (result.input.components > 1) {
@@ -416,20 +419,25 @@ void add_warnings(RemeshResult& result) {
     }
   } else if (result.relaxation.settled) {
     warn("The seeds came to rest with the cells' areas still spread by " +
-         percent(result.relaxation.history.back().area_spread) +
+         format_percent(result.relaxation.history.back().area_spread) +
          " about their targets; more nodes follow the surface more evenly.");
+  } else if (result.relaxation.stuck) {
+    warn("The relaxation stopped after " + std::to_string(result.relaxation.iterations) +
+         " iterations, because a further step would have torn the triangulation; the result keeps "
+         "every promise but may be less even. Another start of the seeds may go further.");
   } else if (!result.relaxation.converged) {
     warn("The relaxation stopped at its limit of " + std::to_string(result.relaxation.iterations) +
          " iterations before it converged; raise the limit for the last bit of evenness.");
   }
   if (result.relaxation.weight_scale < 1.0) {
     warn("The differences between the weights were scaled by " +
-         std::to_string(result.relaxation.weight_scale) +
+         format_number(result.relaxation.weight_scale, 3) +
          ", because seeds would have lost their cells; lower the curvature exponent alpha.");
   }
   if (result.search && !result.search->met) {
     warn("No number of nodes up to " + std::to_string(result.search->node_count) +
-         " meets the error target of " + percent(0.01 * result.options.error_target.percent) +
+         " meets the error target of " +
+         format_percent(0.01 * result.options.error_target.percent) +
          "; this is the result with that many. Raise the largest number of nodes to try, or the "
          "target.");
   }
@@ -554,9 +562,17 @@ double error_percent(const RemeshResult& result, ErrorMeasure measure) {
 
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
   check(options);
-  if (scan.triangles.empty() && !scan.points.empty()) scan = mesh_of_points(std::move(scan.points));
-  return finish(prepare(std::move(scan), options, execution.part(0.0, 0.3)), options,
-                execution.part(0.3, 1.0));
+  const std::size_t points = scan.points.size();
+  const bool without_faces = scan.triangles.empty() && points > 0;
+  if (without_faces) scan = mesh_of_points(std::move(scan.points));
+  const std::size_t different = scan.points.size();
+  PreparedGrain grain = prepare(std::move(scan), options, execution.part(0.0, 0.3));
+  if (without_faces) {  // what was given, not what was made of it
+    grain.report.input.input_vertices = points;
+    grain.report.input.input_faces = 0;
+    grain.report.input.welded_vertices = points - different;
+  }
+  return finish(grain, options, execution.part(0.3, 1.0));
 }
 
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,

@@ -81,7 +81,7 @@ struct RemeshOptions {
   bool distances = false;        ///< fill RemeshResult::distances and vertex_distances
   DistanceOptions distance_sampling;
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
-  double fold_limit = 0.05;      ///< refuse above this share of 4 pi, in [0, 1)
+  double fold_limit = 0.05;      ///< refuse above this folded_share, in [0, 1)
   SeedStart seed_start = SeedStart::Multilevel;
   std::uint64_t random_seed = 1;
   RelaxationOptions relaxation;
@@ -106,7 +106,7 @@ struct RemeshResult {
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
   Vector3 centre = Vector3::Zero();      ///< the volume centroid of the input
   MeshCheckReport input;
-  double folded_share = 0.0;         ///< of 4 pi
+  double folded_share = 0.0;         ///< see folded_solid_angle
   HarmonicFitReport fit;             ///< lengths in input units
   std::vector<double> coefficients;  ///< of the fitted series about `centre`, input units
   RelaxationReport relaxation;

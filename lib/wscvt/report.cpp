@@ -138,6 +138,9 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
   add(input.degenerate_faces, "degenerate face", "degenerate faces", "dropped");
   add(input.duplicate_faces, "duplicate face", "duplicate faces", "dropped");
   add(input.reoriented_faces, "face", "faces", "turned outward");
+  add(input.split_vertices, "vertex", "vertices", "added where the surface touched itself");
+  add(input.sliver_faces, "face", "faces", "of no area kept");
+  if (input.input_faces == 0) parts.emplace_back("points triangulated");
   if (input.components > 1) {
     parts.push_back(counted(input.components - 1, "smaller component", "smaller components") +
                     " dropped (" + counted(input.dropped_faces, "face", "faces") + ", " +
@@ -161,9 +164,9 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                                    counted(input.faces, "face", "faces") + ", closed, genus " +
                                    std::to_string(input.genus) + ", equivalent radius " +
                                    format_number(input.equivalent_radius)));
-  lines.push_back(line("Fold", format_number(100.0 * result.folded_share, 3) +
-                                   " % of the solid angle is covered more than once (limit " +
-                                   format_number(100.0 * result.options.fold_limit, 3) + " %)"));
+  lines.push_back(line("Fold", format_percent(result.folded_share) +
+                                   " of the solid angle in sheets beyond the first (limit " +
+                                   format_percent(result.options.fold_limit) + ")"));
 }
 
 void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
@@ -207,8 +210,9 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
   std::string text =
       relaxation.converged ? "converged after " + counted(iterations, "iteration", "iterations")
       : relaxation.settled ? "settled after " + counted(iterations, "iteration", "iterations")
+      : relaxation.stuck   ? "stuck after " + counted(iterations, "iteration", "iterations")
                            : "not converged: stopped at the limit of " +
-                                 counted(iterations, "iteration", "iterations");
+                               counted(iterations, "iteration", "iterations");
   for (auto level = relaxation.coarser_levels.rbegin(); level != relaxation.coarser_levels.rend();
        ++level) {
     text += (level == relaxation.coarser_levels.rbegin() ? " (after " : ", ") +
@@ -352,6 +356,12 @@ Json json_of(const RemeshOptions& o) {
             {"acceleration", o.relaxation.acceleration},
             {"over_relaxation", o.relaxation.over_relaxation},
             {"metric", name_of(o.relaxation.metric)}}},
+          {"levels",
+           {{"coarsest_seeds", o.levels.coarsest_seeds},
+            {"coarsest_tolerance", o.levels.coarsest_tolerance},
+            {"middle_tolerance", o.levels.middle_tolerance}}},
+          {"distances", o.distances},
+          {"distance_samples", o.distance_sampling.samples},
           {"check", {{"dropped_volume_limit", o.check.dropped_volume_limit}}}};
 }
 
@@ -361,8 +371,10 @@ Json json_of(const MeshCheckReport& i) {
           {"welded_vertices", i.welded_vertices},
           {"unreferenced_vertices", i.unreferenced_vertices},
           {"degenerate_faces", i.degenerate_faces},
+          {"sliver_faces", i.sliver_faces},
           {"duplicate_faces", i.duplicate_faces},
           {"reoriented_faces", i.reoriented_faces},
+          {"split_vertices", i.split_vertices},
           {"components", i.components},
           {"dropped_faces", i.dropped_faces},
           {"dropped_volume_share", i.dropped_volume_share},
@@ -398,9 +410,11 @@ Json json_of(const RelaxationReport& r) {
   }
   return {{"converged", r.converged},
           {"settled", r.settled},
+          {"stuck", r.stuck},
           {"iterations", r.iterations},
           {"coarser_levels", std::move(levels)},
           {"rebuilds", r.rebuilds},
+          {"weight_scale", r.weight_scale},
           {"history",
            {{"displacement", std::move(displacement)},
             {"area_spread", std::move(area_spread)},
@@ -520,7 +534,7 @@ std::string report_json(const RemeshResult& result) {
   if (!result.refinement.history.empty()) report["refinement"] = json_of(result.refinement);
   if (result.distances) report["distances"] = json_of(*result.distances);
   if (result.search) report["search"] = json_of(*result.search);
-  // A warning may quote a file name that is not UTF-8.
+  // Warnings are the caller's too to add to, and may quote bytes that are not UTF-8.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -535,10 +549,27 @@ std::string report_csv(const RemeshResult& result) {
   record.add("adaptive_exponent", options.adaptive_exponent);
   record.add("curvature_source", name_of(options.curvature_source));
   record.add("placement", name_of(options.placement));
+  record.add("metric", name_of(options.relaxation.metric));
+  record.add("refinement_rounds", std::to_string(options.refinement.rounds));
+  record.add("error_target_measure", name_of(options.error_target.measure));
+  record.add("error_target_percent", options.error_target.percent);
+  record.add("error_target_met", !result.search ? "" : result.search->met ? "true" : "false");
+  record.add("fold_limit", options.fold_limit);
+  record.add("maximum_iterations", std::to_string(options.relaxation.maximum_iterations));
   record.add("seed_start", name_of(options.seed_start));
   record.add("random_seed", std::to_string(options.random_seed));
   record.add_count("input_vertices", result.input.input_vertices);
   record.add_count("input_faces", result.input.input_faces);
+  record.add_count("welded_vertices", result.input.welded_vertices);
+  record.add_count("unreferenced_vertices", result.input.unreferenced_vertices);
+  record.add_count("degenerate_faces", result.input.degenerate_faces);
+  record.add_count("sliver_faces", result.input.sliver_faces);
+  record.add_count("duplicate_faces", result.input.duplicate_faces);
+  record.add_count("reoriented_faces", result.input.reoriented_faces);
+  record.add_count("split_vertices", result.input.split_vertices);
+  record.add_count("components", result.input.components);
+  record.add_count("dropped_faces", result.input.dropped_faces);
+  record.add("dropped_volume_share", result.input.dropped_volume_share);
   record.add_count("used_vertices", result.input.vertices);
   record.add_count("used_faces", result.input.faces);
   record.add("equivalent_radius", result.input.equivalent_radius);
@@ -547,6 +578,8 @@ std::string report_csv(const RemeshResult& result) {
   record.add("degree", std::to_string(result.fit.degree));
   record.add("residual", result.fit.residual);
   record.add("converged", result.relaxation.converged ? "true" : "false");
+  record.add("settled", result.relaxation.settled ? "true" : "false");
+  record.add("stuck", result.relaxation.stuck ? "true" : "false");
   record.add("iterations", std::to_string(result.relaxation.iterations));
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   record.add("rms_distance", result.distances ? result.distances->root_mean_square : unknown);

@@ -56,6 +56,15 @@ bool counter_clockwise(const Vector3& a, const Vector3& b, const Vector3& c) {
   return orientation(Vector3::Zero(), a, b, c) > 0;
 }
 
+/// Beyond this many steradian exp(w / 2) may leave the range in which the predicates' products
+/// neither overflow nor underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
+constexpr double weight_limit = 200.0;
+
+bool can_be_lifted(const std::vector<double>& weights) {
+  return std::all_of(weights.begin(), weights.end(),
+                     [](double weight) { return std::abs(weight) <= weight_limit; });
+}
+
 std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
   std::vector<Vector3> lifted(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) lifted[i] = seeds[i] * std::exp(0.5 * weights[i]);
@@ -156,6 +165,12 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
     throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(weights.size()) +
                                              " weights for " + std::to_string(seeds.size()) +
                                              " seeds; give one each, or none.");
+  }
+  if (!can_be_lifted(weights)) {
+    fail(
+        "a weight is not a number, or far larger than the sphere's own solid angle. Use more "
+        "nodes, "
+        "or another weighting.");
   }
   const Execution serial(1);
   std::vector<Triangle> triangles = delaunay(seeds);
@@ -367,6 +382,7 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
 SphereTriangulation::Repair SphereTriangulation::restore_regular(const std::vector<Vector3>& seeds,
                                                                  const std::vector<double>& weights,
                                                                  const Execution& execution) {
+  if (!can_be_lifted(weights)) return {0, 1, false};
   const std::vector<Vector3> storage =
       weights.empty() ? std::vector<Vector3>() : lift(seeds, weights);
   const std::vector<Vector3>& lifted = weights.empty() ? seeds : storage;

@@ -19,8 +19,9 @@ class SphereTriangulation {
   /// Regular triangulation (weighted Delaunay) of the seeds: the convex hull of p exp(w / 2).
   /// Without weights (empty) the Delaunay triangulation. Triangles are sorted, so the same seeds
   /// give the same arrays. Throws Error(NumericalFailure) when the seeds do not surround the
-  /// origin, when two coincide, or when a seed is hidden, that is, its weight is so low that it has
-  /// no cell.
+  /// origin, when two coincide, when a seed is hidden, that is, its weight is so low that it has no
+  /// cell, or when a weight's absolute value is above 200 steradian or not a number; and
+  /// Error(InvalidInput) for fewer than 4 seeds or another number of weights.
   explicit SphereTriangulation(const std::vector<Vector3>& seeds,
                                const std::vector<double>& weights = {});
 

@@ -20,6 +20,8 @@ std::string format_number(double value, int significant) {
   return text.str();
 }
 
+std::string format_percent(double share) { return format_number(100.0 * share, 3) + " %"; }
+
 std::string format_error(double percent) {
   if (!std::isfinite(percent)) return "-";
   std::ostringstream text;

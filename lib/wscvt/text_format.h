@@ -11,6 +11,9 @@ namespace wscvt {
 /// A number for reading, with `significant` digits; "-" for one that is not a number.
 std::string format_number(double value, int significant = 6);
 
+/// A share for reading, in per cent with three digits: 0.05 is "5 %".
+std::string format_percent(double share);
+
 /// An error in per cent for reading, with its sign and three decimals, in exponent form below
 /// 0.001; "-" for one that is not finite.
 std::string format_error(double percent);

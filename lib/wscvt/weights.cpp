@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wscvt/error.h"
+#include "wscvt/text_format.h"
 
 namespace wscvt {
 
@@ -24,24 +25,6 @@ constexpr double flat_share_of_median = 0.3;  // of the median curvature, for th
 
 /// Rows so that the grid resolves both the surface and the cells.
 int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
-
-void check(const WeightingOptions& options) {
-  const auto refuse = [](const std::string& what, double value, const std::string& range) {
-    throw Error(ErrorCode::InvalidInput,
-                what + " is " + std::to_string(value) + "; give a number in " + range + ".");
-  };
-  if (options.node_count < 4) {
-    throw Error(ErrorCode::InvalidInput, "The number of nodes is " +
-                                             std::to_string(options.node_count) +
-                                             "; a closed mesh needs at least 4.");
-  }
-  if (!(std::abs(options.curvature_alpha) <= 3.0)) {
-    refuse("The curvature exponent alpha", options.curvature_alpha, "[-3, 3]");
-  }
-  if (!(options.adaptive_exponent >= 0.0 && options.adaptive_exponent <= 1.5)) {
-    refuse("The exponent of the error-adaptive weighting", options.adaptive_exponent, "[0, 1.5]");
-  }
-}
 
 /// One number a grid node, with the node's share of the sphere.
 struct GridField {
@@ -236,9 +219,27 @@ double solve_offset(const GridField& cells, double count, double smallest) {
 
 }  // namespace
 
+void check_weighting_options(const WeightingOptions& options) {
+  const auto refuse = [](const std::string& what, double value, const std::string& range) {
+    throw Error(ErrorCode::InvalidInput,
+                what + " is " + format_number(value) + "; give a number from " + range + ".");
+  };
+  if (options.node_count < 4) {
+    throw Error(ErrorCode::InvalidInput, "The number of nodes is " +
+                                             std::to_string(options.node_count) +
+                                             "; a closed mesh needs at least 4.");
+  }
+  if (!(std::abs(options.curvature_alpha) <= 3.0)) {
+    refuse("The curvature exponent alpha", options.curvature_alpha, "-3 to 3");
+  }
+  if (!(options.adaptive_exponent >= 0.0 && options.adaptive_exponent <= 1.5)) {
+    refuse("The exponent of the error-adaptive weighting", options.adaptive_exponent, "0 to 1.5");
+  }
+}
+
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
                                    const CurvatureSamples* samples, const Execution& execution)
-    : options_((check(options), options)) {
+    : options_((check_weighting_options(options), options)) {
   const int rows = rows_for(options.node_count);
   const double count = options.node_count;
   TabulatedSurface table = tabulate(surface, rows, execution);

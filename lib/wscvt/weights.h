@@ -56,6 +56,9 @@ struct WeightingOptions {
   double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, in [0, 1.5]
 };
 
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_weighting_options(const WeightingOptions& options);
+
 /// Mean and standard deviation of a field over seeds.
 struct FieldDeviation {
   double mean = 0.0;
