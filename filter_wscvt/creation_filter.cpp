@@ -17,8 +17,9 @@ constexpr int highest_degree = 200;
 FilterParameter semi_axis(const std::string& name, double default_value, const std::string& axis) {
   return real_parameter(name, default_value, 1e-6, 1e6, "Semi-axis along " + axis,
                         "Half the extent of the ellipsoid or superellipsoid along " + axis +
-                            ", in units of the mesh, 0.000001 to 1000000. Harmonics have a size "
-                            "of their own.");
+                            ", in units of the mesh, 0.000001 to 1000000, and up to about 20 "
+                            "times another (5 times with exponents above 1). Harmonics have a "
+                            "size of their own.");
 }
 
 FilterParameter exponent(const std::string& name, const std::string& label,
@@ -118,6 +119,8 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   settings.result.colour_by_quality = checked.flag("ColorByQuality");
   settings.result.report_file = checked.text("ReportFile");
   check_report_file(settings.result.report_file);
+  check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,
+                        "CoefficientsFile");
   return settings;
 }
 

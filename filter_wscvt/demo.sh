@@ -6,20 +6,26 @@
 set -eu
 mesh=$(realpath "${1:-$(dirname "$0")/../meshes/sand_7228.ply}")
 script=$(realpath "${2:-$(dirname "$0")/wscvt_d.mlx}")
-cd "$(dirname "$0")/.."
-output=$(realpath -m "${3:-build/remeshed.ply}")
+root=$(realpath "$(dirname "$0")/..")
+output=$(realpath -m "${3:-$root/build/remeshed.ply}")
+cd "$root"
 
 tests/install_packages.sh
 filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source"
 cmake --preset release -DMESHLAB_SOURCE_DIR="$PWD/build/meshlab-source"
 cmake --build --preset release --target wscvt_stage
 
-rm -f "$output"
+# The file appears under its name when it is whole; what was there until then stays.
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+made=$work/$(basename "$output")
 # meshlabserver ends with 0 even when it could not save, and xvfb-run has codes of its own.
 xvfb-run -a build/release/filter_wscvt/stage/bin/meshlabserver \
-  -i "$mesh" -s "$script" -o "$output" -m vq vc 2>/dev/null || true
-test -s "$output" || {
+  -i "$mesh" -s "$script" -o "$made" -m vq vc 2>/dev/null || true
+test -s "$made" || {
   echo "meshlabserver wrote no mesh; the reason stands above." >&2
   exit 1
 }
+mkdir -p "$(dirname "$output")"
+mv "$made" "$output"
 echo "The mesh is in $output."

@@ -28,11 +28,12 @@ ParameterList remesh_parameters() {
   const RemeshOptions defaults;
   return {
       node_count_parameter(),
-      real_parameter("ErrorTarget", defaults.error_target.percent, 0, 100, "Error target (%)",
-                     "0: the number of nodes counts. Above, up to 100: the smallest number of "
-                     "nodes whose error is at most this many % is looked for, from the number of "
-                     "nodes given; the log says what each number tried cost. Takes about ten times "
-                     "as long."),
+      real_parameter(
+          "ErrorTarget", defaults.error_target.percent, 0, 100, "Error target (%)",
+          "0: the number of nodes counts. Above, up to 100: the smallest number of "
+          "nodes whose error is at most this many % is looked for, from the number of "
+          "nodes given and up to 20000, or that number if it is larger; the log says what "
+          "each number tried cost. Takes about ten times as long."),
       choice_parameter("TargetMeasure", static_cast<int>(defaults.error_target.measure),
                        {"Volume", "Area", "Sphericity", "Inertia", "RMS distance"},
                        "Error target is of the",
@@ -47,6 +48,12 @@ ParameterList remesh_parameters() {
           "most grains, 30 rough ones; lower smooths. Lowered, with a line in the log, when the "
           "mesh has too few points to carry it."),
       curvature_alpha_parameter(),
+      choice_parameter(
+          "CurvatureSource", static_cast<int>(defaults.curvature_source),
+          {"Harmonic series", "Quadrics on the scan"}, "Curvature from",
+          "Where WSCVT-C takes the curvature from. Harmonic series: exact derivatives "
+          "of the fitted surface. Quadrics on the scan: a quadric fitted around each "
+          "vertex of the scan over two rings, as in the paper; follows its noise too."),
       choice_parameter(
           "Placement", static_cast<int>(defaults.placement),
           {"Fitted surface", "Original mesh", "Least squares (volume exact)"}, "Place nodes",
@@ -102,6 +109,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.error_target.largest_node_count =
       std::max(options.error_target.largest_node_count, options.node_count);
   options.degree = checked.whole("HarmonicDegree");
+  options.curvature_source = checked.choice<CurvatureSource>("CurvatureSource");
   options.placement = checked.choice<NodePlacement>("Placement");
   options.refinement.rounds = checked.whole("RefinementRounds");
   options.fold_limit = checked.real("FoldLimit") / 100.0;
@@ -114,6 +122,8 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   check_report_file(settings.result.report_file);
   settings.coefficients_file = checked.text("CoefficientsFile");
   check_output_file(settings.coefficients_file, {".json"}, "CoefficientsFile");
+  check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,
+                        "CoefficientsFile");
   return settings;
 }
 

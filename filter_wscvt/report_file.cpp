@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wscvt/error.h"
+#include "wscvt/output_file.h"
 
 namespace wscvt::filter {
 
@@ -71,6 +72,19 @@ void check_output_file(const std::string& path, const std::vector<std::string>& 
                 "Parameter " + parameter + " is '" + path + "', but there is no folder '" +
                     folder.filePath().toStdString() + "'; create it first. Nothing was changed.");
   }
+  if (QFileInfo(QString::fromStdString(path)).isDir()) {
+    throw Error(ErrorCode::InputOutput, "Parameter " + parameter + " is '" + path +
+                                            "', which is a folder; give the name of a file. "
+                                            "Nothing was changed.");
+  }
+}
+
+void check_different_files(const std::string& path, const std::string& parameter,
+                           const std::string& other, const std::string& other_parameter) {
+  if (!same_file(path, other)) return;
+  throw Error(ErrorCode::InvalidInput, "Parameters " + parameter + " and " + other_parameter +
+                                           " both name '" + path +
+                                           "'; give two names. Nothing was changed.");
 }
 
 }  // namespace wscvt::filter

@@ -18,7 +18,8 @@ enum class ReportFormat { None, Html, Json, Csv };
 ReportFormat report_format(const std::string& path);
 
 /// Refuses before work starts what could not be written after it: other extensions
-/// (InvalidInput) and folders that do not exist (InputOutput). An empty name is none.
+/// (InvalidInput), folders that do not exist and names of folders (InputOutput). An empty name is
+/// none.
 void check_report_file(const std::string& path);
 
 /// The same for a parameter that names a file to be written, with one of `extensions` (".json").
@@ -28,5 +29,10 @@ void check_output_file(const std::string& path, const std::vector<std::string>& 
 /// Throws Error(InvalidInput) unless a file's name ends in one of `extensions`, in either case.
 void check_extension(const std::string& path, const std::vector<std::string>& extensions,
                      const std::string& parameter);
+
+/// Throws Error(InvalidInput) when two parameters name one file, which the one would overwrite
+/// after the other was read or written.
+void check_different_files(const std::string& path, const std::string& parameter,
+                           const std::string& other, const std::string& other_parameter);
 
 }  // namespace wscvt::filter

@@ -85,6 +85,8 @@ TEST_F(HarmonicIo, MalformedTextIsRefusedWithItsLine) {
   EXPECT_NE(refusal("0 0 10 0 7\n", false).find("line 1"), std::string::npos);
   EXPECT_NE(refusal("0 0 10 0\n\n1 2 0 0\n", false).find("line 3"), std::string::npos);
   EXPECT_NE(refusal("0 0 10 0\n-1 0 0 0\n", false).find("line 2"), std::string::npos);
+  // The one number whose absolute value is none.
+  EXPECT_NE(refusal("5 -2147483648 0 0\n", false).find("line 1"), std::string::npos);
   EXPECT_NE(refusal("100000 0 10 0\n", false).find("line 1"), std::string::npos);
   EXPECT_NE(refusal("0 0 10 0\n0 0 10 0\n", false).find("line 2"), std::string::npos);
   EXPECT_NE(refusal("0 0 nan 0\n", false).find("line 1"), std::string::npos);

@@ -177,7 +177,9 @@ TEST(HarmonicFit, LowersTheDegreeWhenPointsAreFew) {
   const HarmonicFit result = fit(samples, 20);
   EXPECT_EQ(result.report.requested_degree, 20);
   EXPECT_EQ(result.report.degree, 9);
+  EXPECT_EQ(result.report.limit, DegreeLimit::Points);
   EXPECT_LT(result.report.residual, 1e-12);
+  EXPECT_EQ(fit(samples, 9).report.limit, DegreeLimit::None);
 }
 
 TEST(HarmonicFit, LowersTheDegreeWhenPartOfTheSphereIsBare) {
@@ -193,6 +195,7 @@ TEST(HarmonicFit, LowersTheDegreeWhenPartOfTheSphereIsBare) {
     const HarmonicFit result = fit(samples, 12);
     EXPECT_LT(result.report.degree, 12);
     EXPECT_GT(result.report.degree, 0);
+    EXPECT_EQ(result.report.limit, DegreeLimit::Condition);
     EXPECT_LE(result.report.condition, 1000.0);
     EXPECT_GT(result.report.smallest_radius, 0.0);
   }

@@ -31,11 +31,15 @@ class OutputFile : public ::testing::Test {
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  void expect_only(const std::string& content) const {
-    std::ifstream stream(path("report.txt"), std::ios::binary);
+  static std::string read(const std::string& name) {
+    std::ifstream stream(name, std::ios::binary);
     std::stringstream text;
     text << stream.rdbuf();
-    EXPECT_EQ(text.str(), content);
+    return text.str();
+  }
+
+  void expect_only(const std::string& content) const {
+    EXPECT_EQ(read(path("report.txt")), content);
     std::size_t entries = 0;
     for (const auto& entry : fs::directory_iterator(folder_)) {
       entries += entry.is_regular_file() ? 1 : 0;
@@ -83,6 +87,29 @@ TEST_F(OutputFile, SaysWhatIsWrong) {
     }
   }
   expect_only("before");
+}
+
+TEST_F(OutputFile, LeavesAFileThatHasTheTemporaryName) {
+  write_file(path("new.txt.part"), "mine");
+  write_file(path("new.txt"), "content");
+  EXPECT_EQ(read(path("new.txt.part")), "mine");
+  EXPECT_EQ(read(path("new.txt")), "content");
+}
+
+TEST_F(OutputFile, WritesThroughALink) {
+  fs::create_symlink(path("report.txt"), path("link.txt"));
+  write_file(path("link.txt"), "after");
+  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+  EXPECT_EQ(read(path("report.txt")), "after");
+}
+
+TEST_F(OutputFile, KnowsOneFileByItsNames) {
+  fs::create_symlink(path("report.txt"), path("link.txt"));
+  EXPECT_TRUE(same_file(path("report.txt"), path("./report.txt")));
+  EXPECT_TRUE(same_file(path("report.txt"), path("link.txt")));
+  EXPECT_TRUE(same_file(path("not there"), path("./not there")));
+  EXPECT_FALSE(same_file(path("report.txt"), path("other.txt")));
+  EXPECT_FALSE(same_file("", ""));
 }
 
 }  // namespace

@@ -302,6 +302,21 @@ TEST(Remesh, LowersTheDegreeToWhatThePointsCarryAndSaysSo) {
   EXPECT_NE(result.warnings.front().find("degree was lowered from 20"), std::string::npos);
 }
 
+TEST(Remesh, SaysThatAFlatBodyIsBeyondTheSeries) {
+  // Twelve times as wide as high: the radius climbs too steeply to the rim for twenty degrees.
+  IndexedMesh disc = test::sphere(5);
+  for (Vector3& p : disc.points) p = p.cwiseProduct(Vector3(12.0, 12.0, 1.0));
+  const RemeshResult result = remesh(disc, options_of(200, Weighting::Constant), Execution(1));
+  expect_promises(result, 200);
+  EXPECT_EQ(result.fit.limit, DegreeLimit::Radius);
+  const auto warned = [&](const std::string& part) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(),
+                       [&](const std::string& w) { return w.find(part) != std::string::npos; });
+  };
+  EXPECT_TRUE(warned("long, flat or sharp"));
+  EXPECT_TRUE(warned("misses the scan by"));
+}
+
 TEST(Remesh, ProgressRisesAndCancels) {
   double last = 0.0;
   bool rising = true;
@@ -353,6 +368,13 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
   refused([](RemeshOptions& o) { o.seed_start = static_cast<SeedStart>(-1); }, "start");
   refused([](RemeshOptions& o) { o.placement = static_cast<NodePlacement>(9); }, "placement");
   refused([](RemeshOptions& o) { o.levels.coarsest_seeds = 1; }, "coarsest level");
+  refused([](RemeshOptions& o) { o.distance_sampling.samples = 0; }, "distance samples");
+  refused(
+      [](RemeshOptions& o) {
+        o.sampling = Sampling::Icosahedron;
+        o.error_target.percent = 1.0;
+      },
+      "any number of nodes");
   refused([](RemeshOptions& o) { o.relaxation.maximum_iterations = -1; }, "iterations");
 }
 
@@ -383,6 +405,15 @@ TEST(Remesh, SurfacesFromFormulasAreDiscretisedAboutTheirOrigin) {
     EXPECT_NEAR(relative_error_percent(result.remesh.volume, result.original.volume), -0.66, 0.2);
     EXPECT_NEAR(result.original.inertia_semi_axes[2], 13.0, 0.005);
   }
+}
+
+TEST(Remesh, LongSurfacesFromFormulasHaveTheirVolumeOrAreRefused) {
+  // The volume is 4 pi / 3 a b c; the grids' own rule leaves at most 1e-4 between the last two.
+  RemeshOptions options = options_of(100, Weighting::Constant);
+  const RemeshResult result = remesh(Ellipsoid(Vector3(15.0, 1.0, 1.0)), options, Execution());
+  EXPECT_NEAR(result.original.volume / (20.0 * test::pi), 1.0, 1e-4);
+  EXPECT_THROW(remesh(Ellipsoid(Vector3(1000.0, 1.0, 1.0)), options, Execution()), Error);
+  EXPECT_THROW(remesh(Ellipsoid(Vector3(1e6, 1.0, 1e-6)), options, Execution()), Error);
 }
 
 TEST(Remesh, CoefficientsOfARemeshGiveTheSameSurfaceAgain) {
@@ -416,6 +447,8 @@ TEST(Remesh, PointsWithoutFacesAreFitted) {
   const RemeshResult cloud = remesh(points, options_of(500, Weighting::Area), Execution(1));
   const RemeshResult scan = remesh(sand(), options_of(500, Weighting::Area), Execution(1));
   expect_promises(cloud, 500);
+  EXPECT_EQ(cloud.input.input_vertices, points.points.size());
+  EXPECT_EQ(cloud.input.input_faces, 0U);
   EXPECT_NEAR(cloud.remesh.volume / scan.remesh.volume, 1.0, 2e-3);
   EXPECT_NEAR(cloud.remesh.area / scan.remesh.area, 1.0, 5e-3);
 }

@@ -98,12 +98,15 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.fit.requested_degree = 20;
   result.fit.degree = 9;
   result.fit.points = 230;
+  result.input.split_vertices = 2;
+  result.input.sliver_faces = 1;
   result.relaxation.converged = false;
   result.warnings = {"First warning.", "Second warning."};
   const std::string text = text_of(result);
   for (const char* part :
        {"1 equal vertex merged", "4 degenerate faces dropped",
         "2 smaller components dropped (100 faces, 1.23 % of the volume)",
+        "2 vertices added where the surface touched itself", "1 face of no area kept",
         "0.05 % of the solid angle", "degree 9 (lowered from 20: 230 points carry no more)",
         "not converged: stopped at the limit of 2 iterations", "First warning.",
         "Second warning."}) {

@@ -155,10 +155,10 @@ void fill_layer(MeshModel& layer, const wscvt::RemeshResult& result,
 void add_layer(MeshDocument& document, const QString& name, const MeshModel* source,
                const wscvt::RemeshResult& result, const ResultSettings& settings) {
   const MeshModel* before = document.mm();
+  // One call for all: a name may hold %1 itself.
   const QString label = QStringLiteral("%1 %2 %3")
-                            .arg(name)
-                            .arg(QString::fromStdString(nodes_name(result.options)))
-                            .arg(result.mesh.n_vertices());
+                            .arg(name, QString::fromStdString(nodes_name(result.options)),
+                                 QString::number(result.mesh.n_vertices()));
   MeshModel* layer = document.addNewMesh(QString(), label, true);
   try {
     if (source != nullptr) layer->cm.Tr = source->cm.Tr;
@@ -321,11 +321,11 @@ void FilterWscvt::remesh_current_layer(MeshDocument& document, const RichParamet
   const wscvt::RemeshResult result =
       wscvt::remesh(to_indexed_mesh(source->cm), settings.options, execution);
   // Files first: when they cannot be written the document stays as it was.
-  if (!settings.coefficients_file.empty()) {
-    wscvt::write_harmonics(settings.coefficients_file, wscvt::HarmonicSurface(result.coefficients));
-  }
   if (!settings.result.report_file.empty()) {
     write_report(result, to_indexed_mesh(source->cm), settings.result.report_file);
+  }
+  if (!settings.coefficients_file.empty()) {
+    wscvt::write_harmonics(settings.coefficients_file, wscvt::HarmonicSurface(result.coefficients));
   }
   if (settings.new_layer) {
     add_layer(document, QFileInfo(source->label()).completeBaseName(), source, result,

@@ -5,7 +5,10 @@
 #include <exception>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "wscvt/error.h"
 #include "wscvt/harmonic_io.h"
 #include "wscvt/mesh_io.h"
 #include "wscvt/output_file.h"
@@ -83,6 +86,12 @@ int run(int argc, char** argv) {
   app.add_option("-a,--alpha", options.curvature_alpha,
                  "Exponent of the curvature weighting, -3 to 3")
       ->capture_default_str();
+  const std::map<std::string, wscvt::CurvatureSource> curvature_sources = {
+      {"series", wscvt::CurvatureSource::Series}, {"quadrics", wscvt::CurvatureSource::QuadricFit}};
+  app.add_option("--curvature-source", options.curvature_source,
+                 "Curvature of the fitted series, or of quadrics fitted to the scan")
+      ->transform(CLI::CheckedTransformer(curvature_sources))
+      ->default_str("series");
   app.add_option("--adaptive-exponent", options.adaptive_exponent,
                  "Curvature exponent of the error-adaptive weighting, 0 to 1.5")
       ->capture_default_str();
@@ -93,13 +102,27 @@ int run(int argc, char** argv) {
                  "Relaxation stops below this rms displacement / cell size")
       ->capture_default_str();
   app.add_option("--fold-limit", options.fold_limit,
-                 "Largest share of the solid angle that may be folded, 0 to 1")
+                 "Largest solid angle of sheets beyond the first / 4 pi, 0 to 1")
       ->capture_default_str();
   app.add_option("-t,--threads", threads, "Number of threads, 0 for all")->capture_default_str();
   app.add_option("-j,--json", json, "Write the report to this file as JSON");
   app.add_option("--coefficients", coefficients, "Write the fitted series to this file as JSON");
   app.add_flag("-q,--quiet", quiet, "No report on the standard output");
   CLI11_PARSE(app, argc, argv);
+
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"the scan", input},
+      {"the remesh", output},
+      {"the report", json},
+      {"the coefficients", coefficients}};
+  for (std::size_t i = 2; i < files.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!wscvt::same_file(files[i].second, files[k].second)) continue;
+      throw wscvt::Error(wscvt::ErrorCode::InvalidInput,
+                         "\"" + files[i].second + "\" is named for " + files[k].first +
+                             " and for " + files[i].first + "; give two names.");
+    }
+  }
 
   const wscvt::RemeshResult result =
       wscvt::remesh(wscvt::read_mesh(input), options, wscvt::Execution(threads));

@@ -62,7 +62,7 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path) {
     if (!(fields >> n >> m >> real >> imaginary) || !(fields >> std::ws).eof()) {
       refuse_line(path, line, "does not hold the four numbers n m Re Im.");
     }
-    if (n < 0 || n > maximum_harmonic_degree || std::abs(m) > n) {
+    if (n < 0 || n > maximum_harmonic_degree || m < -n || m > n) {
       refuse_line(path, line,
                   "gives n = " + std::to_string(n) + ", m = " + std::to_string(m) +
                       "; n must be 0 to " + std::to_string(maximum_harmonic_degree) +

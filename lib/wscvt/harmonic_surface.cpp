@@ -380,6 +380,7 @@ HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vec
 
   int trial = degree;
   while (trial > 0 && points_per_coefficient * harmonic_count(trial) > directions.size()) --trial;
+  DegreeLimit limit = trial < degree ? DegreeLimit::Points : DegreeLimit::None;
 
   std::unique_ptr<NormalEquations> equations;
   if (directions.size() <= maximum_stored_points) {
@@ -392,13 +393,23 @@ HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vec
   for (; trial >= 0; trial -= std::max(1, trial / 8)) {
     equations->set_degree(trial, execution);
     const Solution probed = solve(*equations, probe(unknowns(trial)), 1e-4, execution);
-    if (!probed.converged || probed.condition > largest_condition) continue;
+    if (!probed.converged || probed.condition > largest_condition) {
+      limit = DegreeLimit::Condition;
+      continue;
+    }
     const LeastSquares fit = least_squares(*equations, samples, trial, execution);
-    if (!fit.converged) continue;
+    if (!fit.converged) {
+      limit = DegreeLimit::Condition;
+      continue;
+    }
     HarmonicSurface surface(to_array(fit.coefficients));
     const double smallest = smallest_radius(surface, execution);
-    if (!(smallest > 0.0)) continue;
+    if (!(smallest > 0.0)) {
+      limit = DegreeLimit::Radius;
+      continue;
+    }
     report.degree = trial;
+    report.limit = limit;
     report.residual = fit.residual;
     report.condition = probed.condition;
     report.smallest_radius = smallest;

@@ -33,9 +33,18 @@ class HarmonicSurface : public RadialSurface {
 double smallest_radius(const HarmonicSurface& surface, const Execution& execution);
 
 /// How the fit went.
+/// Why a series has a lower degree than was asked for.
+enum class DegreeLimit {
+  None,       ///< it has the degree asked for
+  Points,     ///< fewer than two points a coefficient
+  Condition,  ///< the points are spread too unevenly to tell the coefficients apart
+  Radius,  ///< of higher degree the series is not positive everywhere: a long, flat or sharp body
+};
+
 struct HarmonicFitReport {
   int requested_degree = 0;
-  int degree = 0;                ///< lowered when the points cannot carry the requested one
+  int degree = 0;  ///< lowered when the points cannot carry the requested one
+  DegreeLimit limit = DegreeLimit::None;
   std::size_t points = 0;        ///< that entered the fit
   double residual = 0.0;         ///< weighted rms of r_i - r(u_i), length
   double condition = 0.0;        ///< condition estimate of the weighted normal equations

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/output_file.h"
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <locale>
@@ -17,17 +19,29 @@ namespace {
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
 }
 
-/// Is gone at the end of its scope, unless it was renamed.
+/// A new empty file beside the target; gone at the end of its scope, unless it was renamed.
 class PartialFile {
  public:
-  explicit PartialFile(std::string path) : path_(std::move(path)) {}
+  explicit PartialFile(const std::string& target) {
+    // Never a file that was there: it may be somebody's.
+    for (int attempt = 0; attempt < 100 && path_.empty(); ++attempt) {
+      const std::string name = target + ".part" + (attempt == 0 ? "" : std::to_string(attempt));
+      if (std::FILE* created = std::fopen(name.c_str(), "wbx")) {
+        std::fclose(created);
+        path_ = name;
+      } else if (errno != EEXIST) {
+        break;
+      }
+    }
+  }
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
   ~PartialFile() {
     std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
   }
 
+  /// Empty when none could be made.
   const std::string& path() const { return path_; }
 
  private:
@@ -37,16 +51,23 @@ class PartialFile {
 }  // namespace
 
 void write_file(const std::string& path, const std::function<bool(std::ostream&)>& write) {
-  const PartialFile partial(path + ".part");
-  std::ofstream stream(partial.path(), std::ios::binary | std::ios::trunc);
-  if (!stream) {
+  std::error_code error;
+  std::string target = path;
+  if (std::filesystem::is_symlink(path, error)) {
+    target = std::filesystem::weakly_canonical(path, error).string();
+    if (error) fail(path, "is a link that leads nowhere; remove it or give another name.");
+  }
+  const PartialFile partial(target);
+  std::ofstream stream;
+  if (!partial.path().empty()) stream.open(partial.path(), std::ios::binary | std::ios::trunc);
+  if (!stream.is_open()) {
     fail(path, "cannot be written; check that the folder is there and can be written to.");
   }
   stream.imbue(std::locale::classic());
   const bool written = write(stream);
   stream.close();
-  std::error_code error;
-  if (written && stream) std::filesystem::rename(partial.path(), path, error);
+  error.clear();
+  if (written && stream) std::filesystem::rename(partial.path(), target, error);
   if (!written || !stream || error) {
     fail(path,
          "could not be written whole and was left as it was; check the space on the disk and that "
@@ -59,6 +80,15 @@ void write_file(const std::string& path, const std::string& content) {
     stream << content;
     return true;
   });
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code error;
+  const std::filesystem::path first = std::filesystem::weakly_canonical(a, error);
+  if (error) return a == b;
+  const std::filesystem::path second = std::filesystem::weakly_canonical(b, error);
+  return error ? a == b : first == second;
 }
 
 }  // namespace wscvt

@@ -165,6 +165,13 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   execution.report(0.5, "Looking for folds");
   const RadialSamples samples = radial_samples(grain, execution.part(0.5, 0.6));
   result.folded_share = samples.folded_share;
+  if (result.folded_share >= 1.0) {
+    throw Error(
+        ErrorCode::NotStarShaped,
+        "The volume centroid of the grain lies outside of it, or on its surface, so that no "
+        "radius in each direction describes it; cut the grain into rounder pieces and "
+        "remesh each on its own.");
+  }
   if (result.folded_share > options.fold_limit) {
     throw Error(ErrorCode::NotStarShaped,
                 "Seen from its centre the grain folds over itself: sheets beyond the first fill " +
@@ -215,16 +222,36 @@ class ScaledSurface : public RadialSurface {
   double unit_;
 };
 
+/// Integrals over grids of twice as many nodes each time, until volume and area stay. Sharp edges
+/// converge slowly, so the last grid may differ more.
+SurfaceIntegrals converged_integrals(const RadialSurface& surface, const Execution& execution) {
+  constexpr int first_polar_nodes = 200;
+  constexpr int last_polar_nodes = 1600;
+  constexpr double tolerance = 1e-5;
+  constexpr double last_tolerance = 1e-4;
+  SurfaceIntegrals coarse = integrate(surface, first_polar_nodes, execution);
+  for (int polar_nodes = 2 * first_polar_nodes; polar_nodes <= last_polar_nodes; polar_nodes *= 2) {
+    const SurfaceIntegrals fine = integrate(surface, polar_nodes, execution);
+    if (!(fine.volume > 0.0) || !std::isfinite(fine.volume) || !std::isfinite(fine.area)) {
+      throw Error(
+          ErrorCode::InvalidInput,
+          "The surface encloses no volume about its origin; check its axes or coefficients.");
+    }
+    const double change = std::max(std::abs(fine.volume - coarse.volume) / fine.volume,
+                                   std::abs(fine.area - coarse.area) / fine.area);
+    if (change <= (polar_nodes < last_polar_nodes ? tolerance : last_tolerance)) return fine;
+    coarse = fine;
+  }
+  throw Error(ErrorCode::InvalidInput,
+              "Seen from its origin the surface is too long, too flat or too sharp to be measured; "
+              "make its axes more alike, or round its edges.");
+}
+
 PreparedGrain prepare(const RadialSurface& surface, const Execution& execution) {
   // An icosahedron cut in 64 parts: 40,962 points, whose chords lose 0.02 % of the volume.
   constexpr int frequency = 64;
-  constexpr int polar_nodes = 200;
   RemeshResult result;
-  const SurfaceIntegrals integrals = integrate(surface, polar_nodes, execution);
-  if (!(integrals.volume > 0.0) || !std::isfinite(integrals.area)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The surface encloses no volume about its origin; check its axes or coefficients.");
-  }
+  const SurfaceIntegrals integrals = converged_integrals(surface, execution);
   const double unit = std::cbrt(3.0 * integrals.volume / (4.0 * pi));
   auto scaled = std::make_unique<ScaledSurface>(surface, unit);
   IndexedMesh dense;
@@ -407,9 +434,32 @@ void add_warnings(RemeshResult& result) {
          " holes through it (genus); the remesh closes them.");
   }
   if (result.fit.degree < result.fit.requested_degree) {
-    warn("The harmonic degree was lowered from " + std::to_string(result.fit.requested_degree) +
-         " to " + std::to_string(result.fit.degree) + ", which is what the scan's " +
-         std::to_string(result.fit.points) + " points can carry.");
+    const std::string lowered = "The harmonic degree was lowered from " +
+                                std::to_string(result.fit.requested_degree) + " to " +
+                                std::to_string(result.fit.degree);
+    switch (result.fit.limit) {
+      case DegreeLimit::None:
+      case DegreeLimit::Points:
+        warn(lowered + ", which is what the scan's " + std::to_string(result.fit.points) +
+             " points can carry.");
+        break;
+      case DegreeLimit::Condition:
+        warn(lowered +
+             ", because seen from its centre the scan's points are spread too unevenly "
+             "for more; spread them evenly over the surface first.");
+        break;
+      case DegreeLimit::Radius:
+        warn(lowered +
+             ", because above it the series is not positive everywhere: the grain is "
+             "long, flat or sharp.");
+    }
+  }
+  const double misfit = result.fit.residual / result.input.equivalent_radius;
+  if (misfit > residual_warning_limit) {
+    warn("The fitted series misses the scan by " + format_percent(misfit) +
+         " of the equivalent radius (rms). " +
+         (result.fit.limit == DegreeLimit::None ? "Raise the harmonic degree, or place" : "Place") +
+         " the nodes on the original mesh or by least squares, which follow the scan itself.");
   }
   if (result.options.sampling != Sampling::Weighted) {
     const auto nodes = static_cast<int>(result.mesh.n_vertices());
@@ -432,14 +482,16 @@ void add_warnings(RemeshResult& result) {
   if (result.relaxation.weight_scale < 1.0) {
     warn("The differences between the weights were scaled by " +
          format_number(result.relaxation.weight_scale, 3) +
-         ", because seeds would have lost their cells; lower the curvature exponent alpha.");
+         ", because seeds would have lost their cells; " +
+         (result.options.weighting == Weighting::Curvature
+              ? "lower the curvature exponent alpha."
+              : "ask for more nodes, or for another weighting."));
   }
   if (result.search && !result.search->met) {
     warn("No number of nodes up to " + std::to_string(result.search->node_count) +
          " meets the error target of " +
          format_percent(0.01 * result.options.error_target.percent) +
-         "; this is the result with that many. Raise the largest number of nodes to try, or the "
-         "target.");
+         "; this is the result with that many. Allow more nodes, or a larger error.");
   }
 }
 
@@ -578,7 +630,9 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
                     const Execution& execution) {
   check(options);
-  return finish(prepare(surface, execution.part(0.0, 0.3)), options, execution.part(0.3, 1.0));
+  RemeshOptions of_surface = options;
+  of_surface.curvature_source = CurvatureSource::Series;  // there is no scan to read it off
+  return finish(prepare(surface, execution.part(0.0, 0.3)), of_surface, execution.part(0.3, 1.0));
 }
 
 RemeshResult remesh(const Mesh& scan, const RemeshOptions& options, const Execution& execution) {

@@ -95,6 +95,9 @@ inline constexpr int maximum_node_count = 1000000;
 /// Share of the sphere covered more than once above which the result carries a warning.
 inline constexpr double fold_warning_limit = 0.01;
 
+/// Residual of the fit / equivalent radius above which the result carries a warning.
+inline constexpr double residual_warning_limit = 0.05;
+
 struct RemeshResult {
   Mesh mesh;                        ///< exactly N vertices and 2 N - 4 faces, input coordinates
   std::vector<Vector3> directions;  ///< unit, from `centre` to each vertex

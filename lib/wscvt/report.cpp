@@ -107,6 +107,20 @@ const char* name_of(RelaxationMetric metric) {
   return "unknown";
 }
 
+const char* name_of(DegreeLimit limit) {
+  switch (limit) {
+    case DegreeLimit::None:
+      return "nothing";
+    case DegreeLimit::Points:
+      return "points";
+    case DegreeLimit::Condition:
+      return "condition";
+    case DegreeLimit::Radius:
+      return "radius";
+  }
+  return "unknown";
+}
+
 // ---- text
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
@@ -169,13 +183,25 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                                    format_percent(result.options.fold_limit) + ")"));
 }
 
+std::string reason(const HarmonicFitReport& fit) {
+  switch (fit.limit) {
+    case DegreeLimit::None:
+    case DegreeLimit::Points:
+      break;
+    case DegreeLimit::Condition:
+      return "the points are spread too unevenly for more";
+    case DegreeLimit::Radius:
+      return "above it the series is not positive everywhere";
+  }
+  return counted(fit.points, "point carries", "points carry") + " no more";
+}
+
 void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
   if (result.fit.points == 0) return;
   const HarmonicFitReport& fit = result.fit;
   std::string text = "spherical harmonics of degree " + std::to_string(fit.degree);
   if (fit.degree < fit.requested_degree) {
-    text += " (lowered from " + std::to_string(fit.requested_degree) + ": " +
-            counted(fit.points, "point carries", "points carry") + " no more)";
+    text += " (lowered from " + std::to_string(fit.requested_degree) + ": " + reason(fit) + ")";
   }
   text += ", residual " + format_number(fit.residual, 3);
   const double radius = result.input.equivalent_radius;
@@ -388,6 +414,7 @@ Json json_of(const MeshCheckReport& i) {
 Json json_of(const HarmonicFitReport& f, double equivalent_radius) {
   return {{"requested_degree", f.requested_degree},
           {"degree", f.degree},
+          {"degree_limited_by", name_of(f.limit)},
           {"points", f.points},
           {"residual", f.residual},
           {"residual_percent_of_equivalent_radius", 100.0 * f.residual / equivalent_radius},

@@ -17,9 +17,10 @@ std::vector<std::string> report_lines(const RemeshResult& result);
 /// not finite become null.
 std::string report_json(const RemeshResult& result);
 
-/// The same as CSV after RFC 4180, but for the histories, the node counts tried and the relaxation's
-/// inner settings: a header and one row, so that the rows of many remeshes make one table. Numbers read back to the same bits; those that are not
-/// finite are empty. Warnings stand in the last column.
+/// The same as CSV after RFC 4180, but for the histories, the node counts tried and the
+/// relaxation's inner settings: a header and one row, so that the rows of many remeshes make one
+/// table. Numbers read back to the same bits; those that are not finite are empty. Warnings stand
+/// in the last column.
 std::string report_csv(const RemeshResult& result);
 
 }  // namespace wscvt

@@ -197,13 +197,13 @@ QString parameters_of(const QString& menu_text) {
 
 TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
   const QStringList remesh{
-      "NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",    "TargetMeasure RichEnum 4",
-      "Sampling RichEnum 0",        "Weighting RichEnum 1",       "HarmonicDegree RichInt 20",
-      "CurvatureAlpha RichFloat 1", "Placement RichEnum 0",       "RefinementRounds RichInt 0",
-      "FoldLimit RichFloat 5",      "Metric RichEnum 0",          "SeedStart RichEnum 0",
-      "RandomSeed RichInt 1",       "MaxIterations RichInt 1000", "NewLayer RichBool true",
-      "Distances RichBool false",   "Quality RichEnum 0",         "ColorByQuality RichBool false",
-      "ReportFile RichString",      "CoefficientsFile RichString"};
+      "NodeCount RichInt 1000",        "ErrorTarget RichFloat 0",    "TargetMeasure RichEnum 4",
+      "Sampling RichEnum 0",           "Weighting RichEnum 1",       "HarmonicDegree RichInt 20",
+      "CurvatureAlpha RichFloat 1",    "CurvatureSource RichEnum 0", "Placement RichEnum 0",
+      "RefinementRounds RichInt 0",    "FoldLimit RichFloat 5",      "Metric RichEnum 0",
+      "SeedStart RichEnum 0",          "RandomSeed RichInt 1",       "MaxIterations RichInt 1000",
+      "NewLayer RichBool true",        "Distances RichBool false",   "Quality RichEnum 0",
+      "ColorByQuality RichBool false", "ReportFile RichString",      "CoefficientsFile RichString"};
   EXPECT_EQ(parameters_of(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
   const QStringList create{"Surface RichEnum 0",
                            "SemiAxisX RichFloat 1",
@@ -297,6 +297,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Script{"wscvt_d.mlx", filter_menu_text, {{"Weighting", "1"}}},
                       Script{"wscvt_c.mlx", filter_menu_text, {{"Weighting", "2"}}},
                       Script{"area.mlx", filter_menu_text, {{"Weighting", "3"}}},
+                      Script{"error_adaptive.mlx",
+                             filter_menu_text,
+                             {{"Weighting", "4"},
+                              {"Placement", "2"},
+                              {"RefinementRounds", "60"},
+                              {"Distances", "true"}}},
                       Script{"create_superellipsoid.mlx",
                              creation_menu_text,
                              {{"Surface", "1"},
