@@ -47,7 +47,8 @@ struct DescriptorResult {
   std::optional<MeshDistances> distances;  ///< between the two; length
 };
 
-/// Throws Error as check_mesh does, with the layer's name in the sentence.
+/// Throws Error as check_mesh and describe_shape_in_detail do, with the layer's name in the
+/// sentence; Error(Cancelled) without it.
 DescriptorResult measure_grains(NamedMesh mesh, std::optional<NamedMesh> reference,
                                 const DetailedOptions& options, const Execution& execution);
 
@@ -55,7 +56,8 @@ DescriptorResult measure_grains(NamedMesh mesh, std::optional<NamedMesh> referen
 std::vector<std::string> descriptor_lines(const DescriptorResult& result, double seconds);
 
 /// Writes the report in the format of the file's extension; nothing for an empty name. Throws
-/// Error(InputOutput).
+/// Error(InputOutput) when the file cannot be written, Error(InvalidInput) for an extension other
+/// than .html, .json or .csv, and for an HTML report when there is no QApplication to draw with.
 void write_report(const DescriptorResult& result, const std::string& path);
 
 }  // namespace wscvt::filter

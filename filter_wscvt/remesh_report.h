@@ -18,7 +18,9 @@ std::vector<std::string> log_lines(const RemeshResult& result, VertexQuality qua
 
 /// Writes the report in the format of the file's extension; nothing for an empty name. `original`
 /// is the mesh as it was given, of which an HTML report shows the edges; empty when there was none.
-/// Throws Error(InputOutput).
+/// Throws Error(InputOutput) when the file cannot be written, Error(InvalidInput) for an extension
+/// other than .html, .json or .csv. An HTML report also throws Error(InvalidInput) when there is no
+/// QApplication to draw with, and what mesh_of_points and check_mesh throw for `original`.
 void write_report(const RemeshResult& result, const IndexedMesh& original, const std::string& path);
 
 }  // namespace wscvt::filter

@@ -14,6 +14,7 @@ namespace wscvt {
 /// plane through the centre cuts a straight line.
 class CubeMap {
  public:
+  /// `resolution` >= 1, which is not checked.
   explicit CubeMap(int resolution) : resolution_(resolution) {}
 
   std::size_t cells() const {

@@ -13,7 +13,8 @@ namespace wscvt {
 class HarmonicSurface : public RadialSurface {
  public:
   /// `coefficients`: (degree + 1)^2 values in length units, a_lm at index l^2 + l + m. Throws
-  /// Error(InvalidInput) when the number is not a square or a value is not finite.
+  /// Error(InvalidInput) when there are none, their number is not a square, the degree is above
+  /// maximum_harmonic_degree (200), or a value is not finite.
   explicit HarmonicSurface(std::vector<double> coefficients);
 
   int degree() const { return series_.degree(); }

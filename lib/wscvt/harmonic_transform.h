@@ -24,12 +24,13 @@ class HarmonicTransform {
   std::size_t rows() const { return static_cast<std::size_t>(rows_); }
   std::size_t azimuths() const { return static_cast<std::size_t>(azimuths_); }
 
-  /// values[j, k] = sum over (l, m) of coefficients[l, m] Y_lm(theta_j, phi_k).
+  /// values[j, k] = sum over (l, m) of coefficients[l, m] Y_lm(theta_j, phi_k). Throws
+  /// Error(InvalidInput) unless there are (degree + 1)^2 coefficients.
   std::vector<double> synthesize(const std::vector<double>& coefficients,
                                  const Execution& execution) const;
 
   /// coefficients[l, m] = sum over (j, k) of values[j, k] Y_lm(theta_j, phi_k): the transpose, with
-  /// no weights of its own.
+  /// no weights of its own. Throws Error(InvalidInput) unless there are rows x azimuths values.
   std::vector<double> analyze(const std::vector<double>& values, const Execution& execution) const;
 
  private:

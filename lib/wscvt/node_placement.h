@@ -14,7 +14,8 @@ namespace wscvt {
 /// On a flat triangle 1/r is linear in the barycentric coordinates of the direction, so the radii
 /// come from one sparse symmetric solve. Its squares, of the difference in 1/r, are weighted with
 /// dOmega g r^4 cos^2(tilt), which makes them squares of the distance square to the surface,
-/// integrated over the surface. `samples` points in all are taken, at least 9 a triangle.
+/// integrated over the surface. `samples` points are wanted in all. Every triangle gets the same
+/// square number of them, rounded up, but at least 9 and at most 1024.
 ///
 /// Every radius stays within a factor 4 of the surface's own in that direction. Throws
 /// Error(InvalidInput) if a direction belongs to no triangle, Error(NumericalFailure) when the
@@ -25,7 +26,8 @@ std::vector<double> least_squares_radii(const std::vector<Vector3>& directions,
                                         const Execution& execution);
 
 /// Scales the points uniformly about the origin so that the closed outward mesh encloses `volume`
-/// (> 0, length^3) to rounding.
+/// (> 0, length^3) to rounding. Throws Error(NumericalFailure) when `volume` or the volume that the
+/// mesh encloses before is not positive; the points are then as they were.
 void scale_to_volume(const std::vector<Triangle>& triangles, double volume,
                      std::vector<Vector3>& points, const Execution& execution);
 

@@ -33,6 +33,9 @@ struct PowerCells {
 ///
 /// `weights` (length^2 of the sites' space; empty: none) and `densities` (> 0, linear within the
 /// fan; empty: constant) hold one value a site. `cells` is overwritten; its capacity is reused.
+///
+/// Throws Error(InvalidInput) when there is not one site a vertex of the triangulation, or weights
+/// or densities are given but not one a site. Their values are not checked.
 void compute_power_cells(const SphereTriangulation& triangulation,
                          const std::vector<Vector3>& sites, const std::vector<double>& weights,
                          const std::vector<double>& densities, CellGeometry geometry,

@@ -46,7 +46,7 @@ struct RelaxationReport {
   /// areas spread more than asked for: few nodes on a strongly bent surface cannot do better.
   bool settled = false;
   bool stuck = false;  ///< ended because even a short step further could not be triangulated
-  int iterations = 0;                           ///< with all the seeds
+  int iterations = 0;  ///< with all the seeds
   std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
   int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
   double weight_scale = 1.0;  ///< below 1: weights were damped so that no seed lost its cell

@@ -107,7 +107,8 @@ struct RemeshResult {
   /// length^2
   std::vector<double> cell_areas;
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
-  Vector3 centre = Vector3::Zero();      ///< the volume centroid of the input
+  /// Of a scan its volume centroid; of a RadialSurface the origin. Input coordinates.
+  Vector3 centre = Vector3::Zero();
   MeshCheckReport input;
   double folded_share = 0.0;         ///< see folded_solid_angle
   HarmonicFitReport fit;             ///< lengths in input units
@@ -132,10 +133,13 @@ double error_percent(const RemeshResult& result, ErrorMeasure measure);
 /// centred; a caller that needs it no more moves it in. Throws Error: InvalidInput
 /// for options out of range and meshes that cannot be mended (see check_mesh), NotStarShaped when
 /// the folded share exceeds the limit, NumericalFailure, Cancelled.
+///
+/// A scan of points without faces is triangulated first (see mesh_of_points, which also says what
+/// it throws).
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
-///
-/// A scan of points without faces is triangulated first (see mesh_of_points).
+
+/// The same for an OpenMesh mesh, which is copied (see to_indexed).
 RemeshResult remesh(const Mesh& scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
 

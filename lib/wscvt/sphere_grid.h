@@ -31,12 +31,12 @@ class SphereGrid {
   /// All zero. Throws Error(InvalidInput) unless rows >= 8, channels >= 1, stencil 4 or 6.
   SphereGrid(int rows, int channels, int stencil);
 
-  /// Tabulates a field.
+  /// Tabulates a field. Throws as the first.
   SphereGrid(int rows, int channels, int stencil, const FieldFunction& field,
              const Execution& execution);
 
-  /// Takes over node values, row by row, channels innermost. Their number must be
-  /// rows x 2 rows x channels.
+  /// Takes over node values, row by row, channels innermost. Throws as the first, and
+  /// Error(InvalidInput) unless there are rows x 2 rows x channels values.
   SphereGrid(int rows, int channels, int stencil, const std::vector<double>& values);
 
   int rows() const { return rows_; }
@@ -58,7 +58,8 @@ class SphereGrid {
 
   /// The transpose of `interpolate`: every point's values are shared out over its stencil, so that
   /// the sum over the nodes of (node value x f) is the sum over the points of (value x f) for every
-  /// f the interpolation reproduces. Same bytes on any number of threads.
+  /// f the interpolation reproduces. Same bytes on any number of threads. Throws as the first
+  /// constructor.
   static SphereGrid spread(int rows, int channels, int stencil,
                            const std::vector<Vector3>& directions,
                            const PointValueFunction& point_values, const Execution& execution);
