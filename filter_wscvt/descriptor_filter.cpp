@@ -178,7 +178,7 @@ std::string descriptor_help() {
          "comparable volume.<br>"
          "See: <i>Wadell H.</i>, Journal of Geology, 1932; <i>Krumbein W.C.</i>, Journal of "
          "Sedimentary Petrology, 1941; <i>Zingg T.</i>, 1935; <i>Kong D., Fonseca J.</i>, "
-         "Geotechnique, 2018; <i>Bagi K., Orosz A.</i>, 2020";
+         "Geotechnique, 2018; <i>Orosz A., Angelidakis V., Bagi K.</i>, Powder Technology, 2021";
 }
 
 ParameterList descriptor_parameters() {

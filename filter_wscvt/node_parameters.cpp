@@ -46,7 +46,7 @@ FilterParameter metric_parameter() {
       "Metric", static_cast<int>(RemeshOptions().relaxation.metric), {"Sphere", "Surface"},
       "Metric",
       "Sphere: cells are centroidal on the unit sphere, the published method. Surface: on "
-      "the grain's surface itself, which gives the most even triangles; slower.");
+      "the grain's surface itself, which gives the most even triangles in about the same time.");
 }
 
 FilterParameter seed_start_parameter() {
