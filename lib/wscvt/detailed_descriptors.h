@@ -22,16 +22,22 @@ struct DetailedOptions {
   int polar_nodes = 128;
 };
 
-/// Every shape descriptor of a closed, outward mesh. The file that computes each gives its formula
-/// and source.
+/// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
+/// that computes it: shape_descriptors.h, form_axes.h, inscribed_sphere.h, orientation_tensor.h,
+/// roundness.h, roughness.h. README.md has them all in one table.
 struct DetailedDescriptors {
   ShapeDescriptors basic;
-  double equivalent_diameter = 0.0;  ///< of the sphere of equal volume, (6 V / pi)^(1/3); length
-  FormAxes inertia_axes;             ///< full axes of the inertia ellipsoid
-  FormRatios inertia_ratios;
-  FormAxes box_axes;  ///< edges of the smallest oriented box
+  /// Of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell (1932);
+  /// length.
+  double equivalent_diameter = 0.0;
+  /// Full axes of the inertia ellipsoid, twice ShapeDescriptors::inertia_semi_axes.
+  FormAxes inertia_axes;
+  FormRatios inertia_ratios;  ///< their ratios; sources at FormRatios
+  FormAxes box_axes;          ///< edges of the smallest oriented box; source at oriented_box_axes
   FormRatios box_ratios;
-  double convexity = 0.0;  ///< V / volume of the convex hull, in (0, 1]
+  /// V / volume of the convex hull, in (0, 1]; no unit. As in SHAPE (Angelidakis, Nadimi
+  /// and Utili 2021; see form_axes.h). Hull by convex_hull.
+  double convexity = 0.0;
   InscribedSphere inscribed_sphere;
   OrientationTensor orientation;
   double folded_share = 0.0;  ///< of 4 pi, seen from the volume centroid
@@ -41,12 +47,13 @@ struct DetailedDescriptors {
   Roundness roundness;       ///< of the fitted series of degree roundness_degree
   int roundness_degree = 0;  ///< as fitted
   Roughness roughness;
-  double printed_sdq = 0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit
+  double printed_sdq = 0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (roughness.h)
 };
 
 /// Measures a closed outward mesh as checked by check_mesh; takes of the order of a second for
 /// 100,000 faces. Throws Error(InvalidInput) when the volume is not positive or an option is out of
-/// range.
+/// range, Error(NumericalFailure) when a ray from the volume centroid meets no face or no series
+/// can be fitted to r(u) (see fit_harmonics), Error(Cancelled).
 DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
                                              const DetailedOptions& options,
                                              const Execution& execution);

@@ -15,7 +15,8 @@ struct InscribedSphere {
   double upper_bound = 0.0;  ///< length; no sphere inside is larger than this
 };
 
-/// The largest sphere inside a closed mesh: branch and bound on cubes for the point farthest from
+/// The largest sphere inside a closed mesh, whose radius Wadell's roundness refers to (see
+/// roundness.h), by a search of this library: branch and bound on cubes for the point farthest from
 /// the surface (exact point-to-triangle distances, which change no faster than the point moves).
 /// Stops when upper_bound <= 1.001 radius, or after 50,000 distances (a body with a broad plateau,
 /// such as a plate between parallel faces, ends there). Throws Error(InvalidInput) if the mesh has
