@@ -61,7 +61,7 @@ std::vector<std::string> quality_row(const std::string& name, std::size_t nodes,
 }
 
 const std::vector<std::string> quality_columns = {
-    "mesh", "nodes", "ECV", "mean edge ratio", "its deviation", "smallest angle"};
+    "mesh", "nodes", "edge_variation", "mean_edge_ratio", "edge_ratio_deviation", "smallest_angle"};
 
 }  // namespace
 

@@ -62,17 +62,24 @@ void run(const std::string& folder, const std::string& particles, int poses) {
     std::cout << heading << std::endl;
   };
 
-  tell("Figure 1: samplings of the sphere (WSCVT-D of " + sand.name + ")",
-       write_samplings(folder, sand, execution));
+  const Table samplings = write_samplings(folder, sand, execution);
+  write_csv(folder + "/figure1_quality.csv", samplings);
+  tell("Figure 1: samplings of the sphere (WSCVT-D of " + sand.name + ")", samplings);
+  Table pictures;
   for (const Scan& scan : {scans[0], scans[2]}) {
-    tell("Figures 6 and 9: remeshes of " + scan.name, write_pictures(folder, scan, execution));
+    const Table table = write_pictures(folder, scan, execution);
+    pictures.insert(pictures.end(), table.begin() + (pictures.empty() ? 0 : 1), table.end());
+    tell("Figures 6 and 9: remeshes of " + scan.name, table);
   }
-  tell("Figure 7: scans and WSCVT-D remeshes with as many nodes",
-       write_distributions(folder, {scans[0], scans[1]}, execution));
+  write_csv(folder + "/figure6_9_quality.csv", pictures);
+  const Table distributions = write_distributions(folder, {scans[0], scans[1]}, execution);
+  write_csv(folder + "/figure7_quality.csv", distributions);
+  tell("Figure 7: scans and WSCVT-D remeshes with as many nodes", distributions);
 
   const SamplingErrors sampled = sampling_errors(scans, poses, execution);
   write_csv(folder + "/errors.csv", sampled.errors);
   write_csv(folder + "/roughness.csv", sampled.roughness);
+  write_csv(folder + "/far_nodes.csv", sampled.far_nodes);
   for (const Scan& scan : scans) {
     for (const char* measure : {"volume", "area", "aspect_ratio", "sphericity", "sdq"}) {
       const std::string figure = measure == std::string("sdq") ? "Figure 10" : "Figure 8";
@@ -88,6 +95,7 @@ void run(const std::string& folder, const std::string& particles, int poses) {
 
   const ClosedFormErrors closed = closed_form_errors(execution);
   write_csv(folder + "/closed_forms.csv", closed.all);
+  write_csv(folder + "/closed_forms_worst.csv", closed.worst);
   tell("Descriptors on closed forms (lengths where the value is 0: of a unit sphere)",
        closed.worst);
   if (!particles.empty()) {
@@ -95,7 +103,7 @@ void run(const std::string& folder, const std::string& particles, int poses) {
     write_csv(folder + "/reference_particles.csv", table);
     tell("Reference particles: integrals of their harmonics against their table", table);
   }
-  write_file(folder + "/study.txt", text);
+  wscvt::write_file(folder + "/study.txt", text);
 }
 
 }  // namespace
