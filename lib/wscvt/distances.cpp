@@ -195,9 +195,17 @@ void check_distance_options(const DistanceOptions& options) {
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 const DistanceOptions& options, const Execution& execution) {
   check_distance_options(options);
+  execution.report(0.0, "Measuring distances");
+  return measure_distances(mesh, reference, MeshDistance(reference), options, execution);
+}
+
+MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
+                                const MeshDistance& to_reference, const DistanceOptions& options,
+                                const Execution& execution) {
+  check_distance_options(options);
   MeshDistances result;
   execution.report(0.0, "Measuring distances");
-  result.to_reference = one_sided(mesh, MeshDistance(reference), options.samples, execution);
+  result.to_reference = one_sided(mesh, to_reference, options.samples, execution);
   execution.report(0.5, "Measuring distances");
   result.from_reference = one_sided(reference, MeshDistance(mesh), options.samples, execution);
   execution.report(1.0, "Measuring distances");

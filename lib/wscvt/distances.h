@@ -77,6 +77,12 @@ struct MeshDistances {
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 const DistanceOptions& options, const Execution& execution);
 
+/// The same for a caller who measures several meshes against one reference: `to_reference` is built
+/// from `reference`, and not anew each time.
+MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
+                                const MeshDistance& to_reference, const DistanceOptions& options,
+                                const Execution& execution);
+
 /// The `count` points that measure_distances spreads over a surface. Throws Error(InvalidInput) if
 /// the mesh has no faces or no area.
 std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count);

@@ -147,6 +147,21 @@ struct PreparedGrain {
   std::optional<CurvatureSamples>
       curvatures;       ///< of the scan itself, when the weighting reads them
   bool is_scan = true;  ///< not a formula, whose own points are exact
+
+  /// Distances to the mesh and rays at it. Both take longer to make ready than to ask on a dense
+  /// scan, so they are made once, at the first use, for all node counts that are tried.
+  const MeshDistance& distance() const {
+    if (!made_distance) made_distance = std::make_unique<const MeshDistance>(mesh);
+    return *made_distance;
+  }
+  const MeshSurface& rays(const Execution& execution) const {
+    if (!made_rays) {
+      made_rays = std::make_unique<const MeshSurface>(mesh, Vector3::Zero(), 1.0, execution);
+    }
+    return *made_rays;
+  }
+  mutable std::unique_ptr<const MeshDistance> made_distance = nullptr;
+  mutable std::unique_ptr<const MeshSurface> made_rays = nullptr;
 };
 
 PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
@@ -344,24 +359,20 @@ PlacedNodes place_nodes(const PreparedGrain& grain, RelaxationResult& relaxed,
       nodes.cell_areas[i] *= area_element(jets[i]);
     }
   }
-  std::optional<MeshSurface> scan;
-  if (options.placement == NodePlacement::LeastSquares ||
-      (options.placement == NodePlacement::OriginalMesh && grain.is_scan)) {
-    scan.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
-  }
   if (options.placement == NodePlacement::OriginalMesh && grain.is_scan) {
-    nodes.radii = scan->radii(nodes.directions, execution);
+    nodes.radii = grain.rays(execution).radii(nodes.directions, execution);
   }
   nodes.put_on_radii();
   triangulation.restore_surface_delaunay(nodes.directions, nodes.mesh.points, execution);
   nodes.mesh.triangles = triangulation.triangles();
   if (options.placement == NodePlacement::LeastSquares) {
+    const MeshSurface& scan = grain.rays(execution);
     nodes.radii =
-        least_squares_radii(nodes.directions, nodes.mesh.triangles, *scan, fit_samples, execution);
+        least_squares_radii(nodes.directions, nodes.mesh.triangles, scan, fit_samples, execution);
     nodes.put_on_radii();
     if (options.refinement.rounds > 0) {
       RefinedNodes refined = refine_nodes(std::move(nodes.mesh.points), std::move(triangulation),
-                                          *scan, options.refinement, execution.part(0.1, 1.0));
+                                          scan, options.refinement, execution.part(0.1, 1.0));
       nodes.mesh = {std::move(refined.positions), refined.triangulation.triangles()};
       nodes.refinement = std::move(refined.report);
     }
@@ -510,9 +521,11 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.remesh = describe_shape(nodes.mesh, execution.part(0.9, 0.92));
   result.quality = measure_quality(nodes.mesh);
   if (options.distances) {
-    result.distances = measure_distances(nodes.mesh, grain.mesh, options.distance_sampling,
-                                         execution.part(0.92, 0.98));
-    result.vertex_distances = MeshDistance(grain.mesh).distances(nodes.mesh.points, execution);
+    const Execution measuring = execution.part(0.92, 0.98);
+    measuring.report(0.0, "Measuring distances");
+    result.distances = measure_distances(nodes.mesh, grain.mesh, grain.distance(),
+                                         options.distance_sampling, measuring);
+    result.vertex_distances = grain.distance().distances(nodes.mesh.points, execution);
   }
 
   const double unit = grain.unit;
