@@ -207,7 +207,7 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
 
   execution.report(0.9, "Measuring the scan");
   result.original = describe_shape(grain, execution.part(0.9, 1.0));
-  result.original_quality = measure_quality(grain);
+  result.original_quality = measure_quality(grain, execution);
   std::optional<CurvatureSamples> curvatures;
   if (options.weighting == Weighting::Curvature &&
       options.curvature_source == CurvatureSource::QuadricFit) {
@@ -283,7 +283,7 @@ PreparedGrain prepare(const RadialSurface& surface, const Execution& execution) 
   result.original.volume = 4.0 * pi / 3.0;
   result.original.area = integrals.area / (unit * unit);
   result.original.sphericity = 4.0 * pi / result.original.area;
-  result.original_quality = measure_quality(dense);
+  result.original_quality = measure_quality(dense, execution);
   return {std::move(result), unit, std::move(dense), std::move(scaled), std::nullopt, false};
 }
 
@@ -519,7 +519,7 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
 
   execution.report(0.9, "Measuring the remesh");
   result.remesh = describe_shape(nodes.mesh, execution.part(0.9, 0.92));
-  result.quality = measure_quality(nodes.mesh);
+  result.quality = measure_quality(nodes.mesh, execution);
   if (options.distances) {
     const Execution measuring = execution.part(0.92, 0.98);
     measuring.report(0.0, "Measuring distances");
