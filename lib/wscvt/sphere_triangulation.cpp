@@ -369,7 +369,8 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       progress = true;
       for (const std::int32_t edge : {t0, t0 + 1, t1, t1 + 1}) stack.push_back(edge);
     }
-    stack.swap(stuck);
+    // Not swapped: what the limit leaves on the stack counts as stuck too.
+    stack.insert(stack.end(), stuck.begin(), stuck.end());
     stuck.clear();
     if (stack.empty()) break;
   }
