@@ -704,8 +704,15 @@ void Refinement::relocate(const Collapse& from, const Split& to, Workspace& work
   const std::int32_t neighbour = triangulation_.origin(SphereTriangulation::next(from.half_edge));
   const auto towards = static_cast<std::size_t>(
       std::find(work.fan.ring.begin(), work.fan.ring.end(), neighbour) - work.fan.ring.begin());
-  collapse(towards, work, 1.0, infinity, &corners, &lists);
-  split(to.half_edge, work);
+  // Both were tried on these very triangles, with a limit that may be a rounding above a cosine's
+  // largest value; the limit here lets everything pass.
+  constexpr double no_cosine_limit = 2.0;
+  if (!(collapse(towards, work, no_cosine_limit, infinity, &corners, &lists) < infinity) ||
+      !split(to.half_edge, work)) {
+    throw Error(ErrorCode::NumericalFailure,
+                "The refinement cannot take a node elsewhere where its trial could; refine with "
+                "fewer rounds.");
+  }
   positions_[node] = work.fan.position;
   node_errors_[node] = work.fan.node_error;
   for (std::size_t j = 0; j < 4; ++j) {
