@@ -811,12 +811,19 @@ RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation tr
                         execution);
   report.start_distance = refinement.measure();
   for (int round = 0; round < options.rounds && !report.converged; ++round) {
-    execution.report(static_cast<double>(round) / options.rounds, "Refining the nodes");
+    // A round takes seconds on many nodes; a cancel should not have to wait for its end.
+    const auto reached = [&](double share_of_round) {
+      execution.report((round + share_of_round) / options.rounds, "Refining the nodes");
+    };
+    reached(0.0);
     refinement.mend_angles();
+    reached(0.1);
     const double before = refinement.error();
     RefinementStep step;
     step.moves = refinement.move_nodes();
+    reached(0.5);
     step.flips = refinement.flip_edges();
+    reached(0.6);
     // The first rounds lower the distance by so much that relocations would be misjudged.
     if (round >= 2) step.relocations = refinement.relocate_nodes();
     const double share = std::sqrt(refinement.error() / before);
