@@ -25,7 +25,9 @@ Execution::Execution(int threads, ProgressCallback progress) : progress_(std::mo
                                              "; give 0 for all of the machine's, or 1 and more.");
   }
   threads_ = threads > 0 ? threads : tbb::info::default_concurrency();
-  if (threads_ > 1) arena_ = std::make_shared<Arena>(threads_);
+  // More than the machine has would gain nothing, and TBB writes a warning to stderr.
+  const int workers = std::min(threads_, tbb::info::default_concurrency());
+  if (workers > 1) arena_ = std::make_shared<Arena>(workers);
 }
 
 void Execution::report(double fraction, const std::string& stage) const {
