@@ -472,7 +472,7 @@ RemeshOptions fitted_options(int nodes, int rounds = 0) {
 }
 
 TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
-  for (const int nodes : {4, 60, 400}) {
+  for (const int nodes : {4, 8, 10, 12, 60, 400}) {
     SCOPED_TRACE(nodes);
     RemeshOptions on_surface = fitted_options(nodes);
     on_surface.placement = NodePlacement::OriginalMesh;
