@@ -43,6 +43,7 @@ TEST(CubeMap, VisitsEveryCellThatSeesATriangle) {
         cube.visit_cells(a, b, c, [&](std::size_t cell) {
           EXPECT_TRUE(visited.insert(cell).second) << "twice";
         });
+        EXPECT_EQ(cube.count_cells(a, b, c), visited.size());
         for (int p = 0; p <= 10; ++p) {
           for (int q = 0; q <= 10 - p; ++q) {
             const Vector3 point = (p * a + q * b + (10 - p - q) * c) / 10.0;

@@ -151,6 +151,24 @@ TEST(MeshSurface, DerivativesAreThoseOfTheFacet) {
   EXPECT_GT(tried, 250U);
 }
 
+TEST(MeshSurface, FansOfNeedlesGetBinsOfBoundedSize) {
+  // At a resolution after their number these 4000 needles fill 50 cells each on average.
+  const IndexedMesh fan = test::transformed(test::bicone(2000), test::random_rotation(8));
+  const MeshSurface surface = surface_of(fan);
+  for (const Vector3& u : random_directions(500, 9)) {
+    // A needle is 3e-3 wide: a thousandth of the condition of the cases above is lost.
+    ASSERT_NEAR(surface.radius(u), brute_force_radius(fan, u), 1e-11) << u.transpose();
+  }
+  // Entered cell by cell, this one would take some 10 GB and a minute.
+  const IndexedMesh dense = test::transformed(test::bicone(100000), test::random_rotation(8));
+  const MeshSurface of_dense = surface_of(dense);
+  for (const Vector3& u : random_directions(100, 10)) {
+    // |u_z| + hypot(u_x, u_y) is 1 / r on the cone itself; the chords lose 5e-10.
+    const Vector3 v = test::random_rotation(8).transpose() * u;
+    EXPECT_NEAR(of_dense.radius(u), 1.0 / (std::abs(v.z()) + std::hypot(v.x(), v.y())), 1e-8);
+  }
+}
+
 TEST(MeshSurface, IntegratesToTheVolumeOfTheMesh) {
   const IndexedMesh mesh = test::lumpy(3);
   const double volume = check_mesh(mesh, MeshCheckOptions(), Execution(1)).report.volume;

@@ -153,6 +153,21 @@ inline IndexedMesh torus(double major_radius, double minor_radius, int segments)
   return mesh;
 }
 
+/// Two cones on one rim, apex to apex along z: `segments` needles to each apex.
+inline IndexedMesh bicone(int segments) {
+  IndexedMesh mesh;
+  mesh.points = {{0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < segments; ++i) {
+    const double angle = 2.0 * pi * i / segments;
+    mesh.points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    const int a = 2 + i;
+    const int b = 2 + (i + 1) % segments;
+    mesh.triangles.push_back({0, a, b});
+    mesh.triangles.push_back({1, b, a});
+  }
+  return mesh;
+}
+
 /// Points and faces of both, side by side.
 inline IndexedMesh joined(const IndexedMesh& a, const IndexedMesh& b) {
   IndexedMesh result = a;

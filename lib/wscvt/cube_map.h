@@ -35,6 +35,47 @@ class CubeMap {
   /// the cube. Cells come in ascending order on each face, none twice.
   template <class Visit>
   void visit_cells(const Vector3& a, const Vector3& b, const Vector3& c, const Visit& visit) const {
+    visit_images(a, b, c, [&](int axis, bool negative, const Rectangle& image) {
+      const CellRange range = cells_of(image);
+      for (int row = range.first_row; row <= range.last_row; ++row) {
+        for (int column = range.first_column; column <= range.last_column; ++column) {
+          visit(cell(axis, negative, row, column));
+        }
+      }
+    });
+  }
+
+  /// How many cells visit_cells visits, without going through them.
+  std::size_t count_cells(const Vector3& a, const Vector3& b, const Vector3& c) const {
+    std::size_t count = 0;
+    visit_images(a, b, c, [&](int, bool, const Rectangle& image) {
+      const CellRange range = cells_of(image);
+      count += static_cast<std::size_t>(range.last_row - range.first_row + 1) *
+               static_cast<std::size_t>(range.last_column - range.first_column + 1);
+    });
+    return count;
+  }
+
+ private:
+  /// By how much images are made larger, against rounding; the side of the cube is 2.
+  static constexpr double margin = 1e-9;
+
+  struct Rectangle {
+    std::array<double, 2> low{2.0, 2.0};
+    std::array<double, 2> high{-2.0, -2.0};
+
+    bool empty() const { return low[0] > high[0]; }
+    void add(double s, double t) {
+      low = {std::min(low[0], s), std::min(low[1], t)};
+      high = {std::max(high[0], s), std::max(high[1], t)};
+    }
+  };
+
+  /// Calls visit(axis, negative, rectangle) for the image of the triangle on every face of the cube
+  /// that it is seen on.
+  template <class Visit>
+  void visit_images(const Vector3& a, const Vector3& b, const Vector3& c,
+                    const Visit& visit) const {
     const std::array<const Vector3*, 3> corners{&a, &b, &c};
     int axis = 0;
     a.cwiseAbs().maxCoeff(&axis);
@@ -53,29 +94,14 @@ class CubeMap {
       image.add(s / depth, t / depth);
     }
     if (on_one_face) {
-      visit_rectangle(axis, negative, image, visit);
+      visit(axis, negative, image);
       return;
     }
     for (int face = 0; face < 6; ++face) {
       const Rectangle part = clipped(corners, face / 2, face % 2 != 0);
-      if (!part.empty()) visit_rectangle(face / 2, face % 2 != 0, part, visit);
+      if (!part.empty()) visit(face / 2, face % 2 != 0, part);
     }
   }
-
- private:
-  /// By how much images are made larger, against rounding; the side of the cube is 2.
-  static constexpr double margin = 1e-9;
-
-  struct Rectangle {
-    std::array<double, 2> low{2.0, 2.0};
-    std::array<double, 2> high{-2.0, -2.0};
-
-    bool empty() const { return low[0] > high[0]; }
-    void add(double s, double t) {
-      low = {std::min(low[0], s), std::min(low[1], t)};
-      high = {std::max(high[0], s), std::max(high[1], t)};
-    }
-  };
 
   int coordinate(double s) const {
     const double scaled = 0.5 * (s + 1.0) * resolution_;
@@ -89,16 +115,16 @@ class CubeMap {
     return (face * n + static_cast<std::size_t>(row)) * n + static_cast<std::size_t>(column);
   }
 
-  template <class Visit>
-  void visit_rectangle(int axis, bool negative, const Rectangle& image, const Visit& visit) const {
-    const int last_row = coordinate(image.high[0] + margin);
-    const int first_column = coordinate(image.low[1] - margin);
-    const int last_column = coordinate(image.high[1] + margin);
-    for (int row = coordinate(image.low[0] - margin); row <= last_row; ++row) {
-      for (int column = first_column; column <= last_column; ++column) {
-        visit(cell(axis, negative, row, column));
-      }
-    }
+  struct CellRange {
+    int first_row;
+    int last_row;
+    int first_column;
+    int last_column;
+  };
+
+  CellRange cells_of(const Rectangle& image) const {
+    return {coordinate(image.low[0] - margin), coordinate(image.high[0] + margin),
+            coordinate(image.low[1] - margin), coordinate(image.high[1] + margin)};
   }
 
   /// Image of the part of a triangle in front of one face of the cube: cut by the four planes

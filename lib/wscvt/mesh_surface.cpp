@@ -20,6 +20,10 @@ int resolution_for(std::size_t triangles) {
   return std::clamp(static_cast<int>(std::sqrt(cells_per_face)), 1, 4096);
 }
 
+/// More entries in the bins than this for each triangle are not worth their memory. Even meshes
+/// have about three.
+constexpr std::size_t entries_per_triangle = 20;
+
 }  // namespace
 
 MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
@@ -43,15 +47,35 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
                 "surface once; take a centre inside, e.g. the centroid of a compact grain.");
   }
 
-  // Threads fill a bin in any order; sorting it afterwards makes the bytes the same.
   const std::vector<Vector3>& points = mesh_.points;
+  const auto entries = [&] {
+    return execution.parallel_sum(mesh_.triangles.size(), block_size, std::size_t{0},
+                                  [&](std::size_t begin, std::size_t end) {
+                                    std::size_t part = 0;
+                                    for (std::size_t f = begin; f < end; ++f) {
+                                      const Triangle& t = mesh_.triangles[f];
+                                      part += cube_.count_cells(points[t[0]], points[t[1]],
+                                                                points[t[2]]);
+                                    }
+                                    return part;
+                                  });
+  };
+  // A needle, as of a fan about a pole, is entered in the whole rectangle of cells about it: as
+  // many entries for each as there are triangles.
+  int resolution = resolution_for(mesh_.triangles.size());
+  while (resolution > 1 && entries() > entries_per_triangle * mesh_.triangles.size()) {
+    resolution /= 2;
+    cube_ = CubeMap(resolution);
+  }
+
+  // Threads fill a bin in any order; sorting it afterwards makes the bytes the same.
   const auto visit_cells = [&](std::size_t f, const auto& visit) {
     const Triangle& t = mesh_.triangles[f];
     cube_.visit_cells(points[static_cast<std::size_t>(t[0])],
                       points[static_cast<std::size_t>(t[1])],
                       points[static_cast<std::size_t>(t[2])], visit);
   };
-  std::vector<std::atomic<std::uint32_t>> places(cube_.cells());
+  std::vector<std::atomic<std::size_t>> places(cube_.cells());
   for (auto& place : places) place.store(0, std::memory_order_relaxed);
   execution.parallel_for(
       mesh_.triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
@@ -61,7 +85,7 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
         }
       });
   bin_starts_.resize(places.size() + 1);
-  std::uint32_t sum = 0;
+  std::size_t sum = 0;
   for (std::size_t cell = 0; cell < places.size(); ++cell) {
     bin_starts_[cell] = sum;
     sum += places[cell].exchange(sum, std::memory_order_relaxed);
@@ -79,8 +103,8 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
       });
   execution.parallel_for(places.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t cell = begin; cell < end; ++cell) {
-      std::sort(bin_triangles_.begin() + bin_starts_[cell],
-                bin_triangles_.begin() + bin_starts_[cell + 1]);
+      std::sort(bin_triangles_.data() + bin_starts_[cell],
+                bin_triangles_.data() + bin_starts_[cell + 1]);
     }
   });
 }
@@ -97,7 +121,7 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
   const double shear_y = direction[axis_y] / direction[axis];
   Hit hit;
   const std::size_t cell = cube_.cell(direction);
-  for (std::uint32_t i = bin_starts_[cell]; i < bin_starts_[cell + 1]; ++i) {
+  for (std::size_t i = bin_starts_[cell]; i < bin_starts_[cell + 1]; ++i) {
     const Triangle& t = mesh_.triangles[static_cast<std::size_t>(bin_triangles_[i])];
     const Vector3& a = mesh_.points[static_cast<std::size_t>(t[0])];
     const Vector3& b = mesh_.points[static_cast<std::size_t>(t[1])];

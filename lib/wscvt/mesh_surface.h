@@ -40,7 +40,7 @@ class MeshSurface : public RadialSurface {
  private:
   IndexedMesh mesh_;
   CubeMap cube_;
-  std::vector<std::uint32_t> bin_starts_;    ///< into bin_triangles_, one more than cells
+  std::vector<std::size_t> bin_starts_;      ///< into bin_triangles_, one more than cells
   std::vector<std::int32_t> bin_triangles_;  ///< ascending in every bin
 };
 
