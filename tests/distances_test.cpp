@@ -124,6 +124,15 @@ TEST(Distances, SameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(std::memcmp(&one, &three, sizeof one), 0);
 }
 
+TEST(Distances, SameBitsWithATreeAtHand) {
+  const IndexedMesh reference = test::lumpy(4);
+  const DistanceOptions options{5000};
+  const MeshDistances plain = measure_distances(test::lumpy(2), reference, options, Execution(1));
+  const MeshDistances with_tree =
+      measure_distances(test::lumpy(2), reference, MeshDistance(reference), options, Execution(1));
+  EXPECT_EQ(std::memcmp(&plain, &with_tree, sizeof plain), 0);
+}
+
 TEST(Distances, RefusesWhatCannotBeMeasured) {
   const IndexedMesh box = test::box(1, 1, 1);
   EXPECT_THROW(measure_distances(box, IndexedMesh(), DistanceOptions(), Execution(1)), Error);

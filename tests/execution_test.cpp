@@ -66,6 +66,12 @@ TEST(Execution, ProgressIsScaledToThePartAndCancels) {
   }
 }
 
+TEST(Execution, MoreThreadsThanTheMachineHasAreNoReasonToWrite) {
+  testing::internal::CaptureStderr();
+  Execution(1000).parallel_for(5000, 1, [](std::size_t, std::size_t) {});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(Execution, RefusesNegativeThreads) { EXPECT_THROW(Execution(-1), Error); }
 
 }  // namespace

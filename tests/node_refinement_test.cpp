@@ -225,6 +225,19 @@ TEST(NodeRefinement, RefusesOptionsOutOfRange) {
   EXPECT_THROW(refine(start, options), Error);
 }
 
+TEST(NodeRefinement, CanBeCancelledWithinARound) {
+  const Case start = on_surface(test::lumpy(2), 50);
+  int reports = 0;
+  const Execution execution(1, [&](double fraction, const std::string&) {
+    EXPECT_LT(fraction, 1.0);
+    return ++reports < 3;
+  });
+  EXPECT_THROW(
+      refine_nodes(start.positions, start.triangulation, start.original, rounds(1), execution),
+      Error);
+  EXPECT_EQ(reports, 3);
+}
+
 TEST(NodeRefinement, CanBeCancelled) {
   const Case start = on_surface(test::lumpy(2), 50);
   const Execution execution(1, [](double, const std::string&) { return false; });
