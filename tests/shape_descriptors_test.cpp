@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -93,6 +94,62 @@ TEST(ShapeDescriptors, DoNotDependOnPoseOrOrderAndScaleAsTheyShould) {
     EXPECT_NEAR(d.sdq, reference.sdq, 1e-11);
     EXPECT_LT((d.centroid / scale - rotation * reference.centroid).norm(), 1e-12);
     EXPECT_LT((d.inertia_semi_axes / scale - reference.inertia_semi_axes).norm(), 1e-12);
+  }
+}
+
+TEST(ShapeDescriptors, InertiaTensorOfABoxIsExact) {
+  // Unit density: I_xx = V (y^2 + z^2) / 12 with the full edges, and in turn.
+  const Eigen::Matrix3d upright = Vector3(6.5, 5.0, 2.5).asDiagonal();
+  // Rounding of entries near 5, after a handful of operations on each of twelve faces.
+  EXPECT_LT((describe(test::box(1, 2, 3)).inertia_tensor - upright).norm(), 1e-13);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Eigen::Matrix3d rotation = test::random_rotation(seed);
+    const Eigen::Matrix3d tensor =
+        describe(test::transformed(test::box(1, 2, 3), rotation, {7, 8, 9})).inertia_tensor;
+    // A shift of ten edges costs one more digit.
+    EXPECT_LT((tensor - rotation * upright * rotation.transpose()).norm(), 1e-12);
+  }
+}
+
+TEST(ShapeDescriptors, InertiaTensorTurnsAndScalesWithTheBody) {
+  const IndexedMesh mesh = test::lumpy(4);
+  const Eigen::Matrix3d reference = describe(mesh).inertia_tensor;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const double scale = seed == 1 ? 1e-6 : 300.0;
+    const Eigen::Matrix3d rotation = test::random_rotation(seed);
+    const Eigen::Matrix3d tensor =
+        describe(test::transformed(mesh, scale * rotation)).inertia_tensor;
+    const Eigen::Matrix3d turned = rotation * reference * rotation.transpose();
+    // Thousands of faces, each rounded, and the fifth power of the scale.
+    EXPECT_LT((tensor / std::pow(scale, 5) - turned).norm() / reference.norm(), 1e-12);
+  }
+}
+
+TEST(ShapeDescriptors, InertiaErrorOfAScaledOrTurnedBody) {
+  const ShapeDescriptors box = describe(test::box(1, 2, 3));
+  EXPECT_EQ(inertia_error_percent(box, box), 0.0);
+  // All moments grow by s^5: the largest is off by s^5 - 1 of itself.
+  const ShapeDescriptors larger = describe(test::scaled(test::box(1, 2, 3), {1.1, 1.1, 1.1}));
+  EXPECT_NEAR(inertia_error_percent(larger, box), 100.0 * (std::pow(1.1, 5) - 1.0), 1e-10);
+  EXPECT_NEAR(inertia_error_percent(box, larger), 100.0 * (1.0 - std::pow(1.1, -5)), 1e-10);
+  // Turned about z by t: the entries of the xy block change by (I_xx - I_yy) sin^2 t on the
+  // diagonal and by (I_xx - I_yy) sin t cos t off it, with moments 6.5, 5 and 2.5.
+  for (const double angle : {0.2, 1.0}) {
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+    const ShapeDescriptors turned = describe(test::transformed(test::box(1, 2, 3), rotation));
+    const double largest = 1.5 * std::sin(angle) * std::max(std::sin(angle), std::cos(angle));
+    EXPECT_NEAR(inertia_error_percent(turned, box), 100.0 * largest / 6.5, 1e-10);
+    // Both turned together: the difference is taken in the reference's own axes.
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      const Eigen::Matrix3d both = test::random_rotation(seed);
+      EXPECT_NEAR(
+          inertia_error_percent(describe(test::transformed(test::box(1, 2, 3), both * rotation)),
+                                describe(test::transformed(test::box(1, 2, 3), both))),
+          100.0 * largest / 6.5, 1e-10);
+    }
   }
 }
 
