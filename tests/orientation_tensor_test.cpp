@@ -30,6 +30,19 @@ TEST(OrientationTensor, BoxIsExact) {
   }
 }
 
+TEST(OrientationTensor, TensorTurnsWithTheBodyAndIgnoresItsSizeAndPlace) {
+  const IndexedMesh mesh = test::lumpy(3);
+  const Eigen::Matrix3d plain = orientation_tensor(mesh, Execution(1)).tensor;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Eigen::Matrix3d rotation = test::random_rotation(seed);
+    const Eigen::Matrix3d turned =
+        orientation_tensor(test::transformed(mesh, 5.0 * rotation, {7, 8, 9}), Execution(1)).tensor;
+    // The shift rounds coordinates to 1e-15, and edges are a tenth long.
+    EXPECT_LT((turned - rotation * plain * rotation.transpose()).norm(), 1e-13);
+  }
+}
+
 TEST(OrientationTensor, CubeAndSphereHaveNoPreferredOrientation) {
   for (const IndexedMesh& mesh : {test::box(1, 1, 1), test::sphere(3)}) {
     const OrientationTensor o = orientation_tensor(mesh, Execution(1));
