@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <set>
@@ -170,6 +172,27 @@ TEST(SphereTriangulation, RefusesWhatHasNoTriangulation) {
   weights[20] = -2.0;  // far below its neighbours' power: hidden
   EXPECT_THROW(SphereTriangulation(fibonacci_lattice(40), weights), Error);
   EXPECT_THROW(SphereTriangulation(fibonacci_lattice(40), std::vector<double>(39, 0.0)), Error);
+}
+
+TEST(SphereTriangulation, RefusesWeightsThatCannotBeLifted) {
+  // exp(w / 2) would overflow, or make every comparison false; the whole sphere has 4 pi steradian.
+  const std::vector<Vector3> seeds = fibonacci_lattice(40);
+  for (const double weight :
+       {1e4, -1e4, 1e300, std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    SCOPED_TRACE(weight);
+    std::vector<double> weights(seeds.size(), 0.0);
+    weights[20] = weight;
+    try {
+      const SphereTriangulation triangulation(seeds, weights);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
+    }
+    SphereTriangulation kept(seeds);
+    EXPECT_FALSE(kept.restore_regular(seeds, weights, Execution(1)).complete());
+    expect_closed_sphere(kept, seeds);
+  }
 }
 
 }  // namespace
