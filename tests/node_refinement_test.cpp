@@ -241,9 +241,12 @@ TEST(NodeRefinement, CanBeCancelledWithinARound) {
 TEST(NodeRefinement, CanBeCancelled) {
   const Case start = on_surface(test::lumpy(2), 50);
   const Execution execution(1, [](double, const std::string&) { return false; });
-  EXPECT_THROW(
-      refine_nodes(start.positions, start.triangulation, start.original, rounds(3), execution),
-      Error);
+  try {
+    refine_nodes(start.positions, start.triangulation, start.original, rounds(3), execution);
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+  }
 }
 
 }  // namespace
