@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <locale>
 #include <nlohmann/json.hpp>
 
+#include "comma_decimals.h"
 #include "test_shapes.h"
 #include "wscvt/descriptor_table.h"
 
@@ -129,24 +129,15 @@ TEST(Report, TextNamesSeedAndExponentsOnlyWhereTheyMatter) {
   EXPECT_TRUE(contains(text_of(result), "curvature exponent 0.75"));
 }
 
-/// Writes numbers as in German.
-class CommaDecimals : public std::numpunct<char> {
- protected:
-  char do_decimal_point() const override { return ','; }
-  char do_thousands_sep() const override { return '.'; }
-  std::string do_grouping() const override { return "\3"; }
-};
-
 TEST(Report, DoesNotDependOnTheLocale) {
   const RemeshResult result = example();
   const std::string text = text_of(result);
   const std::string json = report_json(result);
-  const std::locale before = std::locale::global(std::locale(std::locale(), new CommaDecimals));
-  const std::string text_after = text_of(result);
-  const std::string json_after = report_json(result);
-  std::locale::global(before);
-  EXPECT_EQ(text, text_after);
-  EXPECT_EQ(json, json_after);
+  const std::string csv = report_csv(result);
+  const test::GermanNumbers german;
+  EXPECT_EQ(text_of(result), text);
+  EXPECT_EQ(report_json(result), json);
+  EXPECT_EQ(report_csv(result), csv);
 }
 
 TEST(Report, JsonHoldsTheNumbersToTheLastBit) {

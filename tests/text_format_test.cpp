@@ -5,22 +5,16 @@
 
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <random>
+#include <sstream>
+
+#include "comma_decimals.h"
 
 namespace wscvt {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Writes numbers as in German.
-class CommaDecimals : public std::numpunct<char> {
- protected:
-  char do_decimal_point() const override { return ','; }
-  char do_thousands_sep() const override { return '.'; }
-  std::string do_grouping() const override { return "\3"; }
-};
 
 TEST(TextFormat, Numbers) {
   EXPECT_EQ(format_number(1234.5678), "1234.57");
@@ -52,14 +46,13 @@ TEST(TextFormat, ExactNumbersReadBackToTheSameBits) {
 }
 
 TEST(TextFormat, DoesNotDependOnTheLocale) {
-  const std::locale before = std::locale::global(std::locale(std::locale(), new CommaDecimals));
-  const std::string number = format_number(1234.5);
-  const std::string error = format_error(1234.5);
-  const std::string exact = format_exact(1234.5);
-  std::locale::global(before);
-  EXPECT_EQ(number, "1234.5");
-  EXPECT_EQ(error, "+1234.500");
-  EXPECT_EQ(exact, "1234.5");
+  const test::GermanNumbers german;
+  std::ostringstream stream;
+  stream << 1234.5;
+  ASSERT_EQ(stream.str(), "1.234,5");  // else the rest proves nothing
+  EXPECT_EQ(format_number(1234.5), "1234.5");
+  EXPECT_EQ(format_error(1234.5), "+1234.500");
+  EXPECT_EQ(format_exact(1234.5), "1234.5");
 }
 
 TEST(TextFormat, TablesLineUp) {
