@@ -59,6 +59,26 @@ TEST(Server, InPlaceReplacesTheMesh) {
   EXPECT_EQ(read_mesh(output.toStdString()).points.size(), 321U);
 }
 
+TEST(Server, WritesAReportAsAPageWithTwoFigures) {
+  QTemporaryDir folder;
+  const QString input = folder.filePath("grain.ply");
+  write_as_it_is(grain(), input);
+  const QString script = folder.filePath("script.mlx");
+  const QString report = folder.filePath("report.html");
+  write_script({{"NodeCount", "150"}, {"ReportFile", report.toStdString()}}, script);
+  const Outcome outcome = run_meshlabserver({"-i", input, "-s", script}, folder.path());
+  SCOPED_TRACE(outcome.output.toStdString());
+  ASSERT_TRUE(outcome.ended);
+  ASSERT_FALSE(outcome.crashed);
+  QFile file(report);
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  const QString page = QString::fromUtf8(file.readAll());
+  EXPECT_TRUE(page.startsWith("<!DOCTYPE html>"));
+  EXPECT_TRUE(page.endsWith("</html>\n"));
+  EXPECT_EQ(page.count("<svg"), 2);
+  EXPECT_TRUE(page.contains("<td>volume</td>"));
+}
+
 TEST(Server, TwoRunsGiveTheSameBytes) {
   QTemporaryDir folder;
   const QString input = folder.filePath("grain.ply");
