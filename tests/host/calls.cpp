@@ -60,6 +60,22 @@ std::vector<Call> refused_calls() {
   };
 }
 
+std::vector<Call> unmeasurable_calls() {
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  return {
+      {"NoMesh", std::nullopt, {}, {"no mesh"}},
+      {"EmptyMesh", IndexedMesh{}, {}, {"empty"}},
+      {"PointsWithoutFaces", IndexedMesh{sphere().points, {}}, {}, {"faces"}},
+      {"OpenMesh", without_a_patch(), {}, {"boundary"}},
+      {"TwoHalves", two_grains(), {}, {"parts"}},
+      {"NonManifoldEdge", with_non_manifold_edge(), {}, {"manifold"}},
+      {"NotANumber", with_coordinate(not_a_number), {}, {"finite"}},
+      {"NoVolume", flat_grain(), {}, {"volume"}},
+      {"UnknownLayer", grain(), {{"ReferenceLayer", "ghost"}}, {"'ghost'"}},
+      {"DegreeOutOfRange", grain(), {{"RoundnessDegree", "0"}}, {"RoundnessDegree", "60"}},
+  };
+}
+
 std::vector<Call> extreme_calls() {
   return {
       {"CurvatureOnASphere", sphere(), {{"Weighting", "2"}, {"NodeCount", "300"}}, {}},

@@ -26,6 +26,9 @@ inline void PrintTo(const Call& call, std::ostream* out) { *out << call.name; }
 /// Calls that must be refused with a sentence and change nothing.
 std::vector<Call> refused_calls();
 
+/// The same for the filter that measures: bodies that have no shape descriptors.
+std::vector<Call> unmeasurable_calls();
+
 /// Calls at the edge of what is possible, which must work.
 std::vector<Call> extreme_calls();
 

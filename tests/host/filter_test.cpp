@@ -563,6 +563,17 @@ TEST(Filter, TakesDefaultsForMissingParametersAndRefusesWrongTypes) {
       << loaded.filter().errorMsg().toStdString();
 }
 
+/// A whole sentence with all the words in it, whatever their case.
+void expect_sentence(const QString& message, const std::vector<std::string>& words) {
+  EXPECT_GT(message.size(), 20);
+  EXPECT_TRUE(message.endsWith('.')) << message.toStdString();
+  for (const std::string& word : words) {
+    // The message is HTML.
+    EXPECT_TRUE(message.contains(QString::fromStdString(word).toHtmlEscaped(), Qt::CaseInsensitive))
+        << word << " is not in: " << message.toStdString();
+  }
+}
+
 class FilterRefuses : public ::testing::TestWithParam<Call> {};
 
 TEST_P(FilterRefuses, WithASentenceAndChangesNothing) {
@@ -577,18 +588,58 @@ TEST_P(FilterRefuses, WithASentenceAndChangesNothing) {
     const auto before = state_of(document);
     EXPECT_FALSE(loaded.apply(document, parameters));
     EXPECT_TRUE(state_of(document) == before) << "the document has changed";
-    const QString message = loaded.filter().errorMsg();
-    EXPECT_GT(message.size(), 20);
-    EXPECT_TRUE(message.endsWith('.')) << message.toStdString();
-    for (const std::string& word : call.words) {
-      EXPECT_TRUE(message.contains(QString::fromStdString(word), Qt::CaseInsensitive))
-          << word << " is not in: " << message.toStdString();
-    }
+    expect_sentence(loaded.filter().errorMsg(), call.words);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(, FilterRefuses, ::testing::ValuesIn(refused_calls()),
                          [](const auto& test) { return test.param.name; });
+
+class DescriptorFilterRefuses : public ::testing::TestWithParam<Call> {};
+
+TEST_P(DescriptorFilterRefuses, WithASentenceAndChangesNothing) {
+  const Call& call = GetParam();
+  LoadedFilter loaded(descriptor_menu_text);
+  MeshDocument document;
+  if (call.mesh) add_layer(document, *call.mesh);
+  RichParameterList parameters = loaded.parameters(document);
+  for (const auto& [name, value] : call.parameters) set_from_text(parameters, name, value);
+  const auto before = state_of(document);
+  EXPECT_FALSE(loaded.apply(document, parameters));
+  EXPECT_TRUE(state_of(document) == before) << "the document has changed";
+  expect_sentence(loaded.filter().errorMsg(), call.words);
+}
+
+INSTANTIATE_TEST_SUITE_P(, DescriptorFilterRefuses, ::testing::ValuesIn(unmeasurable_calls()),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(DescriptorFilter, RefusesAReferenceThatTwoLayersAreCalled) {
+  LoadedFilter loaded(descriptor_menu_text);
+  MeshDocument document;
+  add_layer(document, grain());
+  // MeshLab numbers equal labels of new layers, but a user can rename them.
+  add_layer(document, sphere()).setLabel("twin");
+  add_layer(document, sphere()).setLabel("twin");
+  RichParameterList parameters = loaded.parameters(document);
+  set_from_text(parameters, "ReferenceLayer", "twin");
+  const auto before = state_of(document);
+  EXPECT_FALSE(loaded.apply(document, parameters));
+  EXPECT_TRUE(state_of(document) == before) << "the document has changed";
+  expect_sentence(loaded.filter().errorMsg(), {"twin", "two layers"});
+}
+
+TEST(DescriptorFilter, RefusesAReferenceThatCannotBeMeasuredByItsName) {
+  LoadedFilter loaded(descriptor_menu_text);
+  MeshDocument document;
+  add_layer(document, without_a_patch()).setLabel("torn");
+  add_layer(document, grain());
+  RichParameterList parameters = loaded.parameters(document);
+  set_from_text(parameters, "ReferenceLayer", "torn");
+  const auto before = state_of(document);
+  EXPECT_FALSE(loaded.apply(document, parameters));
+  EXPECT_TRUE(state_of(document) == before) << "the document has changed";
+  expect_sentence(loaded.filter().errorMsg(), {"torn", "boundary"});
+}
 
 class FilterCopesWith : public ::testing::TestWithParam<Call> {};
 

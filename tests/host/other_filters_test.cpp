@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calls.h"
 #include "programs.h"
 #include "sample_meshes.h"
 #include "wscvt/harmonic_io.h"
@@ -204,6 +205,33 @@ TEST_P(ServerRefusesToo, WithASentenceInTheLog) {
     EXPECT_TRUE(outcome.output.contains(QString::fromStdString(word), Qt::CaseInsensitive)) << word;
   }
 }
+
+/// Measures the call's mesh, if it has one, with the call's parameters.
+class ServerRefusesToMeasure : public ::testing::TestWithParam<Call> {};
+
+TEST_P(ServerRefusesToMeasure, WithASentenceInTheLogAndNoReport) {
+  const Call& call = GetParam();
+  QTemporaryDir folder;
+  QStringList meshes;
+  if (call.mesh) {
+    write_as_it_is(*call.mesh, folder.filePath("body.ply"));
+    meshes << "body.ply";
+  }
+  Values values = call.parameters;
+  values["ReportFile"] = "report.json";
+  const Outcome outcome = run_script("descriptors.mlx", values, meshes, folder);
+  SCOPED_TRACE(outcome.output.toStdString());
+  ASSERT_TRUE(outcome.ended);
+  EXPECT_FALSE(outcome.crashed);
+  EXPECT_EQ(outcome.exit_code, refused);
+  EXPECT_FALSE(QFile::exists(folder.filePath("report.json")));
+  for (const std::string& word : call.words) {
+    EXPECT_TRUE(outcome.output.contains(QString::fromStdString(word), Qt::CaseInsensitive)) << word;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, ServerRefusesToMeasure, ::testing::ValuesIn(unmeasurable_calls()),
+                         [](const auto& test) { return test.param.name; });
 
 const QString create = "create_superellipsoid.mlx";
 const QString describe = "descriptors.mlx";
