@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds everything and passes every test: all tests in release with warnings as errors, the tests
-# again under the address and undefined-behaviour sanitizers, and formatting.
+# Builds everything and passes every test: all tests in release with warnings as errors, most of
+# them again under the address and undefined-behaviour sanitizers, and formatting.
 #   tests/run_all.sh [install] [release] [sanitizers] [format] [tidy]
 # Without arguments: all but tidy, in this order; the static analysis takes half as long as all the
 # rest. The sanitized build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a
@@ -13,10 +13,12 @@ meshlab_source=$PWD/build/meshlab-source
 
 sources() { find "$@" \( -name '*.h' -o -name '*.cpp' \) | sort; }
 
-configure_and_test() {
-  cmake --preset "$1" -DWSCVT_WARNINGS_AS_ERRORS=ON -DMESHLAB_SOURCE_DIR="$meshlab_source"
-  cmake --build --preset "$1" -j "$jobs"
-  ctest --preset "$1" -j "$jobs"
+configure_and_test() {  # preset, more options
+  preset=$1
+  shift
+  cmake --preset "$preset" -DWSCVT_WARNINGS_AS_ERRORS=ON -DMESHLAB_SOURCE_DIR="$meshlab_source" "$@"
+  cmake --build --preset "$preset" -j "$jobs"
+  ctest --preset "$preset" -j "$jobs"
 }
 
 [ $# -gt 0 ] || set -- install release sanitizers format
@@ -27,11 +29,12 @@ for step in "$@"; do
       tests/install_packages.sh
       filter_wscvt/get_meshlab_source.sh "$meshlab_source" ;;
     release)
-      configure_and_test release ;;
+      # Benchmarks and study are built, so that they do not rot, but not run.
+      configure_and_test release -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON ;;
     sanitizers)
       configure_and_test asan-ubsan ;;
     format)
-      sources lib filter_wscvt tests | xargs clang-format --dry-run -Werror ;;
+      sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
       # After release, whose compile commands it reads.
       sources lib filter_wscvt | grep '\.cpp$' |

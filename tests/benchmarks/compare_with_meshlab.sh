@@ -65,7 +65,14 @@ run() {  # name, output file, command...
   i=0
   : > "$work/times"
   while [ $i -lt "$runs" ]; do
+    rm -f "$out"
     /usr/bin/time -a -o "$work/times" -f '%e %M' "$@" > "$work/log" 2>&1 || true
+    # meshlabserver's exit code says little; a run that wrote no mesh is no measurement.
+    test -s "$out" || {
+      echo "$name wrote no mesh:" >&2
+      cat "$work/log" >&2
+      exit 1
+    }
     i=$((i + 1))
   done
   median=$(grep -E '^[0-9.]+ [0-9]+$' "$work/times" | sort -n | sed -n "$(((runs + 1) / 2))p")
