@@ -7,6 +7,7 @@
 #include <random>
 
 #include "grains/marching_cubes.h"
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/mesh_check.h"
 #include "wscvt/mesh_io.h"
@@ -27,7 +28,7 @@ TEST(MarchingCubes, CloseEveryPattern) {
   test::VoxelGrid grid;
   grid.size = {40, 41, 42};
   grid.values.assign(40 * 41 * 42, 0.0);
-  std::mt19937_64 engine(1);
+  std::mt19937_64 engine(test::announced(1));
   double inside = 0.0;
   for (int z = 1; z < 41; ++z) {
     for (int y = 1; y < 40; ++y) {

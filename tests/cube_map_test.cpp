@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -23,7 +24,7 @@ TEST(CubeMap, UsesEveryCellAndNoOther) {
 
 TEST(CubeMap, DoesNotDependOnLength) {
   const CubeMap cube(11);
-  for (const Vector3& u : random_directions(1000, 3)) {
+  for (const Vector3& u : random_directions(1000, test::announced(3))) {
     EXPECT_EQ(cube.cell(u), cube.cell(64.0 * u));  // a power of two: no rounding
   }
 }
@@ -34,7 +35,7 @@ TEST(CubeMap, VisitsEveryCellThatSeesATriangle) {
   for (const double size : {0.02, 0.3, 1.0, 3.0}) {
     for (const int resolution : {1, 5, 40}) {
       const CubeMap cube(resolution);
-      const std::vector<Vector3> d = random_directions(600, 17);
+      const std::vector<Vector3> d = random_directions(600, test::announced(17));
       for (std::size_t i = 0; i + 2 < d.size(); i += 3) {
         const Vector3& a = d[i];
         const Vector3 b = a + size * d[i + 1];
@@ -62,7 +63,7 @@ TEST(CubeMap, VisitsFewCellsMore) {
   const int resolution = 50;
   const CubeMap cube(resolution);
   std::size_t visits = 0;
-  const std::vector<Vector3> d = random_directions(3000, 5);
+  const std::vector<Vector3> d = random_directions(3000, test::announced(5));
   for (std::size_t i = 0; i + 2 < d.size(); i += 3) {
     const double size = 1.0 / resolution;
     cube.visit_cells(d[i], d[i] + size * d[i + 1], d[i] + size * d[i + 2],

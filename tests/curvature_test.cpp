@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grains/ct_grain.h"
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/error.h"
 
@@ -106,8 +107,8 @@ TEST(Curvature, ChangesSignWithTheOrientation) {
 TEST(Curvature, TurnsMovesAndScalesWithTheMesh) {
   const IndexedMesh mesh = test::lumpy(3);
   const std::vector<PrincipalCurvatures> plain = curvatures(mesh);
-  const IndexedMesh moved =
-      test::transformed(mesh, 4.0 * test::random_rotation(3), Vector3(10.0, -20.0, 30.0));
+  const IndexedMesh moved = test::transformed(mesh, 4.0 * test::random_rotation(test::announced(3)),
+                                              Vector3(10.0, -20.0, 30.0));
   const std::vector<PrincipalCurvatures> turned = curvatures(moved);
   for (std::size_t i = 0; i < plain.size(); ++i) {
     // Curvatures of order one from heights of 1e-3, which there carry 1e-15.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/descriptor_table.h"
 #include "wscvt/error.h"
@@ -37,8 +38,9 @@ TEST(DetailedDescriptors, Sphere) {
 }
 
 TEST(DetailedDescriptors, Ellipsoid) {
-  const DetailedDescriptors d = describe(test::transformed(
-      test::scaled(test::sphere(3), {1.0, 1.5, 2.0}), test::random_rotation(4), {100, 200, 300}));
+  const DetailedDescriptors d =
+      describe(test::transformed(test::scaled(test::sphere(3), {1.0, 1.5, 2.0}),
+                                 test::random_rotation(test::announced(4)), {100, 200, 300}));
   EXPECT_NEAR(d.equivalent_diameter, 2.0 * std::cbrt(3.0), 2.5e-2);
   for (const FormAxes& axes : {d.inertia_axes, d.box_axes}) {
     EXPECT_NEAR(axes.shortest, 2.0, 2e-2);
@@ -56,7 +58,7 @@ TEST(DetailedDescriptors, Ellipsoid) {
 
 TEST(DetailedDescriptors, Cube) {
   const DetailedDescriptors d =
-      describe(test::transformed(test::box(1, 1, 1), test::random_rotation(9)));
+      describe(test::transformed(test::box(1, 1, 1), test::random_rotation(test::announced(9))));
   EXPECT_NEAR(d.equivalent_diameter, std::cbrt(6.0 / test::pi), 1e-12);
   EXPECT_NEAR(d.box_axes.shortest, 1.0, 1e-9);
   EXPECT_NEAR(d.box_axes.longest, 1.0, 1e-9);
@@ -73,8 +75,8 @@ TEST(DetailedDescriptors, TurnAndScaleAsTheyShould) {
   const IndexedMesh mesh = test::lumpy(2);
   const DetailedDescriptors a = describe(mesh);
   const double scale = 1e-6;
-  const DetailedDescriptors b =
-      describe(test::transformed(mesh, scale * test::random_rotation(2), {1e-5, 0, 0}));
+  const DetailedDescriptors b = describe(
+      test::transformed(mesh, scale * test::random_rotation(test::announced(2)), {1e-5, 0, 0}));
   EXPECT_NEAR(b.equivalent_diameter / scale, a.equivalent_diameter, 1e-9);
   EXPECT_NEAR(b.convexity, a.convexity, 1e-9);
   EXPECT_NEAR(b.inscribed_sphere.radius / scale, a.inscribed_sphere.radius, 2e-3);

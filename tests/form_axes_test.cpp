@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/error.h"
 
@@ -33,7 +34,7 @@ TEST(FormAxes, EllipsoidHasItsAxes) {
     SCOPED_TRACE(times);
     const FormAxes axes =
         oriented_box_axes(test::transformed(test::scaled(test::sphere(times), {0.5, 0.75, 1.0}),
-                                            test::random_rotation(11))
+                                            test::random_rotation(test::announced(11)))
                               .points);
     EXPECT_NEAR(axes.shortest, 1.0, times == 2 ? 5e-2 : 5e-3);
     EXPECT_NEAR(axes.intermediate, 1.5, times == 2 ? 5e-2 : 5e-3);

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -51,7 +52,7 @@ TEST_F(HarmonicIo, ComplexCoefficientsGiveTheSumOfComplexHarmonics) {
   const HarmonicSurface surface = read_complex_harmonics(path_);
   EXPECT_EQ(surface.degree(), 2);
   using Complex = std::complex<double>;
-  for (const Vector3& u : random_directions(50, 3)) {
+  for (const Vector3& u : random_directions(50, test::announced(3))) {
     const double x = u.x();
     const double y = u.y();
     const double z = u.z();
@@ -100,7 +101,8 @@ TEST_F(HarmonicIo, MalformedTextIsRefusedWithItsLine) {
 
 TEST_F(HarmonicIo, JsonGivesTheSameBitsBack) {
   std::vector<double> coefficients = {3.5};
-  for (const Vector3& u : random_directions(35, 4)) coefficients.push_back(0.05 * u.x());
+  for (const Vector3& u : random_directions(35, test::announced(4)))
+    coefficients.push_back(0.05 * u.x());
   const HarmonicSurface surface(coefficients);
   write_harmonics(path_, surface);
   EXPECT_EQ(read_harmonics(path_).coefficients(), coefficients);

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "plain_fit.h"
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -21,7 +22,7 @@ const double pi = std::acos(-1.0);
 /// A grain about one unit across, positive, with harmonics to `degree`.
 std::vector<double> grain_coefficients(int degree, std::uint64_t seed) {
   const std::vector<Vector3> random =
-      random_directions(static_cast<int>(harmonic_count(degree)), seed);
+      random_directions(static_cast<int>(harmonic_count(degree)), test::announced(seed));
   std::vector<double> coefficients;
   for (int l = 0; l <= degree; ++l) {
     for (int m = -l; m <= l; ++m) {
@@ -41,8 +42,8 @@ struct TestSamples {
 /// Random directions, noise, and weights between 0.1 and 2.7.
 TestSamples noisy_samples(int count, int degree, double noise) {
   TestSamples samples;
-  samples.directions = random_directions(count, 5);
-  const std::vector<Vector3> random = random_directions(count, 9);
+  samples.directions = random_directions(count, test::announced(5));
+  const std::vector<Vector3> random = random_directions(count, test::announced(9));
   samples.radii =
       HarmonicSurface(grain_coefficients(degree, 3)).radii(samples.directions, Execution(1));
   for (std::size_t i = 0; i < random.size(); ++i) {
@@ -255,7 +256,7 @@ TEST(HarmonicSurface, GradientEnergyFromCoefficients) {
 
 TEST(HarmonicSurface, JetsAgreeWithRadii) {
   const HarmonicSurface surface(grain_coefficients(10, 4));
-  const std::vector<Vector3> u = random_directions(100, 12);
+  const std::vector<Vector3> u = random_directions(100, test::announced(12));
   const std::vector<double> radii = surface.radii(u, Execution(2));
   const std::vector<RadialJet> jets = surface.jets(u, Derivatives::Second, Execution(2));
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(radii[i], jets[i].radius);

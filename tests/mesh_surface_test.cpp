@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/error.h"
 #include "wscvt/mesh_check.h"
@@ -41,7 +42,7 @@ double brute_force_radius(const IndexedMesh& mesh, const Vector3& u) {
 TEST(MeshSurface, GivesTheRadiusOfABox) {
   const Vector3 half(0.5, 1.0, 1.5);
   const MeshSurface surface = surface_of(test::box(1, 2, 3));
-  for (const Vector3& u : random_directions(2000, 1)) {
+  for (const Vector3& u : random_directions(2000, test::announced(1))) {
     const double expected = (half.array() / u.array().abs()).minCoeff();
     EXPECT_NEAR(surface.radius(u), expected, 1e-14 * expected);
   }
@@ -53,13 +54,13 @@ TEST(MeshSurface, MovesAndScales) {
       test::transformed(test::lumpy(3), 5.0 * Eigen::Matrix3d::Identity(), centre);
   const MeshSurface moved = surface_of(mesh, centre, 5.0);
   const MeshSurface plain = surface_of(test::lumpy(3));
-  for (const Vector3& u : random_directions(500, 2)) {
+  for (const Vector3& u : random_directions(500, test::announced(2))) {
     EXPECT_NEAR(moved.radius(u), plain.radius(u), 1e-8);  // positions there carry 5e-10
   }
 }
 
 TEST(MeshSurface, AgreesWithTestingEveryTriangle) {
-  const Eigen::Matrix3d rotation = test::random_rotation(4);
+  const Eigen::Matrix3d rotation = test::random_rotation(test::announced(4));
   const struct {
     IndexedMesh mesh;
     Vector3 centre;
@@ -73,7 +74,7 @@ TEST(MeshSurface, AgreesWithTestingEveryTriangle) {
   };
   for (const auto& c : cases) {
     const MeshSurface surface = surface_of(c.mesh, c.centre);
-    for (const Vector3& u : random_directions(1000, 5)) {
+    for (const Vector3& u : random_directions(1000, test::announced(5))) {
       const double expected = brute_force_radius(surface.mesh(), u);
       // Conditioning of a grazing hit: the torus is met at down to a hundredth of a radian.
       ASSERT_NEAR(surface.radius(u), expected, 1e-11) << u.transpose();
@@ -84,7 +85,7 @@ TEST(MeshSurface, AgreesWithTestingEveryTriangle) {
 TEST(MeshSurface, MissesNoEdgeAndNoVertex) {
   for (const IndexedMesh& mesh :
        {test::sphere(4), test::lumpy(4), test::box(1, 1, 1), test::tetrahedron(1),
-        test::transformed(test::lumpy(4), test::random_rotation(6))}) {
+        test::transformed(test::lumpy(4), test::random_rotation(test::announced(6)))}) {
     const MeshSurface surface = surface_of(mesh);
     for (const Vector3& p : mesh.points) {
       EXPECT_NEAR(surface.outermost_hit(p.normalized()).radius, p.norm(), 1e-13 * p.norm());
@@ -113,10 +114,10 @@ TEST(MeshSurface, TakesTheOutermostSheet) {
 TEST(MeshSurface, DerivativesAreThoseOfTheFacet) {
   // Within one triangle the radius is analytic: differences against the jet.
   const MeshSurface surface =
-      surface_of(test::transformed(test::lumpy(2), test::random_rotation(8)));
+      surface_of(test::transformed(test::lumpy(2), test::random_rotation(test::announced(8))));
   const double step = 1e-4;
   std::size_t tried = 0;
-  for (const Vector3& u : random_directions(300, 9)) {
+  for (const Vector3& u : random_directions(300, test::announced(9))) {
     const Vector3 e = u.unitOrthogonal();
     const Vector3 f = u.cross(e);
     const std::int32_t here = surface.outermost_hit(u).triangle;
@@ -182,7 +183,7 @@ TEST(MeshSurface, IntegratesToTheVolumeOfTheMesh) {
 
 TEST(MeshSurface, GivesTheSameBytesOnAnyNumberOfThreads) {
   const IndexedMesh mesh = test::lumpy(5);
-  const std::vector<Vector3> u = random_directions(5000, 11);
+  const std::vector<Vector3> u = random_directions(5000, test::announced(11));
   const MeshSurface one(mesh, Vector3::Zero(), 1.3, Execution(1));
   const MeshSurface four(mesh, Vector3::Zero(), 1.3, Execution(4));
   EXPECT_EQ(one.radii(u, Execution(1)), four.radii(u, Execution(4)));

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/distances.h"
 #include "wscvt/error.h"
@@ -73,7 +74,7 @@ TEST(LeastSquaresRadii, ScaleAndTurnWithTheSurface) {
   const std::vector<double> radii = least_squares_radii(
       nodes.directions, nodes.triangles, MeshSurface(body, Vector3::Zero(), 1.0, Execution(1)),
       samples, Execution(1));
-  const Eigen::Matrix3d rotation = test::random_rotation(7);
+  const Eigen::Matrix3d rotation = test::random_rotation(test::announced(7));
   Nodes turned = nodes;
   for (Vector3& u : turned.directions) u = rotation * u;
   const std::vector<double> moved = least_squares_radii(

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/distances.h"
 #include "wscvt/error.h"
@@ -109,7 +110,7 @@ TEST(NodeRefinement, KeepsItsPromisesAndComesNearer) {
 TEST(NodeRefinement, MendsTheAnglesOfABadStart) {
   const IndexedMesh body = test::lumpy(4);
   Case start = on_surface(body, 200);
-  std::vector<Vector3> directions = random_directions(200, 5);
+  std::vector<Vector3> directions = random_directions(200, test::announced(5));
   start.triangulation = SphereTriangulation(directions);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     start.positions[i] = start.original.radius(directions[i]) * directions[i];
@@ -170,7 +171,7 @@ TEST(NodeRefinement, FollowsScaleAndRotation) {
     EXPECT_NEAR((large.positions[i] / factor - plain.positions[i]).norm(), 0.0, 1e-9);
   }
   // A rotation rounds, and what hangs on a comparison may come out otherwise: the distance holds.
-  const Eigen::Matrix3d rotation = test::random_rotation(3);
+  const Eigen::Matrix3d rotation = test::random_rotation(test::announced(3));
   const IndexedMesh turned_body = test::transformed(body, rotation);
   Case turned{start.positions, start.triangulation,
               MeshSurface(turned_body, Vector3::Zero(), 1.0, Execution(1))};

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/mesh_check.h"
 #include "wscvt/quadric_surface.h"
@@ -15,7 +16,7 @@ namespace {
 
 std::vector<Vector3> ellipsoid_points(int count, const Vector3& offset) {
   const Ellipsoid ellipsoid(Vector3(1.3, 0.9, 0.7));
-  std::vector<Vector3> points = random_directions(count, 5);
+  std::vector<Vector3> points = random_directions(count, test::announced(5));
   for (Vector3& p : points) p = offset + ellipsoid.radius(p) * p;
   return points;
 }

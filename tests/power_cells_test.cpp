@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -112,7 +113,7 @@ TEST(PowerCells, DensityPullsTheCentroidTowardsIt) {
 TEST(PowerCells, EnergyHasItsMinimumGradientAtTheCentroids) {
   // dE/dp_i = 2 area (p_i - centroid) for cells of equal power, by finite differences. The flat
   // fans follow the sphere only to h^2 = 4 pi / N = 0.6 %, which bounds the agreement.
-  std::vector<Vector3> seeds = random_directions(2000, 4);
+  std::vector<Vector3> seeds = random_directions(2000, test::announced(4));
   const PowerCells cells = cells_of(seeds, {});
   const std::size_t i = 700;
   const Vector3 along = seeds[i].unitOrthogonal();

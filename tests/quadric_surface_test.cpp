@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -17,7 +18,7 @@ namespace {
 const double pi = std::acos(-1.0);
 
 std::vector<Vector3> axes_and_random() {
-  std::vector<Vector3> u = random_directions(200, 6);
+  std::vector<Vector3> u = random_directions(200, test::announced(6));
   for (int i = 0; i < 3; ++i) {
     u.emplace_back(Vector3::Unit(i));
     u.emplace_back(-Vector3::Unit(i));
@@ -135,7 +136,7 @@ TEST(Superellipsoid, DerivativesAgreeWithDifferences) {
   expect_derivatives_agree_with_differences(Superellipsoid({1.0, 0.8, 0.65}, 0.4, 0.4),
                                             axes_and_random());
   expect_derivatives_agree_with_differences(Superellipsoid({1.0, 1.2, 0.9}, 0.5, 0.4),
-                                            random_directions(100, 3));
+                                            random_directions(100, test::announced(3)));
 }
 
 TEST(Superellipsoid, VolumeAgreesWithClosedForm) {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -48,7 +49,7 @@ class ShiftedSphere : public RadialSurface {
 TEST(RadialSurface, ShiftedSphereHasTheCurvaturesAndNormalsOfASphere) {
   const Vector3 center(0.4, -0.3, 0.6);
   const ShiftedSphere surface(2.0, center);
-  const std::vector<Vector3> u = random_directions(100, 1);
+  const std::vector<Vector3> u = random_directions(100, test::announced(1));
   const std::vector<RadialJet> jets = surface.jets(u, Derivatives::Second, Execution(1));
   for (std::size_t i = 0; i < u.size(); ++i) {
     const Vector3 expected_normal = (jets[i].radius * u[i] - center) / 2.0;
@@ -115,7 +116,7 @@ TEST(RadialSurface, GradientSquareOfAShiftedSphereToSecondOrder) {
 
 TEST(RadialSurface, ArraysCoverEveryDirectionOnce) {
   const ShiftedSphere surface(2.0, Vector3(0.1, 0.2, 0.3));
-  const std::vector<Vector3> u = random_directions(3001, 2);
+  const std::vector<Vector3> u = random_directions(3001, test::announced(2));
   const std::vector<double> radii = surface.radii(u, Execution(3));
   EXPECT_EQ(surface.calls.load(), 3001);
   for (std::size_t i = 0; i < u.size(); ++i) {

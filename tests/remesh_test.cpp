@@ -14,6 +14,7 @@
 #include "comma_decimals.h"
 #include "grains/ct_grain.h"
 #include "grains/marching_cubes.h"
+#include "seeds.h"
 #include "test_shapes.h"
 #include "wscvt/error.h"
 #include "wscvt/mesh_io.h"
@@ -180,7 +181,7 @@ TEST(Remesh, FarAwayOrTinyGrainsGiveTheSameMesh) {
 }
 
 TEST(Remesh, ShuffledVerticesAndFacesGiveTheSameTriangulation) {
-  std::mt19937 generator(17);
+  std::mt19937 generator(test::announced(17));
   std::vector<std::int32_t> order(sand().points.size());
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), generator);

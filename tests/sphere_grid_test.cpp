@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/harmonic_transform.h"
 #include "wscvt/sphere_sampling.h"
@@ -18,7 +19,7 @@ namespace {
 const double pi = std::acos(-1.0);
 
 std::vector<Vector3> directions_with_poles() {
-  std::vector<Vector3> u = random_directions(2000, 7);
+  std::vector<Vector3> u = random_directions(2000, test::announced(7));
   for (const double sign : {1.0, -1.0}) {
     u.emplace_back(sign * Vector3::UnitZ());
     u.emplace_back(sign * Vector3::UnitX());
@@ -125,7 +126,7 @@ TEST(SphereGrid, SpreadIsTheTransposeOfInterpolation) {
 }
 
 TEST(SphereGrid, SpreadHasTheSameBitsOnAnyNumberOfThreads) {
-  const std::vector<Vector3> u = random_directions(200000, 3);
+  const std::vector<Vector3> u = random_directions(200000, test::announced(3));
   const auto spread = [&](int threads) {
     return SphereGrid::spread(
                20, 2, 4, u,
@@ -153,7 +154,7 @@ TEST(SphereGrid, ValueDoesNotDependOnTheOtherDirections) {
         two_fields(3, directions, count, values);
       },
       Execution(1));
-  const std::vector<Vector3> u = random_directions(70, 2);
+  const std::vector<Vector3> u = random_directions(70, test::announced(2));
   std::vector<double> together(140);
   grid.interpolate(u.data(), u.size(), together.data());
   for (std::size_t i = 0; i < u.size(); ++i) {

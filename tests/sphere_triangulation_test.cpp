@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -93,10 +94,10 @@ TEST(SphereTriangulation, WorksOnSymmetricSeedsWhereManyAreCocircular) {
 }
 
 TEST(SphereTriangulation, DoesNotDependOnTheOrderOfTheSeeds) {
-  const std::vector<Vector3> seeds = random_directions(300, 11);
+  const std::vector<Vector3> seeds = random_directions(300, test::announced(11));
   std::vector<std::int32_t> order(seeds.size());
   std::iota(order.begin(), order.end(), 0);
-  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  std::shuffle(order.begin(), order.end(), std::mt19937(test::announced(5)));
   std::vector<Vector3> shuffled;
   for (const std::int32_t i : order) shuffled.push_back(seeds[i]);
   std::vector<Triangle> triangles = SphereTriangulation(shuffled).triangles();

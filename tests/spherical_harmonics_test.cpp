@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seeds.h"
 #include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
@@ -16,7 +17,7 @@ const double pi = std::acos(-1.0);
 
 std::vector<double> random_coefficients(int degree, std::uint64_t seed) {
   const std::vector<Vector3> random =
-      random_directions(static_cast<int>(harmonic_count(degree)), seed);
+      random_directions(static_cast<int>(harmonic_count(degree)), test::announced(seed));
   std::vector<double> coefficients;
   coefficients.reserve(random.size());
   for (const Vector3& u : random) coefficients.push_back(u.x());
@@ -30,7 +31,7 @@ std::vector<Vector3> directions_with_poles() {
     directions.emplace_back(Vector3(tilt, -0.5 * tilt, 1.0).normalized());
     directions.emplace_back(Vector3(-tilt, tilt, -1.0).normalized());
   }
-  for (const Vector3& u : random_directions(20, 7)) directions.push_back(u);
+  for (const Vector3& u : random_directions(20, test::announced(7))) directions.push_back(u);
   return directions;
 }
 
@@ -207,7 +208,7 @@ TEST(SphericalHarmonics, SurfaceLaplacianIsTheTraceOfTheHessian) {
 
 TEST(SphericalHarmonics, ValueDoesNotDependOnTheOtherDirections) {
   const HarmonicSeries series(random_coefficients(13, 2));
-  const std::vector<Vector3> u = random_directions(37, 4);
+  const std::vector<Vector3> u = random_directions(37, test::announced(4));
   std::vector<RadialJet> together(u.size());
   series.sum(u.data(), u.size(), Derivatives::Second, together.data());
   std::vector<double> values(u.size());
