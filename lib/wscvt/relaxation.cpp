@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -193,6 +194,27 @@ bool try_evaluation(Evaluation& evaluation, const std::vector<Vector3>& before,
   return false;
 }
 
+/// Notices steps that go round in circles: those of the surface metric need not lead downhill.
+class CycleWatch {
+ public:
+  /// Whether the displacement has been well above its smallest for too many steps since that. Below
+  /// 1e-3 h nothing is held against it: there a single flip takes it up for a while, and runs with
+  /// a finer tolerance come to rest sooner with momentum (cycles were seen at 0.01 h and more).
+  bool cycling_at(double displacement) {
+    if (displacement < smallest_) {
+      smallest_ = displacement;
+      steps_above_ = 0;
+    } else if (displacement > std::max(2.0 * smallest_, 1e-3)) {
+      ++steps_above_;
+    }
+    return steps_above_ >= 30;
+  }
+
+ private:
+  double smallest_ = std::numeric_limits<double>::infinity();
+  int steps_above_ = 0;
+};
+
 RelaxationResult relax_from(std::vector<Vector3> seeds,
                             std::optional<SphereTriangulation> triangulation,
                             const SeedModel& model, const RelaxationOptions& options,
@@ -212,14 +234,24 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
   std::vector<Vector3> arrived = seeds;
   std::vector<Vector3> stepped(count);
   double momentum = 1.0;
+  double factor = options.over_relaxation;
+  bool plain = false;
+  CycleWatch watch;
   while (true) {
     report.history.push_back(evaluation.step());
     const RelaxationStep& step = evaluation.step();
     report.converged = step.displacement < options.displacement_tolerance &&
                        step.area_spread < options.area_tolerance;
-    report.settled = !report.converged && step.displacement < 0.01 * options.displacement_tolerance;
+    // Plain steps are slow to rest; 0.3 of the tolerance leaves triangles as even.
+    const double rest = (plain ? 0.3 : 0.01) * options.displacement_tolerance;
+    report.settled = !report.converged && step.displacement < rest;
     if (report.converged || report.settled || report.iterations >= options.maximum_iterations) {
       break;
+    }
+    if (options.metric == RelaxationMetric::Surface && !plain &&
+        watch.cycling_at(step.displacement)) {
+      plain = true;
+      factor = std::min(1.0, factor);
     }
     ++report.iterations;
     execution.report(static_cast<double>(report.iterations) / (report.iterations + 50.0),
@@ -231,14 +263,13 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
         execution.parallel_sum(count, block_size, 0.0, [&](std::size_t begin, std::size_t end) {
           double part = 0.0;
           for (std::size_t i = begin; i < end; ++i) {
-            stepped[i] =
-                (sites[i] + options.over_relaxation * (centroids[i] - sites[i])).normalized();
+            stepped[i] = (sites[i] + factor * (centroids[i] - sites[i])).normalized();
             part += (seeds[i] - stepped[i]).dot(stepped[i] - arrived[i]);
           }
           return part;
         });
     double carry = 0.0;
-    if (options.acceleration) {
+    if (options.acceleration && !plain) {
       if (uphill > 0.0) momentum = 1.0;
       const double grown = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
       carry = (momentum - 1.0) / grown;

@@ -23,7 +23,10 @@ struct RelaxationOptions {
   double area_tolerance = 0.07;          ///< spread of cell area / target; > 0
   bool acceleration = true;              ///< momentum with restarts on top of the over-relaxed step
   /// Step factor towards the centroid: in (0, 2) without acceleration, where 1.8 does well, and in
-  /// (0, 4/3) with it, the limits of stability.
+  /// (0, 4/3) with it. Those are the limits of stability of the sphere metric, whose step goes down
+  /// the gradient of an energy. The surface metric's step does not: its cells are flat while its
+  /// seeds stay on their rays, so that on a rough grain no factor above 1 is sure to come to rest,
+  /// nor is momentum; see relax() for what is done then.
   double over_relaxation = 1.2;
 };
 
@@ -42,8 +45,9 @@ struct RelaxationLevel {
 
 struct RelaxationReport {
   bool converged = false;  ///< displacement and area spread both below their tolerances
-  /// The seeds have come to rest (a hundredth of the displacement tolerance) although the cells'
-  /// areas spread more than asked for: few nodes on a strongly bent surface cannot do better.
+  /// The seeds have come to rest (a hundredth of the displacement tolerance, or 0.3 of it with the
+  /// surface metric's plain steps) although the cells' areas spread more than asked for: few nodes
+  /// on a strongly bent surface cannot do better.
   bool settled = false;
   bool stuck = false;  ///< ended because even a short step further could not be triangulated
   int iterations = 0;  ///< with all the seeds
@@ -69,6 +73,11 @@ struct RelaxationResult {
 /// steps carry Nesterov's momentum, dropped whenever it points uphill (O'Donoghue and Candes 2015,
 /// "Adaptive restart for accelerated gradient schemes"). The target cell area is 3.118 w + C on the
 /// sphere and inversely proportional to the wanted density on the surface.
+///
+/// On rough grains such steps of the surface metric can go round in circles. Once the displacement
+/// has been above both twice its smallest and 1e-3 h for 30 steps since that, the rest are plain
+/// steps: factor 1 at most and no momentum. They are slower, but went to about 1e-3 h or less on
+/// every scan tried.
 ///
 /// Throws Error(InvalidInput) for options out of range or fewer than 4 seeds,
 /// Error(NumericalFailure) when the seeds cannot be triangulated, Error(Cancelled).
