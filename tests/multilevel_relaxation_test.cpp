@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "wscvt/error.h"
 #include "wscvt/mesh_quality.h"
 #include "wscvt/quadric_surface.h"
@@ -62,7 +64,8 @@ TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeightingAndMetric)
         EXPECT_TRUE(result.report.converged);
         EXPECT_EQ(result.seeds.size(), static_cast<std::size_t>(count));
         EXPECT_EQ(result.triangulation.triangles().size(), 2U * count - 4U);
-        EXPECT_EQ(result.report.coarser_levels.size(), 1U);
+        ASSERT_EQ(result.report.coarser_levels.size(), 1U);
+        EXPECT_TRUE(result.report.coarser_levels.front().converged);
       }
     }
   }
@@ -92,6 +95,30 @@ TEST(MultilevelRelaxation, RefusesAStartThatDoesNotFit) {
   const SurfaceSeedModel model = model_of(Weighting::Area, 1000);
   EXPECT_THROW(relax_multilevel(fibonacci_lattice(300), 1000, model, {}, {}, Execution(1)), Error);
   EXPECT_THROW(level_sizes(3, 20), Error);
+}
+
+TEST(MultilevelRelaxation, RefusesLevelsOutOfRange) {
+  EXPECT_NO_THROW(check_multilevel_options({}));
+  for (const double tolerance : {0.0, -1e-4, std::numeric_limits<double>::quiet_NaN()}) {
+    MultilevelOptions coarsest;
+    coarsest.coarsest_tolerance = tolerance;
+    EXPECT_THROW(relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, coarsest), Error);
+    MultilevelOptions middle;
+    middle.middle_tolerance = tolerance;
+    EXPECT_THROW(relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, middle), Error);
+  }
+}
+
+TEST(MultilevelRelaxation, SaysWhichCoarserLevelsConverged) {
+  // One iteration from a lattice is too few for the coarsest level.
+  const SurfaceSeedModel model = model_of(Weighting::Area, 1000);
+  RelaxationOptions options;
+  options.maximum_iterations = 1;
+  const RelaxationResult result =
+      relax_multilevel(fibonacci_lattice(251), 1000, model, options, {}, Execution(1));
+  ASSERT_EQ(result.report.coarser_levels.size(), 1U);
+  EXPECT_EQ(result.report.coarser_levels.front().iterations, 1);
+  EXPECT_FALSE(result.report.coarser_levels.front().converged);
 }
 
 }  // namespace

@@ -394,6 +394,7 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
         o.error_target.percent = 1.0;
       },
       "any number of nodes");
+  refused([](RemeshOptions& o) { o.levels.middle_tolerance = 0.0; }, "tolerances");
   refused([](RemeshOptions& o) { o.relaxation.maximum_iterations = -1; }, "iterations");
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -91,9 +92,21 @@ std::vector<int> level_sizes(int count, int coarsest_seeds) {
   return sizes;
 }
 
+void check_multilevel_options(const MultilevelOptions& options) {
+  if (options.coarsest_seeds < 4) {
+    throw Error(ErrorCode::InvalidInput, "The size of the coarsest level is " +
+                                             std::to_string(options.coarsest_seeds) +
+                                             "; give 4 or more.");
+  }
+  if (!(options.coarsest_tolerance > 0.0) || !(options.middle_tolerance > 0.0)) {
+    throw Error(ErrorCode::InvalidInput, "The levels' displacement tolerances must be above 0.");
+  }
+}
+
 RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const SeedModel& model,
                                   const RelaxationOptions& options, const MultilevelOptions& levels,
                                   const Execution& execution) {
+  check_multilevel_options(levels);
   const std::vector<int> sizes = level_sizes(count, levels.coarsest_seeds);
   if (static_cast<int>(start.size()) != sizes.front()) {
     throw Error(ErrorCode::InvalidInput, "The coarsest level has " + std::to_string(start.size()) +
@@ -105,6 +118,8 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
     if (level + 1 < sizes.size()) {
       const double tolerance = level == 0 ? levels.coarsest_tolerance : levels.middle_tolerance;
       result.displacement_tolerance = std::min(options.displacement_tolerance, tolerance);
+      // Few seeds on a rough grain never spread as little as the last level's may.
+      result.area_tolerance = std::numeric_limits<double>::infinity();
     }
     return result;
   };
@@ -121,7 +136,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
   RelaxationResult result = relax(std::move(start), model, options_of(0), execution_of(0));
   std::vector<RelaxationLevel> coarser;
   for (std::size_t level = 1; level < sizes.size(); ++level) {
-    coarser.push_back({sizes[level - 1], result.report.iterations});
+    coarser.push_back({sizes[level - 1], result.report.iterations, result.report.converged});
     std::vector<double> radii(result.seeds.size(), 1.0);
     if (options.metric == RelaxationMetric::Surface) model.radii(result.seeds, execution, radii);
     Tessellation fine = subdivide(result.seeds, radii, result.triangulation);

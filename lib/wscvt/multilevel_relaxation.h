@@ -12,8 +12,10 @@ struct MultilevelOptions {
   /// Smallest number of seeds of a level, >= 4. A tessellation of fewer than four times as many has
   /// one level.
   int coarsest_seeds = 250;
-  /// Displacement tolerances of the coarsest and of the levels between, if smaller than that of the
-  /// relaxation's own: an iteration there costs little and its evenness is inherited.
+  /// Displacement tolerances of the coarsest and of the levels between, > 0, if smaller than that
+  /// of the relaxation's own: an iteration there costs little and its evenness is inherited. The
+  /// spread of the cells' areas is asked for on the last level only, since fewer seeds may be
+  /// unable to reach it.
   double coarsest_tolerance = 1e-4;
   double middle_tolerance = 3e-4;
 };
@@ -29,9 +31,12 @@ std::vector<int> level_sizes(int count, int coarsest_seeds);
 /// A subdivided tessellation has six neighbours at nearly every seed and its cells' sizes already
 /// right, so the last level needs a few iterations where a lattice of as many seeds needs a
 /// hundred, and keeps far fewer pairs of five and seven neighbours. `start` must have
-/// level_sizes(...)[0] seeds. Errors as relax().
+/// level_sizes(...)[0] seeds. Errors as relax(), and Error(InvalidInput) for `levels` out of range.
 RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const SeedModel& model,
                                   const RelaxationOptions& options, const MultilevelOptions& levels,
                                   const Execution& execution);
+
+/// Throws Error(InvalidInput) for options out of range.
+void check_multilevel_options(const MultilevelOptions& options);
 
 }  // namespace wscvt

@@ -41,6 +41,7 @@ struct RelaxationStep {
 struct RelaxationLevel {
   int seeds = 0;
   int iterations = 0;
+  bool converged = false;  ///< to the level's tolerances (see MultilevelOptions)
 };
 
 struct RelaxationReport {

@@ -63,8 +63,7 @@ void check(const RemeshOptions& options) {
   require_enumerator(options.curvature_source, CurvatureSource::QuadricFit, "The curvature source");
   require_enumerator(options.placement, NodePlacement::LeastSquares, "The placement of the nodes");
   require_enumerator(options.seed_start, SeedStart::Random, "The start of the seeds");
-  require(options.levels.coarsest_seeds >= 4, "The size of the coarsest level",
-          std::to_string(options.levels.coarsest_seeds), "4 or more");
+  check_multilevel_options(options.levels);
   check_relaxation_options(options.relaxation);
   require_enumerator(options.error_target.measure, ErrorMeasure::Distance,
                      "The measure of the error target");

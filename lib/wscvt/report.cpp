@@ -433,7 +433,8 @@ Json json_of(const RelaxationReport& r) {
   }
   Json levels = Json::array();
   for (const RelaxationLevel& level : r.coarser_levels) {
-    levels.push_back({{"seeds", level.seeds}, {"iterations", level.iterations}});
+    levels.push_back(
+        {{"seeds", level.seeds}, {"iterations", level.iterations}, {"converged", level.converged}});
   }
   return {{"converged", r.converged},
           {"settled", r.settled},
