@@ -108,6 +108,7 @@ TEST_F(OutputFile, KnowsOneFileByItsNames) {
   EXPECT_TRUE(same_file(path("report.txt"), path("./report.txt")));
   EXPECT_TRUE(same_file(path("report.txt"), path("link.txt")));
   EXPECT_TRUE(same_file(path("not there"), path("./not there")));
+  EXPECT_TRUE(same_file("not there", "./not there"));
   EXPECT_FALSE(same_file(path("report.txt"), path("other.txt")));
   EXPECT_FALSE(same_file("", ""));
 }

@@ -84,11 +84,14 @@ void write_file(const std::string& path, const std::string& content) {
 
 bool same_file(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
-  std::error_code error;
-  const std::filesystem::path first = std::filesystem::weakly_canonical(a, error);
-  if (error) return a == b;
-  const std::filesystem::path second = std::filesystem::weakly_canonical(b, error);
-  return error ? a == b : first == second;
+  // A relative name of no file stays relative in weakly_canonical.
+  const auto canonical = [](const std::string& path) {
+    std::error_code error;
+    const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+    const std::filesystem::path result = std::filesystem::weakly_canonical(absolute, error);
+    return error ? absolute : result;
+  };
+  return canonical(a) == canonical(b);
 }
 
 }  // namespace wscvt
