@@ -103,13 +103,5 @@ TEST(DescriptorTable, JsonHoldsTheNumbers) {
   EXPECT_EQ(single.at("one").at("unit"), "length");
 }
 
-TEST(DescriptorTable, CsvIsAHeaderAndARow) {
-  EXPECT_EQ(table_csv(two_rows(), {"scan", "mesh"}),
-            "volume_scan,volume_mesh,volume_error_percent,ssk_scan,ssk_mesh,ssk_error_percent\r\n"
-            "0.1,0.2,100,0.3333333333333333,,\r\n");
-  EXPECT_EQ(table_csv({{"one", "first", "", 1.5}, {"two", "second", "", 2.0}}),
-            "one,two\r\n1.5,2\r\n");
-}
-
 }  // namespace
 }  // namespace wscvt

@@ -147,28 +147,4 @@ std::string table_json(const std::vector<DescriptorComparison>& rows,
   return table.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string table_csv(const std::vector<DescriptorValue>& values) {
-  std::vector<std::string> header;
-  std::vector<std::string> fields;
-  for (const DescriptorValue& row : values) {
-    header.push_back(row.key);
-    fields.push_back(format_exact(row.value));
-  }
-  return csv_record(header) + csv_record(fields);
-}
-
-std::string table_csv(const std::vector<DescriptorComparison>& rows, const ComparisonNames& names) {
-  std::vector<std::string> header;
-  std::vector<std::string> fields;
-  for (const DescriptorComparison& row : rows) {
-    header.push_back(row.key + "_" + names.reference);
-    header.push_back(row.key + "_" + names.value);
-    header.push_back(row.key + "_error_percent");
-    fields.push_back(format_exact(row.reference));
-    fields.push_back(format_exact(row.value));
-    fields.push_back(format_exact(row.error_percent));
-  }
-  return csv_record(header) + csv_record(fields);
-}
-
 }  // namespace wscvt

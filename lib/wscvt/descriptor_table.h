@@ -52,10 +52,4 @@ std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& ro
 std::string table_json(const std::vector<DescriptorValue>& values);
 std::string table_json(const std::vector<DescriptorComparison>& rows, const ComparisonNames& names);
 
-/// CSV after RFC 4180, a header and one row: a column a descriptor under its key; for two meshes
-/// the columns key_reference, key_value and key_error_percent with the names in place. Numbers read
-/// back to the same bits; those that are not finite are empty.
-std::string table_csv(const std::vector<DescriptorValue>& values);
-std::string table_csv(const std::vector<DescriptorComparison>& rows, const ComparisonNames& names);
-
 }  // namespace wscvt

@@ -24,9 +24,9 @@ Execution::Execution(int threads, ProgressCallback progress) : progress_(std::mo
     throw Error(ErrorCode::InvalidInput, "The number of threads is " + std::to_string(threads) +
                                              "; give 0 for all of the machine's, or 1 and more.");
   }
-  threads_ = threads > 0 ? threads : tbb::info::default_concurrency();
+  const int machine = tbb::info::default_concurrency();
   // More than the machine has would gain nothing, and TBB writes a warning to stderr.
-  const int workers = std::min(threads_, tbb::info::default_concurrency());
+  const int workers = threads > 0 ? std::min(threads, machine) : machine;
   if (workers > 1) arena_ = std::make_shared<Arena>(workers);
 }
 

@@ -22,8 +22,6 @@ class Execution {
   /// `threads`: 0 means as many as the machine has. Throws Error(InvalidInput) below 0.
   explicit Execution(int threads = 0, ProgressCallback progress = {});
 
-  int threads() const { return threads_; }
-
   /// Reports progress; throws Error(Cancelled) if the callback asks to stop. `fraction` is relative
   /// to the part of the work this Execution stands for (see `part`).
   void report(double fraction, const std::string& stage) const;
@@ -53,7 +51,6 @@ class Execution {
 
  private:
   class Arena;
-  int threads_;
   std::shared_ptr<Arena> arena_;
   ProgressCallback progress_;
   double progress_begin_ = 0.0;

@@ -11,7 +11,6 @@ class Ellipsoid : public RadialSurface {
   /// Semi-axes in length units, each > 0 and finite, else Error(InvalidInput).
   explicit Ellipsoid(const Vector3& semi_axes);
 
-  const Vector3& semi_axes() const { return semi_axes_; }
   void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,
                 RadialJet* jets) const override;
 

@@ -441,7 +441,8 @@ void add_warnings(RemeshResult& result) {
   }
   if (result.input.genus > 0) {
     warn("The scan has " + std::to_string(result.input.genus) +
-         " holes through it (genus); the remesh closes them.");
+         (result.input.genus == 1 ? " hole" : " holes") +
+         " through it (genus), which the remesh closes.");
   }
   if (result.fit.degree < result.fit.requested_degree) {
     const std::string lowered = "The harmonic degree was lowered from " +

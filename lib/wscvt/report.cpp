@@ -2,6 +2,7 @@
 #include "wscvt/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -264,7 +265,8 @@ void append_search(const RemeshResult& result, std::vector<std::string>& lines) 
   text += std::to_string(result.search->node_count) + " nodes. Tried";
   for (const NodeCountTrial& trial : result.search->trials) {
     text += (&trial == &result.search->trials.front() ? " " : ", ") +
-            std::to_string(trial.node_count) + ": " + format_number(trial.error, 3) + " %";
+            std::to_string(trial.node_count) + ": " +
+            (std::isfinite(trial.error) ? format_number(trial.error, 3) + " %" : "not possible");
   }
   lines.push_back(line("Target", text));
 }

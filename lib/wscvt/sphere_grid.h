@@ -40,7 +40,6 @@ class SphereGrid {
   SphereGrid(int rows, int channels, int stencil, const std::vector<double>& values);
 
   int rows() const { return rows_; }
-  int channels() const { return channels_; }
 
   /// Cosines and sines of theta of the rows of a grid.
   static std::vector<double> row_cosines(int rows);

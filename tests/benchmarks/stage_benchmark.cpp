@@ -8,20 +8,25 @@
 #include <string>
 
 #include "dense_grain.h"
+#include "wscvt/distances.h"
 #include "wscvt/harmonic_surface.h"
 #include "wscvt/mesh_check.h"
 #include "wscvt/mesh_io.h"
+#include "wscvt/mesh_quality.h"
 #include "wscvt/mesh_surface.h"
+#include "wscvt/node_placement.h"
+#include "wscvt/node_refinement.h"
 #include "wscvt/power_cells.h"
 #include "wscvt/radial_samples.h"
 #include "wscvt/relaxation.h"
 #include "wscvt/remesh.h"
+#include "wscvt/shape_descriptors.h"
 #include "wscvt/sphere_sampling.h"
 
 namespace wscvt {
 namespace {
 
-/// The same scan for every benchmark of one size.
+/// The same scan for every benchmark of one size; made at the first call, which must not be timed.
 const IndexedMesh& scan_of(std::int64_t vertices) {
   static std::map<std::int64_t, IndexedMesh> scans;
   const auto found = scans.find(vertices);
@@ -60,16 +65,44 @@ void read_ply(benchmark::State& state) {
 
 void check(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
+  const IndexedMesh& scan = scan_of(state.range(0));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(check_mesh(scan_of(state.range(0)), {}, execution));
+    benchmark::DoNotOptimize(check_mesh(scan, {}, execution));
   }
   count(state, state.range(0));
 }
 
 void sample_radii(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
+  const IndexedMesh& scan = scan_of(state.range(0));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(radial_samples(scan_of(state.range(0)), execution));
+    benchmark::DoNotOptimize(radial_samples(scan, execution));
+  }
+  count(state, state.range(0));
+}
+
+void write_ply(benchmark::State& state) {
+  const std::string path = "stage_benchmark.ply";
+  const IndexedMesh& scan = scan_of(state.range(0));
+  for (auto _ : state) write_mesh(scan, path);
+  std::remove(path.c_str());
+  count(state, state.range(0));
+}
+
+void measure(benchmark::State& state) {
+  const Execution execution(static_cast<int>(state.range(1)));
+  const IndexedMesh& scan = scan_of(state.range(0));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(describe_shape(scan, execution));
+    benchmark::DoNotOptimize(measure_quality(scan, execution));
+  }
+  count(state, state.range(0));
+}
+
+void prepare_distances(benchmark::State& state) {
+  const IndexedMesh& scan = scan_of(state.range(0));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(MeshDistance(scan).distance(Vector3::Zero()));
   }
   count(state, state.range(0));
 }
@@ -89,6 +122,18 @@ void tabulate_weights(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(model_of(static_cast<int>(state.range(0)), execution));
   }
+  count(state, state.range(0));
+}
+
+void warp_lattice(benchmark::State& state) {
+  const auto nodes = static_cast<int>(state.range(0));
+  const Execution execution(static_cast<int>(state.range(1)));
+  const SurfaceSeedModel model = model_of(nodes, execution);
+  const auto density = [&](const std::vector<Vector3>& directions) {
+    return model.number_densities(directions, execution);
+  };
+  for (auto _ : state) benchmark::DoNotOptimize(warped_lattice(nodes, density, 360));
+  count(state, nodes);
 }
 
 void triangulate(benchmark::State& state) {
@@ -137,12 +182,64 @@ void relaxation(benchmark::State& state, RelaxationMetric metric) {
   count(state, nodes);
 }
 
+/// The rays of the nodes onto a scan of 100,000 vertices.
 void cast_rays(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
-  const MeshSurface rays(scan_of(state.range(0)), Vector3::Zero(), 1.0, execution);
-  const std::vector<Vector3> directions = fibonacci_lattice(100000);
+  const MeshSurface rays(scan_of(100000), Vector3::Zero(), 1.0, execution);
+  const std::vector<Vector3> directions = fibonacci_lattice(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(rays.radii(directions, execution));
-  count(state, 100000);
+  count(state, state.range(0));
+}
+
+/// Nodes on the lattice, placed by least squares towards a scan of 100,000 vertices.
+struct Fitted {
+  Fitted(int nodes, const Execution& execution)
+      : rays(scan_of(100000), Vector3::Zero(), 1.0, execution),
+        directions(fibonacci_lattice(nodes)),
+        triangulation(directions) {}
+
+  std::vector<double> radii(const Execution& execution) const {
+    return least_squares_radii(directions, triangulation.triangles(), rays, 60000, execution);
+  }
+
+  MeshSurface rays;
+  std::vector<Vector3> directions;
+  SphereTriangulation triangulation;
+};
+
+void place_by_least_squares(benchmark::State& state) {
+  const Execution execution(static_cast<int>(state.range(1)));
+  const Fitted nodes(static_cast<int>(state.range(0)), execution);
+  for (auto _ : state) benchmark::DoNotOptimize(nodes.radii(execution));
+  count(state, state.range(0));
+}
+
+void refine_one_round(benchmark::State& state) {
+  const Execution execution(static_cast<int>(state.range(1)));
+  const Fitted nodes(static_cast<int>(state.range(0)), execution);
+  const std::vector<double> radii = nodes.radii(execution);
+  std::vector<Vector3> positions;
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    positions.push_back(radii[i] * nodes.directions[i]);
+  RefinementOptions options;
+  options.rounds = 1;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        refine_nodes(positions, nodes.triangulation, nodes.rays, options, execution));
+  }
+  count(state, state.range(0));
+}
+
+void measure_to_scan(benchmark::State& state) {
+  const Execution execution(static_cast<int>(state.range(1)));
+  const MeshDistance to_scan(scan_of(100000));
+  const IndexedMesh& coarse = scan_of(state.range(0));
+  const IndexedMesh& scan = scan_of(100000);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        measure_distances(coarse, scan, to_scan, DistanceOptions(), execution));
+  }
+  count(state, state.range(0));
 }
 
 void whole(benchmark::State& state) {
@@ -150,8 +247,9 @@ void whole(benchmark::State& state) {
   options.weighting = Weighting::Area;
   options.node_count = static_cast<int>(state.range(1));
   const Execution execution(static_cast<int>(state.range(2)));
+  const IndexedMesh& scan = scan_of(state.range(0));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(remesh(scan_of(state.range(0)), options, execution));
+    benchmark::DoNotOptimize(remesh(scan, options, execution));
   }
 }
 void whole_by_input(benchmark::State& state) {
@@ -163,52 +261,66 @@ void whole_by_nodes(benchmark::State& state) {
   count(state, state.range(1));
 }
 
-void sizes_and_threads(benchmark::internal::Benchmark* b) {
-  for (const std::int64_t threads : {1, 2}) {
-    for (const std::int64_t vertices : {10000, 100000, 1000000}) b->Args({vertices, threads});
-  }
+// One family a number of threads, so that each has a complexity fit of its own.
+template <int Threads>
+void sizes(benchmark::internal::Benchmark* b) {
+  for (const std::int64_t vertices : {10000, 100000, 1000000}) b->Args({vertices, Threads});
+  b->UseRealTime()->Complexity();
 }
-void nodes_and_threads(benchmark::internal::Benchmark* b) {
-  for (const std::int64_t threads : {1, 2}) {
-    for (const std::int64_t nodes : {1000, 10000, 100000}) b->Args({nodes, threads});
-  }
+template <int Threads>
+void nodes(benchmark::internal::Benchmark* b) {
+  for (const std::int64_t count : {1000, 10000, 100000}) b->Args({count, Threads});
+  b->UseRealTime()->Complexity();
+}
+template <int Threads>
+void scans(benchmark::internal::Benchmark* b) {
+  for (const std::int64_t vertices : {7228, 100000, 1000000}) b->Args({vertices, 1000, Threads});
+  b->UseRealTime()->Complexity();
+}
+template <int Threads>
+void counts(benchmark::internal::Benchmark* b) {
+  for (const std::int64_t count : {1000, 10000, 100000}) b->Args({100000, count, Threads});
+  b->UseRealTime()->Complexity();
 }
 
+// Stages that run on one thread whatever they are given.
 BENCHMARK(read_ply)->Arg(10000)->Arg(100000)->Arg(1000000)->Complexity();
-BENCHMARK(check)->Apply(sizes_and_threads)->UseRealTime()->Complexity();
-BENCHMARK(sample_radii)->Apply(sizes_and_threads)->UseRealTime()->Complexity();
-BENCHMARK(fit_degree_30)->Apply(sizes_and_threads)->UseRealTime()->Complexity();
-BENCHMARK(tabulate_weights)->Args({1000, 1})->Args({100000, 1})->UseRealTime();
+BENCHMARK(write_ply)->Arg(10000)->Arg(100000)->Arg(1000000)->Complexity();
+BENCHMARK(prepare_distances)->Arg(10000)->Arg(100000)->Arg(1000000)->Complexity();
 BENCHMARK(triangulate)->Arg(1000)->Arg(10000)->Arg(100000)->Complexity();
-BENCHMARK_CAPTURE(relaxation_step, sphere, RelaxationMetric::Sphere)
-    ->Apply(nodes_and_threads)
-    ->UseRealTime()
-    ->Complexity();
-BENCHMARK_CAPTURE(relaxation_step, surface, RelaxationMetric::Surface)
-    ->Apply(nodes_and_threads)
-    ->UseRealTime()
-    ->Complexity();
-BENCHMARK_CAPTURE(relaxation, sphere, RelaxationMetric::Sphere)
-    ->Apply(nodes_and_threads)
-    ->UseRealTime()
-    ->Complexity();
-BENCHMARK_CAPTURE(relaxation, surface, RelaxationMetric::Surface)
-    ->Apply(nodes_and_threads)
-    ->UseRealTime()
-    ->Complexity();
-BENCHMARK(cast_rays)->Apply(sizes_and_threads)->UseRealTime();
-BENCHMARK(whole_by_input)
-    ->Args({7228, 1000, 1})
-    ->Args({100000, 1000, 1})
-    ->Args({1000000, 1000, 1})
-    ->UseRealTime()
-    ->Complexity();
-BENCHMARK(whole_by_nodes)
-    ->Args({100000, 1000, 1})
-    ->Args({100000, 10000, 1})
-    ->Args({100000, 100000, 1})
-    ->UseRealTime()
-    ->Complexity();
+
+BENCHMARK(check)->Apply(sizes<1>);
+BENCHMARK(check)->Apply(sizes<2>);
+BENCHMARK(sample_radii)->Apply(sizes<1>);
+BENCHMARK(sample_radii)->Apply(sizes<2>);
+BENCHMARK(fit_degree_30)->Apply(sizes<1>);
+BENCHMARK(fit_degree_30)->Apply(sizes<2>);
+BENCHMARK(measure)->Apply(sizes<1>);
+BENCHMARK(measure)->Apply(sizes<2>);
+BENCHMARK(tabulate_weights)->Apply(nodes<1>);
+BENCHMARK(tabulate_weights)->Apply(nodes<2>);
+BENCHMARK(warp_lattice)->Apply(nodes<1>);
+BENCHMARK(warp_lattice)->Apply(nodes<2>);
+BENCHMARK_CAPTURE(relaxation_step, sphere, RelaxationMetric::Sphere)->Apply(nodes<1>);
+BENCHMARK_CAPTURE(relaxation_step, sphere, RelaxationMetric::Sphere)->Apply(nodes<2>);
+BENCHMARK_CAPTURE(relaxation_step, surface, RelaxationMetric::Surface)->Apply(nodes<1>);
+BENCHMARK_CAPTURE(relaxation_step, surface, RelaxationMetric::Surface)->Apply(nodes<2>);
+BENCHMARK_CAPTURE(relaxation, sphere, RelaxationMetric::Sphere)->Apply(nodes<1>);
+BENCHMARK_CAPTURE(relaxation, sphere, RelaxationMetric::Sphere)->Apply(nodes<2>);
+BENCHMARK_CAPTURE(relaxation, surface, RelaxationMetric::Surface)->Apply(nodes<1>);
+BENCHMARK_CAPTURE(relaxation, surface, RelaxationMetric::Surface)->Apply(nodes<2>);
+BENCHMARK(cast_rays)->Apply(nodes<1>);
+BENCHMARK(cast_rays)->Apply(nodes<2>);
+BENCHMARK(place_by_least_squares)->Apply(nodes<1>);
+BENCHMARK(place_by_least_squares)->Apply(nodes<2>);
+BENCHMARK(refine_one_round)->Apply(nodes<1>);
+BENCHMARK(refine_one_round)->Apply(nodes<2>);
+BENCHMARK(measure_to_scan)->Apply(nodes<1>);
+BENCHMARK(measure_to_scan)->Apply(nodes<2>);
+BENCHMARK(whole_by_input)->Apply(scans<1>);
+BENCHMARK(whole_by_input)->Apply(scans<2>);
+BENCHMARK(whole_by_nodes)->Apply(counts<1>);
+BENCHMARK(whole_by_nodes)->Apply(counts<2>);
 
 }  // namespace
 }  // namespace wscvt
