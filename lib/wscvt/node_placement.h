@@ -12,8 +12,8 @@ namespace wscvt {
 /// Radii for which the flat triangles over `directions` are, all together, nearest to `surface`.
 ///
 /// On a flat triangle 1/r is linear in the barycentric coordinates of the direction, so the radii
-/// come from two sparse symmetric solves. Their squares, of the difference in 1/r, are weighted with
-/// dOmega g r^4 cos^2(tilt), which makes them squares of the distance square to the surface,
+/// come from two sparse symmetric solves. Their squares, of the difference in 1/r, are weighted
+/// with dOmega g r^4 cos^2(tilt), which makes them squares of the distance square to the surface,
 /// integrated over the surface; the second time also with (r_fit / r)^2 of the first fit, without
 /// which the spikes that few nodes may throw up hardly count. `samples` points are wanted in all.
 /// Every triangle gets the same square number of them, rounded up, but at least 9 and at most 1024.
