@@ -72,7 +72,9 @@ TEST_F(CommandLine, RefusesBadCallsWithASentenceAndWritesNothing) {
        {BadCall{"missing.ply remesh.ply -n 100", "missing.ply"},
         BadCall{sand_ + " remesh.ply -n 3", "from 4 to"},
         BadCall{sand_ + " remesh.ply -n many", "many"},
-        BadCall{sand_ + " remesh.ply -w heavy", "heavy"}, BadCall{sand_, "output"}}) {
+        BadCall{sand_ + " remesh.ply -w heavy", "heavy"},
+        BadCall{sand_ + " remesh.ply --coefficients ./report.json", "two names"},
+        BadCall{sand_, "output"}}) {
     SCOPED_TRACE(call.arguments);
     const Outcome outcome = run(call.arguments + " -j report.json");
     EXPECT_GT(outcome.exit_code, 0);

@@ -9,6 +9,7 @@
 
 #include "seeds.h"
 #include "wscvt/error.h"
+#include "wscvt/quadric_surface.h"
 #include "wscvt/sphere_sampling.h"
 
 namespace wscvt {
@@ -134,6 +135,17 @@ TEST(RadialSurface, SaddleHasCurvaturesOfBothSigns) {
   const PrincipalCurvatures k = principal_curvatures(jet, u);
   EXPECT_NEAR(k.maximum, 1.0, 1e-15);
   EXPECT_NEAR(k.minimum, -1.0, 1e-15);
+}
+
+TEST(RadialSurface, IntegratesUntilVolumeAndAreaStayOrRefuses) {
+  // 4 pi / 3 a b c and, of an octahedron, 4 / 3 a b c; the last two grids may differ by 1e-4.
+  const double rod = integrate(Ellipsoid({15.0, 1.0, 1.0}), Execution()).volume;
+  EXPECT_NEAR(rod / (20.0 * pi), 1.0, 1e-4);
+  const double octahedron =
+      integrate(Superellipsoid({3.0, 2.0, 1.0}, 2.0, 2.0), Execution()).volume;
+  EXPECT_NEAR(octahedron / 8.0, 1.0, 1e-4);
+  EXPECT_THROW(integrate(Ellipsoid({1000.0, 1.0, 1.0}), Execution()), Error);
+  EXPECT_THROW(integrate(Ellipsoid({1e6, 1.0, 1e-6}), Execution()), Error);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "wscvt/error.h"
 #include "wscvt/sphere_sampling.h"
 
 namespace wscvt {
@@ -111,6 +112,29 @@ SurfaceIntegrals integrate(const RadialSurface& surface, int polar_nodes,
   result.centroid = sums.segment<3>(2) / sums[0];
   result.gradient_square = sums[5];
   return result;
+}
+
+SurfaceIntegrals integrate(const RadialSurface& surface, const Execution& execution) {
+  constexpr int first_polar_nodes = 200;
+  constexpr int last_polar_nodes = 1600;
+  constexpr double tolerance = 1e-5;
+  constexpr double last_tolerance = 1e-4;
+  SurfaceIntegrals coarse = integrate(surface, first_polar_nodes, execution);
+  for (int polar_nodes = 2 * first_polar_nodes; polar_nodes <= last_polar_nodes; polar_nodes *= 2) {
+    const SurfaceIntegrals fine = integrate(surface, polar_nodes, execution);
+    if (!(fine.volume > 0.0) || !std::isfinite(fine.volume) || !std::isfinite(fine.area)) {
+      throw Error(
+          ErrorCode::InvalidInput,
+          "The surface encloses no volume about its origin; check its axes or coefficients.");
+    }
+    const double change = std::max(std::abs(fine.volume - coarse.volume) / fine.volume,
+                                   std::abs(fine.area - coarse.area) / fine.area);
+    if (change <= (polar_nodes < last_polar_nodes ? tolerance : last_tolerance)) return fine;
+    coarse = fine;
+  }
+  throw Error(ErrorCode::InvalidInput,
+              "Seen from its origin the surface is too long, too flat or too sharp to be measured; "
+              "make its axes more alike, or round its edges.");
 }
 
 }  // namespace wscvt

@@ -146,7 +146,9 @@ RemeshResult remesh(const Mesh& scan, const RemeshOptions& options,
 /// Discretises a surface given by a formula or by coefficients, about its own origin, in the same
 /// way. The surface takes the place of the fitted series, and of the scan where that is asked for;
 /// volume, area and sphericity of `original` are integrals over it, everything else is measured on
-/// a mesh of 40,962 of its points. `degree`, `check` and `fold_limit` have no meaning here.
+/// a mesh of 40,962 of its points. `degree`, `curvature_source`, `check` and `fold_limit` have no
+/// meaning here. Throws Error: InvalidInput for options out of range and surfaces that cannot be
+/// integrated (see integrate), NumericalFailure, Cancelled.
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
                     const Execution& execution = Execution());
 

@@ -318,6 +318,7 @@ TEST(Filter, AddsACurrentLayerAndKeepsTheScan) {
   MeshDocument document;
   MeshModel& scan = add_layer(document, grain());
   scan.cm.Tr.SetTranslate(1.0F, 2.0F, 3.0F);
+  scan.setLabel("grain%1.ply");  // looks like a place for another text
   const LayerState before = state_of(scan);
   RichParameterList parameters = loaded.parameters(document);
   parameters.setValue("NodeCount", IntValue(300));
@@ -327,7 +328,7 @@ TEST(Filter, AddsACurrentLayerAndKeepsTheScan) {
   EXPECT_TRUE(state_of(scan) == before);
   MeshModel& result = *document.mm();
   EXPECT_NE(&result, &scan);
-  EXPECT_EQ(result.label().toStdString(), "scan WSCVT-D 300");
+  EXPECT_EQ(result.label().toStdString(), "grain%1 WSCVT-D 300");
   EXPECT_EQ(result.cm.vn, 300);
   EXPECT_EQ(result.cm.fn, 2 * 300 - 4);
   EXPECT_TRUE(result.cm.Tr == scan.cm.Tr);
