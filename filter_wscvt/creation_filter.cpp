@@ -4,9 +4,9 @@
 #include <QFileInfo>
 
 #include "report_file.h"
-#include "wscvt/error.h"
-#include "wscvt/harmonic_io.h"
-#include "wscvt/quadric_surface.h"
+#include "wscvt/base/error.h"
+#include "wscvt/surface/harmonic_io.h"
+#include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt::filter {
 

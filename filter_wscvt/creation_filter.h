@@ -6,8 +6,8 @@
 
 #include "node_parameters.h"
 #include "parameters.h"
-#include "wscvt/radial_surface.h"
 #include "wscvt/remesh.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt::filter {
 

@@ -8,10 +8,10 @@
 #include "html_report.h"
 #include "log_text.h"
 #include "report_file.h"
-#include "wscvt/descriptor_table.h"
-#include "wscvt/error.h"
-#include "wscvt/output_file.h"
-#include "wscvt/text_format.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_table.h"
 
 namespace wscvt::filter {
 

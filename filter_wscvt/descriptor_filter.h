@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "parameters.h"
-#include "wscvt/detailed_descriptors.h"
-#include "wscvt/distances.h"
-#include "wscvt/execution.h"
-#include "wscvt/mesh_check.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/measures/detailed_descriptors.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt::filter {
 

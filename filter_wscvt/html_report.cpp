@@ -12,9 +12,9 @@
 #include <QPainter>
 #include <QSvgGenerator>
 
-#include "wscvt/error.h"
-#include "wscvt/mesh_quality.h"
-#include "wscvt/text_format.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/mesh_quality.h"
 
 namespace wscvt::filter {
 

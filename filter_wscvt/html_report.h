@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/descriptor_table.h"
-#include "wscvt/indexed_mesh.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/descriptor_table.h"
 
 namespace wscvt::filter {
 

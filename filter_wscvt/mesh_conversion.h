@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/error.h"
-#include "wscvt/mesh.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/mesh.h"
 
 namespace wscvt::filter {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "wscvt/error.h"
+#include "wscvt/base/error.h"
 
 namespace wscvt::filter {
 

@@ -9,11 +9,11 @@
 #include "html_report.h"
 #include "log_text.h"
 #include "report_file.h"
-#include "wscvt/descriptor_table.h"
-#include "wscvt/mesh_check.h"
-#include "wscvt/output_file.h"
-#include "wscvt/point_cloud.h"
-#include "wscvt/report.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/measures/descriptor_table.h"
+#include "wscvt/report/report.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/point_cloud.h"
 
 namespace wscvt::filter {
 

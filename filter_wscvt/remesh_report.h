@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "node_parameters.h"
-#include "wscvt/indexed_mesh.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/remesh.h"
 
 namespace wscvt::filter {

@@ -4,8 +4,8 @@
 #include <QFileInfo>
 #include <algorithm>
 
-#include "wscvt/error.h"
-#include "wscvt/output_file.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
 
 namespace wscvt::filter {
 

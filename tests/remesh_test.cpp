@@ -11,17 +11,17 @@
 #include <numeric>
 #include <random>
 
-#include "comma_decimals.h"
 #include "grains/ct_grain.h"
 #include "grains/marching_cubes.h"
-#include "seeds.h"
-#include "test_shapes.h"
-#include "wscvt/error.h"
-#include "wscvt/mesh_io.h"
-#include "wscvt/quadric_surface.h"
-#include "wscvt/report.h"
-#include "wscvt/sphere_sampling.h"
-#include "wscvt/sphere_triangulation.h"
+#include "support/comma_decimals.h"
+#include "support/seeds.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/report/report.h"
+#include "wscvt/scan/mesh_io.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
 namespace {

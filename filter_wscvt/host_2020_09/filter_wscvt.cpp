@@ -20,10 +20,10 @@
 #include "parameters.h"
 #include "remesh_filter.h"
 #include "remesh_report.h"
-#include "wscvt/error.h"
-#include "wscvt/execution.h"
-#include "wscvt/harmonic_io.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/execution.h"
 #include "wscvt/remesh.h"
+#include "wscvt/surface/harmonic_io.h"
 
 namespace {
 

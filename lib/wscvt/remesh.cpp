@@ -8,14 +8,14 @@
 #include <optional>
 #include <utility>
 
-#include "wscvt/curvature.h"
-#include "wscvt/error.h"
-#include "wscvt/mesh_surface.h"
-#include "wscvt/node_placement.h"
-#include "wscvt/point_cloud.h"
-#include "wscvt/radial_samples.h"
-#include "wscvt/sphere_sampling.h"
-#include "wscvt/text_format.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/nodes/node_placement.h"
+#include "wscvt/scan/point_cloud.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/curvature.h"
+#include "wscvt/surface/mesh_surface.h"
+#include "wscvt/surface/radial_samples.h"
 
 namespace wscvt {
 

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/distances.h"
-#include "wscvt/execution.h"
-#include "wscvt/harmonic_surface.h"
-#include "wscvt/mesh.h"
-#include "wscvt/mesh_check.h"
-#include "wscvt/mesh_quality.h"
-#include "wscvt/multilevel_relaxation.h"
-#include "wscvt/node_count_search.h"
-#include "wscvt/node_refinement.h"
-#include "wscvt/relaxation.h"
-#include "wscvt/shape_descriptors.h"
-#include "wscvt/weights.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/mesh.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/nodes/node_count_search.h"
+#include "wscvt/nodes/node_refinement.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/tessellation/multilevel_relaxation.h"
+#include "wscvt/tessellation/relaxation.h"
+#include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
 

@@ -27,9 +27,9 @@
 #include <vector>
 
 #include "grains/ct_grain.h"
-#include "test_shapes.h"
-#include "wscvt/mesh_io.h"
+#include "support/test_shapes.h"
 #include "wscvt/remesh.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "grains/ct_grain.h"
-#include "wscvt/sphere_sampling.h"
-#include "wscvt/sphere_triangulation.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt::test {
 

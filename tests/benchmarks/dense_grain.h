@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "wscvt/indexed_mesh.h"
+#include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt::test {
 

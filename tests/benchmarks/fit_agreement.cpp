@@ -5,10 +5,10 @@
 #include <exception>
 
 #include "dense_grain.h"
-#include "plain_fit.h"
-#include "wscvt/harmonic_surface.h"
-#include "wscvt/mesh_check.h"
-#include "wscvt/radial_samples.h"
+#include "support/plain_fit.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/radial_samples.h"
 
 namespace {
 

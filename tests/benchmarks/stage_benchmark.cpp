@@ -8,20 +8,20 @@
 #include <string>
 
 #include "dense_grain.h"
-#include "wscvt/distances.h"
-#include "wscvt/harmonic_surface.h"
-#include "wscvt/mesh_check.h"
-#include "wscvt/mesh_io.h"
-#include "wscvt/mesh_quality.h"
-#include "wscvt/mesh_surface.h"
-#include "wscvt/node_placement.h"
-#include "wscvt/node_refinement.h"
-#include "wscvt/power_cells.h"
-#include "wscvt/radial_samples.h"
-#include "wscvt/relaxation.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/nodes/node_placement.h"
+#include "wscvt/nodes/node_refinement.h"
 #include "wscvt/remesh.h"
-#include "wscvt/shape_descriptors.h"
-#include "wscvt/sphere_sampling.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/mesh_io.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/mesh_surface.h"
+#include "wscvt/surface/radial_samples.h"
+#include "wscvt/tessellation/power_cells.h"
+#include "wscvt/tessellation/relaxation.h"
 
 namespace wscvt {
 namespace {

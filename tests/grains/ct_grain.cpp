@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "marching_cubes.h"
-#include "wscvt/harmonic_surface.h"
-#include "wscvt/mesh_check.h"
-#include "wscvt/sphere_grid.h"
-#include "wscvt/sphere_sampling.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/sphere/sphere_grid.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/mesh.h"
+#include "wscvt/base/mesh.h"
 
 /// Grains made from formulas, and their scans: what the tests and the samples are made of.
 namespace wscvt::test {

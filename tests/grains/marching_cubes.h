@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "wscvt/mesh.h"
+#include "wscvt/base/mesh.h"
 
 namespace wscvt::test {
 

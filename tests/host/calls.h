@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/mesh.h"
+#include "wscvt/base/mesh.h"
 
 namespace wscvt::host_test {
 

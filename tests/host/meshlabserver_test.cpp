@@ -7,7 +7,7 @@
 #include "calls.h"
 #include "programs.h"
 #include "sample_meshes.h"
-#include "wscvt/mesh_io.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::host_test {
 namespace {

@@ -13,9 +13,9 @@
 #include "calls.h"
 #include "programs.h"
 #include "sample_meshes.h"
-#include "wscvt/harmonic_io.h"
-#include "wscvt/mesh_io.h"
-#include "wscvt/shape_descriptors.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/scan/mesh_io.h"
+#include "wscvt/surface/harmonic_io.h"
 
 namespace wscvt::host_test {
 namespace {

@@ -9,8 +9,8 @@
 #include "descriptor_filter.h"
 #include "remesh_report.h"
 #include "sample_meshes.h"
-#include "wscvt/error.h"
-#include "wscvt/report.h"
+#include "wscvt/base/error.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt::host_test {
 namespace {

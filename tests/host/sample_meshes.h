@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "wscvt/mesh.h"
+#include "wscvt/base/mesh.h"
 
 namespace wscvt::host_test {
 

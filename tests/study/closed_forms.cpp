@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "test_shapes.h"
-#include "wscvt/descriptor_table.h"
-#include "wscvt/detailed_descriptors.h"
+#include "support/test_shapes.h"
+#include "wscvt/measures/descriptor_table.h"
+#include "wscvt/measures/detailed_descriptors.h"
 
 namespace wscvt::study {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "study/table.h"
-#include "wscvt/execution.h"
+#include "wscvt/base/execution.h"
 
 namespace wscvt::study {
 

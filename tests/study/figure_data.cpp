@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "wscvt/harmonic_surface.h"
-#include "wscvt/mesh_quality.h"
-#include "wscvt/radial_surface.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt::study {
 

@@ -6,7 +6,7 @@
 
 #include "study/sampling_errors.h"
 #include "study/table.h"
-#include "wscvt/execution.h"
+#include "wscvt/base/execution.h"
 
 namespace wscvt::study {
 

@@ -15,8 +15,8 @@
 #include "study/reference_particles.h"
 #include "study/sampling_errors.h"
 #include "study/table.h"
-#include "wscvt/execution.h"
-#include "wscvt/mesh_io.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace {
 

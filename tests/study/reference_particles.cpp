@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "wscvt/harmonic_io.h"
-#include "wscvt/radial_surface.h"
-#include "wscvt/shape_descriptors.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/surface/harmonic_io.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt::study {
 

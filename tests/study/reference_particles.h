@@ -4,7 +4,7 @@
 #include <string>
 
 #include "study/table.h"
-#include "wscvt/execution.h"
+#include "wscvt/base/execution.h"
 
 namespace wscvt::study {
 

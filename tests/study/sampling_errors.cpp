@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <utility>
 
-#include "test_shapes.h"
-#include "wscvt/harmonic_surface.h"
-#include "wscvt/radial_surface.h"
-#include "wscvt/roughness.h"
-#include "wscvt/shape_descriptors.h"
-#include "wscvt/sphere_sampling.h"
-#include "wscvt/sphere_triangulation.h"
+#include "support/test_shapes.h"
+#include "wscvt/measures/roughness.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt::study {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "study/table.h"
-#include "wscvt/execution.h"
-#include "wscvt/indexed_mesh.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/remesh.h"
 
 namespace wscvt::study {

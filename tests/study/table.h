@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/output_file.h"
-#include "wscvt/text_format.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
 
 /// What the study measures, as rows of cells; the first row holds the names of the columns.
 namespace wscvt::study {

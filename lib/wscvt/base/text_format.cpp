@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/base/text_format.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+#include <utility>
+
+namespace wscvt {
+
+std::string format_number(double value, int significant) {
+  if (std::isnan(value)) return "-";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(significant) << value;
+  return text.str();
+}
+
+std::string format_percent(double share) { return format_number(100.0 * share, 3) + " %"; }
+
+std::string format_error(double percent) {
+  if (!std::isfinite(percent)) return "-";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::showpos;
+  if (percent != 0.0 && std::abs(percent) < 1e-3) {
+    text << std::scientific << std::setprecision(1);
+  } else {
+    text << std::fixed << std::setprecision(3);
+  }
+  text << percent;
+  return text.str();
+}
+
+std::string format_exact(double value) {
+  if (!std::isfinite(value)) return "";
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::vector<std::string> lines;
+  lines.reserve(rows.size());
+  for (const auto& row : rows) {
+    std::string text;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string padding(widths[c] - row[c].size(), ' ');
+      text += c == 0 ? row[c] + padding : "  " + padding + row[c];
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    lines.push_back(std::move(text));
+  }
+  return lines;
+}
+
+std::string csv_record(const std::vector<std::string>& fields) {
+  std::string record;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (i > 0) record += ',';
+    const std::string& field = fields[i];
+    if (field.find_first_of(",\"\r\n") == std::string::npos) {
+      record += field;
+      continue;
+    }
+    record += '"';
+    for (const char c : field) {
+      if (c == '"') record += '"';
+      record += c;
+    }
+    record += '"';
+  }
+  return record + "\r\n";
+}
+
+}  // namespace wscvt

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/descriptor_table.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+void append_axes(std::vector<DescriptorValue>& rows, const std::string& suffix,
+                 const std::string& convention, const FormAxes& axes, const FormRatios& ratios) {
+  const std::string in = " (" + convention + ")";
+  rows.push_back({"axis_s_" + suffix, "axis S" + in, "length", axes.shortest});
+  rows.push_back({"axis_i_" + suffix, "axis I" + in, "length", axes.intermediate});
+  rows.push_back({"axis_l_" + suffix, "axis L" + in, "length", axes.longest});
+  rows.push_back({"aspect_ratio_" + suffix, "aspect ratio S/L" + in, "", ratios.aspect_ratio});
+  rows.push_back(
+      {"zingg_elongation_" + suffix, "Zingg elongation I/L" + in, "", ratios.zingg_elongation});
+  rows.push_back(
+      {"zingg_flatness_" + suffix, "Zingg flatness S/I" + in, "", ratios.zingg_flatness});
+  rows.push_back({"kong_fonseca_elongation_" + suffix, "Kong-Fonseca elongation (L-I)/L" + in, "",
+                  ratios.kong_fonseca_elongation, false});
+  rows.push_back({"kong_fonseca_flatness_" + suffix, "Kong-Fonseca flatness (I-S)/I" + in, "",
+                  ratios.kong_fonseca_flatness, false});
+  rows.push_back({"krumbein_sphericity_" + suffix, "Krumbein sphericity" + in, "",
+                  ratios.krumbein_sphericity});
+}
+
+}  // namespace
+
+std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& d) {
+  return {
+      {"volume", "volume", "length^3", d.volume},
+      {"area", "surface area", "length^2", d.area},
+      {"aspect_ratio_inertia", "aspect ratio S/L (inertia ellipsoid)", "", d.aspect_ratio},
+      {"sphericity_wadell", "sphericity (Wadell)", "", d.sphericity},
+      {"sdq_invariant", "Sdq (invariant form)", "", d.sdq},
+      {"axis_s_inertia", "axis S (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[0]},
+      {"axis_i_inertia", "axis I (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[1]},
+      {"axis_l_inertia", "axis L (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[2]},
+  };
+}
+
+std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& d) {
+  std::vector<DescriptorValue> rows = {
+      {"volume", "volume", "length^3", d.basic.volume},
+      {"area", "surface area", "length^2", d.basic.area},
+      {"equivalent_diameter", "equivalent diameter", "length", d.equivalent_diameter},
+      {"sphericity_wadell", "sphericity (Wadell)", "", d.basic.sphericity},
+      {"convexity", "convexity V / V(hull)", "", d.convexity},
+      {"inscribed_radius", "radius of the largest inscribed sphere", "length",
+       d.inscribed_sphere.radius},
+  };
+  append_axes(rows, "inertia", "inertia ellipsoid", d.inertia_axes, d.inertia_ratios);
+  append_axes(rows, "box", "oriented box", d.box_axes, d.box_ratios);
+
+  const auto radial = [&d](double value) { return d.has_radius ? value : not_a_number; };
+  const std::string low = " (from degree " + std::to_string(d.roughness.degree) + ")";
+  rows.push_back({"roundness_wadell",
+                  "roundness (Wadell, degree " + std::to_string(d.roundness_degree) + ")", "",
+                  radial(d.roundness.roundness)});
+  rows.push_back({"sa", "roughness Sa" + low, "length", radial(d.roughness.sa)});
+  rows.push_back({"sq", "roughness Sq" + low, "length", radial(d.roughness.sq)});
+  rows.push_back({"ssk", "skewness Ssk" + low, "", radial(d.roughness.ssk), false});
+  rows.push_back({"sku", "kurtosis Sku" + low, "", radial(d.roughness.sku)});
+  rows.push_back({"sdq_invariant", "Sdq (invariant form)", "", d.basic.sdq});
+  rows.push_back({"sdq_printed", "Sdq (as printed, eq. 17, this pose)", "", radial(d.printed_sdq)});
+  rows.push_back({"orientation_f1", "surface orientation f1", "", d.orientation.eigenvalues[0]});
+  rows.push_back({"orientation_f2", "surface orientation f2", "", d.orientation.eigenvalues[1]});
+  rows.push_back({"orientation_f3", "surface orientation f3", "", d.orientation.eigenvalues[2]});
+  rows.push_back({"compactness", "compactness f3/f1", "", d.orientation.compactness});
+  rows.push_back({"flakiness", "flakiness (f1-f2)/f1", "", d.orientation.flakiness, false});
+  rows.push_back({"rodness", "rodness (f2-f3)/f1", "", d.orientation.rodness, false});
+  return rows;
+}
+
+std::vector<DescriptorComparison> compare_descriptors(const std::vector<DescriptorValue>& reference,
+                                                      const std::vector<DescriptorValue>& values) {
+  if (reference.size() != values.size()) {
+    throw Error(ErrorCode::InvalidInput,
+                "The two lists hold " + std::to_string(reference.size()) + " and " +
+                    std::to_string(values.size()) +
+                    " descriptors; compare lists made by the same function.");
+  }
+  std::vector<DescriptorComparison> rows;
+  rows.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const DescriptorValue& from = reference[i];
+    const DescriptorValue& to = values[i];
+    if (from.key != to.key) {
+      throw Error(ErrorCode::InvalidInput,
+                  "Row " + std::to_string(i) + " holds " + from.key + " in one list and " + to.key +
+                      " in the other; compare lists made by the same function.");
+    }
+    const double error =
+        from.on_ratio_scale ? relative_error_percent(to.value, from.value) : not_a_number;
+    rows.push_back({from.key, from.label, from.unit, from.value, to.value, error});
+  }
+  return rows;
+}
+
+std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values) {
+  std::vector<std::vector<std::string>> cells = {{"Descriptor", "value"}};
+  for (const DescriptorValue& row : values) {
+    cells.push_back({"  " + row.label, format_number(row.value)});
+  }
+  return aligned_lines(cells);
+}
+
+std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& rows,
+                                     const ComparisonNames& names) {
+  std::vector<std::vector<std::string>> cells = {
+      {"Descriptor", names.reference, names.value, "error %"}};
+  for (const DescriptorComparison& row : rows) {
+    cells.push_back({"  " + row.label, format_number(row.reference), format_number(row.value),
+                     format_error(row.error_percent)});
+  }
+  return aligned_lines(cells);
+}
+
+std::string table_json(const std::vector<DescriptorValue>& values) {
+  Json table = Json::object();
+  for (const DescriptorValue& row : values) {
+    table[row.key] = {{"label", row.label}, {"unit", row.unit}, {"value", row.value}};
+  }
+  return table.dump(2) + "\n";
+}
+
+std::string table_json(const std::vector<DescriptorComparison>& rows,
+                       const ComparisonNames& names) {
+  Json table = Json::object();
+  for (const DescriptorComparison& row : rows) {
+    table[row.key] = {{"label", row.label},
+                      {"unit", row.unit},
+                      {names.reference, row.reference},
+                      {names.value, row.value},
+                      {"error_percent", row.error_percent}};
+  }
+  return table.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace wscvt

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wscvt/measures/detailed_descriptors.h"
+#include "wscvt/measures/shape_descriptors.h"
+
+namespace wscvt {
+
+/// One descriptor ready to be shown or stored.
+struct DescriptorValue {
+  std::string key;     ///< lower_case name in files; never changes between versions
+  std::string label;   ///< for people, names the convention where there are several
+  std::string unit;    ///< "length", "length^2", "length^3" or empty
+  double value = 0.0;  ///< NaN where the descriptor does not exist for this body
+  /// False where zero is an ordinary value, so that an error in per cent would say nothing.
+  bool on_ratio_scale = true;
+};
+
+/// One descriptor of two meshes.
+struct DescriptorComparison {
+  std::string key;
+  std::string label;
+  std::string unit;
+  double reference = 0.0;
+  double value = 0.0;
+  double error_percent = 0.0;  ///< 100 (value / reference - 1); NaN where that says nothing
+};
+
+std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& descriptors);
+std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& descriptors);
+
+/// Row by row. Throws Error(InvalidInput) when the two lists do not hold the same descriptors.
+std::vector<DescriptorComparison> compare_descriptors(const std::vector<DescriptorValue>& reference,
+                                                      const std::vector<DescriptorValue>& values);
+
+// What the columns of two meshes are called, in text and in files.
+struct ComparisonNames {
+  std::string reference = "original";
+  std::string value = "remesh";
+};
+
+/// An aligned table: descriptor / value, and descriptor / reference / value / error %.
+std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values);
+std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& rows,
+                                     const ComparisonNames& names);
+
+/// A JSON object with one member a descriptor, in order, under its key: label, unit, and the value
+/// or the two values and error_percent. Numbers that are not finite become null.
+std::string table_json(const std::vector<DescriptorValue>& values);
+std::string table_json(const std::vector<DescriptorComparison>& rows, const ComparisonNames& names);
+
+}  // namespace wscvt

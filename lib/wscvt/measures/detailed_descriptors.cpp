@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/detailed_descriptors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/measures/convex_hull.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/mesh_surface.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+void check_options(const DetailedOptions& options) {
+  const auto require = [](bool holds, const char* name, int value, const char* range) {
+    if (holds) return;
+    throw Error(ErrorCode::InvalidInput, std::string("The ") + name + " is " +
+                                             std::to_string(value) + "; give " + range + ".");
+  };
+  require(options.roundness_degree >= 1 && options.roundness_degree <= 60, "degree for roundness",
+          options.roundness_degree, "1 to 60");
+  require(options.roughness_degree >= 0 && options.roughness_degree <= 60, "degree for roughness",
+          options.roughness_degree, "0 to 60");
+  const int largest = std::max(options.roundness_degree, options.roughness_degree);
+  require(options.polar_nodes >= 16 && options.polar_nodes <= 1024 && options.polar_nodes > largest,
+          "number of polar nodes", options.polar_nodes, "16 to 1024, and more than the degrees");
+}
+
+/// What is read off r(u), in units of `unit`.
+void describe_radius(const IndexedMesh& mesh, const DetailedOptions& options, double unit,
+                     const Execution& execution, DetailedDescriptors& result) {
+  const MeshSurface surface(mesh, result.basic.centroid, unit, execution);
+  const SphereQuadrature quadrature = gauss_legendre_sphere(options.polar_nodes);
+  const HarmonicFit fit =
+      fit_harmonics(quadrature.directions, surface.radii(quadrature.directions, execution),
+                    quadrature.weights, options.roundness_degree, execution);
+  result.roundness_degree = fit.report.degree;
+  result.roundness = wadell_roundness(fit.surface, result.inscribed_sphere.radius / unit,
+                                      options.polar_nodes, execution);
+  result.roughness =
+      radial_roughness(surface, options.roughness_degree, options.polar_nodes, execution);
+  result.roughness.sa *= unit;
+  result.roughness.sq *= unit;
+  result.printed_sdq = printed_sdq(surface, options.polar_nodes, execution);
+  result.has_radius = true;
+}
+
+}  // namespace
+
+DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
+                                             const DetailedOptions& options,
+                                             const Execution& execution) {
+  check_options(options);
+  DetailedDescriptors result;
+  execution.report(0.0, "Measuring the shape");
+  result.basic = describe_shape(mesh, execution);
+  result.equivalent_diameter = std::cbrt(6.0 * result.basic.volume / pi);
+  const Vector3 axes = 2.0 * result.basic.inertia_semi_axes;
+  result.inertia_axes = {axes[0], axes[1], axes[2]};
+  result.inertia_ratios = form_ratios(result.inertia_axes);
+  result.orientation = orientation_tensor(mesh, execution);
+
+  execution.report(0.1, "Measuring the convex hull");
+  const IndexedMesh hull = convex_hull(mesh.points);
+  result.convexity = std::min(1.0, result.basic.volume / describe_shape(hull, execution).volume);
+  execution.report(0.2, "Turning the bounding box");
+  result.box_axes = oriented_box_axes(hull.points);
+  result.box_ratios = form_ratios(result.box_axes);
+  result.inscribed_sphere = largest_inscribed_sphere(mesh, execution.part(0.3, 0.8));
+
+  execution.report(0.8, "Measuring roundness and roughness");
+  result.folded_share = folded_solid_angle(mesh, result.basic.centroid, execution);
+  if (result.folded_share < 1.0) {
+    describe_radius(mesh, options, 0.5 * result.equivalent_diameter, execution, result);
+  }
+  execution.report(1.0, "Measuring the shape");
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/form_axes.h"
+#include "wscvt/measures/inscribed_sphere.h"
+#include "wscvt/measures/orientation_tensor.h"
+#include "wscvt/measures/roughness.h"
+#include "wscvt/measures/roundness.h"
+#include "wscvt/measures/shape_descriptors.h"
+
+namespace wscvt {
+
+struct DetailedOptions {
+  /// Degree of the harmonic series whose curvature roundness reads, in [1, 60].
+  int roundness_degree = 15;
+  /// Degree of the low-degree shape that roughness is measured from, in [0, 60].
+  int roughness_degree = 8;
+  /// Gauss-Legendre nodes in cos(theta) of the rays cast, times twice as many azimuths, in [16,
+  /// 1024] and above both degrees.
+  int polar_nodes = 128;
+};
+
+/// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
+/// that computes it: shape_descriptors.h, form_axes.h, inscribed_sphere.h, orientation_tensor.h,
+/// roundness.h, roughness.h. README.md has them all in one table.
+struct DetailedDescriptors {
+  ShapeDescriptors basic;
+  /// Of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell (1932);
+  /// length.
+  double equivalent_diameter = 0.0;
+  /// Full axes of the inertia ellipsoid, twice ShapeDescriptors::inertia_semi_axes.
+  FormAxes inertia_axes;
+  FormRatios inertia_ratios;  ///< their ratios; sources at FormRatios
+  FormAxes box_axes;          ///< edges of the smallest oriented box; source at oriented_box_axes
+  FormRatios box_ratios;
+  /// V / volume of the convex hull, in (0, 1]; no unit. As in SHAPE (Angelidakis, Nadimi
+  /// and Utili 2021; see form_axes.h). Hull by convex_hull.
+  double convexity = 0.0;
+  InscribedSphere inscribed_sphere;
+  OrientationTensor orientation;
+  double folded_share = 0.0;  ///< of 4 pi, seen from the volume centroid
+  /// Whether the three below exist: false when the volume centroid lies outside the body. Where the
+  /// surface folds they see its outermost layer.
+  bool has_radius = false;
+  Roundness roundness;       ///< of the fitted series of degree roundness_degree
+  int roundness_degree = 0;  ///< as fitted
+  Roughness roughness;
+  double printed_sdq = 0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (roughness.h)
+};
+
+/// Measures a closed outward mesh as checked by check_mesh; takes of the order of a second for
+/// 100,000 faces. Throws Error(InvalidInput) when the volume is not positive or an option is out of
+/// range, Error(NumericalFailure) when a ray from the volume centroid meets no face or no series
+/// can be fitted to r(u) (see fit_harmonics), Error(Cancelled).
+DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
+                                             const DetailedOptions& options,
+                                             const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// A triangle mesh that answers how far points are from it: exact point-to-triangle distances over
+/// a tree of bounding boxes (CGAL's AABB tree). Const calls may come from several threads.
+class MeshDistance {
+ public:
+  /// Copies what it needs of the mesh; about 300 bytes a face. Throws Error(InvalidInput) if the
+  /// mesh has no faces.
+  explicit MeshDistance(const IndexedMesh& mesh);
+  ~MeshDistance();
+  MeshDistance(MeshDistance&&) noexcept;
+  MeshDistance& operator=(MeshDistance&&) noexcept;
+
+  /// Distance from `point` to the nearest point of the surface, >= 0; length.
+  double distance(const Vector3& point) const;
+
+  /// The nearest point of the surface.
+  Vector3 nearest_point(const Vector3& point) const;
+
+  /// Whether `point` lies inside; the mesh must be closed. Either answer on the surface itself.
+  bool contains(const Vector3& point) const;
+
+  /// `distance` for an array, on the threads of `execution`: a mesh's points give its distance
+  /// vertex by vertex.
+  std::vector<double> distances(const std::vector<Vector3>& points,
+                                const Execution& execution) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+struct DistanceOptions {
+  /// Points spread evenly by area over each of the two surfaces, in [1, 100 million]. See
+  /// measure_distances for what they decide.
+  std::size_t samples = 100000;
+};
+
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_distance_options(const DistanceOptions& options);
+
+/// Distances from the points of one surface to another; length.
+struct OneSidedDistance {
+  double maximum = 0.0;           ///< over the samples and the vertices: one-sided Hausdorff
+  double root_mean_square = 0.0;  ///< over the surface, by area
+  double mean = 0.0;              ///< over the surface, by area
+};
+
+struct MeshDistances {
+  OneSidedDistance to_reference;    ///< from the mesh to the reference
+  OneSidedDistance from_reference;  ///< from the reference to the mesh
+  double hausdorff = 0.0;           ///< two-sided: the larger of the two maxima; length
+  double root_mean_square = 0.0;    ///< two-sided: the larger of the two; length
+};
+
+/// Measures two surfaces against each other. The distances themselves are exact; what is sampled is
+/// where they are taken: at every vertex and at `samples` points spread evenly by area (one in each
+/// equal slice of the accumulated area, at points of a low-discrepancy sequence inside the faces).
+/// No randomness: the same input gives the same bits.
+///
+/// Sampling errors: a maximum is never too large, and too small by at most the distance from the
+/// worst point to the nearest sample, of the order of sqrt(area / samples), because the distance
+/// changes no faster than the point moves; on smooth surfaces it is of second order in that. The
+/// mean and the rms err by less than 0.5 % at 100,000 samples on the grains tried.
+///
+/// Throws Error(InvalidInput) if a mesh has no faces or no area, or `samples` is out of range.
+MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
+                                const DistanceOptions& options, const Execution& execution);
+
+/// The same for a caller who measures several meshes against one reference: `to_reference` is built
+/// from `reference`, and not anew each time.
+MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
+                                const MeshDistance& to_reference, const DistanceOptions& options,
+                                const Execution& execution);
+
+/// The `count` points that measure_distances spreads over a surface. Throws Error(InvalidInput) if
+/// the mesh has no faces or no area.
+std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count);
+
+}  // namespace wscvt

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/mesh_quality.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 16384;
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+/// Running mean, sum of squared deviations and extremes; two of them merge by Chan, Golub and
+/// LeVeque (1983), which keeps a small spread of large values.
+class Moments {
+ public:
+  void add(double value) {
+    ++count_;
+    const double deviation = value - mean_;
+    mean_ += deviation / static_cast<double>(count_);
+    squares_ += deviation * (value - mean_);
+    minimum_ = std::min(minimum_, value);
+    maximum_ = std::max(maximum_, value);
+  }
+
+  Moments& operator+=(const Moments& other) {
+    if (other.count_ == 0) return *this;
+    const auto mine = static_cast<double>(count_);
+    const auto theirs = static_cast<double>(other.count_);
+    const double shift = other.mean_ - mean_;
+    count_ += other.count_;
+    mean_ += shift * theirs / (mine + theirs);
+    squares_ += other.squares_ + shift * shift * mine * theirs / (mine + theirs);
+    minimum_ = std::min(minimum_, other.minimum_);
+    maximum_ = std::max(maximum_, other.maximum_);
+    return *this;
+  }
+
+  Statistics statistics() const {
+    return {mean_, std::sqrt(squares_ / static_cast<double>(count_)), minimum_, maximum_};
+  }
+
+ private:
+  std::size_t count_ = 0;
+  double mean_ = 0.0;
+  double squares_ = 0.0;
+  double minimum_ = std::numeric_limits<double>::infinity();
+  double maximum_ = -std::numeric_limits<double>::infinity();
+};
+
+struct TriangleMoments {
+  Moments edge_length;
+  Moments edge_ratio;
+  Moments smallest_angle;
+
+  TriangleMoments& operator+=(const TriangleMoments& other) {
+    edge_length += other.edge_length;
+    edge_ratio += other.edge_ratio;
+    smallest_angle += other.smallest_angle;
+    return *this;
+  }
+};
+
+/// Edge k runs from corner k to corner k + 1.
+struct TriangleEdges {
+  std::array<Vector3, 3> vectors;
+  std::array<double, 3> lengths;
+  std::size_t shortest;
+  double ratio;  ///< longest / shortest
+};
+
+TriangleEdges triangle_edges(const IndexedMesh& mesh, const Triangle& t) {
+  TriangleEdges edges{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    edges.vectors[k] = mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]];
+    edges.lengths[k] = edges.vectors[k].norm();
+  }
+  const auto [shortest, longest] = std::minmax_element(edges.lengths.begin(), edges.lengths.end());
+  edges.shortest = static_cast<std::size_t>(shortest - edges.lengths.begin());
+  edges.ratio = *longest / *shortest;
+  return edges;
+}
+
+/// Degrees; the angle opposite to the shortest edge, by its tangent, which is exact near 0.
+double smallest_angle(const TriangleEdges& edges) {
+  const Vector3& a = edges.vectors[(edges.shortest + 1) % 3];
+  const Vector3& b = edges.vectors[(edges.shortest + 2) % 3];
+  return std::atan2(a.cross(b).norm(), -a.dot(b)) * degrees_per_radian;
+}
+
+/// In a closed oriented mesh every edge runs once in each direction, so this names it once.
+bool names_edge(const Triangle& t, std::size_t k) { return t[k] < t[(k + 1) % 3]; }
+
+void require_faces(const IndexedMesh& mesh) {
+  if (mesh.triangles.empty()) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "The mesh has no faces, so its quality cannot be measured; give a closed triangle mesh.");
+  }
+}
+
+void count(Histogram& histogram, double value) {
+  const auto bins = static_cast<double>(histogram.counts.size());
+  const double place = (value - histogram.lower) / (histogram.upper - histogram.lower) * bins;
+  // A value that is not a number ends up in the first bin.
+  const double bin = place > 0.0 ? std::min(std::floor(place), bins - 1.0) : 0.0;
+  ++histogram.counts[static_cast<std::size_t>(bin)];
+}
+
+}  // namespace
+
+MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution) {
+  require_faces(mesh);
+  const TriangleMoments moments =
+      execution.parallel_sum(mesh.triangles.size(), block_size, TriangleMoments(),
+                             [&](std::size_t begin, std::size_t end) {
+                               TriangleMoments part;
+                               for (std::size_t f = begin; f < end; ++f) {
+                                 const Triangle& t = mesh.triangles[f];
+                                 const TriangleEdges edges = triangle_edges(mesh, t);
+                                 for (std::size_t k = 0; k < 3; ++k) {
+                                   if (names_edge(t, k)) part.edge_length.add(edges.lengths[k]);
+                                 }
+                                 part.edge_ratio.add(edges.ratio);
+                                 part.smallest_angle.add(smallest_angle(edges));
+                               }
+                               return part;
+                             });
+
+  std::vector<std::int32_t> valence(mesh.points.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t) ++valence[v];
+  }
+  const auto six = std::count(valence.begin(), valence.end(), 6);
+
+  MeshQuality quality;
+  quality.edge_length = moments.edge_length.statistics();
+  quality.edge_variation = quality.edge_length.standard_deviation / quality.edge_length.mean;
+  quality.edge_ratio = moments.edge_ratio.statistics();
+  const Statistics angles = moments.smallest_angle.statistics();
+  quality.smallest_angle = angles.minimum;
+  quality.mean_smallest_angle = angles.mean;
+  quality.valence_six_share = static_cast<double>(six) / static_cast<double>(valence.size());
+  return quality;
+}
+
+QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins) {
+  require_faces(mesh);
+  if (bins == 0) {
+    throw Error(ErrorCode::InvalidInput, "A histogram needs at least one bin; 0 were asked for.");
+  }
+  Moments lengths;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (names_edge(t, k)) lengths.add((mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]]).norm());
+    }
+  }
+  const double mean = lengths.statistics().mean;
+
+  QualityHistograms histograms;
+  histograms.relative_edge_length = {0.0, 3.0, std::vector<std::size_t>(bins, 0)};
+  histograms.edge_ratio = {1.0, 3.0, std::vector<std::size_t>(bins, 0)};
+  for (const Triangle& t : mesh.triangles) {
+    const TriangleEdges edges = triangle_edges(mesh, t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (names_edge(t, k)) count(histograms.relative_edge_length, edges.lengths[k] / mean);
+    }
+    count(histograms.edge_ratio, edges.ratio);
+  }
+  return histograms;
+}
+
+}  // namespace wscvt

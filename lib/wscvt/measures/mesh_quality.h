@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Mean and standard deviation (population) with extremes.
+struct Statistics {
+  double mean = 0.0;
+  double standard_deviation = 0.0;
+  double minimum = 0.0;
+  double maximum = 0.0;
+};
+
+/// Equal-width histogram of `counts.size()` bins over [lower, upper]; values outside are counted in
+/// the end bins.
+struct Histogram {
+  double lower = 0.0;
+  double upper = 0.0;
+  std::vector<std::size_t> counts;
+};
+
+/// How even a triangle mesh is.
+struct MeshQuality {
+  Statistics edge_length;            ///< over the edges, each once; length
+  double edge_variation = 0.0;       ///< standard deviation / mean of the edge length (ECV)
+  Statistics edge_ratio;             ///< longest / shortest edge over the triangles; >= 1
+  double smallest_angle = 0.0;       ///< degrees
+  double mean_smallest_angle = 0.0;  ///< mean over the triangles of each one's smallest, degrees
+  double valence_six_share = 0.0;    ///< share of the vertices with six neighbours
+};
+
+/// Measures a closed, consistently oriented mesh without edges of no length (what check_mesh
+/// gives). Throws Error(InvalidInput) if it has no faces.
+MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution = Execution(1));
+
+/// Distributions of edge length / mean edge length over [0, 3], and of the edge ratio over [1, 3].
+struct QualityHistograms {
+  Histogram relative_edge_length;
+  Histogram edge_ratio;
+};
+
+/// Histograms of `bins` >= 1 bins for a mesh as measure_quality takes it. Throws
+/// Error(InvalidInput) if the mesh has no faces or `bins` is 0.
+QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins);
+
+}  // namespace wscvt

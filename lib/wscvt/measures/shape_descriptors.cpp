@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/shape_descriptors.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 8192;
+constexpr double pi = 3.14159265358979323846;
+
+/// Smallest cosine between normal and radius that Sdq takes seriously.
+constexpr double smallest_cosine = 0.05;
+
+using Matrix3 = Eigen::Matrix3d;
+
+/// Moments of volume about a local origin, and the area.
+struct VolumeMoments {
+  double volume = 0.0;
+  double area = 0.0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+
+  VolumeMoments& operator+=(const VolumeMoments& other) {
+    volume += other.volume;
+    area += other.area;
+    first += other.first;
+    second += other.second;
+    return *this;
+  }
+};
+
+/// The mean of the vertices: near the centroid, so that nothing cancels for a grain far away.
+Vector3 local_origin(const IndexedMesh& mesh, const Execution& execution) {
+  if (mesh.points.empty()) return Vector3::Zero();
+  const Vector3 start = mesh.points.front();
+  const Vector3 sum =
+      execution.parallel_sum(mesh.points.size(), block_size, Vector3(Vector3::Zero()),
+                             [&](std::size_t begin, std::size_t end) {
+                               Vector3 part = Vector3::Zero();
+                               for (std::size_t i = begin; i < end; ++i)
+                                 part += mesh.points[i] - start;
+                               return part;
+                             });
+  return start + sum / static_cast<double>(mesh.points.size());
+}
+
+/// Sums over the tetrahedra that the faces span with `origin`.
+VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
+                             const Execution& execution) {
+  return execution.parallel_sum(
+      mesh.triangles.size(), block_size, VolumeMoments(), [&](std::size_t begin, std::size_t end) {
+        VolumeMoments part;
+        for (std::size_t f = begin; f < end; ++f) {
+          const Triangle& t = mesh.triangles[f];
+          const Vector3 a = mesh.points[t[0]] - origin;
+          const Vector3 b = mesh.points[t[1]] - origin;
+          const Vector3 c = mesh.points[t[2]] - origin;
+          const Vector3 doubled_area = (b - a).cross(c - a);
+          const double determinant = a.dot(doubled_area);
+          const Vector3 sum = a + b + c;
+          part.volume += determinant / 6.0;
+          part.area += 0.5 * doubled_area.norm();
+          part.first += determinant / 24.0 * sum;
+          part.second +=
+              determinant / 120.0 *
+              (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+        }
+        return part;
+      });
+}
+
+/// Integral of |grad_Omega r|^2 dOmega about `centre`, face by face.
+double gradient_square(const IndexedMesh& mesh, const Vector3& centre, const Execution& execution) {
+  return execution.parallel_sum(
+      mesh.triangles.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+        double part = 0.0;
+        for (std::size_t f = begin; f < end; ++f) {
+          const Triangle& t = mesh.triangles[f];
+          const Vector3 a = mesh.points[t[0]] - centre;
+          const Vector3 b = mesh.points[t[1]] - centre;
+          const Vector3 c = mesh.points[t[2]] - centre;
+          const Vector3 doubled_area = (b - a).cross(c - a);
+          const double area = 0.5 * doubled_area.norm();
+          const Vector3 radius = a + b + c;
+          const double length = radius.norm();
+          if (!(area > 0.0) || !(length > 0.0)) continue;
+          const double cosine =
+              std::clamp(doubled_area.dot(radius) / (2.0 * area * length), smallest_cosine, 1.0);
+          part += area * (1.0 - cosine * cosine) / cosine;
+        }
+        return part;
+      });
+}
+
+}  // namespace
+
+ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execution) {
+  const Vector3 origin = local_origin(mesh, execution);
+  const VolumeMoments moments = volume_moments(mesh, origin, execution);
+  if (!(moments.volume > 0.0)) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "The mesh encloses no positive volume, so it has no shape descriptors; give a closed "
+        "mesh whose faces look outward.");
+  }
+
+  ShapeDescriptors result;
+  result.volume = moments.volume;
+  result.area = moments.area;
+  const double side = std::cbrt(moments.volume);
+  result.sphericity = std::cbrt(36.0 * pi) * side * side / moments.area;
+  const Vector3 centroid = moments.first / moments.volume;
+  result.centroid = origin + centroid;
+
+  // A homogeneous ellipsoid with semi-axis a along x has mean x^2 = a^2 / 5.
+  const Matrix3 second = moments.second / moments.volume - centroid * centroid.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(second, Eigen::EigenvaluesOnly);
+  result.inertia_semi_axes = (5.0 * solver.eigenvalues().cwiseMax(0.0)).cwiseSqrt();
+  result.inertia_tensor = moments.volume * (second.trace() * Matrix3::Identity() - second);
+  result.aspect_ratio = result.inertia_semi_axes[0] / result.inertia_semi_axes[2];
+
+  result.sdq = std::sqrt(gradient_square(mesh, result.centroid, execution) / moments.area);
+  return result;
+}
+
+double relative_error_percent(double value, double reference) {
+  if (value == reference) return 0.0;
+  return 100.0 * (value / reference - 1.0);
+}
+
+double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(reference.inertia_tensor);
+  const Matrix3 difference = solver.eigenvectors().transpose() *
+                             (value.inertia_tensor - reference.inertia_tensor) *
+                             solver.eigenvectors();
+  return 100.0 * difference.cwiseAbs().maxCoeff() / solver.eigenvalues()[2];
+}
+
+}  // namespace wscvt

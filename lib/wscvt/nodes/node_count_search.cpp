@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/node_count_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+/// The bracket is closed when it is this share of the count wide, or 1.
+constexpr double resolution = 0.002;
+
+/// Largest factor between one count and the next while the target is being bracketed.
+constexpr double largest_stride = 8.0;
+
+/// Count at which an error that falls as 1 / count from `trial` comes to the target, a little
+/// beyond it so that the next trial is likely on the other side.
+double extrapolate(const NodeCountTrial& trial, double target) {
+  const double ratio = trial.error / target;
+  const double beyond = ratio > 1.0 ? 1.15 : 1.0 / 1.15;
+  return trial.node_count * std::clamp(ratio * beyond, 1.0 / largest_stride, largest_stride);
+}
+
+int rounded(double count, int lower, int upper) {
+  return static_cast<int>(std::lround(std::clamp<double>(count, lower, upper)));
+}
+
+}  // namespace
+
+NodeCountSearch smallest_node_count(double target, int start, int lower, int upper,
+                                    const std::function<double(int)>& error) {
+  if (!(target > 0.0) || !std::isfinite(target)) {
+    throw Error(ErrorCode::InvalidInput, "The error target is " + std::to_string(target) +
+                                             "; give a positive number of per cent.");
+  }
+  if (lower < 1 || lower > upper) {
+    throw Error(ErrorCode::InvalidInput, "The limits of the node count are " +
+                                             std::to_string(lower) + " and " +
+                                             std::to_string(upper) + "; give them in order.");
+  }
+  NodeCountSearch search;
+  const auto attempt = [&](int count) {
+    search.trials.push_back({count, error(count)});
+    return search.trials.back();
+  };
+  const auto meets = [&](const NodeCountTrial& trial) { return trial.error <= target; };
+
+  NodeCountTrial trial = attempt(std::clamp(start, lower, upper));
+  NodeCountTrial above = trial;
+  NodeCountTrial below = trial;
+  if (meets(trial)) {
+    while (meets(below) && below.node_count > lower) {
+      above = below;
+      below = attempt(
+          rounded(std::min(extrapolate(below, target), below.node_count - 1.0), lower, upper));
+    }
+    if (meets(below)) above = below;
+  } else {
+    while (!meets(above) && above.node_count < upper) {
+      below = above;
+      above = attempt(
+          rounded(std::max(extrapolate(above, target), above.node_count + 1.0), lower, upper));
+    }
+  }
+  search.met = meets(above);
+  search.node_count = above.node_count;
+  if (!search.met || meets(below)) return search;
+
+  for (bool halve = false;
+       above.node_count - below.node_count > std::max(1.0, resolution * above.node_count);
+       halve = !halve) {
+    const double low = std::log(below.node_count);
+    const double high = std::log(above.node_count);
+    double share = 0.5;
+    const double span = std::log(below.error / std::max(above.error, 1e-3 * target));
+    if (!halve && std::isfinite(span) && span > 0.0) share = std::log(below.error / target) / span;
+    trial = attempt(
+        rounded(std::exp(low + share * (high - low)), below.node_count + 1, above.node_count - 1));
+    (meets(trial) ? above : below) = trial;
+  }
+  search.node_count = above.node_count;
+  return search;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Reads a triangle mesh into flat arrays; polygons are cut into fans. The format follows from the
+/// extension, in either case: PLY, STL, OBJ, OFF, text or binary. Coordinates keep the precision of
+/// the file. Nothing is repaired: an STL file comes back with the corners of each triangle as
+/// points of their own or already merged (see check_mesh). Throws Error(InputOutput) when the file
+/// cannot be read, is cut short or names vertices it does not hold, or when the extension is not
+/// known.
+IndexedMesh read_mesh(const std::string& path);
+
+/// How many digits a binary PLY file keeps of each coordinate.
+enum class PlyCoordinates { Double, Float };
+
+/// Writes a mesh in the format of the extension, whole or not at all (see write_file). PLY is
+/// binary, with double coordinates unless told otherwise, OBJ and OFF text with 17 digits, so these
+/// three lose nothing; STL is binary with the float coordinates of that format. Throws
+/// Error(InputOutput) when the file cannot be written or the extension is not known, and leaves an
+/// existing file as it was.
+void write_mesh(const IndexedMesh& mesh, const std::string& path,
+                PlyCoordinates coordinates = PlyCoordinates::Double);
+
+}  // namespace wscvt

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/point_cloud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Centroid of the volume enclosed, by tetrahedra about `origin`.
+Vector3 centroid(const IndexedMesh& mesh, const Vector3& origin) {
+  double volume = 0.0;
+  Vector3 moment = Vector3::Zero();
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3 a = mesh.points[t[0]] - origin;
+    const Vector3 b = mesh.points[t[1]] - origin;
+    const Vector3 c = mesh.points[t[2]] - origin;
+    const double tetrahedron = a.dot(b.cross(c));
+    volume += tetrahedron;
+    moment += tetrahedron / 4.0 * (a + b + c);
+  }
+  return origin + moment / volume;
+}
+
+}  // namespace
+
+IndexedMesh mesh_of_points(std::vector<Vector3> points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) {
+      throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
+                                               " has a coordinate that is not a finite number; "
+                                               "remove it from the scan.");
+    }
+  }
+  const auto less = [](const Vector3& a, const Vector3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  std::sort(points.begin(), points.end(), less);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 4) {
+    throw Error(ErrorCode::InvalidInput, "The scan has " + std::to_string(points.size()) +
+                                             " different points and no faces; a body needs at "
+                                             "least 4.");
+  }
+  IndexedMesh mesh;
+  mesh.points = std::move(points);
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& p : mesh.points) centre += p / static_cast<double>(mesh.points.size());
+  // The points' mean leans to where they are dense; the second round stands on the volume's.
+  std::vector<Vector3> directions(mesh.points.size());
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      directions[i] = (mesh.points[i] - centre).normalized();
+    }
+    mesh.triangles = SphereTriangulation(directions).triangles();
+    centre = centroid(mesh, centre);
+  }
+  return mesh;
+}
+
+}  // namespace wscvt

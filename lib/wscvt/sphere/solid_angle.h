@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Signed solid angle in [-2 pi, 2 pi], in steradians, of the triangle a, b, c of unit vectors seen
+/// from the origin; positive when they run counter-clockwise seen from outside the sphere (Van
+/// Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126, eq. 8).
+inline double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
+  // Edge vectors keep the relative precision of a triangle far smaller than the sphere.
+  const double numerator = a.dot((b - a).cross(c - a));
+  const double denominator = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
+  if (std::abs(numerator) < 0.02 * denominator) {
+    // The arctangent's series, to the last bit in this range: a dense scan has no other triangles.
+    const double x = numerator / denominator;
+    const double s = x * x;
+    return 2.0 * x * (1.0 + s * (-1.0 / 3.0 + s * (0.2 + s * (-1.0 / 7.0 + s * (1.0 / 9.0)))));
+  }
+  return 2.0 * std::atan2(numerator, denominator);
+}
+
+/// Solid angles of the faces of a closed surface, added up.
+struct SolidAngleSums {
+  double outward = 0.0;   ///< of the faces that look away from the origin
+  double backward = 0.0;  ///< of those that look back at it, >= 0
+  bool touched = false;   ///< a face fills half the sphere: the origin lies on it
+
+  void add(double angle) {
+    constexpr double half_sphere = 2.0 * 3.14159265358979323846 - 1e-9;
+    (angle < 0.0 ? backward : outward) += std::abs(angle);
+    touched = touched || std::abs(angle) > half_sphere;
+  }
+
+  SolidAngleSums& operator+=(const SolidAngleSums& other) {
+    outward += other.outward;
+    backward += other.backward;
+    touched = touched || other.touched;
+    return *this;
+  }
+
+  /// See folded_solid_angle in mesh_check.h.
+  double folded_share() const {
+    constexpr double four_pi = 4.0 * 3.14159265358979323846;
+    // The signed angles add up to 4 pi seen from inside and to 0 from outside.
+    const bool inside = !touched && outward - backward > 0.5 * four_pi;
+    const double folded = 2.0 * backward / four_pi;  // as much again looks outward
+    return inside ? folded : 1.0 + folded;
+  }
+};
+
+}  // namespace wscvt

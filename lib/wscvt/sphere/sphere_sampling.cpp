@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sphere/sphere_sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+void require_at_least(int value, int least, const char* what) {
+  if (value < least) {
+    throw Error(ErrorCode::InvalidInput, std::string("The ") + what + " is " +
+                                             std::to_string(value) + "; it must be at least " +
+                                             std::to_string(least) + ".");
+  }
+}
+
+Vector3 direction(double z, double azimuth) {
+  const double s = std::sqrt(std::max(0.0, 1.0 - z * z));
+  return {s * std::cos(azimuth), s * std::sin(azimuth), z};
+}
+
+// Azimuths of the lattice in turns, in [0, 1): the fractional part of (i + 1/2) * golden ratio.
+double lattice_turn(int i) {
+  const double golden_ratio = 0.5 * (1.0 + std::sqrt(5.0));
+  const double turns = (i + 0.5) * golden_ratio;
+  return turns - std::floor(turns);
+}
+
+double uniform(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11) * 0x1.0p-53;
+}
+
+// Inverse of the piecewise linear cumulative distribution `cumulative` (first 0, last 1) at
+// `value`, in units of intervals.
+template <class Cumulative>
+double invert(const Cumulative& cumulative, std::size_t intervals, double value) {
+  std::size_t low = 0;
+  std::size_t high = intervals;
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (cumulative(middle) <= value ? low : high) = middle;
+  }
+  const double begin = cumulative(low);
+  const double width = cumulative(low + 1) - begin;
+  const double inside = width > 0.0 ? (value - begin) / width : 0.5;
+  return static_cast<double>(low) + std::clamp(inside, 0.0, 1.0);
+}
+
+}  // namespace
+
+GaussLegendre gauss_legendre(int count) {
+  require_at_least(count, 1, "number of quadrature nodes");
+  GaussLegendre rule;
+  rule.nodes.resize(count);
+  rule.weights.resize(count);
+  for (int i = 0; i < (count + 1) / 2; ++i) {
+    double x = std::cos(pi * (i + 0.75) / (count + 0.5));
+    double derivative = 1.0;
+    for (int iteration = 0; iteration < 100; ++iteration) {
+      double previous = 1.0;
+      double value = x;
+      for (int n = 2; n <= count; ++n) {
+        const double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
+        previous = value;
+        value = next;
+      }
+      if (count == 1) previous = 1.0;
+      derivative = count * (x * value - previous) / (x * x - 1.0);
+      const double step = value / derivative;
+      x -= step;
+      if (std::abs(step) < 1e-16) break;
+    }
+    if (2 * i + 1 == count) x = 0.0;
+    const double weight = 2.0 / ((1.0 - x * x) * derivative * derivative);
+    rule.nodes[i] = x;
+    rule.nodes[count - 1 - i] = -x;
+    rule.weights[i] = weight;
+    rule.weights[count - 1 - i] = weight;
+  }
+  return rule;
+}
+
+SphereQuadrature gauss_legendre_sphere(int polar_nodes) {
+  const GaussLegendre rule = gauss_legendre(polar_nodes);
+  const int azimuths = 2 * polar_nodes;
+  SphereQuadrature quadrature;
+  quadrature.directions.reserve(static_cast<std::size_t>(polar_nodes) * azimuths);
+  quadrature.weights.reserve(quadrature.directions.capacity());
+  for (int i = 0; i < polar_nodes; ++i) {
+    for (int j = 0; j < azimuths; ++j) {
+      quadrature.directions.push_back(direction(rule.nodes[i], 2.0 * pi * (j + 0.5) / azimuths));
+      quadrature.weights.push_back(rule.weights[i] * 2.0 * pi / azimuths);
+    }
+  }
+  return quadrature;
+}
+
+std::vector<Vector3> fibonacci_lattice(int count) {
+  require_at_least(count, 1, "number of lattice points");
+  std::vector<Vector3> points(count);
+  for (int i = 0; i < count; ++i) {
+    points[i] = direction(1.0 - (2.0 * i + 1.0) / count, 2.0 * pi * lattice_turn(i));
+  }
+  return points;
+}
+
+std::vector<Vector3> random_directions(int count, std::uint64_t seed) {
+  require_at_least(count, 1, "number of random directions");
+  std::mt19937_64 generator(seed);
+  std::vector<Vector3> points(count);
+  for (Vector3& point : points) {
+    const double z = 2.0 * uniform(generator) - 1.0;
+    point = direction(z, 2.0 * pi * uniform(generator));
+  }
+  return points;
+}
+
+std::vector<Vector3> warped_lattice(int count, const DensityFunction& density, int rows) {
+  require_at_least(count, 1, "number of lattice points");
+  require_at_least(rows, 2, "number of latitude bands");
+  const std::size_t columns = 2 * static_cast<std::size_t>(rows);
+  std::vector<double> bounds(rows + 1);  // z at the bounds of the bands, falling
+  for (int j = 0; j <= rows; ++j) bounds[j] = std::cos(pi * j / rows);
+  std::vector<Vector3> centres;
+  centres.reserve(rows * columns);
+  for (int j = 0; j < rows; ++j) {
+    for (std::size_t k = 0; k < columns; ++k) {
+      centres.push_back(
+          direction(0.5 * (bounds[j] + bounds[j + 1]), 2.0 * pi * (k + 0.5) / columns));
+    }
+  }
+  const std::vector<double> values = density(centres);
+  // Per band the cumulative share over azimuth, columns + 1 values; over the bands, of their mass.
+  std::vector<double> conditional(rows * (columns + 1));
+  std::vector<double> marginal(rows + 1, 0.0);
+  for (int j = 0; j < rows; ++j) {
+    double* row = conditional.data() + j * (columns + 1);
+    row[0] = 0.0;
+    for (std::size_t k = 0; k < columns; ++k) {
+      const double value = values[j * columns + k];
+      if (!(value > 0.0) || !std::isfinite(value)) {
+        throw Error(ErrorCode::InvalidInput,
+                    "The seed density is not a positive number everywhere; check the surface the "
+                    "weights are computed from.");
+      }
+      row[k + 1] = row[k] + value;
+    }
+    marginal[j + 1] = marginal[j] + row[columns] * (bounds[j] - bounds[j + 1]);
+    const double total = row[columns];
+    for (std::size_t k = 0; k <= columns; ++k) row[k] /= total;
+  }
+  const double mass = marginal.back();
+  for (double& value : marginal) value /= mass;
+
+  std::vector<Vector3> points(count);
+  for (int i = 0; i < count; ++i) {
+    const double band = invert([&](std::size_t j) { return marginal[j]; }, rows, (i + 0.5) / count);
+    const int j = std::min(static_cast<int>(band), rows - 1);
+    const double z = bounds[j] + (band - j) * (bounds[j + 1] - bounds[j]);
+    // Between band centres the conditional distributions are blended.
+    const double between = std::clamp(band - 0.5, 0.0, rows - 1.0);
+    const int upper = std::min(static_cast<int>(between), rows - 2);
+    const double share = between - upper;
+    const double* a = conditional.data() + upper * (columns + 1);
+    const double* b = a + columns + 1;
+    const double column = invert([&](std::size_t k) { return (1.0 - share) * a[k] + share * b[k]; },
+                                 columns, lattice_turn(i));
+    points[i] = direction(z, 2.0 * pi * column / static_cast<double>(columns));
+  }
+  return points;
+}
+
+std::vector<Vector3> equal_angle_grid(int rings) {
+  require_at_least(rings, 1, "number of parallels");
+  const int azimuths = 2 * (rings + 1);
+  std::vector<Vector3> points;
+  points.reserve(2 + static_cast<std::size_t>(rings) * azimuths);
+  points.emplace_back(0.0, 0.0, 1.0);
+  for (int i = 1; i <= rings; ++i) {
+    const double z = std::cos(pi * i / (rings + 1));
+    for (int k = 0; k < azimuths; ++k) points.push_back(direction(z, 2.0 * pi * k / azimuths));
+  }
+  points.emplace_back(0.0, 0.0, -1.0);
+  return points;
+}
+
+std::vector<Vector3> nearest_equal_angle_grid(int count) {
+  const auto size = [](int rings) { return 2.0 + 2.0 * rings * (rings + 1.0); };
+  int rings = 1;
+  while (size(rings + 1) - count < count - size(rings)) ++rings;
+  return equal_angle_grid(rings);
+}
+
+std::vector<Vector3> subdivided_icosahedron(int frequency) {
+  require_at_least(frequency, 1, "number of parts of an icosahedron's edge");
+  const double golden_ratio = 0.5 * (1.0 + std::sqrt(5.0));
+  std::vector<Vector3> corners;
+  for (const double a : {-1.0, 1.0}) {
+    for (const double b : {-golden_ratio, golden_ratio}) {
+      corners.emplace_back(0.0, a, b);
+      corners.emplace_back(a, b, 0.0);
+      corners.emplace_back(b, 0.0, a);
+    }
+  }
+  // Corners of one edge are 2 apart, all others at least 3.2.
+  const auto joined = [&](std::size_t i, std::size_t j) {
+    return (corners[i] - corners[j]).squaredNorm() < 4.5;
+  };
+  std::vector<Vector3> points = corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t j = i + 1; j < corners.size(); ++j) {
+      if (!joined(i, j)) continue;
+      for (int s = 1; s < frequency; ++s) {
+        points.push_back(((frequency - s) * corners[i] + s * corners[j]) / frequency);
+      }
+      for (std::size_t k = j + 1; k < corners.size(); ++k) {
+        if (!joined(i, k) || !joined(j, k)) continue;
+        for (int s = 1; s < frequency - 1; ++s) {
+          for (int t = 1; s + t < frequency; ++t) {
+            points.push_back(((frequency - s - t) * corners[i] + s * corners[j] + t * corners[k]) /
+                             frequency);
+          }
+        }
+      }
+    }
+  }
+  for (Vector3& point : points) point.normalize();
+  return points;
+}
+
+std::vector<Vector3> nearest_subdivided_icosahedron(int count) {
+  const auto size = [](int frequency) { return 10.0 * frequency * frequency + 2.0; };
+  int frequency = 1;
+  while (size(frequency + 1) - count < count - size(frequency)) ++frequency;
+  return subdivided_icosahedron(frequency);
+}
+
+}  // namespace wscvt

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sphere/sphere_triangulation.h"
+
+#include <CGAL/Delaunay_triangulation_on_sphere_2.h>
+#include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Triangulation_on_sphere_vertex_base_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/convex_hull_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using ExactPoint = Kernel::Point_3;
+
+ExactPoint exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+
+/// Sign of det(b - a, c - a, d - a): positive when d lies on the side of the plane abc from which
+/// abc is counter-clockwise. The filter is stage A of Shewchuk (1997), "Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates", section 4.3.
+int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  const double bx = b.x() - a.x(), by = b.y() - a.y(), bz = b.z() - a.z();
+  const double cx = c.x() - a.x(), cy = c.y() - a.y(), cz = c.z() - a.z();
+  const double dx = d.x() - a.x(), dy = d.y() - a.y(), dz = d.z() - a.z();
+  const double bxcy = bx * cy, cxby = cx * by;
+  const double cxdy = cx * dy, dxcy = dx * cy;
+  const double dxby = dx * by, bxdy = bx * dy;
+  const double determinant = dz * (bxcy - cxby) + bz * (cxdy - dxcy) + cz * (dxby - bxdy);
+  const double permanent = (std::abs(bxcy) + std::abs(cxby)) * std::abs(dz) +
+                           (std::abs(cxdy) + std::abs(dxcy)) * std::abs(bz) +
+                           (std::abs(dxby) + std::abs(bxdy)) * std::abs(cz);
+  constexpr double epsilon = 0.5 * std::numeric_limits<double>::epsilon();
+  const double bound = (7.0 + 56.0 * epsilon) * epsilon * permanent;
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c), exact(d)));
+}
+
+/// Whether abc is counter-clockwise seen from outside the sphere, exactly: det(a, b, c) > 0.
+bool counter_clockwise(const Vector3& a, const Vector3& b, const Vector3& c) {
+  return orientation(Vector3::Zero(), a, b, c) > 0;
+}
+
+/// Beyond this many steradian exp(w / 2) may leave the range in which the predicates' products
+/// neither overflow nor underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
+constexpr double weight_limit = 200.0;
+
+bool can_be_lifted(const std::vector<double>& weights) {
+  return std::all_of(weights.begin(), weights.end(),
+                     [](double weight) { return std::abs(weight) <= weight_limit; });
+}
+
+std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
+  std::vector<Vector3> lifted(seeds.size());
+  for (std::size_t i = 0; i < seeds.size(); ++i) lifted[i] = seeds[i] * std::exp(0.5 * weights[i]);
+  return lifted;
+}
+
+[[noreturn]] void fail(const std::string& what) {
+  throw Error(ErrorCode::NumericalFailure,
+              "The seeds cannot be triangulated on the sphere: " + what);
+}
+
+// Empty when the seeds' Delaunay triangulation does not cover the sphere or loses a seed.
+std::vector<Triangle> delaunay(const std::vector<Vector3>& seeds) {
+  using Traits = CGAL::Delaunay_triangulation_on_sphere_traits_2<Kernel>;
+  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<
+      std::int32_t, Traits, CGAL::Triangulation_on_sphere_vertex_base_2<Traits>>;
+  using FaceBase = CGAL::Triangulation_on_sphere_face_base_2<Traits>;
+  using Triangulation = CGAL::Delaunay_triangulation_on_sphere_2<
+      Traits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+  std::vector<ExactPoint> points;
+  points.reserve(seeds.size());
+  for (const Vector3& seed : seeds) points.push_back(exact(seed));
+  std::vector<std::size_t> order(seeds.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  using Map = CGAL::Pointer_property_map<ExactPoint>::const_type;
+  CGAL::spatial_sort(order.begin(), order.end(),
+                     CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(
+                         CGAL::make_property_map(std::as_const(points))));
+
+  Triangulation triangulation(Traits(ExactPoint(0, 0, 0), 1));
+  Triangulation::Face_handle hint;
+  for (const std::size_t i : order) {
+    const auto vertex = triangulation.insert(points[i], hint);
+    if (vertex == nullptr || triangulation.number_of_vertices() == 0) return {};
+    vertex->info() = static_cast<std::int32_t>(i);
+    hint = vertex->face();
+  }
+  std::vector<Triangle> triangles;
+  if (triangulation.number_of_vertices() != seeds.size()) return triangles;
+  if (triangulation.number_of_ghost_faces() != 0) return triangles;
+  triangles.reserve(triangulation.number_of_faces());
+  for (const auto face : triangulation.all_face_handles()) {
+    triangles.push_back(
+        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+  }
+  return triangles;
+}
+
+std::vector<Triangle> convex_hull(const std::vector<Vector3>& lifted) {
+  std::vector<ExactPoint> points;
+  points.reserve(lifted.size());
+  for (const Vector3& p : lifted) points.push_back(exact(p));
+  CGAL::Surface_mesh<ExactPoint> hull;
+  CGAL::convex_hull_3(points.begin(), points.end(), hull);
+  // The hull copies its points: find them again by value.
+  std::vector<std::int32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto less = [&](std::int32_t i, std::int32_t j) { return points[i] < points[j]; };
+  std::sort(order.begin(), order.end(), less);
+  std::vector<std::int32_t> index_of_hull_vertex(hull.num_vertices());
+  for (const auto vertex : hull.vertices()) {
+    const auto found =
+        std::lower_bound(order.begin(), order.end(), hull.point(vertex),
+                         [&](std::int32_t i, const ExactPoint& p) { return points[i] < p; });
+    index_of_hull_vertex[vertex] = *found;
+  }
+  std::vector<Triangle> triangles;
+  for (const auto face : hull.faces()) {
+    std::vector<std::int32_t> ring;
+    for (const auto vertex : CGAL::vertices_around_face(hull.halfedge(face), hull)) {
+      ring.push_back(index_of_hull_vertex[vertex]);
+    }
+    for (std::size_t k = 2; k < ring.size(); ++k) {
+      triangles.push_back({ring[0], ring[k - 1], ring[k]});
+    }
+  }
+  return triangles;
+}
+
+bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vector3>& seeds) {
+  if (triangles.size() != 2 * seeds.size() - 4) return false;
+  return std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    return counter_clockwise(seeds[t[0]], seeds[t[1]], seeds[t[2]]);
+  });
+}
+
+}  // namespace
+
+SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
+                                         const std::vector<double>& weights) {
+  if (seeds.size() < 4) {
+    throw Error(ErrorCode::InvalidInput,
+                "A triangulation of the sphere needs at least 4 seeds, not " +
+                    std::to_string(seeds.size()) + ".");
+  }
+  if (!weights.empty() && weights.size() != seeds.size()) {
+    throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(weights.size()) +
+                                             " weights for " + std::to_string(seeds.size()) +
+                                             " seeds; give one each, or none.");
+  }
+  if (!can_be_lifted(weights)) {
+    fail(
+        "a weight is not a number, or far larger than the sphere's own solid angle. Use more "
+        "nodes, "
+        "or another weighting.");
+  }
+  const Execution serial(1);
+  std::vector<Triangle> triangles = delaunay(seeds);
+  if (covers_sphere(triangles, seeds)) {
+    set_triangles(std::move(triangles), seeds.size());
+    // Also brings CGAL's choice among cocircular seeds under our own predicate.
+    if (restore_regular(seeds, weights, serial).complete()) {
+      set_triangles(std::move(triangles_), seeds.size());
+      return;
+    }
+  }
+  triangles = convex_hull(weights.empty() ? seeds : lift(seeds, weights));
+  if (!covers_sphere(triangles, seeds)) {
+    fail(
+        "they do not surround the grain's centre, two coincide, or a weight is so low that its "
+        "seed has no cell. Use more nodes, or a smaller curvature exponent.");
+  }
+  set_triangles(std::move(triangles), seeds.size());
+}
+
+SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
+                                         std::vector<Triangle> triangles) {
+  const auto count = static_cast<std::int32_t>(seeds.size());
+  bool usable = count >= 4;
+  for (const Triangle& t : triangles) {
+    for (const std::int32_t v : t) usable = usable && v >= 0 && v < count;
+  }
+  if (usable && covers_sphere(triangles, seeds)) {
+    set_triangles(std::move(triangles), seeds.size());
+    usable = std::find(opposite_.begin(), opposite_.end(), -1) == opposite_.end();
+  } else {
+    usable = false;
+  }
+  if (!usable) {
+    throw Error(ErrorCode::InvalidInput, "The triangles do not cover the sphere once with all " +
+                                             std::to_string(count) + " seeds as corners.");
+  }
+}
+
+void SphereTriangulation::set_triangles(std::vector<Triangle> triangles, std::size_t vertices) {
+  for (Triangle& t : triangles) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles_ = std::move(triangles);
+  const std::size_t half_edges = 3 * triangles_.size();
+  // Half-edges grouped by their origin.
+  std::vector<std::int32_t> begin(vertices + 1, 0);
+  for (const Triangle& t : triangles_) {
+    for (const std::int32_t v : t) ++begin[v + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::int32_t> outgoing(half_edges);
+  std::vector<std::int32_t> fill(begin.begin(), begin.end() - 1);
+  for (std::size_t h = 0; h < half_edges; ++h) {
+    outgoing[fill[origin(static_cast<std::int32_t>(h))]++] = static_cast<std::int32_t>(h);
+  }
+  opposite_.assign(half_edges, -1);
+  first_half_edge_.resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) first_half_edge_[v] = outgoing[begin[v]];
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(half_edges); ++h) {
+    const std::int32_t from = origin(h);
+    const std::int32_t to = origin(next(h));
+    for (std::int32_t k = begin[to]; k < begin[to + 1]; ++k) {
+      if (origin(next(outgoing[k])) == from) opposite_[h] = outgoing[k];
+    }
+  }
+}
+
+bool SphereTriangulation::is_flippable(std::int32_t half_edge,
+                                       const std::vector<Vector3>& seeds) const {
+  const std::int32_t other = opposite_[half_edge];
+  const Vector3& a = seeds[origin(half_edge)];
+  const Vector3& b = seeds[origin(other)];
+  const Vector3& c = seeds[origin(previous(half_edge))];
+  const Vector3& d = seeds[origin(previous(other))];
+  return counter_clockwise(c, a, d) && counter_clockwise(d, b, c);
+}
+
+void SphereTriangulation::flip(std::int32_t half_edge) {
+  const std::int32_t other = opposite_[half_edge];
+  const std::int32_t ab = half_edge / 3 * 3;
+  const std::int32_t ba = other / 3 * 3;
+  const std::int32_t a = origin(half_edge);
+  const std::int32_t b = origin(other);
+  const std::int32_t c = origin(previous(half_edge));
+  const std::int32_t d = origin(previous(other));
+  const std::int32_t beyond_bc = opposite_[next(half_edge)];
+  const std::int32_t beyond_ca = opposite_[previous(half_edge)];
+  const std::int32_t beyond_ad = opposite_[next(other)];
+  const std::int32_t beyond_db = opposite_[previous(other)];
+  triangles_[ab / 3] = {c, a, d};
+  triangles_[ba / 3] = {d, b, c};
+  const auto link = [&](std::int32_t h, std::int32_t g) {
+    opposite_[h] = g;
+    opposite_[g] = h;
+  };
+  link(ab, beyond_ca);
+  link(ab + 1, beyond_ad);
+  link(ba, beyond_db);
+  link(ba + 1, beyond_bc);
+  link(ab + 2, ba + 2);
+  first_half_edge_[c] = ab;
+  first_half_edge_[a] = ab + 1;
+  first_half_edge_[d] = ba;
+  first_half_edge_[b] = ba + 1;
+}
+
+void SphereTriangulation::replace(const std::vector<std::int32_t>& triangles,
+                                  const std::vector<Triangle>& corners) {
+  struct DirectedEdge {
+    std::int32_t from;
+    std::int32_t to;
+    std::int32_t half_edge;
+  };
+  std::vector<DirectedEdge> outside;
+  for (const std::int32_t t : triangles) {
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::int32_t beyond = opposite_[h];
+      if (std::find(triangles.begin(), triangles.end(), beyond / 3) == triangles.end()) {
+        outside.push_back({origin(beyond), origin(h), beyond});
+      }
+    }
+  }
+  std::vector<DirectedEdge> edges = outside;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    triangles_[triangles[i]] = corners[i];
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t h = 3 * triangles[i] + k;
+      edges.push_back({corners[i][k], corners[i][(k + 1) % 3], h});
+      first_half_edge_[corners[i][k]] = h;
+    }
+  }
+  for (std::size_t i = outside.size(); i < edges.size(); ++i) {
+    for (const DirectedEdge& other : edges) {
+      if (other.from == edges[i].to && other.to == edges[i].from) {
+        opposite_[edges[i].half_edge] = other.half_edge;
+        opposite_[other.half_edge] = edges[i].half_edge;
+      }
+    }
+  }
+}
+
+template <class NeedsFlip>
+SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Vector3>& seeds,
+                                                            const NeedsFlip& needs_flip,
+                                                            const Execution& execution) {
+  // The search for edges to flip is the bulk of the work and runs in parallel; flips are few and
+  // run in one order.
+  constexpr std::size_t block = 4096;
+  const std::size_t count = triangles_.size();
+  std::vector<std::vector<std::int32_t>> found((count + block - 1) / block);
+  std::vector<char> turned_over(found.size(), 0);
+  execution.parallel_for(count, block, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::int32_t>& edges = found[begin / block];
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& corners = triangles_[t];
+      if (!counter_clockwise(seeds[corners[0]], seeds[corners[1]], seeds[corners[2]])) {
+        turned_over[begin / block] = 1;
+        return;
+      }
+      for (std::int32_t k = 0; k < 3; ++k) {
+        const auto h = static_cast<std::int32_t>(3 * t) + k;
+        if (h < opposite_[h] && needs_flip(h)) edges.push_back(h);
+      }
+    }
+  });
+  Repair repair;
+  for (const char over : turned_over) {
+    if (over != 0) {
+      repair.turned_over = true;
+      return repair;
+    }
+  }
+  std::vector<std::int32_t> stack;
+  for (const auto& edges : found) stack.insert(stack.end(), edges.begin(), edges.end());
+  std::vector<std::int32_t> stuck;
+  // Regular flips end by themselves (each raises the lifted surface); flips on a bent surface might
+  // in principle run in circles.
+  const int limit = static_cast<int>(std::min<std::size_t>(50 * count, 1U << 30));
+  bool progress = true;
+  while (progress) {
+    progress = false;
+    while (!stack.empty() && repair.flips < limit) {
+      const std::int32_t h = stack.back();
+      stack.pop_back();
+      if (!needs_flip(h)) continue;
+      if (!is_flippable(h, seeds)) {
+        stuck.push_back(h);
+        continue;
+      }
+      const std::int32_t t0 = h / 3 * 3;
+      const std::int32_t t1 = opposite_[h] / 3 * 3;
+      flip(h);
+      ++repair.flips;
+      progress = true;
+      for (const std::int32_t edge : {t0, t0 + 1, t1, t1 + 1}) stack.push_back(edge);
+    }
+    // Not swapped: what the limit leaves on the stack counts as stuck too.
+    stack.insert(stack.end(), stuck.begin(), stuck.end());
+    stuck.clear();
+    if (stack.empty()) break;
+  }
+  for (const std::int32_t h : stack) {
+    if (needs_flip(h)) ++repair.stuck;
+  }
+  return repair;
+}
+
+SphereTriangulation::Repair SphereTriangulation::restore_regular(const std::vector<Vector3>& seeds,
+                                                                 const std::vector<double>& weights,
+                                                                 const Execution& execution) {
+  if (!can_be_lifted(weights)) return {0, 1, false};
+  const std::vector<Vector3> storage =
+      weights.empty() ? std::vector<Vector3>() : lift(seeds, weights);
+  const std::vector<Vector3>& lifted = weights.empty() ? seeds : storage;
+  return flip_while(
+      seeds,
+      [&](std::int32_t h) {
+        const std::int32_t other = opposite_[h];
+        return orientation(lifted[origin(h)], lifted[origin(other)], lifted[origin(previous(h))],
+                           lifted[origin(previous(other))]) > 0;
+      },
+      execution);
+}
+
+SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
+    const std::vector<Vector3>& seeds, const std::vector<Vector3>& positions,
+    const Execution& execution) {
+  return flip_while(
+      seeds,
+      [&](std::int32_t h) {
+        const std::int32_t other = opposite_[h];
+        const Vector3& a = positions[origin(h)];
+        const Vector3& b = positions[origin(other)];
+        const Vector3& c = positions[origin(previous(h))];
+        const Vector3& d = positions[origin(previous(other))];
+        // The angles at c and d sum to more than pi when cot + cot < 0.
+        const double cosine_c = (a - c).dot(b - c);
+        const double cosine_d = (a - d).dot(b - d);
+        if (cosine_c >= 0.0 && cosine_d >= 0.0) return false;
+        const double sine_c = (a - c).cross(b - c).norm();
+        const double sine_d = (a - d).cross(b - d).norm();
+        const double left = sine_c * cosine_d;
+        const double right = cosine_c * sine_d;
+        return left + right < -1e-12 * (std::abs(left) + std::abs(right));
+      },
+      execution);
+}
+
+}  // namespace wscvt

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Triangulation of the whole sphere whose vertices are unit vectors ("seeds"): 2 N - 4 triangles,
+/// counter-clockwise seen from outside. Built from scratch by exact predicates, and kept as the
+/// seeds move by flipping edges.
+///
+/// Half-edge 3 t + k runs from corner k of triangle t to corner (k + 1) % 3.
+class SphereTriangulation {
+ public:
+  /// Regular triangulation (weighted Delaunay) of the seeds: the convex hull of p exp(w / 2).
+  /// Without weights (empty) the Delaunay triangulation. Triangles are sorted, so the same seeds
+  /// give the same arrays. Throws Error(NumericalFailure) when the seeds do not surround the
+  /// origin, when two coincide, when a seed is hidden, that is, its weight is so low that it has no
+  /// cell, or when a weight's absolute value is above 200 steradian or not a number; and
+  /// Error(InvalidInput) for fewer than 4 seeds or another number of weights.
+  explicit SphereTriangulation(const std::vector<Vector3>& seeds,
+                               const std::vector<double>& weights = {});
+
+  /// Takes over given triangles. Throws Error(InvalidInput) unless they are 2 N - 4 triangles,
+  /// counter-clockwise on the sphere, that form a closed 2-manifold on all N seeds.
+  SphereTriangulation(const std::vector<Vector3>& seeds, std::vector<Triangle> triangles);
+
+  std::size_t vertex_count() const { return first_half_edge_.size(); }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// The half-edge that runs the other way, for each half-edge.
+  const std::vector<std::int32_t>& opposite() const { return opposite_; }
+  /// A half-edge that starts at each vertex.
+  const std::vector<std::int32_t>& first_half_edge() const { return first_half_edge_; }
+
+  static std::int32_t next(std::int32_t half_edge) {
+    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+  }
+  static std::int32_t previous(std::int32_t half_edge) {
+    return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+  }
+  std::int32_t origin(std::int32_t half_edge) const {
+    return triangles_[half_edge / 3][half_edge % 3];
+  }
+
+  /// What a repair by flips came to.
+  struct Repair {
+    int flips = 0;
+    int stuck = 0;             ///< edges that ought to be flipped but cannot be
+    bool turned_over = false;  ///< a triangle is clockwise on the sphere; nothing was flipped
+    bool complete() const { return stuck == 0 && !turned_over; }
+  };
+
+  /// After the seeds moved or their weights changed: flips edges until every edge is regular
+  /// (Lawson 1977). Exact predicates. When the repair is not complete the triangulation still is a
+  /// closed 2-manifold on the same vertices, to be built anew by the caller.
+  Repair restore_regular(const std::vector<Vector3>& seeds, const std::vector<double>& weights,
+                         const Execution& execution);
+
+  /// Flips edges until the two angles opposite to each edge sum to at most pi, measured on the
+  /// surface mesh with vertices `positions` (Bobenko and Springborn 2007: intrinsic Delaunay), as
+  /// long as the triangles stay counter-clockwise on the sphere of `seeds`; edges left for that
+  /// reason are counted as stuck.
+  Repair restore_surface_delaunay(const std::vector<Vector3>& seeds,
+                                  const std::vector<Vector3>& positions,
+                                  const Execution& execution);
+
+  /// Whether the half-edge's edge may be flipped: both new triangles counter-clockwise on the
+  /// sphere.
+  bool is_flippable(std::int32_t half_edge, const std::vector<Vector3>& seeds) const;
+
+  /// Replaces the edge by the other diagonal of its two triangles.
+  void flip(std::int32_t half_edge);
+
+  /// Replaces triangles by as many others that have, all together, the same outer edges: what a
+  /// flip does for two triangles, for patches of any size. A vertex may leave one patch and turn up
+  /// in another. The caller answers for the corners being such; they stand in the slots given.
+  void replace(const std::vector<std::int32_t>& triangles, const std::vector<Triangle>& corners);
+
+ private:
+  template <class NeedsFlip>
+  Repair flip_while(const std::vector<Vector3>& seeds, const NeedsFlip& needs_flip,
+                    const Execution& execution);
+  void set_triangles(std::vector<Triangle> triangles, std::size_t vertices);
+
+  std::vector<Triangle> triangles_;
+  std::vector<std::int32_t> opposite_;
+  std::vector<std::int32_t> first_half_edge_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/curvature.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 256;
+
+/// Below this share of the largest pivot a column of the fit does not count.
+constexpr double rank_tolerance = 1e-10;
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The corners of all faces sorted by vertex. Corner 3 f + k is where half-edge k of face f starts,
+/// so the corners of a vertex give both its faces and its neighbours.
+class VertexCorners {
+ public:
+  explicit VertexCorners(const IndexedMesh& mesh)
+      : mesh_(mesh), starts_(mesh.points.size() + 2, 0), corners_(3 * mesh.triangles.size()) {
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::int32_t v : t) ++starts_[index(v) + 2];
+    }
+    for (std::size_t v = 2; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::int32_t& place = starts_[index(mesh.triangles[f][k]) + 1];
+        corners_[index(place++)] = static_cast<std::int32_t>(3 * f + k);
+      }
+    }
+  }
+
+  /// Calls visit(next, previous), the two other vertices of each face around v.
+  template <class Visit>
+  void visit_faces(std::int32_t v, const Visit& visit) const {
+    for (std::int32_t i = starts_[index(v)]; i < starts_[index(v) + 1]; ++i) {
+      const std::size_t corner = index(corners_[index(i)]);
+      const Triangle& t = mesh_.triangles[corner / 3];
+      visit(t[(corner + 1) % 3], t[(corner + 2) % 3]);
+    }
+  }
+
+ private:
+  const IndexedMesh& mesh_;
+  std::vector<std::int32_t> starts_;
+  std::vector<std::int32_t> corners_;
+};
+
+/// Normal of a vertex: the normals of its faces, each by its angle there; zero where all cancel.
+Vector3 angle_weighted_normal(const IndexedMesh& mesh, const VertexCorners& corners,
+                              std::int32_t v) {
+  const Vector3& p = mesh.points[index(v)];
+  Vector3 sum = Vector3::Zero();
+  corners.visit_faces(v, [&](std::int32_t next, std::int32_t previous) {
+    const Vector3 a = mesh.points[index(next)] - p;
+    const Vector3 b = mesh.points[index(previous)] - p;
+    const Vector3 normal = a.cross(b);
+    const double length = normal.norm();
+    if (length > 0.0) sum += std::atan2(length, a.dot(b)) / length * normal;
+  });
+  return sum.normalized();
+}
+
+/// The vertices within `rings` edges of v, v itself first, each once.
+void collect_rings(const VertexCorners& corners, std::int32_t v, int rings,
+                   std::vector<std::int32_t>& result) {
+  result.assign(1, v);
+  std::size_t begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t end = result.size();
+    for (std::size_t i = begin; i < end; ++i) {
+      corners.visit_faces(result[i], [&](std::int32_t next, std::int32_t) {
+        if (std::find(result.begin(), result.end(), next) == result.end()) result.push_back(next);
+      });
+    }
+    begin = end;
+  }
+}
+
+PrincipalCurvatures fit_quadric(const std::vector<Vector3>& points,
+                                const std::vector<std::int32_t>& vertices, const Vector3& normal) {
+  const Vector3& origin = points[index(vertices.front())];
+  const Vector3 axis_x = normal.unitOrthogonal();
+  const Vector3 axis_y = normal.cross(axis_x);
+  const auto count = static_cast<Eigen::Index>(vertices.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 3> local(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Vector3 d = points[index(vertices[static_cast<std::size_t>(i)])] - origin;
+    local.row(i) << d.dot(axis_x), d.dot(axis_y), d.dot(normal);
+  }
+  // In units of the ring, so that the columns are of one size.
+  const double unit = std::sqrt(local.leftCols<2>().squaredNorm() / static_cast<double>(count));
+  if (!(unit > 0.0)) return {};
+  local /= unit;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> columns(count, 6);
+  columns << local.col(0).cwiseAbs2(), local.col(1).cwiseAbs2(),
+      local.col(0).cwiseProduct(local.col(1)), local.leftCols<2>(), Eigen::VectorXd::Ones(count);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 6>> decomposition;
+  decomposition.setThreshold(rank_tolerance);
+  decomposition.compute(columns);
+  const Eigen::Matrix<double, 6, 1> c = decomposition.solve(local.col(2));
+
+  const double fx = c[3];
+  const double fy = c[4];
+  const double fxx = 2.0 * c[0] / unit;
+  const double fyy = 2.0 * c[1] / unit;
+  const double fxy = c[2] / unit;
+  const double square = 1.0 + fx * fx + fy * fy;
+  const double gauss = (fxx * fyy - fxy * fxy) / (square * square);
+  const double mean = ((1.0 + fx * fx) * fyy - 2.0 * fx * fy * fxy + (1.0 + fy * fy) * fxx) /
+                      (2.0 * square * std::sqrt(square));
+  // The normal points out of the body: a convex surface falls away from it.
+  const double deviation = std::sqrt(std::max(0.0, mean * mean - gauss));
+  return {deviation - mean, -deviation - mean};
+}
+
+}  // namespace
+
+std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh, int rings,
+                                                        const Execution& execution) {
+  if (rings < 1) {
+    throw Error(ErrorCode::InvalidInput, "The number of rings for the curvature fit is " +
+                                             std::to_string(rings) + "; give 1 or more, e.g. 2.");
+  }
+  const VertexCorners corners(mesh);
+  std::vector<PrincipalCurvatures> result(mesh.points.size());
+  execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::int32_t> vertices;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto v = static_cast<std::int32_t>(i);
+      const Vector3 normal = angle_weighted_normal(mesh, corners, v);
+      if (normal.isZero()) continue;
+      collect_rings(corners, v, rings, vertices);
+      result[i] = fit_quadric(mesh.points, vertices, normal);
+    }
+  });
+  return result;
+}
+
+}  // namespace wscvt

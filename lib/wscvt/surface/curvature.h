@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/radial_surface.h"
+
+namespace wscvt {
+
+/// Principal curvatures at every vertex of a closed, oriented mesh (see check_mesh) by the
+/// least-squares quadric z = a x^2 + b y^2 + c x y + d x + e y + f over the vertex and those within
+/// `rings` edges of it, in the frame of the angle-weighted normal (the paper, section 2.3). The
+/// paper's one ring is often under-determined on scans, where the quadric of least norm is taken;
+/// two rings are the working choice. First derivatives are kept in the curvature formula. 1/length
+/// of the mesh, positive where convex; zero at a vertex whose ring lies in one point. Throws
+/// Error(InvalidInput) if rings < 1.
+std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh, int rings,
+                                                        const Execution& execution);
+
+}  // namespace wscvt

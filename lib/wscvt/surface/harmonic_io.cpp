@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/harmonic_io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <fstream>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr const char* format_tag = "wscvt-harmonics-1";
+
+std::ifstream open_for_reading(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) {
+    throw Error(ErrorCode::InputOutput,
+                "The file " + path + " cannot be opened; check that it exists and may be read.");
+  }
+  return stream;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw Error(ErrorCode::InvalidInput, "The file " + path + " is not usable: " + what);
+}
+
+[[noreturn]] void refuse_line(const std::string& path, std::size_t line, const std::string& what) {
+  refuse(path, "line " + std::to_string(line) + " " + what);
+}
+
+/// One line of the text form; `line` is 0 where none was read.
+struct ComplexCoefficient {
+  std::size_t line = 0;
+  std::complex<double> value;
+};
+
+/// Coefficients in the order of harmonic_index, as many as the highest degree read needs.
+std::vector<ComplexCoefficient> read_lines(const std::string& path) {
+  std::ifstream stream = open_for_reading(path);
+  std::vector<ComplexCoefficient> coefficients;
+  std::string text;
+  std::size_t line = 0;
+  while (std::getline(stream, text)) {
+    ++line;
+    std::istringstream fields(text);
+    fields.imbue(std::locale::classic());
+    fields >> std::ws;
+    if (fields.eof()) continue;
+    int n = 0;
+    int m = 0;
+    double real = 0.0;
+    double imaginary = 0.0;
+    if (!(fields >> n >> m >> real >> imaginary) || !(fields >> std::ws).eof()) {
+      refuse_line(path, line, "does not hold the four numbers n m Re Im.");
+    }
+    if (n < 0 || n > maximum_harmonic_degree || m < -n || m > n) {
+      refuse_line(path, line,
+                  "gives n = " + std::to_string(n) + ", m = " + std::to_string(m) +
+                      "; n must be 0 to " + std::to_string(maximum_harmonic_degree) +
+                      " and m from -n to n.");
+    }
+    if (coefficients.size() < harmonic_count(n)) coefficients.resize(harmonic_count(n));
+    ComplexCoefficient& coefficient = coefficients[harmonic_index(n, m)];
+    if (coefficient.line != 0) {
+      refuse_line(path, line,
+                  "gives again what line " + std::to_string(coefficient.line) + " gave.");
+    }
+    coefficient = {line, {real, imaginary}};
+  }
+  if (stream.bad()) {
+    throw Error(ErrorCode::InputOutput,
+                "Reading the file " + path + " failed at line " + std::to_string(line) + ".");
+  }
+  if (coefficients.empty()) refuse(path, "it holds no coefficients.");
+  return coefficients;
+}
+
+/// The surface of a file, checked to be one.
+HarmonicSurface make_surface(const std::string& path, std::vector<double> coefficients) {
+  HarmonicSurface surface(std::move(coefficients));
+  if (!(smallest_radius(surface, Execution(1)) > 0.0)) {
+    refuse(path, "the radius of its series is not positive everywhere.");
+  }
+  return surface;
+}
+
+}  // namespace
+
+HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
+  if (degree < -1) {
+    throw Error(ErrorCode::InvalidInput, "The degree to cut the series at is " +
+                                             std::to_string(degree) +
+                                             "; give 0 or more, or -1 to keep all.");
+  }
+  std::vector<ComplexCoefficient> complex = read_lines(path);
+  double largest = 0.0;
+  for (const ComplexCoefficient& coefficient : complex) {
+    largest = std::max(largest, std::abs(coefficient.value));
+  }
+  const int highest = static_cast<int>(std::lround(std::sqrt(complex.size()))) - 1;
+  const int used = degree < 0 ? highest : std::min(degree, highest);
+  std::vector<double> real(harmonic_count(used));
+  for (int n = 0; n <= used; ++n) {
+    for (int m = 0; m <= n; ++m) {
+      const ComplexCoefficient& coefficient = complex[harmonic_index(n, m)];
+      if (coefficient.line == 0) {
+        refuse(path, "the coefficient n = " + std::to_string(n) + ", m = " + std::to_string(m) +
+                         " is missing.");
+      }
+      // r is real: c_n,-m = (-1)^m conj(c_nm), which makes c_n0 real.
+      const ComplexCoefficient& mirrored = complex[harmonic_index(n, -m)];
+      const double parity = m % 2 == 0 ? 1.0 : -1.0;
+      if (mirrored.line != 0 &&
+          std::abs(mirrored.value - parity * std::conj(coefficient.value)) > 1e-6 * largest) {
+        refuse_line(path, mirrored.line,
+                    "makes the radius complex: it is not (-1)^m times the conjugate of line " +
+                        std::to_string(coefficient.line) + ".");
+      }
+      const double factor = m > 0 ? std::sqrt(2.0) : 1.0;
+      real[harmonic_index(n, m)] = factor * coefficient.value.real();
+      if (m > 0) real[harmonic_index(n, -m)] = -factor * coefficient.value.imag();
+    }
+  }
+  return make_surface(path, std::move(real));
+}
+
+HarmonicSurface read_harmonics(const std::string& path) {
+  std::ifstream stream = open_for_reading(path);
+  int degree = 0;
+  std::vector<double> coefficients;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(stream);
+    if (json.at("format").get<std::string>() != format_tag) {
+      refuse(path, std::string("its \"format\" is not \"") + format_tag + "\".");
+    }
+    degree = json.at("degree").get<int>();
+    coefficients = json.at("coefficients").get<std::vector<double>>();
+  } catch (const nlohmann::json::exception& error) {
+    // The parser's message holds the line and column.
+    refuse(path, error.what());
+  }
+  if (degree < 0 || degree > maximum_harmonic_degree ||
+      coefficients.size() != harmonic_count(degree)) {
+    refuse(path, "\"degree\" is " + std::to_string(degree) + " and there are " +
+                     std::to_string(coefficients.size()) +
+                     " coefficients; there must be (degree + 1)^2, degree 0 to " +
+                     std::to_string(maximum_harmonic_degree) + ".");
+  }
+  return make_surface(path, std::move(coefficients));
+}
+
+void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
+  nlohmann::ordered_json json;
+  json["format"] = format_tag;
+  json["degree"] = surface.degree();
+  json["coefficients"] = surface.coefficients();
+  write_file(path, json.dump(1) + "\n");
+}
+
+}  // namespace wscvt

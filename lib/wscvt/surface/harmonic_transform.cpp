@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/harmonic_transform.h"
+
+#include <cmath>
+#include <string>
+
+#include "wscvt/base/error.h"
+#include "wscvt/surface/spherical_harmonics.h"
+
+namespace wscvt {
+
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Rows a block of the azimuthal products holds: enough for Eigen, few enough to share out.
+constexpr std::size_t row_block = 32;
+
+Eigen::Index signed_index(std::size_t value) { return static_cast<Eigen::Index>(value); }
+
+/// Columns of the azimuthal functions of order m: cosine, and (for m > 0) sine after it.
+Eigen::Index first_column(int m) { return m > 0 ? 2 * m - 1 : 0; }
+
+}  // namespace
+
+HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosines,
+                                     const std::vector<double>& sines, int azimuths,
+                                     const Execution& execution)
+    : degree_(degree), rows_(signed_index(cosines.size())), azimuths_(azimuths) {
+  if (degree < 0 || degree > maximum_harmonic_degree || azimuths < 1 ||
+      cosines.size() != sines.size()) {
+    throw Error(ErrorCode::InvalidInput,
+                "A harmonic transform needs a degree from 0 to " +
+                    std::to_string(maximum_harmonic_degree) +
+                    ", at least one azimuth and as many sines as cosines; it was given degree " +
+                    std::to_string(degree) + ", " + std::to_string(azimuths) + " azimuths, " +
+                    std::to_string(cosines.size()) + " cosines and " +
+                    std::to_string(sines.size()) + " sines.");
+  }
+  constexpr double two_pi = 6.28318530717958647693;
+  trigonometric_.resize(azimuths_, 2 * degree + 1);
+  for (Eigen::Index k = 0; k < azimuths_; ++k) {
+    trigonometric_(k, 0) = 1.0;
+    for (int m = 1; m <= degree; ++m) {
+      // The product is reduced in whole numbers, so equal angles get equal bits.
+      const auto turn = static_cast<double>((k * m) % azimuths_);
+      const double angle = two_pi * turn / static_cast<double>(azimuths_);
+      trigonometric_(k, first_column(m)) = std::cos(angle);
+      trigonometric_(k, first_column(m) + 1) = std::sin(angle);
+    }
+  }
+  legendre_.resize(static_cast<std::size_t>(degree) + 1);
+  execution.parallel_for(legendre_.size(), 1, [&](std::size_t begin, std::size_t) {
+    const int m = static_cast<int>(begin);
+    legendre_[begin].resize(rows_, degree + 1 - m);
+    associated_legendre(degree, m, cosines.data(), sines.data(), cosines.size(),
+                        legendre_[begin].data());
+  });
+}
+
+std::vector<double> HarmonicTransform::synthesize(const std::vector<double>& coefficients,
+                                                  const Execution& execution) const {
+  if (coefficients.size() != harmonic_count(degree_)) {
+    throw Error(ErrorCode::InvalidInput,
+                "The harmonic transform of degree " + std::to_string(degree_) + " takes " +
+                    std::to_string(harmonic_count(degree_)) + " coefficients, not " +
+                    std::to_string(coefficients.size()) + ".");
+  }
+  RowMajor orders(rows_, 2 * degree_ + 1);
+  execution.parallel_for(legendre_.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t order = begin; order < end; ++order) {
+      const int m = static_cast<int>(order);
+      Eigen::MatrixXd pair(degree_ + 1 - m, m > 0 ? 2 : 1);
+      for (int l = m; l <= degree_; ++l) {
+        pair(l - m, 0) = coefficients[harmonic_index(l, m)];
+        if (m > 0) pair(l - m, 1) = coefficients[harmonic_index(l, -m)];
+      }
+      orders.middleCols(first_column(m), pair.cols()).noalias() = legendre_[order] * pair;
+    }
+  });
+  std::vector<double> values(rows() * azimuths());
+  Eigen::Map<RowMajor> grid(values.data(), rows_, azimuths_);
+  execution.parallel_for(rows(), row_block, [&](std::size_t begin, std::size_t end) {
+    const auto first = signed_index(begin);
+    const auto count = signed_index(end - begin);
+    grid.middleRows(first, count).noalias() =
+        orders.middleRows(first, count) * trigonometric_.transpose();
+  });
+  return values;
+}
+
+std::vector<double> HarmonicTransform::analyze(const std::vector<double>& values,
+                                               const Execution& execution) const {
+  if (values.size() != rows() * azimuths()) {
+    throw Error(ErrorCode::InvalidInput,
+                "The harmonic transform on a grid of " + std::to_string(rows()) + " x " +
+                    std::to_string(azimuths()) + " takes as many values, not " +
+                    std::to_string(values.size()) + ".");
+  }
+  const Eigen::Map<const RowMajor> grid(values.data(), rows_, azimuths_);
+  Eigen::MatrixXd orders(rows_, 2 * degree_ + 1);
+  execution.parallel_for(rows(), row_block, [&](std::size_t begin, std::size_t end) {
+    const auto first = signed_index(begin);
+    const auto count = signed_index(end - begin);
+    orders.middleRows(first, count).noalias() = grid.middleRows(first, count) * trigonometric_;
+  });
+  std::vector<double> coefficients(harmonic_count(degree_));
+  execution.parallel_for(legendre_.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t order = begin; order < end; ++order) {
+      const int m = static_cast<int>(order);
+      const Eigen::MatrixXd pair =
+          legendre_[order].transpose() * orders.middleCols(first_column(m), m > 0 ? 2 : 1);
+      for (int l = m; l <= degree_; ++l) {
+        coefficients[harmonic_index(l, m)] = pair(l - m, 0);
+        if (m > 0) coefficients[harmonic_index(l, -m)] = pair(l - m, 1);
+      }
+    }
+  });
+  return coefficients;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Sums of a series on a grid of parallels, and their transpose, in (degree) rather than (degree)^2
+/// operations a node: Legendre functions along the rows, sines and cosines along the azimuth.
+///
+/// The grid has one row a latitude and `azimuths` columns phi_k = 2 pi k / azimuths; values stand
+/// row by row. Coefficients are in the order of `harmonic_index`.
+class HarmonicTransform {
+ public:
+  /// `cosines`, `sines`: cos(theta) and sin(theta) of the rows. Throws Error(InvalidInput) when the
+  /// two differ in length, or for a degree not in [0, maximum_harmonic_degree] or azimuths < 1.
+  HarmonicTransform(int degree, const std::vector<double>& cosines,
+                    const std::vector<double>& sines, int azimuths, const Execution& execution);
+
+  int degree() const { return degree_; }
+  std::size_t rows() const { return static_cast<std::size_t>(rows_); }
+  std::size_t azimuths() const { return static_cast<std::size_t>(azimuths_); }
+
+  /// values[j, k] = sum over (l, m) of coefficients[l, m] Y_lm(theta_j, phi_k). Throws
+  /// Error(InvalidInput) unless there are (degree + 1)^2 coefficients.
+  std::vector<double> synthesize(const std::vector<double>& coefficients,
+                                 const Execution& execution) const;
+
+  /// coefficients[l, m] = sum over (j, k) of values[j, k] Y_lm(theta_j, phi_k): the transpose, with
+  /// no weights of its own. Throws Error(InvalidInput) unless there are rows x azimuths values.
+  std::vector<double> analyze(const std::vector<double>& values, const Execution& execution) const;
+
+ private:
+  int degree_;
+  Eigen::Index rows_;
+  Eigen::Index azimuths_;
+  Eigen::MatrixXd trigonometric_;  ///< azimuths x (2 degree + 1): 1, then cosine, sine of m phi
+  std::vector<Eigen::MatrixXd> legendre_;  ///< of every m: rows x (degree + 1 - m)
+};
+
+}  // namespace wscvt

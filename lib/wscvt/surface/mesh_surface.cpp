@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/mesh_surface.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "wscvt/base/error.h"
+#include "wscvt/scan/mesh_check.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 8192;
+
+/// About two triangles to a cell, so that a cell is touched by about five.
+int resolution_for(std::size_t triangles) {
+  const double cells_per_face = static_cast<double>(triangles) / 12.0;
+  return std::clamp(static_cast<int>(std::sqrt(cells_per_face)), 1, 4096);
+}
+
+/// More entries in the bins than this for each triangle are not worth their memory. Even meshes
+/// have about three.
+constexpr std::size_t entries_per_triangle = 20;
+
+}  // namespace
+
+MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
+                         const Execution& execution)
+    : cube_(resolution_for(mesh.triangles.size())) {
+  if (mesh.triangles.empty()) {
+    throw Error(ErrorCode::InvalidInput, "The mesh is empty; check it before casting rays at it.");
+  }
+  if (!(unit > 0.0 && std::isfinite(unit))) {
+    throw Error(ErrorCode::InvalidInput, "The unit of length is " + std::to_string(unit) +
+                                             "; give a positive one, e.g. the equivalent radius.");
+  }
+  mesh_.triangles = mesh.triangles;
+  mesh_.points.resize(mesh.points.size());
+  execution.parallel_for(mesh.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) mesh_.points[i] = (mesh.points[i] - centre) / unit;
+  });
+  if (folded_solid_angle(mesh_, Vector3::Zero(), execution) >= 1.0) {
+    throw Error(ErrorCode::InvalidInput,
+                "The centre lies outside the mesh or on it, so rays from it do not go round the "
+                "surface once; take a centre inside, e.g. the centroid of a compact grain.");
+  }
+
+  const std::vector<Vector3>& points = mesh_.points;
+  const auto entries = [&] {
+    return execution.parallel_sum(mesh_.triangles.size(), block_size, std::size_t{0},
+                                  [&](std::size_t begin, std::size_t end) {
+                                    std::size_t part = 0;
+                                    for (std::size_t f = begin; f < end; ++f) {
+                                      const Triangle& t = mesh_.triangles[f];
+                                      part += cube_.count_cells(points[t[0]], points[t[1]],
+                                                                points[t[2]]);
+                                    }
+                                    return part;
+                                  });
+  };
+  // A needle, as of a fan about a pole, is entered in the whole rectangle of cells about it: as
+  // many entries for each as there are triangles.
+  int resolution = resolution_for(mesh_.triangles.size());
+  while (resolution > 1 && entries() > entries_per_triangle * mesh_.triangles.size()) {
+    resolution /= 2;
+    cube_ = CubeMap(resolution);
+  }
+
+  // Threads fill a bin in any order; sorting it afterwards makes the bytes the same.
+  const auto visit_cells = [&](std::size_t f, const auto& visit) {
+    const Triangle& t = mesh_.triangles[f];
+    cube_.visit_cells(points[static_cast<std::size_t>(t[0])],
+                      points[static_cast<std::size_t>(t[1])],
+                      points[static_cast<std::size_t>(t[2])], visit);
+  };
+  std::vector<std::atomic<std::size_t>> places(cube_.cells());
+  for (auto& place : places) place.store(0, std::memory_order_relaxed);
+  execution.parallel_for(
+      mesh_.triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+          visit_cells(
+              f, [&](std::size_t cell) { places[cell].fetch_add(1, std::memory_order_relaxed); });
+        }
+      });
+  bin_starts_.resize(places.size() + 1);
+  std::size_t sum = 0;
+  for (std::size_t cell = 0; cell < places.size(); ++cell) {
+    bin_starts_[cell] = sum;
+    sum += places[cell].exchange(sum, std::memory_order_relaxed);
+  }
+  bin_starts_.back() = sum;
+  bin_triangles_.resize(sum);
+  execution.parallel_for(
+      mesh_.triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+          visit_cells(f, [&](std::size_t cell) {
+            bin_triangles_[places[cell].fetch_add(1, std::memory_order_relaxed)] =
+                static_cast<std::int32_t>(f);
+          });
+        }
+      });
+  execution.parallel_for(places.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      std::sort(bin_triangles_.data() + bin_starts_[cell],
+                bin_triangles_.data() + bin_starts_[cell + 1]);
+    }
+  });
+}
+
+MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
+  // Points are sheared so that the ray becomes the z axis. The sheared position of a point is the
+  // same for all its triangles, and the sign of a difference of two rounded products is never
+  // wrong, only zero: so the sheared triangles cover the ray without a gap.
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  const int axis_x = (axis + 1) % 3;
+  const int axis_y = (axis + 2) % 3;
+  const double shear_x = direction[axis_x] / direction[axis];
+  const double shear_y = direction[axis_y] / direction[axis];
+  Hit hit;
+  const std::size_t cell = cube_.cell(direction);
+  for (std::size_t i = bin_starts_[cell]; i < bin_starts_[cell + 1]; ++i) {
+    const Triangle& t = mesh_.triangles[static_cast<std::size_t>(bin_triangles_[i])];
+    const Vector3& a = mesh_.points[static_cast<std::size_t>(t[0])];
+    const Vector3& b = mesh_.points[static_cast<std::size_t>(t[1])];
+    const Vector3& c = mesh_.points[static_cast<std::size_t>(t[2])];
+    const double ax = a[axis_x] - shear_x * a[axis];
+    const double ay = a[axis_y] - shear_y * a[axis];
+    const double bx = b[axis_x] - shear_x * b[axis];
+    const double by = b[axis_y] - shear_y * b[axis];
+    const double cx = c[axis_x] - shear_x * c[axis];
+    const double cy = c[axis_y] - shear_y * c[axis];
+    const double u = cx * by - cy * bx;
+    const double v = ax * cy - ay * cx;
+    const double w = bx * ay - by * ax;
+    const bool outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
+    const double sum = u + v + w;
+    if (outside || sum == 0.0) continue;
+    const double radius = (u * a[axis] + v * b[axis] + w * c[axis]) / (sum * direction[axis]);
+    if (radius > hit.radius) hit = {bin_triangles_[i], radius};
+  }
+  if (hit.triangle < 0) {
+    throw Error(ErrorCode::NumericalFailure,
+                "A ray from the centre meets no triangle: the mesh is not closed or an edge of it "
+                "passes through the centre; check the mesh first.");
+  }
+  return hit;
+}
+
+void MeshSurface::evaluate_radii(const Vector3* directions, std::size_t count,
+                                 double* radii) const {
+  for (std::size_t i = 0; i < count; ++i) radii[i] = outermost_hit(directions[i]).radius;
+}
+
+void MeshSurface::evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                           RadialJet* jets) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3& u = directions[i];
+    const Hit hit = outermost_hit(u);
+    RadialJet jet;
+    jet.radius = hit.radius;
+    if (derivatives != Derivatives::None) {
+      const Triangle& t = mesh_.triangles[static_cast<std::size_t>(hit.triangle)];
+      const Vector3& a = mesh_.points[static_cast<std::size_t>(t[0])];
+      const Vector3& b = mesh_.points[static_cast<std::size_t>(t[1])];
+      const Vector3& c = mesh_.points[static_cast<std::size_t>(t[2])];
+      const Vector3 normal = (b - a).cross(c - a);
+      const Vector3 slope = normal / normal.dot(u);
+      // Of d / (n . x): -r s and 2 r s s^T with s = n / (n . u).
+      const Matrix3 hessian = 2.0 * hit.radius * slope * slope.transpose();
+      jet = jet_from_extension(hit.radius, -hit.radius * slope, hessian, u);
+      if (derivatives == Derivatives::First) jet.hessian.setZero();
+    }
+    jets[i] = jet;
+  }
+}
+
+}  // namespace wscvt

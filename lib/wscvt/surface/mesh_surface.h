@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wscvt/sphere/cube_map.h"
+#include "wscvt/surface/radial_surface.h"
+
+namespace wscvt {
+
+/// A closed triangle mesh seen from the origin: r(u) is the distance to the outermost point that
+/// the ray along u meets. Triangles are binned by direction, so a ray tests only a few. The
+/// gradient is that of the plane met, the Hessian that of a plane's radius, d / (n . u).
+class MeshSurface : public RadialSurface {
+ public:
+  /// Keeps a copy of the closed, outward mesh moved by -centre and scaled by 1/unit. Throws
+  /// Error(InvalidInput) when the mesh is empty, the unit is not positive, or the centre lies on
+  /// the mesh or outside.
+  MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
+              const Execution& execution);
+
+  const IndexedMesh& mesh() const { return mesh_; }
+
+  void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                RadialJet* jets) const override;
+  void evaluate_radii(const Vector3* directions, std::size_t count, double* radii) const override;
+
+  /// Outermost intersection along one ray: the triangle's index and the distance.
+  struct Hit {
+    std::int32_t triangle = -1;
+    double radius = 0.0;
+  };
+
+  /// A ray through an edge or a vertex is not missed: the test of Woop, Benthin and Wald (J.
+  /// Comput. Graph. Tech. 2 (2013) 65-82). Of triangles met at the same distance, the first. Throws
+  /// Error(NumericalFailure) when nothing is met, which a closed mesh about the origin rules out.
+  Hit outermost_hit(const Vector3& direction) const;
+
+ private:
+  IndexedMesh mesh_;
+  CubeMap cube_;
+  std::vector<std::size_t> bin_starts_;      ///< into bin_triangles_, one more than cells
+  std::vector<std::int32_t> bin_triangles_;  ///< ascending in every bin
+};
+
+}  // namespace wscvt

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "wscvt/surface/radial_surface.h"
+
+namespace wscvt {
+
+/// Ellipsoid (x/a)^2 + (y/b)^2 + (z/c)^2 = 1 with analytic derivatives.
+class Ellipsoid : public RadialSurface {
+ public:
+  /// Semi-axes in length units, each > 0 and finite, else Error(InvalidInput).
+  explicit Ellipsoid(const Vector3& semi_axes);
+
+  void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                RadialJet* jets) const override;
+
+ private:
+  Vector3 semi_axes_;
+};
+
+/// Superellipsoid (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981), with
+/// e1 = `polar_exponent`, e2 = `azimuthal_exponent`; both 1 give the ellipsoid, towards 0 a box.
+/// Derivatives are analytic. Second ones do not exist on the coordinate planes when an exponent
+/// exceeds 1, nor at the poles when the polar one is 1 and the azimuthal one is not: there they
+/// stay finite, and mean nothing.
+class Superellipsoid : public RadialSurface {
+ public:
+  /// Semi-axes > 0, exponents in [0.1, 2], else Error(InvalidInput).
+  Superellipsoid(const Vector3& semi_axes, double polar_exponent, double azimuthal_exponent);
+
+  void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                RadialJet* jets) const override;
+
+ private:
+  Vector3 semi_axes_;
+  double polar_exponent_;
+  double azimuthal_exponent_;
+};
+
+}  // namespace wscvt

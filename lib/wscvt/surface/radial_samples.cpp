@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/radial_samples.h"
+
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/cube_map.h"
+#include "wscvt/sphere/solid_angle.h"
+#include "wscvt/surface/mesh_surface.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 8192;
+
+/// Cells, 1.4 degrees across in the middle, in which a fold is looked for.
+constexpr int fold_resolution = 64;
+
+/// Relative distance by which the sheet in front must be farther out.
+constexpr double hidden_tolerance = 1e-9;
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Sets the radius of every vertex behind the outermost sheet to zero.
+void hide_vertices(const IndexedMesh& mesh, const std::vector<double>& angles,
+                   const Execution& execution, RadialSamples& samples) {
+  // A ray that meets more than one sheet passes through a face that looks back.
+  const CubeMap cube(fold_resolution);
+  std::vector<char> folded(cube.cells(), 0);
+  for (std::size_t f = 0; f < angles.size(); ++f) {
+    if (angles[f] >= 0.0) continue;
+    const Triangle& t = mesh.triangles[f];
+    cube.visit_cells(mesh.points[index(t[0])], mesh.points[index(t[1])], mesh.points[index(t[2])],
+                     [&](std::size_t cell) { folded[cell] = 1; });
+  }
+  const MeshSurface surface(mesh, Vector3::Zero(), 1.0, execution);
+  execution.parallel_for(mesh.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double& radius = samples.radii[i];
+      if (!(radius > 0.0) || !folded[cube.cell(samples.directions[i])]) continue;
+      const double outermost = surface.outermost_hit(samples.directions[i]).radius;
+      if (outermost > radius * (1.0 + hidden_tolerance)) radius = 0.0;
+    }
+  });
+}
+
+}  // namespace
+
+RadialSamples radial_samples(const IndexedMesh& mesh, const Execution& execution) {
+  if (mesh.triangles.empty()) {
+    throw Error(ErrorCode::InvalidInput, "The mesh is empty; check it before sampling it.");
+  }
+  const std::size_t count = mesh.points.size();
+  RadialSamples samples;
+  samples.directions.resize(count);
+  samples.radii.resize(count);
+  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      samples.radii[i] = mesh.points[i].norm();
+      samples.directions[i] = mesh.points[i].normalized();
+    }
+  });
+  std::vector<double> angles(mesh.triangles.size());
+  const SolidAngleSums sums = execution.parallel_sum(
+      angles.size(), block_size, SolidAngleSums(), [&](std::size_t begin, std::size_t end) {
+        SolidAngleSums part;
+        for (std::size_t f = begin; f < end; ++f) {
+          const Triangle& t = mesh.triangles[f];
+          angles[f] = solid_angle(samples.directions[index(t[0])], samples.directions[index(t[1])],
+                                  samples.directions[index(t[2])]);
+          part.add(angles[f]);
+        }
+        return part;
+      });
+  if (sums.folded_share() >= 1.0) {
+    RadialSamples nothing;
+    nothing.folded_share = sums.folded_share();
+    return nothing;
+  }
+  samples.folded_share = sums.folded_share();
+  samples.weights.assign(count, 0.0);
+  for (std::size_t f = 0; f < angles.size(); ++f) {
+    if (!(angles[f] > 0.0)) continue;
+    for (const std::int32_t v : mesh.triangles[f]) samples.weights[index(v)] += angles[f] / 3.0;
+  }
+  if (sums.backward > 0.0) hide_vertices(mesh, angles, execution, samples);
+
+  samples.vertices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(samples.radii[i] > 0.0 && samples.weights[i] > 0.0)) continue;
+    const std::size_t kept = samples.vertices.size();
+    samples.directions[kept] = samples.directions[i];
+    samples.radii[kept] = samples.radii[i];
+    samples.weights[kept] = samples.weights[i];
+    samples.vertices.push_back(static_cast<std::int32_t>(i));
+  }
+  samples.directions.resize(samples.vertices.size());
+  samples.radii.resize(samples.vertices.size());
+  samples.weights.resize(samples.vertices.size());
+  return samples;
+}
+
+}  // namespace wscvt

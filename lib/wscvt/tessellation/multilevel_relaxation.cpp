@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/multilevel_relaxation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+struct Tessellation {
+  std::vector<Vector3> seeds;
+  std::vector<Triangle> triangles;
+};
+
+/// Cuts every edge at its middle, on the surface's chord, and every triangle in four.
+Tessellation subdivide(const std::vector<Vector3>& seeds, const std::vector<double>& radii,
+                       const SphereTriangulation& triangulation) {
+  Tessellation fine;
+  fine.seeds = seeds;
+  fine.seeds.reserve(4 * seeds.size());
+  std::vector<std::int32_t> middle(triangulation.opposite().size());
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(middle.size()); ++h) {
+    const std::int32_t other = triangulation.opposite()[h];
+    if (h < other) {
+      const std::int32_t a = triangulation.origin(h);
+      const std::int32_t b = triangulation.origin(other);
+      middle[h] = static_cast<std::int32_t>(fine.seeds.size());
+      fine.seeds.push_back((radii[a] * seeds[a] + radii[b] * seeds[b]).normalized());
+    } else {
+      middle[h] = middle[other];
+    }
+  }
+  fine.triangles.reserve(4 * triangulation.triangles().size());
+  for (std::size_t t = 0; t < triangulation.triangles().size(); ++t) {
+    const auto [a, b, c] = triangulation.triangles()[t];
+    const std::int32_t ab = middle[3 * t];
+    const std::int32_t bc = middle[3 * t + 1];
+    const std::int32_t ca = middle[3 * t + 2];
+    fine.triangles.push_back({a, ab, ca});
+    fine.triangles.push_back({ab, b, bc});
+    fine.triangles.push_back({ca, bc, c});
+    fine.triangles.push_back({ab, bc, ca});
+  }
+  return fine;
+}
+
+/// Adds `extra` seeds in the middles of the largest triangles.
+void insert_seeds(Tessellation& tessellation, int extra) {
+  if (extra == 0) return;
+  std::vector<std::size_t> order(tessellation.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<double> areas;
+  areas.reserve(order.size());
+  for (const auto& [a, b, c] : tessellation.triangles) {
+    const Vector3& origin = tessellation.seeds[a];
+    areas.push_back(
+        (tessellation.seeds[b] - origin).cross(tessellation.seeds[c] - origin).squaredNorm());
+  }
+  std::partial_sort(order.begin(), order.begin() + extra, order.end(),
+                    [&](std::size_t i, std::size_t j) {
+                      return areas[i] != areas[j] ? areas[i] > areas[j] : i < j;
+                    });
+  for (int k = 0; k < extra; ++k) {
+    const auto [a, b, c] = tessellation.triangles[order[k]];
+    const auto v = static_cast<std::int32_t>(tessellation.seeds.size());
+    tessellation.seeds.push_back(
+        (tessellation.seeds[a] + tessellation.seeds[b] + tessellation.seeds[c]).normalized());
+    tessellation.triangles[order[k]] = {a, b, v};
+    tessellation.triangles.push_back({b, c, v});
+    tessellation.triangles.push_back({c, a, v});
+  }
+}
+
+}  // namespace
+
+std::vector<int> level_sizes(int count, int coarsest_seeds) {
+  if (count < 4 || coarsest_seeds < 4) {
+    throw Error(ErrorCode::InvalidInput,
+                "The levels of a tessellation need at least 4 seeds, not " +
+                    std::to_string(std::min(count, coarsest_seeds)) + ".");
+  }
+  std::vector<int> sizes = {count};
+  while ((sizes.back() - 2) / 4 + 2 >= coarsest_seeds) sizes.push_back((sizes.back() - 2) / 4 + 2);
+  std::reverse(sizes.begin(), sizes.end());
+  return sizes;
+}
+
+void check_multilevel_options(const MultilevelOptions& options) {
+  if (options.coarsest_seeds < 4) {
+    throw Error(ErrorCode::InvalidInput, "The size of the coarsest level is " +
+                                             std::to_string(options.coarsest_seeds) +
+                                             "; give 4 or more.");
+  }
+  if (!(options.coarsest_tolerance > 0.0) || !(options.middle_tolerance > 0.0)) {
+    throw Error(ErrorCode::InvalidInput, "The levels' displacement tolerances must be above 0.");
+  }
+}
+
+RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const SeedModel& model,
+                                  const RelaxationOptions& options, const MultilevelOptions& levels,
+                                  const Execution& execution) {
+  check_multilevel_options(levels);
+  const std::vector<int> sizes = level_sizes(count, levels.coarsest_seeds);
+  if (static_cast<int>(start.size()) != sizes.front()) {
+    throw Error(ErrorCode::InvalidInput, "The coarsest level has " + std::to_string(start.size()) +
+                                             " seeds instead of " + std::to_string(sizes.front()) +
+                                             ".");
+  }
+  const auto options_of = [&](std::size_t level) {
+    RelaxationOptions result = options;
+    if (level + 1 < sizes.size()) {
+      const double tolerance = level == 0 ? levels.coarsest_tolerance : levels.middle_tolerance;
+      result.displacement_tolerance = std::min(options.displacement_tolerance, tolerance);
+      // Few seeds on a rough grain never spread as little as the last level's may.
+      result.area_tolerance = std::numeric_limits<double>::infinity();
+    }
+    return result;
+  };
+  // Progress by the number of seeds to be moved, of which the last level has three quarters.
+  double done = 0.0;
+  double all = 0.0;
+  for (const int size : sizes) all += size;
+  const auto execution_of = [&](std::size_t level) {
+    const double begin = done;
+    done += sizes[level];
+    return execution.part(begin / all, done / all);
+  };
+
+  RelaxationResult result = relax(std::move(start), model, options_of(0), execution_of(0));
+  std::vector<RelaxationLevel> coarser;
+  for (std::size_t level = 1; level < sizes.size(); ++level) {
+    coarser.push_back({sizes[level - 1], result.report.iterations, result.report.converged});
+    std::vector<double> radii(result.seeds.size(), 1.0);
+    if (options.metric == RelaxationMetric::Surface) model.radii(result.seeds, execution, radii);
+    Tessellation fine = subdivide(result.seeds, radii, result.triangulation);
+    insert_seeds(fine, sizes[level] - static_cast<int>(fine.seeds.size()));
+    SphereTriangulation triangulation(fine.seeds, std::move(fine.triangles));
+    const int rebuilds = result.report.rebuilds;
+    const double weight_scale = result.report.weight_scale;
+    result = relax(std::move(fine.seeds), std::move(triangulation), model, options_of(level),
+                   execution_of(level));
+    result.report.rebuilds += rebuilds;
+    result.report.weight_scale = std::min(result.report.weight_scale, weight_scale);
+  }
+  result.report.coarser_levels = std::move(coarser);
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/power_cells.h"
+
+#include <string>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 2048;
+
+// (O - a).ab = (|ab|^2 + w_a - w_b) / 2 and the same for ac, solved in the triangle's plane.
+Vector3 radical_centre(const Vector3& a, const Vector3& b, const Vector3& c, double lower_ab,
+                       double lower_ac) {
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
+  const double ab_ab = ab.squaredNorm();
+  const double ac_ac = ac.squaredNorm();
+  const double ab_ac = ab.dot(ac);
+  const double determinant = ab_ab * ac_ac - ab_ac * ab_ac;
+  // A needle has no centre worth the name; its middle keeps the neighbours' cells sane.
+  if (!(determinant > 1e-24 * ab_ab * ac_ac)) return (a + b + c) / 3.0;
+  const double along_ab = 0.5 * (ab_ab + lower_ab);
+  const double along_ac = 0.5 * (ac_ac + lower_ac);
+  const double s = (along_ab * ac_ac - along_ac * ab_ac) / determinant;
+  const double t = (along_ac * ab_ab - along_ab * ab_ac) / determinant;
+  return a + s * ab + t * ac;
+}
+
+}  // namespace
+
+void compute_power_cells(const SphereTriangulation& triangulation,
+                         const std::vector<Vector3>& sites, const std::vector<double>& weights,
+                         const std::vector<double>& densities, CellGeometry geometry,
+                         const Execution& execution, PowerCells& cells) {
+  const std::size_t count = sites.size();
+  if (count != triangulation.vertex_count() || (!weights.empty() && weights.size() != count) ||
+      (!densities.empty() && densities.size() != count)) {
+    throw Error(ErrorCode::InvalidInput,
+                "The triangulation has " + std::to_string(triangulation.vertex_count()) +
+                    " vertices, but there are " + std::to_string(count) + " sites, " +
+                    std::to_string(weights.size()) + " weights and " +
+                    std::to_string(densities.size()) + " densities; give one each.");
+  }
+  const std::vector<Triangle>& triangles = triangulation.triangles();
+  const std::vector<std::int32_t>& opposite = triangulation.opposite();
+  const bool on_sphere = geometry == CellGeometry::UnitSphere;
+  const bool weighted = !weights.empty();
+  const bool dense = !densities.empty();
+
+  cells.vertices.resize(triangles.size());
+  execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = triangles[t];
+      const double w = weighted ? weights[a] : 0.0;
+      const Vector3 centre =
+          radical_centre(sites[a], sites[b], sites[c], weighted ? w - weights[b] : 0.0,
+                         weighted ? w - weights[c] : 0.0);
+      cells.vertices[t] = on_sphere ? Vector3(centre.normalized()) : centre;
+    }
+  });
+
+  cells.centroids.resize(count);
+  cells.areas.resize(count);
+  cells.energy =
+      execution.parallel_sum(count, block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+        double energy = 0.0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vector3& site = sites[i];
+          const std::int32_t first = triangulation.first_half_edge()[i];
+          Vector3 normal = site;
+          if (!on_sphere) {
+            normal.setZero();
+            std::int32_t h = first;
+            do {
+              const Triangle& t = triangles[h / 3];
+              normal += (sites[t[1]] - sites[t[0]]).cross(sites[t[2]] - sites[t[0]]);
+              h = opposite[SphereTriangulation::previous(h)];
+            } while (h != first);
+            normal.normalize();
+          }
+          double area = 0.0;
+          double mass = 0.0;
+          double moment = 0.0;
+          Vector3 sum = Vector3::Zero();
+          // Vectors from the site to this and the next cell vertex, counter-clockwise.
+          std::int32_t h = first;
+          Vector3 a = cells.vertices[h / 3] - site;
+          double density_a = 1.0;
+          const auto density_at = [&](std::int32_t triangle) {
+            const Triangle& t = triangles[triangle];
+            return (densities[t[0]] + densities[t[1]] + densities[t[2]]) / 3.0;
+          };
+          if (dense) density_a = density_at(h / 3);
+          do {
+            h = opposite[SphereTriangulation::previous(h)];
+            const Vector3 b = cells.vertices[h / 3] - site;
+            const double fan = 0.5 * a.cross(b).dot(normal);
+            area += fan;
+            const double second_moment = fan / 6.0 * (a.squaredNorm() + b.squaredNorm() + a.dot(b));
+            if (dense) {
+              // A density linear over the fan's corners weighs corner k by (total + its own) / 12.
+              const double density_b = density_at(h / 3);
+              const double total = densities[i] + density_a + density_b;
+              mass += fan * total / 3.0;
+              sum += fan / 12.0 * ((total + density_a) * a + (total + density_b) * b);
+              moment += second_moment * total / 3.0;
+              density_a = density_b;
+            } else {
+              mass += fan;
+              sum += fan / 3.0 * (a + b);
+              moment += second_moment;
+            }
+            a = b;
+          } while (h != first);
+          cells.areas[i] = area;
+          // A cell turned inside out by a coarse start has no centroid: the seed stays.
+          Vector3 shift = mass > 0.0 ? Vector3(sum / mass) : Vector3(Vector3::Zero());
+          shift -= shift.dot(normal) * normal;
+          cells.centroids[i] = site + shift;
+          energy += moment - (weighted ? weights[i] * mass : 0.0);
+        }
+        return energy;
+      });
+}
+
+}  // namespace wscvt

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/relaxation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/tessellation/power_cells.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 4096;
+
+double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>& to,
+                   const Execution& execution) {
+  const double sum =
+      execution.parallel_sum(from.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+        double part = 0.0;
+        for (std::size_t i = begin; i < end; ++i) part += (to[i] - from[i]).squaredNorm();
+        return part;
+      });
+  return sum / static_cast<double>(from.size());
+}
+
+/// The cells of seeds at one place, and how they compare with their targets.
+class Evaluation {
+ public:
+  Evaluation(const SeedModel& model, RelaxationMetric metric, const Execution& execution)
+      : model_(model), metric_(metric), execution_(execution) {}
+
+  void start_from(SphereTriangulation triangulation) { triangulation_ = std::move(triangulation); }
+
+  /// Repairs or rebuilds the triangulation for `seeds` and computes the cells.
+  void at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+    flips_ = 0;
+    if (metric_ == RelaxationMetric::Surface) {
+      model_.radii(seeds, execution_, radii_);
+      positions_.resize(seeds.size());
+      execution_.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) positions_[i] = radii_[i] * seeds[i];
+      });
+      model_.surface_densities(seeds, execution_, wanted_);
+      triangulate_surface(seeds, report);
+      // A centroidal tessellation of density rho has rho^(1/2) cells per area.
+      densities_ = wanted_;
+      for (double& density : densities_) density *= density;
+      compute_power_cells(*triangulation_, positions_, {}, densities_, CellGeometry::Surface,
+                          execution_, cells_);
+    } else {
+      model_.weights(seeds, execution_, weights_);
+      triangulate_regular(seeds, report);
+      compute_power_cells(*triangulation_, seeds, weights_, {}, CellGeometry::UnitSphere,
+                          execution_, cells_);
+    }
+    compare(seeds);
+  }
+
+  /// Where the centroids lie, seen from the origin; unit vectors are taken by the caller.
+  const std::vector<Vector3>& centroids() const { return cells_.centroids; }
+  const std::vector<Vector3>& sites(const std::vector<Vector3>& seeds) const {
+    return metric_ == RelaxationMetric::Surface ? positions_ : seeds;
+  }
+  const RelaxationStep& step() const { return step_; }
+  SphereTriangulation take_triangulation() { return std::move(*triangulation_); }
+  std::vector<double> take_areas() { return std::move(cells_.areas); }
+
+ private:
+  void triangulate_regular(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+    if (triangulation_) {
+      const auto repair = triangulation_->restore_regular(seeds, weights_, execution_);
+      flips_ = repair.flips;
+      if (repair.complete()) return;
+      ++report.rebuilds;
+    }
+    // A seed whose weight is too low has no cell. Then the differences between weights are halved
+    // until every seed has one; with equal weights every seed has.
+    double scale = 1.0;
+    for (int attempt = 0;; ++attempt) {
+      try {
+        triangulation_.emplace(seeds, weights_);
+        break;
+      } catch (const Error&) {
+        if (weights_.empty() || attempt == 20) throw;
+      }
+      scale *= 0.5;
+      if (attempt == 10) {
+        weights_.clear();
+        scale = 0.0;
+      }
+      for (double& weight : weights_) weight *= 0.5;
+    }
+    report.weight_scale = std::min(report.weight_scale, scale);
+  }
+
+  void triangulate_surface(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+    if (triangulation_) {
+      const auto repair = triangulation_->restore_surface_delaunay(seeds, positions_, execution_);
+      flips_ = repair.flips;
+      if (!repair.turned_over) return;
+      ++report.rebuilds;
+    }
+    triangulation_.emplace(seeds);
+    flips_ += triangulation_->restore_surface_delaunay(seeds, positions_, execution_).flips;
+  }
+
+  // h and the spread of (cell area / target).
+  void compare(const std::vector<Vector3>& seeds) {
+    const std::size_t count = seeds.size();
+    const bool surface = metric_ == RelaxationMetric::Surface;
+    struct Sums {
+      double area = 0.0;
+      double other = 0.0;
+      Sums& operator+=(const Sums& sums) {
+        area += sums.area;
+        other += sums.other;
+        return *this;
+      }
+    };
+    const std::vector<double>& shares = surface ? wanted_ : weights_;
+    const Sums sums =
+        execution_.parallel_sum(count, block_size, Sums(), [&](std::size_t begin, std::size_t end) {
+          Sums part;
+          for (std::size_t i = begin; i < end; ++i) {
+            part.area += cells_.areas[i];
+            part.other += shares.empty() ? 0.0 : (surface ? 1.0 / shares[i] : shares[i]);
+          }
+          return part;
+        });
+    const double mean_area = sums.area / static_cast<double>(count);
+    const double mean_share = sums.other / static_cast<double>(count);
+    const auto target = [&](std::size_t i) {
+      if (shares.empty()) return mean_area;
+      if (surface) return mean_area / (shares[i] * mean_share);
+      // Below a twentieth of the mean the law "area = 3.118 w + C" no longer holds.
+      return std::max(0.05 * mean_area,
+                      mean_area + cell_area_per_weight * (shares[i] - mean_share));
+    };
+    const Sums ratios =
+        execution_.parallel_sum(count, block_size, Sums(), [&](std::size_t begin, std::size_t end) {
+          Sums part;
+          for (std::size_t i = begin; i < end; ++i) {
+            const double ratio = cells_.areas[i] / target(i);
+            part.area += ratio;
+            part.other += ratio * ratio;
+          }
+          return part;
+        });
+    const double mean_ratio = ratios.area / static_cast<double>(count);
+    const double variance = ratios.other / static_cast<double>(count) - mean_ratio * mean_ratio;
+    step_.area_spread = std::sqrt(std::max(0.0, variance));
+    step_.displacement =
+        std::sqrt(mean_square(sites(seeds), cells_.centroids, execution_) / mean_area);
+    step_.flips = flips_;
+  }
+
+  const SeedModel& model_;
+  RelaxationMetric metric_;
+  const Execution& execution_;
+  std::optional<SphereTriangulation> triangulation_;
+  std::vector<double> weights_, radii_, wanted_, densities_;
+  std::vector<Vector3> positions_;
+  PowerCells cells_;
+  RelaxationStep step_;
+  int flips_ = 0;
+};
+
+/// Evaluates at `seeds`; when those have no triangulation, which happens to a handful of seeds on a
+/// long grain that a whole step would leave in one hemisphere, halfway back to where they were.
+/// False when nothing but their old place will do; the seeds then stand there.
+bool try_evaluation(Evaluation& evaluation, const std::vector<Vector3>& before,
+                    std::vector<Vector3>& seeds, RelaxationReport& report) {
+  constexpr int halvings = 6;
+  for (int attempt = 0;; ++attempt) {
+    try {
+      evaluation.at(seeds, report);
+      return true;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::NumericalFailure) throw;
+    }
+    if (attempt == halvings) break;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      seeds[i] = (seeds[i] + before[i]).normalized();
+    }
+  }
+  seeds = before;
+  evaluation.at(seeds, report);
+  return false;
+}
+
+/// Notices steps that go round in circles: those of the surface metric need not lead downhill.
+class CycleWatch {
+ public:
+  /// Whether the displacement has been well above its smallest for too many steps since that. Below
+  /// 1e-3 h nothing is held against it: there a single flip takes it up for a while, and runs with
+  /// a finer tolerance come to rest sooner with momentum (cycles were seen at 0.01 h and more).
+  bool cycling_at(double displacement) {
+    if (displacement < smallest_) {
+      smallest_ = displacement;
+      steps_above_ = 0;
+    } else if (displacement > std::max(2.0 * smallest_, 1e-3)) {
+      ++steps_above_;
+    }
+    return steps_above_ >= 30;
+  }
+
+ private:
+  double smallest_ = std::numeric_limits<double>::infinity();
+  int steps_above_ = 0;
+};
+
+RelaxationResult relax_from(std::vector<Vector3> seeds,
+                            std::optional<SphereTriangulation> triangulation,
+                            const SeedModel& model, const RelaxationOptions& options,
+                            const Execution& execution) {
+  check_relaxation_options(options);
+  const std::size_t count = seeds.size();
+  if (count < 4) {
+    throw Error(ErrorCode::InvalidInput,
+                "Relaxation needs at least 4 seeds, not " + std::to_string(count) + ".");
+  }
+  RelaxationReport report;
+  Evaluation evaluation(model, options.metric, execution);
+  if (triangulation) evaluation.start_from(*std::move(triangulation));
+  evaluation.at(seeds, report);
+
+  // `seeds` is where the cells were evaluated; `arrived` where the last plain step ended.
+  std::vector<Vector3> arrived = seeds;
+  std::vector<Vector3> stepped(count);
+  double momentum = 1.0;
+  double factor = options.over_relaxation;
+  bool plain = false;
+  CycleWatch watch;
+  while (true) {
+    report.history.push_back(evaluation.step());
+    const RelaxationStep& step = evaluation.step();
+    report.converged = step.displacement < options.displacement_tolerance &&
+                       step.area_spread < options.area_tolerance;
+    // Plain steps are slow to rest; 0.3 of the tolerance leaves triangles as even.
+    const double rest = (plain ? 0.3 : 0.01) * options.displacement_tolerance;
+    report.settled = !report.converged && step.displacement < rest;
+    if (report.converged || report.settled || report.iterations >= options.maximum_iterations) {
+      break;
+    }
+    if (options.metric == RelaxationMetric::Surface && !plain &&
+        watch.cycling_at(step.displacement)) {
+      plain = true;
+      factor = std::min(1.0, factor);
+    }
+    ++report.iterations;
+    execution.report(static_cast<double>(report.iterations) / (report.iterations + 50.0),
+                     "Relaxing the seeds");
+
+    const std::vector<Vector3>& sites = evaluation.sites(seeds);
+    const std::vector<Vector3>& centroids = evaluation.centroids();
+    const double uphill =
+        execution.parallel_sum(count, block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+          double part = 0.0;
+          for (std::size_t i = begin; i < end; ++i) {
+            stepped[i] = (sites[i] + factor * (centroids[i] - sites[i])).normalized();
+            part += (seeds[i] - stepped[i]).dot(stepped[i] - arrived[i]);
+          }
+          return part;
+        });
+    double carry = 0.0;
+    if (options.acceleration && !plain) {
+      if (uphill > 0.0) momentum = 1.0;
+      const double grown = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
+      carry = (momentum - 1.0) / grown;
+      momentum = grown;
+    }
+    execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Vector3 moved = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();
+        arrived[i] = seeds[i];
+        seeds[i] = moved;
+      }
+    });
+    if (!try_evaluation(evaluation, arrived, seeds, report)) {
+      report.stuck = true;
+      break;
+    }
+    arrived.swap(stepped);
+  }
+  return {std::move(seeds), evaluation.take_triangulation(), evaluation.take_areas(),
+          std::move(report)};
+}
+
+}  // namespace
+
+void check_relaxation_options(const RelaxationOptions& options) {
+  const auto refuse = [](const std::string& sentence) {
+    throw Error(ErrorCode::InvalidInput, sentence);
+  };
+  if (options.maximum_iterations < 0) {
+    refuse("The largest number of iterations is " + std::to_string(options.maximum_iterations) +
+           "; give 0 or more.");
+  }
+  if (!(options.displacement_tolerance > 0.0) || !(options.area_tolerance > 0.0)) {
+    refuse("The tolerances for displacement and cell area must be above 0.");
+  }
+  const double limit = options.acceleration ? 4.0 / 3.0 : 2.0;
+  if (!(options.over_relaxation > 0.0) || !(options.over_relaxation < limit)) {
+    refuse("The over-relaxation factor is " + format_number(options.over_relaxation) +
+           "; give a number above 0 and below " +
+           (options.acceleration ? "4/3, such as 1.2." : "2, such as 1.8."));
+  }
+}
+
+RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
+                       const RelaxationOptions& options, const Execution& execution) {
+  return relax_from(std::move(seeds), std::nullopt, model, options, execution);
+}
+
+RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangulation,
+                       const SeedModel& model, const RelaxationOptions& options,
+                       const Execution& execution) {
+  return relax_from(std::move(seeds), std::move(triangulation), model, options, execution);
+}
+
+}  // namespace wscvt

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/tessellation/weights.h"
+
+namespace wscvt {
+
+/// In which geometry cells are made centroidal.
+enum class RelaxationMetric {
+  Sphere,   ///< power cells on the unit sphere, weighted: the paper's method
+  Surface,  ///< Voronoi cells on the surface itself: the most even triangles
+};
+
+struct RelaxationOptions {
+  RelaxationMetric metric = RelaxationMetric::Sphere;
+  int maximum_iterations = 1000;         ///< >= 0
+  double displacement_tolerance = 1e-3;  ///< rms displacement / h; > 0
+  double area_tolerance = 0.07;          ///< spread of cell area / target; > 0
+  bool acceleration = true;              ///< momentum with restarts on top of the over-relaxed step
+  /// Step factor towards the centroid: in (0, 2) without acceleration, where 1.8 does well, and in
+  /// (0, 4/3) with it. Those are the limits of stability of the sphere metric, whose step goes down
+  /// the gradient of an energy. The surface metric's step does not: its cells are flat while its
+  /// seeds stay on their rays, so that on a rough grain no factor above 1 is sure to come to rest,
+  /// nor is momentum; see relax() for what is done then.
+  double over_relaxation = 1.2;
+};
+
+/// One line of the iteration's history.
+struct RelaxationStep {
+  double displacement = 0.0;  ///< rms distance seed to cell centroid / h, h = sqrt(total area / N)
+  double area_spread = 0.0;   ///< standard deviation of (cell area / its target)
+  int flips = 0;              ///< edges flipped to restore the triangulation
+};
+
+/// A coarser tessellation that was relaxed first (see multilevel_relaxation.h).
+struct RelaxationLevel {
+  int seeds = 0;
+  int iterations = 0;
+  bool converged = false;  ///< to the level's tolerances (see MultilevelOptions)
+};
+
+struct RelaxationReport {
+  bool converged = false;  ///< displacement and area spread both below their tolerances
+  /// The seeds have come to rest (a hundredth of the displacement tolerance, or 0.3 of it with the
+  /// surface metric's plain steps) although the cells' areas spread more than asked for: few nodes
+  /// on a strongly bent surface cannot do better.
+  bool settled = false;
+  bool stuck = false;  ///< ended because even a short step further could not be triangulated
+  int iterations = 0;  ///< with all the seeds
+  std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
+  int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
+  double weight_scale = 1.0;  ///< below 1: weights were damped so that no seed lost its cell
+  std::vector<RelaxationStep> history;
+};
+
+struct RelaxationResult {
+  std::vector<Vector3> seeds;         ///< unit vectors, in the order given
+  SphereTriangulation triangulation;  ///< of those seeds, as the metric defines it
+  std::vector<double> cell_areas;     ///< solid angles (Sphere) or surface areas (Surface)
+  RelaxationReport report;
+};
+
+/// Moves the seeds towards the centroids of their cells until both the rms displacement and the
+/// spread of (cell area / target) are below their tolerances, or the seeds have come to rest, or
+/// they cannot go further without tearing the triangulation, or the iterations are used up; which
+/// of these is said in the report.
+///
+/// Each step goes `over_relaxation` times the way from seed to centroid. With `acceleration` the
+/// steps carry Nesterov's momentum, dropped whenever it points uphill (O'Donoghue and Candes 2015,
+/// "Adaptive restart for accelerated gradient schemes"). The target cell area is 3.118 w + C on the
+/// sphere and inversely proportional to the wanted density on the surface.
+///
+/// On rough grains such steps of the surface metric can go round in circles. Once the displacement
+/// has been above both twice its smallest and 1e-3 h for 30 steps since that, the rest are plain
+/// steps: factor 1 at most and no momentum. They are slower, but went to about 1e-3 h or less on
+/// every scan tried.
+///
+/// Throws Error(InvalidInput) for options out of range or fewer than 4 seeds,
+/// Error(NumericalFailure) when the seeds cannot be triangulated, Error(Cancelled).
+RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
+                       const RelaxationOptions& options, const Execution& execution);
+
+/// The same from a triangulation of the seeds, which saves building one.
+RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangulation,
+                       const SeedModel& model, const RelaxationOptions& options,
+                       const Execution& execution);
+
+/// Throws Error(InvalidInput) for options out of range.
+void check_relaxation_options(const RelaxationOptions& options);
+
+}  // namespace wscvt

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/sphere/sphere_grid.h"
+#include "wscvt/surface/radial_surface.h"
+
+namespace wscvt {
+
+/// What a seed weighs, and so how large its cell becomes.
+enum class Weighting {
+  Constant,        ///< equal solid angles
+  RadialDistance,  ///< WSCVT-D, eq. 10 as printed: w = S / (N pi r^2)
+  Curvature,       ///< WSCVT-C, eqs. 11 to 14: more nodes where curvature is high
+  Area,            ///< equal surface areas: w = S / (3.118 N g), g = dA/dOmega
+  ErrorAdaptive,   ///< nodes where flat triangles err most: node density g k^(2/3)
+};
+
+/// A relaxed cell's solid angle is this times its seed's weight, plus a constant that is the same
+/// for all seeds: 2 / (5 / (9 sqrt 3)) from the second moment of the regular hexagon.
+inline constexpr double cell_area_per_weight = 3.118;
+
+/// What the relaxation asks about seeds wherever they stand. One value a seed, in their order.
+class SeedModel {
+ public:
+  virtual ~SeedModel() = default;
+
+  /// Power weights in steradian for as many seeds as are given; left empty when all are equal.
+  virtual void weights(const std::vector<Vector3>& seeds, const Execution& execution,
+                       std::vector<double>& result) const = 0;
+
+  /// Radii of the surface.
+  virtual void radii(const std::vector<Vector3>& seeds, const Execution& execution,
+                     std::vector<double>& result) const = 0;
+
+  /// Wanted number of seeds per surface area, any common scale; left empty when it is constant.
+  virtual void surface_densities(const std::vector<Vector3>& seeds, const Execution& execution,
+                                 std::vector<double>& result) const = 0;
+};
+
+/// Curvatures given at single directions, such as the vertices of a scan.
+struct CurvatureSamples {
+  std::vector<Vector3> directions;
+  std::vector<PrincipalCurvatures> curvatures;  ///< 1 / length of the surface
+  std::vector<double> weights;                  ///< > 0, any scale: the solid angle each stands for
+};
+
+struct WeightingOptions {
+  Weighting weighting = Weighting::RadialDistance;
+  int node_count = 1000;                 ///< N, >= 4
+  double curvature_alpha = 1.0;          ///< alpha of eq. 11, in [-3, 3]
+  double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, in [0, 1.5]
+};
+
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_weighting_options(const WeightingOptions& options);
+
+/// Mean and standard deviation of a field over seeds.
+struct FieldDeviation {
+  double mean = 0.0;
+  double deviation = 0.0;
+};
+
+/// The weightings above for a given surface.
+///
+/// Radius, area element and curvature are tabulated once, so a seed's weight costs a look-up and
+/// not a series. Curvature is the root mean square over caps of 0.6 h, h = sqrt(4 pi / N): detail
+/// finer than the cells cannot be followed by them and keeps the iteration from settling.
+class SurfaceSeedModel : public SeedModel {
+ public:
+  /// `samples` replace the surface's own curvature when given. Throws Error(InvalidInput) for
+  /// options out of range.
+  SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
+                   const CurvatureSamples* samples, const Execution& execution);
+
+  void weights(const std::vector<Vector3>& seeds, const Execution& execution,
+               std::vector<double>& result) const override;
+  void radii(const std::vector<Vector3>& seeds, const Execution& execution,
+             std::vector<double>& result) const override;
+  void surface_densities(const std::vector<Vector3>& seeds, const Execution& execution,
+                         std::vector<double>& result) const override;
+
+  /// Wanted number of seeds per steradian, for the start; its integral over the sphere is N.
+  std::vector<double> number_densities(const std::vector<Vector3>& directions,
+                                       const Execution& execution) const;
+
+ private:
+  double weight_from(double field, double count, const FieldDeviation& over_seeds) const;
+  void look_up_field(const std::vector<Vector3>& seeds, const Execution& execution,
+                     std::vector<double>& result) const;
+  void look_up(const SphereGrid& grid, const std::vector<Vector3>& seeds,
+               const Execution& execution, std::vector<double>& result) const;
+
+  WeightingOptions options_;
+  std::optional<SphereGrid> radius_;
+  std::optional<SphereGrid> area_element_;
+  /// Logarithm of 1 / curvature (WSCVT-C) or of the wanted density (ErrorAdaptive).
+  std::optional<SphereGrid> field_;
+  double area_ = 0.0;      ///< S, of the surface
+  double total_ = 0.0;     ///< integral of the wanted density (ErrorAdaptive)
+  FieldDeviation wanted_;  ///< of the field over the wanted density (WSCVT-C)
+  double offset_ = 0.0;    ///< C in "cell area = 3.118 w + C"
+};
+
+}  // namespace wscvt

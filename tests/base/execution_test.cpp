@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/base/execution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+namespace {
+
+TEST(Execution, ParallelForCoversEveryIndexOnce) {
+  for (const int threads : {1, 2, 5}) {
+    std::vector<int> seen(1001, 0);
+    Execution(threads).parallel_for(seen.size(), 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) ++seen[i];
+    });
+    for (const int count : seen) EXPECT_EQ(count, 1);
+  }
+}
+
+TEST(Execution, SumHasTheSameBitsOnAnyNumberOfThreads) {
+  const auto sum = [](int threads) {
+    return Execution(threads).parallel_sum(std::size_t{100000}, 333, 0.0,
+                                           [](std::size_t begin, std::size_t end) {
+                                             double part = 0.0;
+                                             for (std::size_t i = begin; i < end; ++i)
+                                               part += std::sin(static_cast<double>(i));
+                                             return part;
+                                           });
+  };
+  const double one = sum(1);
+  for (const int threads : {2, 3, 7}) {
+    const double many = sum(threads);
+    EXPECT_EQ(std::memcmp(&one, &many, sizeof one), 0);
+  }
+}
+
+TEST(Execution, ExceptionFromAThreadReachesTheCaller) {
+  EXPECT_THROW(Execution(2).parallel_for(100, 1,
+                                         [](std::size_t begin, std::size_t) {
+                                           if (begin == 57) throw std::runtime_error("here");
+                                         }),
+               std::runtime_error);
+}
+
+TEST(Execution, ProgressIsScaledToThePartAndCancels) {
+  std::vector<double> fractions;
+  const Execution whole(1, [&](double fraction, const std::string&) {
+    fractions.push_back(fraction);
+    return fractions.size() < 3;
+  });
+  whole.part(0.5, 1.0).part(0.0, 0.5).report(0.5, "stage");
+  whole.report(7.0, "stage");
+  ASSERT_EQ(fractions.size(), 2U);
+  EXPECT_DOUBLE_EQ(fractions[0], 0.625);
+  EXPECT_DOUBLE_EQ(fractions[1], 1.0);
+  try {
+    whole.report(0.0, "stage");
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+  }
+}
+
+TEST(Execution, MoreThreadsThanTheMachineHasAreNoReasonToWrite) {
+  testing::internal::CaptureStderr();
+  Execution(1000).parallel_for(5000, 1, [](std::size_t, std::size_t) {});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Execution, RefusesNegativeThreads) { EXPECT_THROW(Execution(-1), Error); }
+
+}  // namespace
+}  // namespace wscvt

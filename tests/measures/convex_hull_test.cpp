@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/convex_hull.h"
+
+#include <gtest/gtest.h>
+
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/measures/shape_descriptors.h"
+
+namespace wscvt {
+namespace {
+
+double volume(const IndexedMesh& mesh) { return describe_shape(mesh, Execution(1)).volume; }
+
+TEST(ConvexHull, OfABoxWithPointsInsideIsTheBox) {
+  IndexedMesh mesh = test::subdivided(test::box(1, 2, 3), 2);
+  for (int i = 0; i < 100; ++i) mesh.points.push_back(0.004 * i * Vector3(1, -1, 1));
+  EXPECT_NEAR(volume(convex_hull(mesh.points)), 6.0, 1e-12);
+}
+
+TEST(ConvexHull, OfAConvexBodyIsItself) {
+  const IndexedMesh mesh = test::scaled(test::sphere(4), {1, 2, 3});
+  const IndexedMesh hull = convex_hull(mesh.points);
+  EXPECT_EQ(hull.points.size(), mesh.points.size());
+  EXPECT_EQ(hull.triangles.size(), mesh.triangles.size());
+  EXPECT_NEAR(volume(hull) / volume(mesh), 1.0, 1e-12);
+}
+
+TEST(ConvexHull, OfTwoCubesIsThePrismOverThem) {
+  // Unit cubes at x = 0 and x = 3: a prism of 4 x 1 x 1.
+  std::vector<Vector3> points = test::box(1, 1, 1).points;
+  for (const Vector3& p : test::box(1, 1, 1).points) points.push_back(p + Vector3(3, 0, 0));
+  EXPECT_NEAR(volume(convex_hull(points)), 4.0, 1e-14);
+}
+
+TEST(ConvexHull, RefusesAPlane) {
+  EXPECT_THROW(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), Error);
+  EXPECT_THROW(convex_hull({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}), Error);
+  EXPECT_THROW(convex_hull({{0, 0, 0}}), Error);
+  EXPECT_THROW(convex_hull({}), Error);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/descriptor_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+namespace {
+
+void expect_distinct_names(const std::vector<DescriptorValue>& rows) {
+  std::set<std::string> keys;
+  std::set<std::string> labels;
+  for (const DescriptorValue& row : rows) {
+    EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+    EXPECT_TRUE(labels.insert(row.label).second) << row.label;
+    EXPECT_EQ(row.key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos)
+        << row.key;
+    EXPECT_FALSE(row.label.empty());
+  }
+}
+
+TEST(DescriptorTable, KeysAreDistinctLowerCaseNames) {
+  expect_distinct_names(list_descriptors(ShapeDescriptors()));
+  expect_distinct_names(list_descriptors(DetailedDescriptors()));
+}
+
+TEST(DescriptorTable, SameKeysForTheSameDescriptors) {
+  DetailedDescriptors detailed;
+  detailed.basic = describe_shape(test::box(1, 2, 3), Execution(1));
+  const Vector3 axes = 2.0 * detailed.basic.inertia_semi_axes;
+  detailed.inertia_axes = {axes[0], axes[1], axes[2]};
+  detailed.inertia_ratios = form_ratios(detailed.inertia_axes);
+  const auto all = list_descriptors(detailed);
+  for (const DescriptorValue& row : list_descriptors(detailed.basic)) {
+    const auto same = std::find_if(
+        all.begin(), all.end(), [&](const DescriptorValue& other) { return other.key == row.key; });
+    ASSERT_NE(same, all.end()) << row.key;
+    EXPECT_EQ(same->label, row.label);
+    EXPECT_EQ(same->unit, row.unit);
+    EXPECT_DOUBLE_EQ(same->value, row.value);
+  }
+}
+
+TEST(DescriptorTable, ComparesASphereWithOneTwiceAsLarge) {
+  const Execution execution(1);
+  const auto rows = compare_descriptors(
+      list_descriptors(describe_shape(test::sphere(2), execution)),
+      list_descriptors(describe_shape(test::scaled(test::sphere(2), {2, 2, 2}), execution)));
+  for (const DescriptorComparison& row : rows) {
+    SCOPED_TRACE(row.key);
+    // The unit says how a descriptor grows.
+    const double expected = row.unit == "length^3"   ? 700.0
+                            : row.unit == "length^2" ? 300.0
+                            : row.unit == "length"   ? 100.0
+                                                     : 0.0;
+    EXPECT_NEAR(row.error_percent, expected, 1e-9);
+  }
+}
+
+TEST(DescriptorTable, NoPercentageWhereItSaysNothing) {
+  const std::vector<DescriptorValue> a = {{"skew", "skew", "", 1e-9, false}};
+  const std::vector<DescriptorValue> b = {{"skew", "skew", "", 0.1, false}};
+  EXPECT_TRUE(std::isnan(compare_descriptors(a, b).front().error_percent));
+}
+
+TEST(DescriptorTable, RefusesListsOfDifferentKinds) {
+  const std::vector<DescriptorValue> a = {{"one", "one", "", 1.0}};
+  const std::vector<DescriptorValue> b = {{"two", "two", "", 1.0}};
+  EXPECT_THROW(compare_descriptors(a, b), Error);
+  EXPECT_THROW(compare_descriptors(a, {}), Error);
+}
+
+/// A row whose numbers need their last bit, and one that is not finite.
+std::vector<DescriptorComparison> two_rows() {
+  return {{"volume", "volume", "length^3", 0.1, 0.2, 100.0},
+          {"ssk", "skewness, of heights", "", 1.0 / 3.0, std::nan(""), std::nan("")}};
+}
+
+TEST(DescriptorTable, LinesNameTheColumns) {
+  const std::vector<std::string> lines = table_lines(two_rows(), {"scan", "mesh"});
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_NE(lines[0].find("scan"), std::string::npos);
+  EXPECT_NE(lines[0].find("mesh"), std::string::npos);
+  EXPECT_NE(lines[1].find("+100.000"), std::string::npos);
+  EXPECT_EQ(lines[2].back(), '-');
+  EXPECT_EQ(table_lines({{"one", "first", "", 1.5}}).back(), "  first       1.5");
+}
+
+TEST(DescriptorTable, JsonHoldsTheNumbers) {
+  const auto json = nlohmann::ordered_json::parse(table_json(two_rows(), ComparisonNames()));
+  EXPECT_EQ(json.begin().key(), "volume");
+  EXPECT_EQ(json.at("ssk").at("original").get<double>(), 1.0 / 3.0);
+  EXPECT_TRUE(json.at("ssk").at("remesh").is_null());
+  const auto single = nlohmann::json::parse(table_json({{"one", "first", "length", 0.1}}));
+  EXPECT_EQ(single.at("one").at("value").get<double>(), 0.1);
+  EXPECT_EQ(single.at("one").at("unit"), "length");
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/detailed_descriptors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/seeds.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/measures/descriptor_table.h"
+
+namespace wscvt {
+namespace {
+
+DetailedDescriptors describe(const IndexedMesh& mesh) {
+  return describe_shape_in_detail(mesh, DetailedOptions{15, 8, 64}, Execution(1));
+}
+
+TEST(DetailedDescriptors, Sphere) {
+  const double radius = 3.0;
+  // Edges of 0.16 radii: chords 3e-3 radii deep.
+  const DetailedDescriptors d = describe(test::scaled(test::sphere(3), Vector3::Constant(radius)));
+  EXPECT_NEAR(d.equivalent_diameter, 2.0 * radius, 2.5e-2);
+  for (const FormAxes& axes : {d.inertia_axes, d.box_axes}) {
+    EXPECT_NEAR(axes.shortest, 2.0 * radius, 3e-2);
+    EXPECT_NEAR(axes.longest, 2.0 * radius, 3e-2);
+  }
+  EXPECT_NEAR(d.convexity, 1.0, 1e-12);
+  EXPECT_NEAR(d.inscribed_sphere.radius, radius, 1.5e-2);
+  EXPECT_NEAR(d.orientation.compactness, 1.0, 1e-9);
+  EXPECT_EQ(d.folded_share, 0.0);
+  ASSERT_TRUE(d.has_radius);
+  EXPECT_NEAR(d.roundness.roundness, 1.0, 2e-2);  // the facets bend the fitted series
+  EXPECT_LT(d.roughness.sq, 3e-3 * radius);
+  EXPECT_LT(d.printed_sdq, 0.15);
+}
+
+TEST(DetailedDescriptors, Ellipsoid) {
+  const DetailedDescriptors d =
+      describe(test::transformed(test::scaled(test::sphere(3), {1.0, 1.5, 2.0}),
+                                 test::random_rotation(test::announced(4)), {100, 200, 300}));
+  EXPECT_NEAR(d.equivalent_diameter, 2.0 * std::cbrt(3.0), 2.5e-2);
+  for (const FormAxes& axes : {d.inertia_axes, d.box_axes}) {
+    EXPECT_NEAR(axes.shortest, 2.0, 2e-2);
+    EXPECT_NEAR(axes.intermediate, 3.0, 3e-2);
+    EXPECT_NEAR(axes.longest, 4.0, 4e-2);
+  }
+  EXPECT_NEAR(d.inertia_ratios.zingg_elongation, 0.75, 1e-9);
+  EXPECT_NEAR(d.inertia_ratios.zingg_flatness, 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(d.inertia_ratios.krumbein_sphericity, std::cbrt(0.375), 1e-9);
+  EXPECT_NEAR(d.convexity, 1.0, 1e-12);
+  EXPECT_NEAR(d.inscribed_sphere.radius, 1.0, 1e-2);
+  EXPECT_LT(d.roundness.roundness, 0.95);
+  EXPECT_GT(d.roundness.roundness, 0.3);
+}
+
+TEST(DetailedDescriptors, Cube) {
+  const DetailedDescriptors d =
+      describe(test::transformed(test::box(1, 1, 1), test::random_rotation(test::announced(9))));
+  EXPECT_NEAR(d.equivalent_diameter, std::cbrt(6.0 / test::pi), 1e-12);
+  EXPECT_NEAR(d.box_axes.shortest, 1.0, 1e-9);
+  EXPECT_NEAR(d.box_axes.longest, 1.0, 1e-9);
+  EXPECT_NEAR(d.box_ratios.krumbein_sphericity, 1.0, 1e-9);
+  EXPECT_NEAR(d.inscribed_sphere.radius, 0.5, 1e-3);
+  EXPECT_NEAR(d.orientation.compactness, 1.0, 1e-12);
+  // Its edges are all corners to Wadell, the fitted series of degree 15 blunts them.
+  EXPECT_LT(d.roundness.roundness, 0.6);
+  EXPECT_GT(d.roundness.corner_area_share, 0.1);
+  EXPECT_GT(d.roughness.sq, 1e-3);
+}
+
+TEST(DetailedDescriptors, TurnAndScaleAsTheyShould) {
+  const IndexedMesh mesh = test::lumpy(2);
+  const DetailedDescriptors a = describe(mesh);
+  const double scale = 1e-6;
+  const DetailedDescriptors b = describe(
+      test::transformed(mesh, scale * test::random_rotation(test::announced(2)), {1e-5, 0, 0}));
+  EXPECT_NEAR(b.equivalent_diameter / scale, a.equivalent_diameter, 1e-9);
+  EXPECT_NEAR(b.convexity, a.convexity, 1e-9);
+  EXPECT_NEAR(b.inscribed_sphere.radius / scale, a.inscribed_sphere.radius, 2e-3);
+  // The box and the rays' grid do not turn with the body.
+  EXPECT_NEAR(b.box_axes.longest / scale, a.box_axes.longest, 2e-2);
+  EXPECT_NEAR(b.roundness.roundness, a.roundness.roundness, 5e-3);
+  EXPECT_NEAR(b.roughness.sq / scale / a.roughness.sq, 1.0, 1e-2);
+}
+
+TEST(DetailedDescriptors, BodyWhoseCentroidLiesOutsideHasNoRadius) {
+  // A frame: a square of four bars about an empty middle, as one closed mesh of quads.
+  IndexedMesh mesh;
+  for (const double z : {-0.2, 0.2}) {
+    for (const double half : {1.0, 0.7}) {
+      mesh.points.insert(mesh.points.end(),
+                         {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
+    }
+  }
+  const auto quad = [&mesh](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  // Points: outer 0-3 and inner 4-7 below, outer 8-11 and inner 12-15 above.
+  for (std::int32_t k = 0; k < 4; ++k) {
+    const std::int32_t n = (k + 1) % 4;
+    quad(k, n, 8 + n, 8 + k);            // outer wall
+    quad(4 + n, 4 + k, 12 + k, 12 + n);  // inner wall
+    quad(8 + k, 8 + n, 12 + n, 12 + k);  // top
+    quad(n, k, 4 + k, 4 + n);            // bottom
+  }
+  const DetailedDescriptors d = describe(mesh);
+  EXPECT_NEAR(d.basic.volume, 0.4 * (4.0 - 1.96), 1e-12);
+  EXPECT_NEAR(d.convexity, (4.0 - 1.96) / 4.0, 1e-12);
+  EXPECT_FALSE(d.has_radius);
+  bool empty = false;
+  for (const DescriptorValue& row : list_descriptors(d)) {
+    if (row.key == "roundness_wadell") empty = std::isnan(row.value);
+  }
+  EXPECT_TRUE(empty);
+}
+
+TEST(DetailedDescriptors, RefuseOptionsOutOfRange) {
+  const IndexedMesh mesh = test::box(1, 1, 1);
+  for (const DetailedOptions& options :
+       {DetailedOptions{0, 8, 128}, DetailedOptions{61, 8, 128}, DetailedOptions{15, -1, 128},
+        DetailedOptions{15, 61, 128}, DetailedOptions{15, 8, 15}, DetailedOptions{15, 8, 2000},
+        DetailedOptions{40, 8, 32}}) {
+    EXPECT_THROW(describe_shape_in_detail(mesh, options, Execution(1)), Error);
+  }
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/inscribed_sphere.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+namespace {
+
+/// The promise of the header, relative.
+constexpr double tolerance = 1e-3;
+
+TEST(InscribedSphere, CubeInAnyPose) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Vector3 shift(5, -6, 7);
+    const InscribedSphere s = largest_inscribed_sphere(
+        test::transformed(test::box(2, 2, 2), test::random_rotation(seed), shift), Execution(1));
+    EXPECT_NEAR(s.radius, 1.0, tolerance);
+    EXPECT_LE(s.radius, 1.0 + 1e-12);
+    EXPECT_GE(s.upper_bound, 1.0 - 1e-12);
+    EXPECT_LT((s.centre - shift).norm(), 2.0 * tolerance);
+  }
+}
+
+TEST(InscribedSphere, RegularTetrahedron) {
+  const InscribedSphere s = largest_inscribed_sphere(test::tetrahedron(1.0), Execution(1));
+  EXPECT_NEAR(s.radius * std::sqrt(24.0), 1.0, tolerance);
+  EXPECT_LE(s.upper_bound * std::sqrt(24.0), 1.0 + 2.0 * tolerance);
+}
+
+TEST(InscribedSphere, EllipsoidTouchesAtItsShortestAxis) {
+  const InscribedSphere s =
+      largest_inscribed_sphere(test::scaled(test::sphere(3), {0.5, 0.7, 1.0}), Execution(1));
+  EXPECT_NEAR(s.radius, 0.5, 0.005);  // and chords of 0.16: 0.003
+  EXPECT_LT(s.centre.norm(), 0.05);
+}
+
+TEST(InscribedSphere, FindsTheLargerOfTwoChambers) {
+  // Two cubes of edge 1 and 1.2 joined by a thin bar: one mesh after another, overlapping.
+  IndexedMesh mesh = test::box(1, 1, 1);
+  const IndexedMesh larger =
+      test::transformed(test::box(1.2, 1.2, 1.2), Eigen::Matrix3d::Identity(), {3, 0.1, 0.2});
+  const auto offset = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), larger.points.begin(), larger.points.end());
+  for (const Triangle& t : larger.triangles) {
+    mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
+  const InscribedSphere s = largest_inscribed_sphere(mesh, Execution(1));
+  EXPECT_NEAR(s.radius, 0.6, 0.6 * tolerance);
+  EXPECT_LT((s.centre - Vector3(3, 0.1, 0.2)).norm(), 2.0 * tolerance);
+}
+
+TEST(InscribedSphere, SameBitsOnAnyNumberOfThreads) {
+  const IndexedMesh mesh = test::lumpy(2);
+  const InscribedSphere one = largest_inscribed_sphere(mesh, Execution(1));
+  const InscribedSphere three = largest_inscribed_sphere(mesh, Execution(3));
+  EXPECT_EQ(std::memcmp(&one, &three, sizeof one), 0);
+}
+
+TEST(InscribedSphere, RefusesAMeshWithoutFaces) {
+  EXPECT_THROW(largest_inscribed_sphere(IndexedMesh(), Execution(1)), Error);
+}
+
+}  // namespace
+}  // namespace wscvt

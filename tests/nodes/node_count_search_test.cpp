@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/node_count_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+namespace {
+
+TEST(NodeCountSearch, FindsTheSmallestCountFromAnywhere) {
+  // 660 / N %, the loss of volume by chords: 1.5 % takes exactly 440.
+  for (const int start : {4, 100, 440, 5000, 100000}) {
+    SCOPED_TRACE(start);
+    const NodeCountSearch search =
+        smallest_node_count(1.5, start, 4, 100000, [](int n) { return 660.0 / n; });
+    EXPECT_TRUE(search.met);
+    EXPECT_EQ(search.node_count, 440);
+    // Each halving is paired with an interpolation, which finds a power law at once.
+    EXPECT_LE(search.trials.size(), 20U);
+  }
+}
+
+TEST(NodeCountSearch, ClosesToAFifthOfAPercentAboveFiveHundred) {
+  const NodeCountSearch search =
+      smallest_node_count(0.01, 1000, 4, 1000000, [](int n) { return 660.0 / n; });
+  EXPECT_TRUE(search.met);
+  EXPECT_GE(search.node_count, 66000);
+  EXPECT_LE(search.node_count, 66000 * 1.002 + 1);
+}
+
+TEST(NodeCountSearch, WhatItReturnsMeetsTheTargetAlsoWhenTheErrorWavers) {
+  const auto error = [](int n) { return 660.0 / n * (1.0 + 0.2 * std::sin(n)); };
+  const NodeCountSearch search = smallest_node_count(1.0, 100, 4, 100000, error);
+  EXPECT_TRUE(search.met);
+  EXPECT_LE(error(search.node_count), 1.0);
+  int largest_below = 0;
+  for (const NodeCountTrial& trial : search.trials) {
+    EXPECT_EQ(trial.error, error(trial.node_count));
+    if (trial.node_count < search.node_count) {
+      largest_below = std::max(largest_below, trial.node_count);
+    }
+  }
+  EXPECT_GT(error(largest_below), 1.0);
+}
+
+TEST(NodeCountSearch, SaysSoWhenNoCountMeetsTheTarget) {
+  const NodeCountSearch search =
+      smallest_node_count(1.0, 100, 4, 500, [](int n) { return 660.0 / n; });
+  EXPECT_FALSE(search.met);
+  EXPECT_EQ(search.node_count, 500);
+  EXPECT_LE(search.trials.size(), 5U);
+}
+
+TEST(NodeCountSearch, GoesDownToTheSmallestCount) {
+  const NodeCountSearch search = smallest_node_count(1.0, 1000, 4, 5000, [](int) { return 0.0; });
+  EXPECT_TRUE(search.met);
+  EXPECT_EQ(search.node_count, 4);
+}
+
+TEST(NodeCountSearch, RefusesTargetsAndLimitsThatMakeNoSense) {
+  const auto error = [](int n) { return 1.0 / n; };
+  EXPECT_THROW(smallest_node_count(0.0, 10, 4, 20, error), Error);
+  EXPECT_THROW(smallest_node_count(NAN, 10, 4, 20, error), Error);
+  EXPECT_THROW(smallest_node_count(1.0, 10, 20, 4, error), Error);
+}
+
+}  // namespace
+}  // namespace wscvt

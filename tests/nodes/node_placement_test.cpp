@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/node_placement.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "support/seeds.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/mesh_surface.h"
+#include "wscvt/surface/quadric_surface.h"
+
+namespace wscvt {
+namespace {
+
+constexpr std::size_t samples = 20000;
+
+struct Nodes {
+  std::vector<Vector3> directions;
+  std::vector<Triangle> triangles;
+};
+
+Nodes lattice(int count) {
+  const std::vector<Vector3> directions = fibonacci_lattice(count);
+  return {directions, SphereTriangulation(directions).triangles()};
+}
+
+IndexedMesh mesh_of(const Nodes& nodes, const std::vector<double>& radii) {
+  IndexedMesh mesh{nodes.directions, nodes.triangles};
+  for (std::size_t i = 0; i < radii.size(); ++i) mesh.points[i] *= radii[i];
+  return mesh;
+}
+
+TEST(LeastSquaresRadii, FindsAPolyhedronOnItsOwnVertices) {
+  // 1 / r is linear on a flat triangle, so the fit has no error to leave.
+  const IndexedMesh body = test::lumpy(2);
+  const MeshSurface surface(body, Vector3::Zero(), 1.0, Execution(1));
+  Nodes nodes{body.points, body.triangles};
+  for (Vector3& p : nodes.directions) p.normalize();
+  const std::vector<double> radii =
+      least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(1));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    EXPECT_NEAR(radii[i], body.points[i].norm(), 1e-12);
+  }
+}
+
+TEST(LeastSquaresRadii, OfASphereLieAboveItAndHalveItsDistance) {
+  const Ellipsoid sphere(Vector3(1, 1, 1));
+  const Nodes nodes = lattice(200);
+  const std::vector<double> radii =
+      least_squares_radii(nodes.directions, nodes.triangles, sphere, samples, Execution(1));
+  for (const double r : radii) {
+    EXPECT_GT(r, 1.0);
+    // The sagitta of the largest triangle, edge 0.3: 1 - sqrt(1 - 0.3^2 / 3) = 0.015.
+    EXPECT_LT(r, 1.03);
+  }
+  const IndexedMesh dense = test::sphere(5);
+  const auto distance = [&](const IndexedMesh& mesh) {
+    return measure_distances(mesh, dense, {20000}, Execution(1)).root_mean_square;
+  };
+  EXPECT_LT(distance(mesh_of(nodes, radii)),
+            0.5 * distance(mesh_of(nodes, std::vector<double>(radii.size(), 1.0))));
+}
+
+TEST(LeastSquaresRadii, ScaleAndTurnWithTheSurface) {
+  const IndexedMesh body = test::lumpy(3);
+  const Nodes nodes = lattice(150);
+  const std::vector<double> radii = least_squares_radii(
+      nodes.directions, nodes.triangles, MeshSurface(body, Vector3::Zero(), 1.0, Execution(1)),
+      samples, Execution(1));
+  const Eigen::Matrix3d rotation = test::random_rotation(test::announced(7));
+  Nodes turned = nodes;
+  for (Vector3& u : turned.directions) u = rotation * u;
+  const std::vector<double> moved = least_squares_radii(
+      turned.directions, turned.triangles,
+      MeshSurface(test::transformed(body, 1000.0 * rotation), Vector3::Zero(), 1.0, Execution(1)),
+      samples, Execution(1));
+  // Samples that fall on an edge of the body may take the gradient of either face.
+  for (std::size_t i = 0; i < radii.size(); ++i) EXPECT_NEAR(moved[i] / 1000.0, radii[i], 1e-4);
+}
+
+TEST(LeastSquaresRadii, SameBytesOnAnyNumberOfThreads) {
+  const MeshSurface surface(test::lumpy(3), Vector3::Zero(), 1.0, Execution(1));
+  const Nodes nodes = lattice(300);
+  EXPECT_EQ(least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(1)),
+            least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(3)));
+}
+
+TEST(LeastSquaresRadii, RefusesNodesOfNoTriangle) {
+  Nodes nodes = lattice(50);
+  nodes.directions.emplace_back(1, 0, 0);
+  const Ellipsoid sphere(Vector3(1, 1, 1));
+  EXPECT_THROW(
+      least_squares_radii(nodes.directions, nodes.triangles, sphere, samples, Execution(1)), Error);
+}
+
+TEST(ScaleToVolume, MakesTheVolumeExact) {
+  IndexedMesh mesh = test::lumpy(3);
+  const std::vector<Vector3> before = mesh.points;
+  for (const double volume : {1e-30, 0.7, 4e20}) {
+    scale_to_volume(mesh.triangles, volume, mesh.points, Execution(2));
+    // Rounding of a sum of 1280 terms.
+    EXPECT_NEAR(describe_shape(mesh, Execution(1)).volume / volume, 1.0, 1e-12);
+    EXPECT_NEAR(mesh.points[5].normalized().dot(before[5].normalized()), 1.0, 1e-15);
+  }
+}
+
+TEST(ScaleToVolume, RefusesVolumesThatAreNotPositive) {
+  IndexedMesh mesh = test::sphere(1);
+  EXPECT_THROW(scale_to_volume(mesh.triangles, 0.0, mesh.points, Execution(1)), Error);
+  mesh.triangles.clear();
+  EXPECT_THROW(scale_to_volume(mesh.triangles, 1.0, mesh.points, Execution(1)), Error);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/mesh_io.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/scan/mesh_check.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MeshIo : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) / (std::string("wscvt_mesh_io_") + info->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string file(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+    return path(name);
+  }
+
+  static std::string refusal(const std::string& where) {
+    try {
+      read_mesh(where);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::InputOutput);
+      EXPECT_NE(std::string(error.what()).find(where), std::string::npos) << error.what();
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+template <class Value>
+std::string bytes(Value value, bool big_endian = false) {
+  std::string result(sizeof value, '\0');
+  std::memcpy(result.data(), &value,
+              sizeof value);  // the machines this is tested on: little-endian
+  return big_endian ? std::string(result.rbegin(), result.rend()) : result;
+}
+
+const Vector3 far_away(1e6 + 0.123456789, -3.0e6, 1.0 / 3.0);
+
+TEST_F(MeshIo, WritesAndReadsBackEveryFormat) {
+  const IndexedMesh mesh = test::transformed(test::lumpy(3), Eigen::Matrix3d::Identity(), far_away);
+  for (const char* name : {"a.ply", "a.obj", "a.off", "A.PLY"}) {
+    SCOPED_TRACE(name);
+    write_mesh(mesh, path(name));
+    const IndexedMesh back = read_mesh(path(name));
+    EXPECT_EQ(back.points, mesh.points);  // no bit lost
+    EXPECT_EQ(back.triangles, mesh.triangles);
+  }
+}
+
+TEST_F(MeshIo, WritesPlyInSinglePrecisionWhenTold) {
+  const IndexedMesh mesh = test::lumpy(2);
+  write_mesh(mesh, path("a.ply"), PlyCoordinates::Float);
+  const IndexedMesh back = read_mesh(path("a.ply"));
+  EXPECT_EQ(back.triangles, mesh.triangles);
+  ASSERT_EQ(back.points.size(), mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto expected = static_cast<float>(mesh.points[i][axis]);
+      EXPECT_EQ(back.points[i][axis], static_cast<double>(expected));
+    }
+  }
+}
+
+TEST_F(MeshIo, WritesStlInSinglePrecision) {
+  const IndexedMesh mesh = test::lumpy(3);
+  write_mesh(mesh, path("a.stl"));
+  EXPECT_EQ(fs::file_size(path("a.stl")), 84 + 50 * mesh.triangles.size());
+  const IndexedMesh back = read_mesh(path("a.stl"));
+  ASSERT_EQ(back.triangles.size(), mesh.triangles.size());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto expected = static_cast<float>(mesh.points[mesh.triangles[f][k]][axis]);
+        EXPECT_EQ(back.points[back.triangles[f][k]][axis], static_cast<double>(expected));
+      }
+    }
+  }
+}
+
+TEST_F(MeshIo, ReadsBinaryPlyWithOtherProperties) {
+  // Float and double, other properties around, polygons, both names of the list.
+  for (const bool doubles : {false, true}) {
+    const char* const type = doubles ? "double" : "float";
+    std::ostringstream header;
+    header << "ply\nformat binary_little_endian 1.0\ncomment made by hand\nelement vertex 5\n"
+           << "property uchar red\nproperty " << type << " x\nproperty " << type
+           << " y\nproperty float quality\nproperty " << type << " z\nelement face 3\n"
+           << "property int flags\nproperty list uint8 uint32 "
+           << (doubles ? "vertex_index" : "vertex_indices") << "\nproperty uchar red\nend_header\n";
+    std::string content = header.str();
+    for (int i = 0; i < 5; ++i) {
+      content += bytes(std::uint8_t{7});
+      const double x = i + 0.25;
+      const auto number = [&](double v) {
+        return doubles ? bytes(v) : bytes(static_cast<float>(v));
+      };
+      content += number(x) + number(2 * x) + bytes(99.0F) + number(-x);
+    }
+    const std::vector<std::vector<std::uint32_t>> polygons{{0, 1, 2}, {0, 2, 3, 4}, {4, 1}};
+    for (const auto& polygon : polygons) {
+      content += bytes(std::int32_t{5}) + bytes(static_cast<std::uint8_t>(polygon.size()));
+      for (const std::uint32_t v : polygon) content += bytes(v);
+      content += bytes(std::uint8_t{1});
+    }
+    const IndexedMesh mesh = read_mesh(file("a.ply", content));
+    ASSERT_EQ(mesh.points.size(), 5U);
+    for (int i = 0; i < 5; ++i) {
+      EXPECT_EQ(mesh.points[i], Vector3(i + 0.25, 2 * i + 0.5, -i - 0.25));
+    }
+    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+    // Any byte short is noticed.
+    EXPECT_NE(refusal(file("b.ply", content.substr(0, content.size() - 1))), "");
+    EXPECT_NE(refusal(file("c.ply", content.substr(0, content.find("end_header") + 30))), "");
+  }
+}
+
+TEST_F(MeshIo, ReadsOtherLayoutsOfPly) {
+  const IndexedMesh mesh =
+      test::transformed(test::box(1, 2, 3), Eigen::Matrix3d::Identity(), far_away);
+  std::ostringstream text;
+  text.precision(17);
+  std::string big;
+  const std::string header =
+      " 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\nelement "
+      "face 12\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vector3& p : mesh.points) {
+    text << p.x() << " " << p.y() << " " << p.z() << "\n";
+    for (const double v : p) big += bytes(v, true);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    text << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+    big += bytes(std::uint8_t{3});
+    for (const std::int32_t v : t) big += bytes(v, true);
+  }
+  std::string text_file = "ply\nformat ascii";
+  text_file.append(header).append(text.str());
+  std::string big_file = "ply\nformat binary_big_endian";
+  big_file.append(header).append(big);
+  for (const std::string& where : {file("text.ply", text_file), file("big.ply", big_file)}) {
+    const IndexedMesh back = read_mesh(where);
+    EXPECT_EQ(back.points, mesh.points);
+    EXPECT_EQ(back.triangles, mesh.triangles);
+  }
+}
+
+TEST_F(MeshIo, ReadsTextStl) {
+  const std::string where =
+      file("a.stl",
+           "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0.5\nvertex 0 1e0 0\n"
+           "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 0 0.5\nvertex 1 1 0\n"
+           "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+  const IndexedMesh mesh = read_mesh(where);
+  ASSERT_EQ(mesh.triangles.size(), 2U);
+  EXPECT_EQ(mesh.points[mesh.triangles[0][1]], Vector3(1, 0, 0.5));
+  EXPECT_EQ(mesh.points[mesh.triangles[1][1]], Vector3(1, 1, 0));
+}
+
+TEST_F(MeshIo, ReadsBinaryStlWhoseHeaderSaysSolid) {
+  write_mesh(test::box(1, 1, 1), path("a.stl"));
+  std::fstream stream(path("a.stl"), std::ios::in | std::ios::out | std::ios::binary);
+  stream.write("solid grain", 11);
+  stream.close();
+  EXPECT_EQ(read_mesh(path("a.stl")).triangles.size(), 12U);
+}
+
+TEST_F(MeshIo, ReadsObjWithSlashesPolygonsAndNegativeIndices) {
+  const IndexedMesh mesh = read_mesh(
+      file("a.obj",
+           "# a grain\nmtllib a.mtl\no grain\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.125\nvn 0 0 1\n"
+           "vt 0 0\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -4 -3 -1\n"));
+  EXPECT_EQ(mesh.points.size(), 4U);
+  EXPECT_EQ(mesh.points[3], Vector3(0, 1, 0.125));
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}}));
+}
+
+TEST_F(MeshIo, ReadsPointsWithoutFaces) {
+  for (const std::string& where :
+       {file("a.obj", "v 0 0 0\nv 1 0 0\n"), file("a.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n"),
+        file("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+             "property float z\nend_header\n0 0 0\n1 0 0\n")}) {
+    const IndexedMesh mesh = read_mesh(where);
+    EXPECT_EQ(mesh.points.size(), 2U) << where;
+    EXPECT_TRUE(mesh.triangles.empty()) << where;
+  }
+}
+
+TEST_F(MeshIo, PassesOnPositionsThatAreNotFinite) {
+  // They are for the mesh check to refuse, which can say which vertex it is.
+  IndexedMesh mesh = test::box(1, 1, 1);
+  mesh.points[3].y() = std::numeric_limits<double>::infinity();
+  mesh.points[4].y() = std::nan("");
+  write_mesh(mesh, path("a.ply"));
+  const IndexedMesh back = read_mesh(path("a.ply"));
+  EXPECT_TRUE(std::isinf(back.points[3].y()));
+  EXPECT_TRUE(std::isnan(back.points[4].y()));
+}
+
+TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {
+  EXPECT_NE(refusal(path("nothing.ply")).find("cannot be opened"), std::string::npos);
+  EXPECT_NE(refusal(path("a.vtk")).find(".off"), std::string::npos);
+  EXPECT_NE(refusal(path("ply")).find(".off"), std::string::npos);
+  EXPECT_NE(refusal(file("bad.ply", "not a mesh\n")), "");
+  EXPECT_NE(refusal(file("empty.ply", "")), "");
+  EXPECT_NE(refusal(file("short.off", "OFF\n4 4 0\n0 0 0\n")), "");
+  EXPECT_NE(refusal(file("words.obj", "v 0 zero 0\nf 1 1 1\n")), "");
+  EXPECT_NE(refusal(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n")).find("vertex"),
+            std::string::npos);
+  EXPECT_NE(refusal(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n")), "");
+  EXPECT_NE(refusal(file("half.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n")),
+            "");
+  EXPECT_NE(refusal(folder_.string() + "/.ply"), "");
+  // A header that promises more than the file can hold must not be believed.
+  EXPECT_NE(refusal(file("huge.ply",
+                         "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000000\n"
+                         "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+                         "property list uchar int vertex_indices\nend_header\n")),
+            "");
+}
+
+TEST_F(MeshIo, RefusesWhereItCannotWrite) {
+  fs::create_directory(path("taken.ply"));
+  EXPECT_THROW(write_mesh(test::box(1, 1, 1), path("taken.ply")), Error);
+  EXPECT_TRUE(fs::is_directory(path("taken.ply")));
+  EXPECT_THROW(write_mesh(test::box(1, 1, 1), path("no/such/folder/a.ply")), Error);
+  EXPECT_THROW(write_mesh(test::box(1, 1, 1), path("a.vtk")), Error);
+}
+
+TEST_F(MeshIo, LeavesNothingBeside) {
+  write_mesh(test::box(1, 1, 1), path("a.ply"));
+  write_mesh(test::box(1, 1, 2), path("a.ply"));  // over an existing one
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_))
+    files += entry.is_regular_file() ? 1 : 0;
+  EXPECT_EQ(files, 1U);
+  EXPECT_EQ(read_mesh(path("a.ply")).points, test::box(1, 1, 2).points);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sphere/sphere_triangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "support/seeds.h"
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_sampling.h"
+
+namespace wscvt {
+namespace {
+
+void expect_closed_sphere(const SphereTriangulation& triangulation,
+                          const std::vector<Vector3>& seeds) {
+  ASSERT_EQ(triangulation.vertex_count(), seeds.size());
+  ASSERT_EQ(triangulation.triangles().size(), 2 * seeds.size() - 4);
+  const auto half_edges = static_cast<std::int32_t>(triangulation.opposite().size());
+  std::set<std::pair<std::int32_t, std::int32_t>> directed;
+  for (std::int32_t h = 0; h < half_edges; ++h) {
+    const std::int32_t o = triangulation.opposite()[h];
+    ASSERT_GE(o, 0);
+    ASSERT_EQ(triangulation.opposite()[o], h);
+    const std::int32_t from = triangulation.origin(h);
+    const std::int32_t to = triangulation.origin(SphereTriangulation::next(h));
+    ASSERT_EQ(triangulation.origin(o), to);
+    ASSERT_NE(from, to);
+    ASSERT_TRUE(directed.emplace(from, to).second) << "edge " << from << "-" << to << " twice";
+  }
+  for (std::size_t v = 0; v < seeds.size(); ++v) {
+    ASSERT_EQ(triangulation.origin(triangulation.first_half_edge()[v]), static_cast<int>(v));
+  }
+  for (const Triangle& t : triangulation.triangles()) {
+    EXPECT_GT(seeds[t[0]].dot(seeds[t[1]].cross(seeds[t[2]])), 0.0);
+  }
+}
+
+// No seed lies above the plane of any triangle of the lifted hull (brute force).
+void expect_convex(const SphereTriangulation& triangulation, const std::vector<Vector3>& seeds,
+                   const std::vector<double>& weights) {
+  std::vector<Vector3> lifted = seeds;
+  for (std::size_t i = 0; i < weights.size(); ++i) lifted[i] *= std::exp(0.5 * weights[i]);
+  for (const Triangle& t : triangulation.triangles()) {
+    const Vector3 normal =
+        (lifted[t[1]] - lifted[t[0]]).cross(lifted[t[2]] - lifted[t[0]]).normalized();
+    for (const Vector3& p : lifted) {
+      // Coordinates are of order 1, so the distance is exact to a few 1e-16 / sin(angle).
+      EXPECT_LT(normal.dot(p - lifted[t[0]]), 1e-12);
+    }
+  }
+}
+
+std::vector<double> moderate_weights(const std::vector<Vector3>& seeds) {
+  // A third of the mean squared distance of neighbours is well short of hiding a seed.
+  std::vector<double> weights;
+  for (const Vector3& p : seeds) {
+    weights.push_back(1.2 / static_cast<double>(seeds.size()) * (1.0 + p.x() - 0.5 * p.y()));
+  }
+  return weights;
+}
+
+std::vector<Triangle> sorted_triangles(const SphereTriangulation& triangulation) {
+  std::vector<Triangle> triangles = triangulation.triangles();
+  for (Triangle& t : triangles)
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+TEST(SphereTriangulation, IsAClosedConvexHullForEverySize) {
+  for (const int count : {4, 5, 12, 100, 400}) {
+    SCOPED_TRACE(count);
+    const std::vector<Vector3> seeds = fibonacci_lattice(count);
+    const SphereTriangulation plain(seeds);
+    expect_closed_sphere(plain, seeds);
+    expect_convex(plain, seeds, {});
+    const std::vector<double> weights = moderate_weights(seeds);
+    const SphereTriangulation regular(seeds, weights);
+    expect_closed_sphere(regular, seeds);
+    expect_convex(regular, seeds, weights);
+  }
+}
+
+TEST(SphereTriangulation, WorksOnSymmetricSeedsWhereManyAreCocircular) {
+  for (const auto& seeds : {equal_angle_grid(9), subdivided_icosahedron(4), equal_angle_grid(1)}) {
+    expect_closed_sphere(SphereTriangulation(seeds), seeds);
+  }
+}
+
+TEST(SphereTriangulation, DoesNotDependOnTheOrderOfTheSeeds) {
+  const std::vector<Vector3> seeds = random_directions(300, test::announced(11));
+  std::vector<std::int32_t> order(seeds.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(test::announced(5)));
+  std::vector<Vector3> shuffled;
+  for (const std::int32_t i : order) shuffled.push_back(seeds[i]);
+  std::vector<Triangle> triangles = SphereTriangulation(shuffled).triangles();
+  for (Triangle& t : triangles) {
+    for (std::int32_t& v : t) v = order[v];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  EXPECT_EQ(triangles, SphereTriangulation(seeds).triangles());
+}
+
+TEST(SphereTriangulation, FlipsReachWhatBuildingFromScratchReaches) {
+  constexpr std::uint64_t seed = 3;
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::vector<Vector3> seeds = fibonacci_lattice(2000);
+  SphereTriangulation kept(seeds);
+  const std::vector<Vector3> noise = random_directions(2000, seed);
+  int flips = 0;
+  for (int round = 0; round < 5; ++round) {
+    // A quarter of h = sqrt(4 pi / N): changes neighbours without turning triangles over.
+    const double length = 0.07 * std::sqrt(12.566 / 2000.0);
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      seeds[i] = (seeds[i] + length * noise[(i + 97 * round) % noise.size()]).normalized();
+    }
+    const std::vector<double> weights = moderate_weights(seeds);
+    const auto repair = kept.restore_regular(seeds, weights, Execution(2));
+    ASSERT_TRUE(repair.complete());
+    flips += repair.flips;
+    expect_closed_sphere(kept, seeds);
+    EXPECT_EQ(sorted_triangles(kept), SphereTriangulation(seeds, weights).triangles());
+  }
+  EXPECT_GT(flips, 100);
+}
+
+TEST(SphereTriangulation, SurfaceFlipsMakeOppositeAnglesSumToAtMostPi) {
+  const std::vector<Vector3> seeds = fibonacci_lattice(500);
+  std::vector<Vector3> positions;
+  for (const Vector3& p : seeds) positions.push_back(p.cwiseProduct(Vector3(2.0, 1.0, 0.8)));
+  SphereTriangulation triangulation(seeds);
+  const auto repair = triangulation.restore_surface_delaunay(seeds, positions, Execution(1));
+  EXPECT_GT(repair.flips, 0);
+  EXPECT_TRUE(repair.complete());
+  expect_closed_sphere(triangulation, seeds);
+  const auto angle = [&](std::int32_t h) {
+    const Vector3& apex = positions[triangulation.origin(SphereTriangulation::previous(h))];
+    const Vector3 a = positions[triangulation.origin(h)] - apex;
+    const Vector3 b = positions[triangulation.origin(SphereTriangulation::next(h))] - apex;
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  };
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(triangulation.opposite().size()); ++h) {
+    EXPECT_LT(angle(h) + angle(triangulation.opposite()[h]), 3.14159265358979 + 1e-9);
+  }
+}
+
+TEST(SphereTriangulation, ReportsTrianglesTurnedOver) {
+  std::vector<Vector3> seeds = fibonacci_lattice(100);
+  SphereTriangulation triangulation(seeds);
+  std::swap(seeds[10], seeds[60]);
+  const auto repair = triangulation.restore_regular(seeds, {}, Execution(1));
+  EXPECT_TRUE(repair.turned_over);
+  EXPECT_EQ(repair.flips, 0);
+}
+
+TEST(SphereTriangulation, RefusesWhatHasNoTriangulation) {
+  EXPECT_THROW(SphereTriangulation(fibonacci_lattice(3)), Error);
+  std::vector<Vector3> hemisphere = fibonacci_lattice(40);
+  for (Vector3& p : hemisphere) p.z() = std::abs(p.z());
+  EXPECT_THROW(SphereTriangulation{hemisphere}, Error);
+  std::vector<Vector3> twice = fibonacci_lattice(40);
+  twice[7] = twice[8];
+  EXPECT_THROW(SphereTriangulation{twice}, Error);
+  std::vector<double> weights(40, 0.0);
+  weights[20] = -2.0;  // far below its neighbours' power: hidden
+  EXPECT_THROW(SphereTriangulation(fibonacci_lattice(40), weights), Error);
+  EXPECT_THROW(SphereTriangulation(fibonacci_lattice(40), std::vector<double>(39, 0.0)), Error);
+}
+
+TEST(SphereTriangulation, RefusesWeightsThatCannotBeLifted) {
+  // exp(w / 2) would overflow, or make every comparison false; the whole sphere has 4 pi steradian.
+  const std::vector<Vector3> seeds = fibonacci_lattice(40);
+  for (const double weight :
+       {1e4, -1e4, 1e300, std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    SCOPED_TRACE(weight);
+    std::vector<double> weights(seeds.size(), 0.0);
+    weights[20] = weight;
+    try {
+      const SphereTriangulation triangulation(seeds, weights);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
+    }
+    SphereTriangulation kept(seeds);
+    EXPECT_FALSE(kept.restore_regular(seeds, weights, Execution(1)).complete());
+    expect_closed_sphere(kept, seeds);
+  }
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/harmonic_io.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "support/seeds.h"
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_sampling.h"
+
+namespace wscvt {
+namespace {
+
+const double pi = std::acos(-1.0);
+
+/// A file of the test's own, gone after it.
+class HarmonicIo : public testing::Test {
+ protected:
+  HarmonicIo()
+      : path_(testing::TempDir() + "wscvt_harmonic_io_" +
+              testing::UnitTest::GetInstance()->current_test_info()->name()) {}
+  ~HarmonicIo() override { std::remove(path_.c_str()); }
+
+  void write(const std::string& text) const { std::ofstream(path_) << text; }
+
+  /// The sentence of the refusal of reading `text`; empty if it is read or fails otherwise.
+  std::string refusal(const std::string& text, bool json) const {
+    write(text);
+    try {
+      json ? read_harmonics(path_) : read_complex_harmonics(path_);
+    } catch (const Error& error) {
+      std::string what = error.what();
+      if (error.code() == ErrorCode::InvalidInput && what.find(path_) != std::string::npos) {
+        return what;
+      }
+    }
+    return "";
+  }
+
+  std::string path_;
+};
+
+TEST_F(HarmonicIo, ComplexCoefficientsGiveTheSumOfComplexHarmonics) {
+  write(
+      "  0   0  10.0  0.0\n  1 1  -0.1 -1.5\n1 0 -0.4 0\n1 -1 0.1 -1.5\n\n"
+      "2 2 0.3 0.7\n2 1 -0.2 0.25\n2 0 0.6 0.0\n2 -1 0.2 0.25\n2 -2 0.3 -0.7\n");
+  const HarmonicSurface surface = read_complex_harmonics(path_);
+  EXPECT_EQ(surface.degree(), 2);
+  using Complex = std::complex<double>;
+  for (const Vector3& u : random_directions(50, test::announced(3))) {
+    const double x = u.x();
+    const double y = u.y();
+    const double z = u.z();
+    const Complex xy(x, y);
+    // Closed forms of Y_l^m for m > 0; a real field takes twice the real part of those terms.
+    const Complex y11 = -std::sqrt(3.0 / (8.0 * pi)) * xy;
+    const Complex y21 = -std::sqrt(15.0 / (8.0 * pi)) * z * xy;
+    const Complex y22 = std::sqrt(15.0 / (32.0 * pi)) * xy * xy;
+    const double expected =
+        10.0 * std::sqrt(1.0 / (4.0 * pi)) - 0.4 * std::sqrt(3.0 / (4.0 * pi)) * z +
+        0.6 * std::sqrt(5.0 / (16.0 * pi)) * (3.0 * z * z - 1.0) +
+        2.0 * (Complex(-0.1, -1.5) * y11 + Complex(-0.2, 0.25) * y21 + Complex(0.3, 0.7) * y22)
+                  .real();
+    EXPECT_NEAR(surface.radius(u), expected, 1e-14);
+  }
+}
+
+TEST_F(HarmonicIo, NegativeOrdersMayBeLeftOutAndTheSeriesCut) {
+  write("0 0 10 0\n1 0 1 0\n1 1 0.5 0.25\n2 0 1 0\n2 1 0 0\n2 2 0 0\n");
+  EXPECT_EQ(read_complex_harmonics(path_).degree(), 2);
+  EXPECT_EQ(read_complex_harmonics(path_, 5).degree(), 2);
+  const HarmonicSurface cut = read_complex_harmonics(path_, 1);
+  EXPECT_EQ(cut.coefficients(),
+            (std::vector<double>{10.0, -0.25 * std::sqrt(2.0), 1.0, 0.5 * std::sqrt(2.0)}));
+  EXPECT_THROW(read_complex_harmonics(path_, -2), Error);
+}
+
+TEST_F(HarmonicIo, MalformedTextIsRefusedWithItsLine) {
+  EXPECT_NE(refusal("0 0 10 0\n1 0 x 0\n", false).find("line 2"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10\n", false).find("line 1"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10 0 7\n", false).find("line 1"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10 0\n\n1 2 0 0\n", false).find("line 3"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10 0\n-1 0 0 0\n", false).find("line 2"), std::string::npos);
+  // The one number whose absolute value is none.
+  EXPECT_NE(refusal("5 -2147483648 0 0\n", false).find("line 1"), std::string::npos);
+  EXPECT_NE(refusal("100000 0 10 0\n", false).find("line 1"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10 0\n0 0 10 0\n", false).find("line 2"), std::string::npos);
+  EXPECT_NE(refusal("0 0 nan 0\n", false).find("line 1"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10 1\n", false).find("complex"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10 0\n1 0 0 0\n1 1 1 2\n1 -1 1 2\n", false).find("line 4"),
+            std::string::npos);
+  EXPECT_NE(refusal("0 0 10 0\n1 1 0 0\n", false).find("missing"), std::string::npos);
+  EXPECT_NE(refusal("0 0 -10 0\n", false).find("positive"), std::string::npos);
+  EXPECT_NE(refusal("", false), "");
+}
+
+TEST_F(HarmonicIo, JsonGivesTheSameBitsBack) {
+  std::vector<double> coefficients = {3.5};
+  for (const Vector3& u : random_directions(35, test::announced(4)))
+    coefficients.push_back(0.05 * u.x());
+  const HarmonicSurface surface(coefficients);
+  write_harmonics(path_, surface);
+  EXPECT_EQ(read_harmonics(path_).coefficients(), coefficients);
+}
+
+TEST_F(HarmonicIo, MalformedJsonIsRefused) {
+  const std::string head = R"({"format": "wscvt-harmonics-1",)";
+  EXPECT_NE(refusal(head + "\n\"degree\": 0 \"coefficients\": [1]}", true).find("line 2"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"degree": 0, "coefficients": [1]})", true).find("format"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"format": "other", "degree": 0, "coefficients": [1]})", true), "");
+  EXPECT_NE(refusal(head + R"("degree": 1, "coefficients": [1, 0, 0]})", true), "");
+  EXPECT_NE(refusal(head + R"("degree": -1, "coefficients": []})", true), "");
+  EXPECT_NE(refusal(head + R"("degree": 0, "coefficients": ["a"]})", true), "");
+  EXPECT_NE(refusal(head + R"("degree": 0, "coefficients": [-1]})", true), "");
+  EXPECT_NE(refusal("[]", true), "");
+  EXPECT_NE(refusal("", true), "");
+}
+
+TEST_F(HarmonicIo, FilesThatCannotBeOpened) {
+  const std::string nowhere = path_ + "/nowhere/file";
+  const auto is_io_error = [](const auto& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      return error.code() == ErrorCode::InputOutput;
+    }
+    return false;
+  };
+  EXPECT_TRUE(is_io_error([&] { read_harmonics(nowhere); }));
+  EXPECT_TRUE(is_io_error([&] { read_complex_harmonics(nowhere); }));
+  EXPECT_TRUE(is_io_error([&] { write_harmonics(nowhere, HarmonicSurface({1.0})); }));
+}
+
+}  // namespace
+}  // namespace wscvt

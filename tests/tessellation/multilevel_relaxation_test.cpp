@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/multilevel_relaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "wscvt/base/error.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/quadric_surface.h"
+
+namespace wscvt {
+namespace {
+
+const Ellipsoid& ellipsoid() {
+  static const Ellipsoid surface(Vector3(1.3, 0.9, 0.7));
+  return surface;
+}
+
+SurfaceSeedModel model_of(Weighting weighting, int nodes) {
+  WeightingOptions options;
+  options.weighting = weighting;
+  options.node_count = nodes;
+  return {ellipsoid(), options, nullptr, Execution(1)};
+}
+
+RelaxationResult relaxed(int count, Weighting weighting, RelaxationMetric metric, int threads = 1,
+                         const MultilevelOptions& levels = {}) {
+  const SurfaceSeedModel model = model_of(weighting, count);
+  RelaxationOptions options;
+  options.metric = metric;
+  return relax_multilevel(fibonacci_lattice(level_sizes(count, levels.coarsest_seeds).front()),
+                          count, model, options, levels, Execution(threads));
+}
+
+MeshQuality quality(const RelaxationResult& result) {
+  IndexedMesh mesh;
+  for (const Vector3& u : result.seeds) mesh.points.push_back(ellipsoid().radius(u) * u);
+  mesh.triangles = result.triangulation.triangles();
+  return measure_quality(mesh);
+}
+
+TEST(MultilevelRelaxation, LevelsLeadToExactlyTheCount) {
+  for (int count = 4; count < 3000; ++count) {
+    const std::vector<int> sizes = level_sizes(count, 20);
+    ASSERT_EQ(sizes.back(), count);
+    ASSERT_TRUE(count < 74 ? sizes.size() == 1 : sizes.front() >= 20 && sizes.front() < 74);
+    for (std::size_t k = 1; k < sizes.size(); ++k) {
+      const int extra = sizes[k] - (4 * sizes[k - 1] - 6);
+      ASSERT_TRUE(extra >= 0 && extra <= 3) << count;
+    }
+  }
+}
+
+TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeightingAndMetric) {
+  for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
+    for (const auto weighting : {Weighting::Constant, Weighting::RadialDistance,
+                                 Weighting::Curvature, Weighting::Area, Weighting::ErrorAdaptive}) {
+      SCOPED_TRACE(testing::Message()
+                   << static_cast<int>(weighting) << " " << static_cast<int>(metric));
+      for (const int count : {1001, 1002, 1003}) {
+        const RelaxationResult result = relaxed(count, weighting, metric);
+        EXPECT_TRUE(result.report.converged);
+        EXPECT_EQ(result.seeds.size(), static_cast<std::size_t>(count));
+        EXPECT_EQ(result.triangulation.triangles().size(), 2U * count - 4U);
+        ASSERT_EQ(result.report.coarser_levels.size(), 1U);
+        EXPECT_TRUE(result.report.coarser_levels.front().converged);
+      }
+    }
+  }
+}
+
+TEST(MultilevelRelaxation, IsAsEvenAsOneLevelInFewerIterationsWithFewerDefects) {
+  constexpr int count = 4000;
+  const RelaxationResult levels = relaxed(count, Weighting::Area, RelaxationMetric::Surface);
+  MultilevelOptions one_level;
+  one_level.coarsest_seeds = count;
+  const RelaxationResult single =
+      relaxed(count, Weighting::Area, RelaxationMetric::Surface, 1, one_level);
+  EXPECT_LT(levels.report.iterations, single.report.iterations / 2);
+  // The level rule stops at 1e-3 of a cell; the two then differ by what is left to go.
+  EXPECT_LT(quality(levels).edge_variation, 1.15 * quality(single).edge_variation);
+  EXPECT_GT(quality(levels).valence_six_share, quality(single).valence_six_share);
+}
+
+TEST(MultilevelRelaxation, SameBytesOnAnyNumberOfThreads) {
+  const RelaxationResult one = relaxed(9000, Weighting::Area, RelaxationMetric::Surface, 1);
+  const RelaxationResult two = relaxed(9000, Weighting::Area, RelaxationMetric::Surface, 2);
+  EXPECT_EQ(one.seeds, two.seeds);
+  EXPECT_EQ(one.triangulation.triangles(), two.triangulation.triangles());
+}
+
+TEST(MultilevelRelaxation, RefusesAStartThatDoesNotFit) {
+  const SurfaceSeedModel model = model_of(Weighting::Area, 1000);
+  EXPECT_THROW(relax_multilevel(fibonacci_lattice(300), 1000, model, {}, {}, Execution(1)), Error);
+  EXPECT_THROW(level_sizes(3, 20), Error);
+}
+
+TEST(MultilevelRelaxation, RefusesLevelsOutOfRange) {
+  EXPECT_NO_THROW(check_multilevel_options({}));
+  for (const double tolerance : {0.0, -1e-4, std::numeric_limits<double>::quiet_NaN()}) {
+    MultilevelOptions coarsest;
+    coarsest.coarsest_tolerance = tolerance;
+    EXPECT_THROW(relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, coarsest), Error);
+    MultilevelOptions middle;
+    middle.middle_tolerance = tolerance;
+    EXPECT_THROW(relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, middle), Error);
+  }
+}
+
+TEST(MultilevelRelaxation, SaysWhichCoarserLevelsConverged) {
+  // One iteration from a lattice is too few for the coarsest level.
+  const SurfaceSeedModel model = model_of(Weighting::Area, 1000);
+  RelaxationOptions options;
+  options.maximum_iterations = 1;
+  const RelaxationResult result =
+      relax_multilevel(fibonacci_lattice(251), 1000, model, options, {}, Execution(1));
+  ASSERT_EQ(result.report.coarser_levels.size(), 1U);
+  EXPECT_EQ(result.report.coarser_levels.front().iterations, 1);
+  EXPECT_FALSE(result.report.coarser_levels.front().converged);
+}
+
+}  // namespace
+}  // namespace wscvt

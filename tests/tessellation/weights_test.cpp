@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/weights.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/quadric_surface.h"
+
+namespace wscvt {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+const Ellipsoid& ellipsoid() {
+  static const Ellipsoid surface(Vector3(1.3, 0.9, 0.7));
+  return surface;
+}
+
+SurfaceSeedModel model_of(const RadialSurface& surface, Weighting weighting, int nodes = 1000,
+                          double alpha = 1.0) {
+  WeightingOptions options;
+  options.weighting = weighting;
+  options.node_count = nodes;
+  options.curvature_alpha = alpha;
+  return {surface, options, nullptr, Execution(1)};
+}
+
+std::vector<double> weights_of(const SurfaceSeedModel& model, const std::vector<Vector3>& seeds) {
+  std::vector<double> weights;
+  model.weights(seeds, Execution(1), weights);
+  return weights;
+}
+
+double largest_curvature(const RadialSurface& surface, const Vector3& u) {
+  RadialJet jet;
+  surface.evaluate(&u, 1, Derivatives::Second, &jet);
+  const PrincipalCurvatures k = principal_curvatures(jet, u);
+  return std::max(std::abs(k.maximum), std::abs(k.minimum));
+}
+
+TEST(Weights, RadialDistanceIsEquation10) {
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::RadialDistance);
+  const std::vector<Vector3> seeds = fibonacci_lattice(1000);
+  const std::vector<double> weights = weights_of(model, seeds);
+  const double area = integrate(ellipsoid(), 60, Execution(1)).area;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const double r = ellipsoid().radius(seeds[i]);
+    // The table of 128 rows resolves this ellipsoid to 1e-6; the quadrature of S over it to 1e-4.
+    EXPECT_NEAR(weights[i] / (area / (1000.0 * pi * r * r)), 1.0, 2e-4);
+  }
+}
+
+TEST(Weights, AreaGivesEverySeedTheSameSurface) {
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area);
+  const std::vector<Vector3> seeds = fibonacci_lattice(500);
+  const std::vector<double> weights = weights_of(model, seeds);
+  const double area = integrate(ellipsoid(), 60, Execution(1)).area;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    RadialJet jet;
+    ellipsoid().evaluate(&seeds[i], 1, Derivatives::First, &jet);
+    EXPECT_NEAR(cell_area_per_weight * weights[i] * area_element(jet) / (area / 500.0), 1.0, 2e-4);
+  }
+}
+
+TEST(Weights, CurvatureGivesSharpPlacesSmallerWeights) {
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Curvature);
+  const std::vector<Vector3> seeds = fibonacci_lattice(1000);
+  const std::vector<double> weights = weights_of(model, seeds);
+  const auto mean = std::accumulate(weights.begin(), weights.end(), 0.0) / 1000.0;
+  // x has mean 0 and deviation 1/3 over the seeds (eq. 11), and nothing is clipped here.
+  double squares = 0.0;
+  for (const double w : weights) squares += w * w;
+  EXPECT_NEAR(mean, 0.0, 1e-16);
+  EXPECT_NEAR(std::sqrt(squares / 999.0), 4.0 / 1000.0 / 3.0, 1e-12);
+  std::vector<std::size_t> order(seeds.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return largest_curvature(ellipsoid(), seeds[i]) < largest_curvature(ellipsoid(), seeds[j]);
+  });
+  EXPECT_GT(weights[order.front()], weights[order[500]]);
+  EXPECT_GT(weights[order[500]], weights[order.back()]);
+  const std::vector<double> reversed =
+      weights_of(model_of(ellipsoid(), Weighting::Curvature, 1000, -1.0), seeds);
+  for (std::size_t i = 0; i < seeds.size(); ++i) EXPECT_NEAR(reversed[i], -weights[i], 1e-18);
+}
+
+TEST(Weights, CurvatureOnASphereLeavesAllSeedsEqual) {
+  const Ellipsoid sphere(Vector3(2.0, 2.0, 2.0));
+  const std::vector<Vector3> seeds = fibonacci_lattice(100);
+  for (const double w : weights_of(model_of(sphere, Weighting::Curvature, 100), seeds)) {
+    EXPECT_EQ(w, 0.0);
+  }
+}
+
+TEST(Weights, WantedDensitiesAddUpToTheNodeCountOnSphereAndSurface) {
+  const SphereQuadrature quadrature = gauss_legendre_sphere(60);
+  for (const Weighting weighting :
+       {Weighting::Constant, Weighting::RadialDistance, Weighting::Curvature, Weighting::Area,
+        Weighting::ErrorAdaptive}) {
+    SCOPED_TRACE(static_cast<int>(weighting));
+    const SurfaceSeedModel model = model_of(ellipsoid(), weighting, 800);
+    const std::vector<double> densities =
+        model.number_densities(quadrature.directions, Execution(1));
+    double count = 0.0;
+    for (std::size_t i = 0; i < densities.size(); ++i)
+      count += quadrature.weights[i] * densities[i];
+    EXPECT_NEAR(count, 800.0, 0.8);
+    std::vector<double> on_surface;
+    model.surface_densities(quadrature.directions, Execution(1), on_surface);
+    EXPECT_EQ(on_surface.empty(), weighting == Weighting::Area);
+  }
+}
+
+TEST(Weights, DoNotDependOnTheScaleOfTheSurface) {
+  const Ellipsoid small(Vector3(1.3e-6, 0.9e-6, 0.7e-6));
+  const std::vector<Vector3> seeds = fibonacci_lattice(300);
+  for (const Weighting weighting : {Weighting::RadialDistance, Weighting::Curvature,
+                                    Weighting::Area, Weighting::ErrorAdaptive}) {
+    const std::vector<double> a = weights_of(model_of(ellipsoid(), weighting), seeds);
+    const std::vector<double> b = weights_of(model_of(small, weighting), seeds);
+    for (std::size_t i = 0; i < seeds.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-12);
+  }
+}
+
+TEST(Weights, SamplesReplaceTheSurfacesCurvature) {
+  // Samples that say "sharp in the upper half" on a sphere, sparser than the grid.
+  CurvatureSamples samples;
+  samples.directions = fibonacci_lattice(700);
+  samples.weights.assign(700, 4.0 * pi / 700.0);
+  for (const Vector3& u : samples.directions) {
+    const double k = u.z() > 0.0 ? 4.0 : 1.0;
+    samples.curvatures.push_back({k, k});
+  }
+  WeightingOptions options;
+  options.weighting = Weighting::Curvature;
+  options.node_count = 400;
+  const SurfaceSeedModel model(Ellipsoid(Vector3(1.0, 1.0, 1.0)), options, &samples, Execution(1));
+  const std::vector<Vector3> ends = {Vector3(0, 0, 1), Vector3(0.6, 0, 0.8), Vector3(0, 0, -1)};
+  const std::vector<double> weights = weights_of(model, ends);
+  EXPECT_LT(weights[0], 0.0);
+  EXPECT_NEAR(weights[0], weights[1], 1e-12);
+  EXPECT_GT(weights[2], 0.0);
+}
+
+TEST(Weights, RefusesOptionsOutOfRange) {
+  EXPECT_THROW(model_of(ellipsoid(), Weighting::Area, 3), Error);
+  EXPECT_THROW(model_of(ellipsoid(), Weighting::Curvature, 100, 3.5), Error);
+  EXPECT_THROW(
+      model_of(ellipsoid(), Weighting::Curvature, 100, std::numeric_limits<double>::quiet_NaN()),
+      Error);
+}
+
+}  // namespace
+}  // namespace wscvt
