@@ -453,15 +453,15 @@ void add_warnings(RemeshResult& result) {
       warn("This sampling has no form with " + std::to_string(result.options.node_count) +
            " nodes; the nearest, with " + std::to_string(nodes) + ", was used.");
     }
-  } else if (result.relaxation.settled) {
+  } else if (result.relaxation.outcome == RelaxationOutcome::Settled) {
     warn("The seeds came to rest with the cells' areas still spread by " +
          format_percent(result.relaxation.history.back().area_spread) +
          " about their targets; more nodes follow the surface more evenly.");
-  } else if (result.relaxation.stuck) {
+  } else if (result.relaxation.outcome == RelaxationOutcome::Stuck) {
     warn("The relaxation stopped after " + std::to_string(result.relaxation.iterations) +
          " iterations, because a further step would have torn the triangulation; the result keeps "
          "every promise but may be less even. Another start of the seeds may go further.");
-  } else if (!result.relaxation.converged) {
+  } else if (result.relaxation.outcome == RelaxationOutcome::IterationLimit) {
     warn("The relaxation stopped at its limit of " + std::to_string(result.relaxation.iterations) +
          " iterations before it converged; raise the limit for the last bit of evenness.");
   }

@@ -35,7 +35,7 @@ RemeshResult example() {
   result.fit.degree = 20;
   result.fit.points = scan.points.size();
   result.fit.residual = 0.0039;
-  result.relaxation.converged = true;
+  result.relaxation.outcome = RelaxationOutcome::Converged;
   result.relaxation.iterations = 2;
   result.relaxation.history = {{0.1, 0.2, 30}, {9e-4, 0.05, 1}};
   return result;
@@ -100,7 +100,7 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.fit.points = 230;
   result.input.split_vertices = 2;
   result.input.sliver_faces = 1;
-  result.relaxation.converged = false;
+  result.relaxation.outcome = RelaxationOutcome::IterationLimit;
   result.warnings = {"First warning.", "Second warning."};
   const std::string text = text_of(result);
   for (const char* part :

@@ -61,11 +61,11 @@ TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeightingAndMetric)
                    << static_cast<int>(weighting) << " " << static_cast<int>(metric));
       for (const int count : {1001, 1002, 1003}) {
         const RelaxationResult result = relaxed(count, weighting, metric);
-        EXPECT_TRUE(result.report.converged);
+        EXPECT_EQ(result.report.outcome, RelaxationOutcome::Converged);
         EXPECT_EQ(result.seeds.size(), static_cast<std::size_t>(count));
         EXPECT_EQ(result.triangulation.triangles().size(), 2U * count - 4U);
         ASSERT_EQ(result.report.coarser_levels.size(), 1U);
-        EXPECT_TRUE(result.report.coarser_levels.front().converged);
+        EXPECT_EQ(result.report.coarser_levels.front().outcome, RelaxationOutcome::Converged);
       }
     }
   }
@@ -118,7 +118,7 @@ TEST(MultilevelRelaxation, SaysWhichCoarserLevelsConverged) {
       relax_multilevel(fibonacci_lattice(251), 1000, model, options, {}, Execution(1));
   ASSERT_EQ(result.report.coarser_levels.size(), 1U);
   EXPECT_EQ(result.report.coarser_levels.front().iterations, 1);
-  EXPECT_FALSE(result.report.coarser_levels.front().converged);
+  EXPECT_EQ(result.report.coarser_levels.front().outcome, RelaxationOutcome::IterationLimit);
 }
 
 }  // namespace

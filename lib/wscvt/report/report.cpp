@@ -108,6 +108,20 @@ const char* name_of(RelaxationMetric metric) {
   return "unknown";
 }
 
+const char* name_of(RelaxationOutcome outcome) {
+  switch (outcome) {
+    case RelaxationOutcome::Converged:
+      return "converged";
+    case RelaxationOutcome::Settled:
+      return "settled";
+    case RelaxationOutcome::Stuck:
+      return "stuck";
+    case RelaxationOutcome::IterationLimit:
+      return "iteration limit";
+  }
+  return "unknown";
+}
+
 const char* name_of(DegreeLimit limit) {
   switch (limit) {
     case DegreeLimit::None:
@@ -234,12 +248,10 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
 
   const RelaxationReport& relaxation = result.relaxation;
   const auto iterations = static_cast<std::size_t>(std::max(relaxation.iterations, 0));
-  std::string text =
-      relaxation.converged ? "converged after " + counted(iterations, "iteration", "iterations")
-      : relaxation.settled ? "settled after " + counted(iterations, "iteration", "iterations")
-      : relaxation.stuck   ? "stuck after " + counted(iterations, "iteration", "iterations")
-                           : "not converged: stopped at the limit of " +
-                               counted(iterations, "iteration", "iterations");
+  std::string text = (relaxation.outcome == RelaxationOutcome::IterationLimit
+                          ? "not converged: stopped at the limit of "
+                          : name_of(relaxation.outcome) + std::string(" after ")) +
+                     counted(iterations, "iteration", "iterations");
   for (auto level = relaxation.coarser_levels.rbegin(); level != relaxation.coarser_levels.rend();
        ++level) {
     text += (level == relaxation.coarser_levels.rbegin() ? " (after " : ", ") +
@@ -435,12 +447,11 @@ Json json_of(const RelaxationReport& r) {
   }
   Json levels = Json::array();
   for (const RelaxationLevel& level : r.coarser_levels) {
-    levels.push_back(
-        {{"seeds", level.seeds}, {"iterations", level.iterations}, {"converged", level.converged}});
+    levels.push_back({{"seeds", level.seeds},
+                      {"iterations", level.iterations},
+                      {"outcome", name_of(level.outcome)}});
   }
-  return {{"converged", r.converged},
-          {"settled", r.settled},
-          {"stuck", r.stuck},
+  return {{"outcome", name_of(r.outcome)},
           {"iterations", r.iterations},
           {"coarser_levels", std::move(levels)},
           {"rebuilds", r.rebuilds},
@@ -607,9 +618,7 @@ std::string report_csv(const RemeshResult& result) {
   record.add("requested_degree", std::to_string(result.fit.requested_degree));
   record.add("degree", std::to_string(result.fit.degree));
   record.add("residual", result.fit.residual);
-  record.add("converged", result.relaxation.converged ? "true" : "false");
-  record.add("settled", result.relaxation.settled ? "true" : "false");
-  record.add("stuck", result.relaxation.stuck ? "true" : "false");
+  record.add("outcome", name_of(result.relaxation.outcome));
   record.add("iterations", std::to_string(result.relaxation.iterations));
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   record.add("rms_distance", result.distances ? result.distances->root_mean_square : unknown);

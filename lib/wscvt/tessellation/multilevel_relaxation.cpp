@@ -136,7 +136,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
   RelaxationResult result = relax(std::move(start), model, options_of(0), execution_of(0));
   std::vector<RelaxationLevel> coarser;
   for (std::size_t level = 1; level < sizes.size(); ++level) {
-    coarser.push_back({sizes[level - 1], result.report.iterations, result.report.converged});
+    coarser.push_back({sizes[level - 1], result.report.iterations, result.report.outcome});
     std::vector<double> radii(result.seeds.size(), 1.0);
     if (options.metric == RelaxationMetric::Surface) model.radii(result.seeds, execution, radii);
     Tessellation fine = subdivide(result.seeds, radii, result.triangulation);

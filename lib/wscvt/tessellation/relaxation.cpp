@@ -240,12 +240,19 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
   while (true) {
     report.history.push_back(evaluation.step());
     const RelaxationStep& step = evaluation.step();
-    report.converged = step.displacement < options.displacement_tolerance &&
-                       step.area_spread < options.area_tolerance;
+    if (step.displacement < options.displacement_tolerance &&
+        step.area_spread < options.area_tolerance) {
+      report.outcome = RelaxationOutcome::Converged;
+      break;
+    }
     // Plain steps are slow to rest; 0.3 of the tolerance leaves triangles as even.
     const double rest = (plain ? 0.3 : 0.01) * options.displacement_tolerance;
-    report.settled = !report.converged && step.displacement < rest;
-    if (report.converged || report.settled || report.iterations >= options.maximum_iterations) {
+    if (step.displacement < rest) {
+      report.outcome = RelaxationOutcome::Settled;
+      break;
+    }
+    if (report.iterations >= options.maximum_iterations) {
+      report.outcome = RelaxationOutcome::IterationLimit;
       break;
     }
     if (options.metric == RelaxationMetric::Surface && !plain &&
@@ -283,7 +290,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
       }
     });
     if (!try_evaluation(evaluation, arrived, seeds, report)) {
-      report.stuck = true;
+      report.outcome = RelaxationOutcome::Stuck;
       break;
     }
     arrived.swap(stepped);

@@ -37,21 +37,28 @@ struct RelaxationStep {
   int flips = 0;              ///< edges flipped to restore the triangulation
 };
 
+/// Why a relaxation ended.
+enum class RelaxationOutcome {
+  Converged,  ///< displacement and area spread both below their tolerances
+  /// The seeds have come to rest (a hundredth of the displacement tolerance, or 0.3 of it with the
+  /// surface metric's plain steps) although the cells' areas spread more than asked for: few nodes
+  /// on a strongly bent surface cannot do better.
+  Settled,
+  Stuck,           ///< even a short step further could not be triangulated
+  IterationLimit,  ///< none of these within the iterations allowed
+};
+
 /// A coarser tessellation that was relaxed first (see multilevel_relaxation.h).
 struct RelaxationLevel {
   int seeds = 0;
   int iterations = 0;
-  bool converged = false;  ///< to the level's tolerances (see MultilevelOptions)
+  /// By the level's tolerances (see MultilevelOptions).
+  RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
 };
 
 struct RelaxationReport {
-  bool converged = false;  ///< displacement and area spread both below their tolerances
-  /// The seeds have come to rest (a hundredth of the displacement tolerance, or 0.3 of it with the
-  /// surface metric's plain steps) although the cells' areas spread more than asked for: few nodes
-  /// on a strongly bent surface cannot do better.
-  bool settled = false;
-  bool stuck = false;  ///< ended because even a short step further could not be triangulated
-  int iterations = 0;  ///< with all the seeds
+  RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
+  int iterations = 0;                           ///< with all the seeds
   std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
   int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
   double weight_scale = 1.0;  ///< below 1: weights were damped so that no seed lost its cell
