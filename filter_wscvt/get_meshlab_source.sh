@@ -1,33 +1,51 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fetches the source package of the installed MeshLab, whose headers no Debian package carries.
-#   filter_wscvt/get_meshlab_source.sh FOLDER
+# Fetches the source of the installed MeshLab, whose headers no Debian package carries, or of the
+# MeshLab of another Debian suite.
+#   filter_wscvt/get_meshlab_source.sh FOLDER [SUITE]      (SUITE: bookworm, trixie, sid, ...)
 # FOLDER is created, and is what CMake wants as MESHLAB_SOURCE_DIR; nothing is done if it is there.
-# Needs dpkg-dev, no root: the source entry and apt's lists are kept in a folder of our own.
+# Needs no root: the source entry and apt's lists are kept in a folder of our own. Only the tarball
+# of the source package is fetched: Debian's patches leave the headers of src/common as they are,
+# and mirrors do not all serve the rest. apt checks its hash against the archive's signed index.
 set -eu
 
-folder=${1:?usage: get_meshlab_source.sh FOLDER}
+folder=${1:?usage: get_meshlab_source.sh FOLDER [SUITE]}
+suite=${2:-}
 if [ -f "$folder/ML_VERSION" ]; then exit 0; fi
 
-version=$(dpkg-query -W -f '${Version}' meshlab 2>/dev/null) || {
-  echo "MeshLab is not installed; run: apt-get install meshlab" >&2
-  exit 1
-}
-# "meshlab | version | URI suite/component architecture Packages" -> URI
-uri=$(apt-cache madison meshlab | awk -F '|' -v version="$version" \
-  '{ gsub(/ /, "", $2) } $2 == version && $3 ~ /Packages/ { split($3, at, " "); print at[1]; exit }')
-if [ -z "$uri" ]; then
-  echo "apt does not know where meshlab $version comes from; run: apt-get update" >&2
-  exit 1
+package=meshlab
+uri=http://deb.debian.org/debian
+if [ -z "$suite" ]; then
+  version=$(dpkg-query -W -f '${Version}' meshlab 2>/dev/null) || {
+    echo "MeshLab is not installed; run: apt-get install meshlab" >&2
+    exit 1
+  }
+  # "meshlab | version | URI suite/component architecture Packages" -> URI
+  uri=$(apt-cache madison meshlab | awk -F '|' -v version="$version" \
+    '{ gsub(/ /, "", $2) } $2 == version && $3 ~ /Packages/ { split($3, at, " "); print at[1]; exit }')
+  if [ -z "$uri" ]; then
+    echo "apt does not know where meshlab $version comes from; run: apt-get update" >&2
+    exit 1
+  fi
+  uri=${uri%/}
+  # A package built anew (+b1) has the source of the version before.
+  package=meshlab=$(dpkg-query -W -f '${source:Version}' meshlab)
 fi
-uri=${uri%/}
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$scratch/lists/partial" "$scratch/archives/partial" "$scratch/parts"
 
+if [ -n "$suite" ]; then
+  keyring=/usr/share/keyrings/debian-archive-keyring.gpg
+  test -f "$keyring" || {
+    echo "Debian's keys are not there; run: apt-get install debian-archive-keyring" >&2
+    exit 1
+  }
+  echo "deb-src [signed-by=$keyring] $uri $suite main" > "$scratch/parts/source.list"
+fi
 # The machine's own entries for that archive, with their keys and options, asked for sources.
-for list in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
+[ -n "$suite" ] || for list in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
   case $list in
     *.list)
       if [ -f "$list" ]; then
@@ -44,12 +62,17 @@ done
 
 in_private() {
   "$@" -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$scratch/parts" \
-    -o Dir::State::Lists="$scratch/lists" -o Dir::Cache="$scratch" -o APT::Sandbox::User=root
+    -o Dir::State::Lists="$scratch/lists" -o Dir::Cache="$scratch" -o APT::Sandbox::User=root \
+    -o Acquire::Check-Valid-Until="$valid_until"
 }
+# The index of sid on a mirror that lags is out of date, but signed.
+valid_until=true
+[ "$suite" != sid ] || valid_until=false
 in_private apt-get update
-(cd "$scratch" && in_private apt-get source "meshlab=$version")
+(cd "$scratch" && in_private apt-get source --download-only --tar-only "$package")
+(cd "$scratch" && tar -xf ./*.orig.tar.*)
 
 mkdir -p "$(dirname "$folder")"
 unpacked=$(find "$scratch" -mindepth 2 -maxdepth 2 -name ML_VERSION -printf '%h\n')
 mv "$unpacked" "$folder"
-echo "The source of MeshLab $version is in $folder."
+echo "The source of MeshLab $(cat "$folder/ML_VERSION") is in $folder."
