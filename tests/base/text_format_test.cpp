@@ -45,6 +45,22 @@ TEST(TextFormat, ExactNumbersReadBackToTheSameBits) {
   EXPECT_EQ(format_exact(-infinity), "");
 }
 
+TEST(TextFormat, TypedNumbersAreWrittenOutAndReadBack) {
+  EXPECT_EQ(format_typed(1000000.0), "1000000");
+  EXPECT_EQ(format_typed(0.001), "0.001");
+  EXPECT_EQ(format_typed(2.0 / 3.0), "0.6666666666666666");
+  EXPECT_EQ(format_typed(0.0), "0");
+  EXPECT_EQ(format_typed(1e-4), "0.0001");
+  EXPECT_EQ(format_typed(1e-6), "1e-06");
+  EXPECT_EQ(format_typed(std::numeric_limits<double>::max()), "1.7976931348623157e+308");
+  EXPECT_EQ(format_typed(not_a_number), "nan");
+  EXPECT_EQ(format_typed(-infinity), "-inf");
+  // The longest there are without an exponent.
+  for (const double value : {-1.2345678901234567e-4, -999999999999999.9}) {
+    EXPECT_EQ(std::stod(format_typed(value)), value);
+  }
+}
+
 TEST(TextFormat, DoesNotDependOnTheLocale) {
   const test::GermanNumbers german;
   std::ostringstream stream;
@@ -53,6 +69,7 @@ TEST(TextFormat, DoesNotDependOnTheLocale) {
   EXPECT_EQ(format_number(1234.5), "1234.5");
   EXPECT_EQ(format_error(1234.5), "+1234.500");
   EXPECT_EQ(format_exact(1234.5), "1234.5");
+  EXPECT_EQ(format_typed(1234.5), "1234.5");
 }
 
 TEST(TextFormat, TablesLineUp) {

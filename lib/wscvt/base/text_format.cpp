@@ -20,6 +20,16 @@ std::string format_number(double value, int significant) {
   return text.str();
 }
 
+std::string format_typed(double value) {
+  const double size = std::abs(value);
+  const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e15);
+  std::array<char, 32> text{};
+  const auto end =
+      plain ? std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed)
+            : std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
 std::string format_percent(double share) { return format_number(100.0 * share, 3) + " %"; }
 
 std::string format_error(double percent) {

@@ -11,6 +11,11 @@ namespace wscvt {
 /// A number for reading, with `significant` digits; "-" for one that is not a number.
 std::string format_number(double value, int significant = 6);
 
+/// The shortest decimal text that reads back as the same number, written as a person types it:
+/// 1000000 and not 1e+06, 0.001 and not 1e-03. Below 1e-4 and from 1e15 on with an exponent; "nan"
+/// and "inf" for what is not a number and not finite.
+std::string format_typed(double value);
+
 /// A share for reading, in per cent with three digits: 0.05 is "5 %".
 std::string format_percent(double share);
 
