@@ -9,6 +9,7 @@
 #include "grains/marching_cubes.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
+#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/scan/mesh_io.h"
 

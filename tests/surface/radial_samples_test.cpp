@@ -8,7 +8,7 @@
 
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/folded_solid_angle.h"
 
 namespace wscvt {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/measures/convex_hull.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/mesh_surface.h"

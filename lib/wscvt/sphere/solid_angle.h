@@ -42,7 +42,7 @@ struct SolidAngleSums {
     return *this;
   }
 
-  /// See folded_solid_angle in mesh_check.h.
+  /// See folded_solid_angle in folded_solid_angle.h.
   double folded_share() const {
     constexpr double four_pi = 4.0 * 3.14159265358979323846;
     // The signed angles add up to 4 pi seen from inside and to 0 from outside.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "wscvt/base/error.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/folded_solid_angle.h"
 
 namespace wscvt {
 

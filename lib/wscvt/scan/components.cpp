@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/components.h"
+
+#include <utility>
+
+#include "wscvt/scan/half_edges.h"
+
+namespace wscvt {
+
+using namespace half_edges;
+
+Components find_components(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings) {
+  const std::vector<Triangle>& triangles = mesh.triangles;
+  Components result;
+  result.of_face.assign(triangles.size(), -1);
+  result.turned.assign(triangles.size(), 0);
+  // One walk finds the part and turns its faces: both need every edge once. `stack` holds faces
+  // whose part and turn are known and whose neighbours are not yet looked at.
+  std::vector<std::int32_t> stack;
+  for (std::size_t start = 0; start < triangles.size(); ++start) {
+    if (result.of_face[start] >= 0) continue;
+    Component component;
+    const auto number = static_cast<std::int32_t>(result.list.size());
+    result.of_face[start] = number;
+    stack.push_back(static_cast<std::int32_t>(start));
+    while (!stack.empty()) {
+      const std::size_t f = index(stack.back());
+      stack.pop_back();
+      ++component.faces;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto h = static_cast<std::int32_t>(3 * f + k);
+        const std::int32_t other = rings[index(h)];
+        if (other == h) {
+          ++component.boundary_edges;
+          continue;
+        }
+        const std::size_t g = face_of(other);
+        const bool manifold = rings[index(other)] == h;
+        // Faces that look the same way run along their edge in opposite ways.
+        const bool same_way = triangles[f][k] == triangles[g][corner_of(other)];
+        const bool turn = same_way != (result.turned[f] != 0);
+        if (result.of_face[g] < 0) {
+          result.of_face[g] = number;
+          result.turned[g] = static_cast<char>(turn);
+          stack.push_back(static_cast<std::int32_t>(g));
+        } else if (manifold && turn != (result.turned[g] != 0)) {
+          component.orientable = false;
+        }
+        if (!manifold && other < h) ++component.non_manifold_edges;  // the ring's last
+      }
+    }
+    result.list.push_back(component);
+  }
+
+  // About a point of its own, so that a grain far from the origin keeps its digits. `origin` is
+  // that point for every component: the first corner of its first face.
+  std::vector<std::int32_t> origin(result.list.size(), -1);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const Triangle& t = triangles[f];
+    const std::size_t c = index(result.of_face[f]);
+    if (origin[c] < 0) origin[c] = t[0];
+    const Vector3& o = mesh.points[index(origin[c])];
+    const Vector3 p = mesh.points[index(t[0])] - o;
+    const Vector3 q = mesh.points[index(t[1])] - o;
+    const Vector3 r = mesh.points[index(t[2])] - o;
+    const double six_volumes = p.dot(q.cross(r));
+    result.list[c].volume += (result.turned[f] ? -six_volumes : six_volumes) / 6.0;
+  }
+  return result;
+}
+
+KeptComponent keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept) {
+  KeptComponent result;
+  const bool inside_out = components.list[kept].volume < 0.0;
+  // For every vertex its number afterwards; -1 when no face that stays names it.
+  std::vector<std::int32_t> number(mesh.points.size(), -1);
+  std::size_t faces = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (index(components.of_face[f]) != kept) continue;
+    Triangle t = mesh.triangles[f];
+    if ((components.turned[f] != 0) != inside_out) {
+      std::swap(t[1], t[2]);
+      ++result.reoriented_faces;
+    }
+    for (const std::int32_t v : t) number[index(v)] = 0;
+    mesh.triangles[faces++] = t;
+  }
+  result.dropped_faces = mesh.triangles.size() - faces;
+  mesh.triangles.resize(faces);
+  std::size_t vertices = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<std::int32_t>(vertices);
+    mesh.points[vertices++] = mesh.points[v];
+  }
+  if (vertices == mesh.points.size()) return result;
+  mesh.points.resize(vertices);
+  for (Triangle& t : mesh.triangles) {
+    for (std::int32_t& v : t) v = number[index(v)];
+  }
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/folded_solid_angle.h"
+
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/scan/half_edges.h"
+#include "wscvt/sphere/solid_angle.h"
+
+namespace wscvt {
+
+using namespace half_edges;
+
+double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
+                          const Execution& execution) {
+  std::vector<Vector3> directions(mesh.points.size());
+  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      directions[i] = (mesh.points[i] - centre).normalized();
+  });
+  return execution
+      .parallel_sum(mesh.triangles.size(), block_size, SolidAngleSums(),
+                    [&](std::size_t begin, std::size_t end) {
+                      SolidAngleSums part;
+                      for (std::size_t f = begin; f < end; ++f) {
+                        const Triangle& t = mesh.triangles[f];
+                        part.add(solid_angle(directions[index(t[0])], directions[index(t[1])],
+                                             directions[index(t[2])]));
+                      }
+                      return part;
+                    })
+      .folded_share();
+}
+
+}  // namespace wscvt
