@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/refinement_facet.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace wscvt {
+
+namespace {
+
+/// A plane that passes the origin at less than this share of its triangle's distance is too steep.
+/// The signed volume of triangle and origin is area / 3 times that distance; its rounding is 1e-16
+/// of its terms, so that what passes with 1e-3 is star-shaped beyond doubt, also after the mesh was
+/// scaled, moved and written in single precision (1e-7). No face of a scan that is worth following
+/// is steeper: 1e-3 is 3.4 minutes of arc.
+constexpr double smallest_plane_cosine = 1e-3;
+
+}  // namespace
+
+RefinementFacet::RefinementFacet(const Vector3& a, const Vector3& b, const Vector3& c) : corner(a) {
+  const Vector3 ab = b - a;
+  const Vector3 bc = c - b;
+  const Vector3 ca = a - c;
+  normal = ab.cross(bc);
+  const double doubled_area = normal.norm();
+  // Written so that a NaN counts as no triangle.
+  if (!(doubled_area > 0.0)) return;
+  normal /= doubled_area;
+  const double distance = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
+  star_shaped = normal.dot(a) > smallest_plane_cosine * distance;
+  const double ab_length = ab.norm();
+  const double bc_length = bc.norm();
+  const double ca_length = ca.norm();
+  // Angles are compared by their cosines, which saves an arc cosine a triangle tried.
+  largest_cosine =
+      std::max({-ca.dot(ab) / (ca_length * ab_length), -ab.dot(bc) / (ab_length * bc_length),
+                -bc.dot(ca) / (bc_length * ca_length)});
+}
+
+}  // namespace wscvt

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/refinement_fan.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace wscvt {
+
+void RefinementFan::resize() {
+  facets.resize(ring.size());
+  errors.resize(ring.size());
+  if (lists.size() < ring.size()) lists.resize(ring.size());
+}
+
+double load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
+  RefinementFan& fan = work.fan;
+  state.ring_of(node, fan.ring, &work.triangles);
+  fan.position = state.positions[node];
+  fan.resize();
+  fan.error = state.node_errors[node];
+  double largest_cosine = -1.0;
+  const std::size_t count = fan.ring.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::int32_t t = work.triangles[j];
+    fan.facets[j] = RefinementFacet(fan.position, state.positions[fan.ring[j]],
+                                    state.positions[fan.ring[j + 1 == count ? 0 : j + 1]]);
+    largest_cosine = std::max(largest_cosine, fan.facets[j].largest_cosine);
+    fan.lists[j] = state.lists[t];
+    fan.error += state.errors[t];
+  }
+  return largest_cosine;
+}
+
+void store_fan(RefinementState& state, std::int32_t node, const FanWorkspace& work) {
+  const RefinementFan& fan = work.fan;
+  state.positions[node] = fan.position;
+  state.node_errors[node] = fan.node_error;
+  for (std::size_t j = 0; j < fan.ring.size(); ++j) {
+    state.lists[work.triangles[j]] = fan.lists[j];
+    state.errors[work.triangles[j]] = fan.errors[j];
+  }
+}
+
+bool place_fan(const RefinementState& state, const RefinementFan& from, const Vector3& position,
+               double cosine_limit, RefinementFan& to, std::vector<Vector3>& spokes) {
+  const std::size_t count = from.ring.size();
+  to.ring = from.ring;
+  to.position = position;
+  to.resize();
+  spokes.resize(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    const Vector3& a = state.positions[from.ring[j]];
+    to.facets[j] =
+        RefinementFacet(position, a, state.positions[from.ring[j + 1 == count ? 0 : j + 1]]);
+    if (!to.facets[j].acceptable(cosine_limit)) return false;
+    spokes[j] = position.cross(a);
+    to.lists[j].clear();
+  }
+  for (std::size_t j = 0; j < count; ++j) {
+    for (const std::int32_t s : from.lists[j]) {
+      const Vector3& sample = state.samples[s];
+      // Most samples stay in their triangle; the others are found by going round the node. Only
+      // the planes through the node are asked: the outer edges have not moved, and hold all the
+      // fan's samples. One turn at most, since a sample on a spoke may round to either side of it.
+      std::size_t k = j;
+      for (std::size_t turn = 0; turn < count; ++turn) {
+        const std::size_t after = k + 1 == count ? 0 : k + 1;
+        if (spokes[k].dot(sample) < 0.0) {
+          k = k == 0 ? count - 1 : k - 1;
+        } else if (spokes[after].dot(sample) > 0.0) {
+          k = after;
+        } else {
+          break;
+        }
+      }
+      to.lists[k].push_back(s);
+    }
+  }
+  to.node_error = state.node_error(position);
+  to.error = to.node_error;
+  for (std::size_t j = 0; j < count; ++j) {
+    to.errors[j] = state.error_of(to.facets[j], to.lists[j]);
+    to.error += to.errors[j];
+  }
+  return true;
+}
+
+bool improve_fan(const RefinementState& state, FanWorkspace& work, double cosine_limit) {
+  RefinementFan& fan = work.fan;
+  const std::size_t count = fan.ring.size();
+  Matrix3 matrix = Matrix3::Zero();
+  Vector3 gradient = Vector3::Zero();
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < count; ++j) {
+    const Vector3& a = state.positions[fan.ring[j]];
+    const Vector3& b = state.positions[fan.ring[j + 1 == count ? 0 : j + 1]];
+    shortest = std::min(shortest, (a - fan.position).norm());
+    // When the node moves by one along the normal, the plane moves under a sample by the node's
+    // barycentric coordinate at the sample's foot. Moves within the plane leave it where it is, so
+    // that each triangle speaks for its own normal only, and the ridge between two planes is the
+    // one direction in which a node on it may slide freely.
+    const Vector3 edge = b - a;
+    const Vector3 doubled_area = (a - fan.position).cross(b - fan.position);
+    const Vector3 coordinate_gradient = doubled_area.cross(edge) / doubled_area.squaredNorm();
+    const RefinementFacet& f = fan.facets[j];
+    double squares = 0.0;
+    double products = 0.0;
+    for (const std::int32_t s : fan.lists[j]) {
+      const double coordinate = coordinate_gradient.dot(state.samples[s] - a);
+      const double residual = f.residual(state.samples[s]);
+      const double weight = state.penalty_weight(residual);
+      squares += weight * coordinate * coordinate;
+      products += weight * coordinate * residual;
+    }
+    matrix += squares * f.normal * f.normal.transpose();
+    gradient += products * f.normal;
+  }
+  Vector3 normal;
+  const double residual = state.node_residual(fan.position, normal);
+  const double weight = state.node_weight * state.penalty_weight(residual);
+  matrix += weight * normal * normal.transpose();
+  gradient += weight * residual * normal;
+  // Where the surface is flat the samples do not say where in the plane the node should stand: the
+  // matrix is singular there, and a thousandth of its trace lets the node stay. The smallest
+  // positive number keeps a fan without any samples from dividing by 0.
+  matrix.diagonal().array() += 1e-3 * matrix.trace() + std::numeric_limits<double>::min();
+  Vector3 step = matrix.ldlt().solve(gradient);
+  const double length = step.norm();
+  // Below that the step changes the mesh by no more than its file in single precision would.
+  if (!(length > 1e-7 * shortest)) return false;
+  // Farther than halfway to a neighbour the fan's samples no longer say what the surface does.
+  if (length > 0.5 * shortest) step *= 0.5 * shortest / length;
+  for (int attempt = 0; attempt < 3; ++attempt, step *= 0.4) {
+    if (place_fan(state, fan, fan.position + step, cosine_limit, work.trial, work.spokes) &&
+        work.trial.error < fan.error) {
+      std::swap(work.fan, work.trial);
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace wscvt
