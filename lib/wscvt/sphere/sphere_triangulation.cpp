@@ -14,12 +14,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/sphere/orientation.h"
 
 namespace wscvt {
 
@@ -29,32 +30,6 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using ExactPoint = Kernel::Point_3;
 
 ExactPoint exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
-
-/// Sign of det(b - a, c - a, d - a): positive when d lies on the side of the plane abc from which
-/// abc is counter-clockwise. The filter is stage A of Shewchuk (1997), "Adaptive precision
-/// floating-point arithmetic and fast robust geometric predicates", section 4.3.
-int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  const double bx = b.x() - a.x(), by = b.y() - a.y(), bz = b.z() - a.z();
-  const double cx = c.x() - a.x(), cy = c.y() - a.y(), cz = c.z() - a.z();
-  const double dx = d.x() - a.x(), dy = d.y() - a.y(), dz = d.z() - a.z();
-  const double bxcy = bx * cy, cxby = cx * by;
-  const double cxdy = cx * dy, dxcy = dx * cy;
-  const double dxby = dx * by, bxdy = bx * dy;
-  const double determinant = dz * (bxcy - cxby) + bz * (cxdy - dxcy) + cz * (dxby - bxdy);
-  const double permanent = (std::abs(bxcy) + std::abs(cxby)) * std::abs(dz) +
-                           (std::abs(cxdy) + std::abs(dxcy)) * std::abs(bz) +
-                           (std::abs(dxby) + std::abs(bxdy)) * std::abs(cz);
-  constexpr double epsilon = 0.5 * std::numeric_limits<double>::epsilon();
-  const double bound = (7.0 + 56.0 * epsilon) * epsilon * permanent;
-  if (determinant > bound) return 1;
-  if (determinant < -bound) return -1;
-  return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c), exact(d)));
-}
-
-/// Whether abc is counter-clockwise seen from outside the sphere, exactly: det(a, b, c) > 0.
-bool counter_clockwise(const Vector3& a, const Vector3& b, const Vector3& c) {
-  return orientation(Vector3::Zero(), a, b, c) > 0;
-}
 
 /// Beyond this many steradian exp(w / 2) may leave the range in which the predicates' products
 /// neither overflow nor underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
@@ -216,28 +191,9 @@ void SphereTriangulation::set_triangles(std::vector<Triangle> triangles, std::si
   }
   std::sort(triangles.begin(), triangles.end());
   triangles_ = std::move(triangles);
-  const std::size_t half_edges = 3 * triangles_.size();
-  // Half-edges grouped by their origin.
-  std::vector<std::int32_t> begin(vertices + 1, 0);
-  for (const Triangle& t : triangles_) {
-    for (const std::int32_t v : t) ++begin[v + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::int32_t> outgoing(half_edges);
-  std::vector<std::int32_t> fill(begin.begin(), begin.end() - 1);
-  for (std::size_t h = 0; h < half_edges; ++h) {
-    outgoing[fill[origin(static_cast<std::int32_t>(h))]++] = static_cast<std::int32_t>(h);
-  }
-  opposite_.assign(half_edges, -1);
-  first_half_edge_.resize(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) first_half_edge_[v] = outgoing[begin[v]];
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(half_edges); ++h) {
-    const std::int32_t from = origin(h);
-    const std::int32_t to = origin(next(h));
-    for (std::int32_t k = begin[to]; k < begin[to + 1]; ++k) {
-      if (origin(next(outgoing[k])) == from) opposite_[h] = outgoing[k];
-    }
-  }
+  HalfEdges links = link_half_edges(triangles_, vertices);
+  opposite_ = std::move(links.opposite);
+  first_half_edge_ = std::move(links.first);
 }
 
 bool SphereTriangulation::is_flippable(std::int32_t half_edge,

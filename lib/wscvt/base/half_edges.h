@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+// Half-edges of a triangle mesh without an array of their own: half-edge 3 t + k runs from corner k
+// of triangle t to corner (k + 1) % 3.
+
+/// The half-edge that follows within the triangle.
+inline std::int32_t next_half_edge(std::int32_t half_edge) {
+  return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+}
+
+/// The half-edge before within the triangle.
+inline std::int32_t previous_half_edge(std::int32_t half_edge) {
+  return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+}
+
+/// The vertex a half-edge starts at.
+inline std::int32_t origin_of(const std::vector<Triangle>& triangles, std::int32_t half_edge) {
+  return triangles[half_edge / 3][half_edge % 3];
+}
+
+/// The vertex a half-edge ends at.
+inline std::int32_t target_of(const std::vector<Triangle>& triangles, std::int32_t half_edge) {
+  return triangles[half_edge / 3][(half_edge % 3 + 1) % 3];
+}
+
+/// How the triangles of a mesh hang together.
+struct HalfEdges {
+  /// The half-edge that runs the other way, for each half-edge; -1 on a border. Where more than two
+  /// faces share an edge it is one of them.
+  std::vector<std::int32_t> opposite;
+  /// A half-edge that starts at each vertex; -1 for a vertex of no triangle.
+  std::vector<std::int32_t> first;
+};
+
+/// Finds the opposite half-edges, in time linear in the triangles whatever the valences of a planar
+/// mesh. Indices must lie in [0, vertices), which is not checked.
+HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices);
+
+/// Calls visit(h) for every half-edge that starts at the vertex of `start`, counter-clockwise, once
+/// round. The mesh must be closed about the vertex.
+template <class Visit>
+void visit_outgoing(const std::vector<std::int32_t>& opposite, std::int32_t start,
+                    const Visit& visit) {
+  std::int32_t h = start;
+  do {
+    visit(h);
+    h = opposite[previous_half_edge(h)];
+  } while (h != start);
+}
+
+}  // namespace wscvt

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sphere/orientation.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace wscvt {
+
+int exact_orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const auto exact = [](const Vector3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
+  return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c), exact(d)));
+}
+
+}  // namespace wscvt

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/mapped_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/sphere/orientation.h"
+#include "wscvt/sphere/solid_angle.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::size_t block_size = 8192;
+
+/// About two triangles to a cell: the walk from the cell's own triangle is a few steps long.
+int resolution_for(std::size_t triangles) {
+  return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles) / 12.0)), 1, 4096);
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorCode::InvalidInput,
+              "The mesh is not spread over the sphere: " + what +
+                  " Take the directions map_to_sphere gives for this mesh.");
+}
+
+}  // namespace
+
+MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
+                             const Execution& execution)
+    : mesh_(std::move(mesh)),
+      directions_(std::move(directions)),
+      cube_(resolution_for(mesh_.triangles.size())) {
+  const std::size_t vertices = mesh_.points.size();
+  if (directions_.size() != vertices) {
+    refuse("it has " + std::to_string(vertices) + " vertices and " +
+           std::to_string(directions_.size()) + " directions.");
+  }
+  for (std::size_t i = 0; i < vertices; ++i) {
+    // Written so that a NaN fails.
+    if (!(std::abs(directions_[i].squaredNorm() - 1.0) < 1e-9)) {
+      refuse("the direction of vertex " + std::to_string(i) + " is not a unit vector.");
+    }
+  }
+  for (const Triangle& t : mesh_.triangles) {
+    for (const std::int32_t v : t) {
+      if (v < 0 || static_cast<std::size_t>(v) >= vertices) {
+        refuse("a face names the vertex " + std::to_string(v) + " of " + std::to_string(vertices) +
+               ".");
+      }
+    }
+  }
+  opposite_ = link_half_edges(mesh_.triangles, vertices).opposite;
+  for (std::size_t h = 0; h < opposite_.size(); ++h) {
+    if (opposite_[h] < 0 || opposite_[opposite_[h]] != static_cast<std::int32_t>(h)) {
+      refuse("it has a border at vertex " + std::to_string(mesh_.triangles[h / 3][h % 3]) + ".");
+    }
+  }
+  std::vector<std::int32_t> cells(mesh_.triangles.size());
+  const double angles = execution.parallel_sum(
+      mesh_.triangles.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+        double part = 0.0;
+        for (std::size_t f = begin; f < end; ++f) {
+          const Triangle& t = mesh_.triangles[f];
+          const Vector3& a = directions_[t[0]];
+          const Vector3& b = directions_[t[1]];
+          const Vector3& c = directions_[t[2]];
+          if (!counter_clockwise(a, b, c)) {
+            refuse("face " + std::to_string(f) + " is turned over there.");
+          }
+          part += solid_angle(a, b, c);
+          // The sum of a thin triangle's directions may be short, but it is never zero.
+          cells[f] = static_cast<std::int32_t>(cube_.cell(a + b + c));
+        }
+        return part;
+      });
+  if (!(std::abs(angles / (4.0 * pi) - 1.0) < 1e-3)) {
+    refuse("its faces cover the sphere " + std::to_string(std::lround(angles / (4.0 * pi))) +
+           " times.");
+  }
+  starts_.assign(cube_.cells(), -1);
+  for (std::size_t f = cells.size(); f-- > 0;) starts_[cells[f]] = static_cast<std::int32_t>(f);
+  std::int32_t last = 0;
+  for (std::int32_t& start : starts_) {
+    if (start < 0) start = last;
+    last = start;
+  }
+}
+
+MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) const {
+  const auto faces = static_cast<std::int32_t>(mesh_.triangles.size());
+  std::int32_t f = hint >= 0 && hint < faces ? hint : starts_[cube_.cell(direction)];
+  // A walk that always tried the edges in the same order could go round in circles on triangles
+  // that are not Delaunay; in random order it ends with probability 1 (Devillers, Pion and
+  // Teillaud 2002, "Walking in a triangulation"). The numbers are the walk's own, so that the
+  // result depends on nothing but the arguments.
+  std::uint32_t random = 1;
+  std::int32_t entered = -1;
+  // A walk crosses about the square root of the triangles. One far longer is given up for a search
+  // through all: exact signs guarantee that one of them holds the direction.
+  const std::int64_t longest = 1000 + 20 * std::llround(std::sqrt(static_cast<double>(faces)));
+  std::int64_t steps = 0;
+  std::int32_t exhaustive = 0;
+  for (;;) {
+    const Triangle& t = mesh_.triangles[f];
+    const std::array<const Vector3*, 3> corners{&directions_[t[0]], &directions_[t[1]],
+                                                &directions_[t[2]]};
+    random = random * 1664525U + 1013904223U;
+    const auto first = static_cast<std::int32_t>((random >> 16U) % 3U);
+    std::int32_t crossed = -1;
+    for (std::int32_t j = 0; j < 3 && crossed < 0; ++j) {
+      const std::int32_t k = (first + j) % 3;
+      if (3 * f + k == entered) continue;  // the direction was found to lie on this side of it
+      if (sphere_orientation(direction, *corners[k], *corners[(k + 1) % 3]) < 0) crossed = k;
+    }
+    if (crossed < 0) {
+      Vector3 weights;
+      for (std::int32_t k = 0; k < 3; ++k) {
+        const Vector3& q = *corners[(k + 1) % 3];
+        const Vector3& r = *corners[(k + 2) % 3];
+        // From differences, which keep the relative precision of small triangles. The signs are
+        // known; what is below zero is rounding.
+        weights[k] = std::max(0.0, direction.dot((q - direction).cross(r - direction)));
+      }
+      const double sum = weights.sum();
+      if (sum > 0.0) return {f, weights / sum};
+      return {f, Vector3::Constant(1.0 / 3.0)};
+    }
+    ++steps;
+    if (steps < longest) {
+      entered = opposite_[3 * f + crossed];
+      f = entered / 3;
+    } else {
+      entered = -1;
+      f = exhaustive++ % faces;
+    }
+  }
+}
+
+Vector3 MappedSurface::normal(const MeshPlace& place) const {
+  const Triangle& t = mesh_.triangles[place.triangle];
+  const Vector3& a = mesh_.points[t[0]];
+  return (mesh_.points[t[1]] - a).cross(mesh_.points[t[2]] - a).stableNormalized();
+}
+
+}  // namespace wscvt

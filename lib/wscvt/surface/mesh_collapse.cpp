@@ -1,0 +1,545 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/mesh_collapse.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A vertex of more neighbours waits until some of them are gone. It is never the last to go: a
+/// planar triangulation always has vertices of at most five neighbours.
+constexpr std::int32_t largest_valence = 16;
+/// From here on a vertex counts as a hub, whose ring is not walked to look for one neighbour.
+constexpr std::int32_t hub_valence = 24;
+/// How many collapses pass between two reports of progress.
+constexpr std::size_t report_interval = 4096;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidInput, what); }
+
+/// What is wrong with a mesh that ought to be one sphere; returns its half-edges.
+HalfEdges linked_sphere(const IndexedMesh& mesh) {
+  const std::size_t vertices = mesh.points.size();
+  const std::string advice = " Run check_mesh on it first, and close holes and handles it reports.";
+  if (vertices < 4 || mesh.triangles.size() < 4) {
+    refuse("The mesh has " + std::to_string(vertices) + " vertices and " +
+           std::to_string(mesh.triangles.size()) +
+           " faces; a map to the sphere needs a closed surface, of at least four each.");
+  }
+  constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
+  if (mesh.triangles.size() > limit) {
+    refuse("The mesh has " + std::to_string(mesh.triangles.size()) + " faces, more than the " +
+           std::to_string(limit) + " that can be numbered; reduce the scan first.");
+  }
+  for (std::size_t i = 0; i < vertices; ++i) {
+    if (!mesh.points[i].allFinite()) {
+      refuse("Vertex " + std::to_string(i) + " is not at a finite position." + advice);
+    }
+  }
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (t[k] < 0 || static_cast<std::size_t>(t[k]) >= vertices || t[k] == t[(k + 1) % 3]) {
+        refuse("Face " + std::to_string(f) + " has the corners " + std::to_string(t[0]) + ", " +
+               std::to_string(t[1]) + ", " + std::to_string(t[2]) +
+               ", which are not three of the mesh's " + std::to_string(vertices) + " vertices." +
+               advice);
+      }
+    }
+  }
+  HalfEdges links = link_half_edges(mesh.triangles, vertices);
+  for (std::size_t h = 0; h < links.opposite.size(); ++h) {
+    const std::int32_t other = links.opposite[h];
+    if (other < 0 || links.opposite[other] != static_cast<std::int32_t>(h)) {
+      const Triangle& t = mesh.triangles[h / 3];
+      refuse("The mesh is not closed: the edge from vertex " + std::to_string(t[h % 3]) + " to " +
+             std::to_string(t[(h % 3 + 1) % 3]) +
+             " does not lie between two faces that run along it in opposite ways." + advice);
+    }
+  }
+  // Every corner must be met going once round its vertex, and every face from the first one.
+  std::size_t corners = 0;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (links.first[v] < 0) {
+      refuse("Vertex " + std::to_string(v) + " is a corner of no face." + advice);
+    }
+    visit_outgoing(links.opposite, links.first[v], [&](std::int32_t) { ++corners; });
+  }
+  if (corners != links.opposite.size()) {
+    refuse("The mesh touches itself in a vertex." + advice);
+  }
+  std::vector<char> met(mesh.triangles.size(), 0);
+  std::vector<std::int32_t> stack{0};
+  met[0] = 1;
+  std::size_t reached = 0;
+  while (!stack.empty()) {
+    const std::int32_t t = stack.back();
+    stack.pop_back();
+    ++reached;
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t beyond = links.opposite[3 * t + k] / 3;
+      if (met[beyond] == 0) {
+        met[beyond] = 1;
+        stack.push_back(beyond);
+      }
+    }
+  }
+  if (reached != mesh.triangles.size()) {
+    refuse("The mesh falls into several parts, of which the first has " + std::to_string(reached) +
+           " of " + std::to_string(mesh.triangles.size()) + " faces." + advice);
+  }
+  // Euler: V - E + F = 2 - 2 g with E = 3 F / 2.
+  if (mesh.triangles.size() + 4 != 2 * vertices) {
+    const std::size_t genus = (mesh.triangles.size() + 4 - 2 * vertices) / 4;
+    refuse("The mesh has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
+           ", and only a surface without any can be mapped to the sphere; cut and cap them first, "
+           "or smooth or fill the scan where it touches itself.");
+  }
+  return links;
+}
+
+/// Weighted sum of squared distances from planes n . x + d = 0 (Garland and Heckbert 1997).
+struct Quadric {
+  std::array<double, 10> c{};
+
+  void add(const Vector3& n, double d, double weight) {
+    const double x = weight * n.x(), y = weight * n.y(), z = weight * n.z();
+    c[0] += x * n.x();
+    c[1] += x * n.y();
+    c[2] += x * n.z();
+    c[3] += x * d;
+    c[4] += y * n.y();
+    c[5] += y * n.z();
+    c[6] += y * d;
+    c[7] += z * n.z();
+    c[8] += z * d;
+    c[9] += weight * d * d;
+  }
+
+  void add(const Quadric& other) {
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] += other.c[i];
+  }
+
+  double at(const Vector3& p) const {
+    return p.x() * (c[0] * p.x() + 2.0 * (c[1] * p.y() + c[2] * p.z() + c[3])) +
+           p.y() * (c[4] * p.y() + 2.0 * (c[5] * p.z() + c[6])) +
+           p.z() * (c[7] * p.z() + 2.0 * c[8]) + c[9];
+  }
+};
+
+/// Positions about their mean in the unit that makes the area 4 pi. A body of no area, or of far
+/// larger extent than its area, is scaled by its extent: all figures stay far from overflow.
+std::vector<Vector3> normalised(const IndexedMesh& mesh) {
+  constexpr double largest_extent = 1e6;
+  Vector3 low = mesh.points[0];
+  Vector3 high = mesh.points[0];
+  for (const Vector3& p : mesh.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const Vector3 middle = 0.5 * low + 0.5 * high;
+  const double extent = (0.5 * high - 0.5 * low).maxCoeff();
+  std::vector<Vector3> points(mesh.points.size());
+  Vector3 mean = Vector3::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = mesh.points[i] - middle;
+    if (extent > 0.0) points[i] /= extent;
+    mean += points[i] / static_cast<double>(points.size());
+  }
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    area += 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+  }
+  const double scale =
+      std::min(largest_extent, area > 0.0 ? std::sqrt(4.0 * pi / area) : largest_extent);
+  for (Vector3& p : points) p = (p - mean) * scale;
+  return points;
+}
+
+}  // namespace
+
+MeshCollapse::MeshCollapse(const IndexedMesh& mesh, const Execution& execution) {
+  HalfEdges links = linked_sphere(mesh);
+  execution.report(0.0, "Collapsing the scan");
+  triangles_ = mesh.triangles;
+  opposite_ = std::move(links.opposite);
+  first_ = std::move(links.first);
+  points_ = normalised(mesh);
+  valences_.assign(points_.size(), 0);
+  for (const Triangle& t : triangles_) {
+    for (const std::int32_t v : t) ++valences_[v];
+  }
+  alive_ = points_.size();
+}
+
+void MeshCollapse::collapse(std::int32_t h) {
+  const std::int32_t g = opposite_[h];
+  const std::int32_t v = origin(h);
+  const std::int32_t w = target(h);
+  const std::int32_t left = target(next_half_edge(h));
+  const std::int32_t right = target(next_half_edge(g));
+  // Every corner of v but those of the two triangles that go becomes w. The two keep their corners
+  // and links: they are all that `undo` needs.
+  visit_outgoing(v, [&](std::int32_t outgoing) {
+    if (outgoing / 3 != h / 3 && outgoing / 3 != g / 3) {
+      triangles_[outgoing / 3][outgoing % 3] = w;
+    }
+  });
+  const std::int32_t left_to_w = opposite_[next_half_edge(h)];
+  const std::int32_t w_to_left = opposite_[previous_half_edge(h)];
+  const std::int32_t right_to_w = opposite_[next_half_edge(g)];
+  const std::int32_t w_to_right = opposite_[previous_half_edge(g)];
+  opposite_[left_to_w] = w_to_left;
+  opposite_[w_to_left] = left_to_w;
+  opposite_[right_to_w] = w_to_right;
+  opposite_[w_to_right] = right_to_w;
+  first_[w] = w_to_left;
+  first_[left] = left_to_w;
+  first_[right] = right_to_w;
+  first_[v] = -1;
+  valences_[w] += valences_[v] - 4;
+  --valences_[left];
+  --valences_[right];
+  --alive_;
+  log_.push_back(h);
+}
+
+MeshCollapse::Undone MeshCollapse::undo() {
+  const std::int32_t h = log_.back();
+  log_.pop_back();
+  const std::int32_t g = opposite_[h];
+  const std::int32_t v = origin(h);
+  const std::int32_t w = target(h);
+  const std::int32_t left = target(next_half_edge(h));
+  const std::int32_t right = target(next_half_edge(g));
+  const std::int32_t left_to_w = opposite_[next_half_edge(h)];
+  const std::int32_t w_to_left = opposite_[previous_half_edge(h)];
+  const std::int32_t right_to_w = opposite_[next_half_edge(g)];
+  const std::int32_t w_to_right = opposite_[previous_half_edge(g)];
+  // The corners of w from the left triangle counter-clockwise to the right one were those of v.
+  std::int32_t corners = 0;
+  for (std::int32_t outgoing = w_to_left;; outgoing = opposite_[previous_half_edge(outgoing)]) {
+    triangles_[outgoing / 3][outgoing % 3] = v;
+    ++corners;
+    if (previous_half_edge(outgoing) == right_to_w) break;
+  }
+  opposite_[left_to_w] = next_half_edge(h);
+  opposite_[w_to_left] = previous_half_edge(h);
+  opposite_[right_to_w] = next_half_edge(g);
+  opposite_[w_to_right] = previous_half_edge(g);
+  first_[v] = h;
+  first_[w] = next_half_edge(h);
+  first_[left] = previous_half_edge(h);
+  first_[right] = previous_half_edge(g);
+  valences_[v] = corners + 2;
+  valences_[w] -= valences_[v] - 4;
+  ++valences_[left];
+  ++valences_[right];
+  ++alive_;
+  present_.push_back(h / 3);
+  present_.push_back(g / 3);
+  return {v, w};
+}
+
+/// The vertices that wait for their collapse, cheapest first, and what their costs need.
+class MeshCollapse::Queue {
+ public:
+  explicit Queue(MeshCollapse& mesh) : mesh_(mesh) {
+    const std::size_t count = mesh.points_.size();
+    quadrics_.resize(count);
+    // What no triangle stands behind still has a weight to divide by.
+    areas_.assign(count, 1e-14);
+    chosen_.assign(count, -1);
+    states_.assign(count, 0);
+    marks_.assign(count, 0);
+    const std::vector<char> absent = mesh.absent_triangles();
+    for (std::size_t f = 0; f < mesh.triangles_.size(); ++f) {
+      const Triangle& t = mesh.triangles_[f];
+      if (absent[f] != 0) continue;
+      const Vector3& a = mesh.points_[t[0]];
+      Vector3 normal = (mesh.points_[t[1]] - a).cross(mesh.points_[t[2]] - a);
+      const double doubled = normal.norm();
+      if (!(doubled > 0.0)) continue;
+      normal /= doubled;
+      const double weight = doubled / 6.0;  // a third of the area to each corner
+      for (const std::int32_t v : t) {
+        quadrics_[v].add(normal, -normal.dot(a), weight);
+        areas_[v] += weight;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto v = static_cast<std::int32_t>(i);
+      if (mesh.has_vertex(v) && mesh.valences_[i] > hub_valence) make_hub(v);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto v = static_cast<std::int32_t>(i);
+      if (!mesh.has_vertex(v) || mesh.valences_[i] > largest_valence) continue;
+      entries_.push_back({choose(v), v});
+      states_[i] |= waiting;
+    }
+    std::make_heap(entries_.begin(), entries_.end(), dearer);
+  }
+
+  /// Collapses the cheapest vertex.
+  void collapse_next() {
+    for (;;) {
+      if (entries_.empty()) {
+        throw Error(ErrorCode::NumericalFailure,
+                    "The scan could not be taken apart further than to " +
+                        std::to_string(mesh_.alive_) +
+                        " vertices; its faces do not form one closed surface without handles.");
+      }
+      const Entry entry = pop();
+      const std::int32_t v = entry.vertex;
+      if (!mesh_.has_vertex(v) || mesh_.valences_[v] > largest_valence) continue;
+      // The ring may be as it was and the link condition broken all the same, by collapses
+      // farther off.
+      if ((states_[v] & stale) != 0 || !may_collapse(chosen_[v])) {
+        const float cost = choose(v);
+        if (chosen_[v] < 0) continue;
+        // Nearly as cheap as the next one is taken: going back into the heap costs more.
+        if (!entries_.empty() && cost > entries_.front().cost * 1.0001F) {
+          push({cost, v});
+          continue;
+        }
+      }
+      carry_out(chosen_[v], entry.cost);
+      return;
+    }
+  }
+
+ private:
+  struct Entry {
+    float cost;
+    std::int32_t vertex;
+  };
+  /// Ties go to the lower index, so that the order does not depend on the heap's inner one.
+  static bool dearer(const Entry& a, const Entry& b) {
+    return a.cost != b.cost ? a.cost > b.cost : a.vertex > b.vertex;
+  }
+  enum State : unsigned char { waiting = 1, stale = 2, hub = 4 };
+
+  void push(const Entry& entry) {
+    states_[entry.vertex] |= waiting;
+    entries_.push_back(entry);
+    std::push_heap(entries_.begin(), entries_.end(), dearer);
+  }
+
+  Entry pop() {
+    std::pop_heap(entries_.begin(), entries_.end(), dearer);
+    const Entry entry = entries_.back();
+    entries_.pop_back();
+    states_[entry.vertex] &= static_cast<unsigned char>(~waiting);
+    return entry;
+  }
+
+  static std::uint64_t pair_of(std::int32_t a, std::int32_t b) {
+    const auto [low, high] = std::minmax(a, b);
+    return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
+  }
+
+  /// Once a hub, always a hub. Two hubs' being neighbours is looked up: walking round either would
+  /// make a fan cost the square of its size.
+  void make_hub(std::int32_t v) {
+    states_[v] |= hub;
+    mesh_.visit_outgoing(v, [&](std::int32_t h) {
+      const std::int32_t u = mesh_.target(h);
+      if ((states_[u] & hub) != 0) hub_edges_.insert(pair_of(u, v));
+    });
+  }
+
+  bool are_neighbours(std::int32_t u, std::int32_t w) const {
+    if ((states_[u] & hub) != 0) {
+      if ((states_[w] & hub) != 0) return hub_edges_.count(pair_of(u, w)) > 0;
+      std::swap(u, w);
+    }
+    bool found = false;
+    mesh_.visit_outgoing(u, [&](std::int32_t h) { found = found || mesh_.target(h) == w; });
+    return found;
+  }
+
+  void load_ring(std::int32_t v) {
+    ring_.clear();
+    outgoing_.clear();
+    ++mark_;
+    mesh_.visit_outgoing(v, [&](std::int32_t h) {
+      const std::int32_t u = mesh_.target(h);
+      ring_.push_back(u);
+      outgoing_.push_back(h);
+      marks_[u] = mark_;
+    });
+  }
+
+  /// The link condition: v and w share no neighbours but the two opposite to their edge. The ring
+  /// of v must be loaded.
+  bool link_condition(std::int32_t w) const {
+    int common = 0;
+    if ((states_[w] & hub) == 0) {
+      mesh_.visit_outgoing(w, [&](std::int32_t h) { common += marks_[mesh_.target(h)] == mark_; });
+    } else {
+      for (const std::int32_t u : ring_) {
+        if (u != w && are_neighbours(u, w)) ++common;
+      }
+    }
+    return common == 2;
+  }
+
+  bool may_collapse(std::int32_t half_edge) {
+    load_ring(mesh_.origin(half_edge));
+    return link_condition(mesh_.target(half_edge));
+  }
+
+  /// Finds the cheapest half-edge along which v may be collapsed.
+  float choose(std::int32_t v) {
+    load_ring(v);
+    states_[v] &= static_cast<unsigned char>(~stale);
+    const std::vector<Vector3>& points = mesh_.points_;
+    const std::size_t count = ring_.size();
+    corners_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) corners_[i] = points[ring_[i]];
+    const Vector3& p = points[v];
+    normals_.resize(count);
+    squares_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector3& a = corners_[i];
+      const Vector3& b = corners_[i + 1 < count ? i + 1 : 0];
+      normals_[i] = (a - p).cross(b - p);
+      squares_[i] = (a - b).squaredNorm();
+    }
+    chosen_[v] = -1;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t w = ring_[i];
+      const Vector3& q = corners_[i];
+      const double both = areas_[v] + areas_[w];
+      const double distance =
+          std::sqrt(std::max(0.0, (quadrics_[v].at(q) + quadrics_[w].at(q)) / both));
+      double cost =
+          0.25 * std::sqrt(areas_[v] * (1.0 + areas_[v] / both)) + 0.1 * (q - p).norm() + distance;
+      const std::int32_t valence = mesh_.valences_[v] + mesh_.valences_[w] - 4;
+      if (valence > 9) cost *= 1.0 + 0.15 * (valence - 9) * (valence - 9);
+      if (!(cost < lowest)) continue;
+      cost *= std::sqrt(worst_shape(i));
+      if (!(cost < lowest) || !link_condition(w)) continue;
+      lowest = cost;
+      chosen_[v] = outgoing_[i];
+    }
+    return static_cast<float>(lowest);
+  }
+
+  /// Of the triangles that v's become when it is collapsed to its neighbour i: the largest sum of
+  /// squared edges over area, 1 for an equilateral one; 100 at least where one turns by more than
+  /// 78 degrees.
+  double worst_shape(std::size_t i) const {
+    const std::size_t count = ring_.size();
+    const Vector3& q = corners_[i];
+    double worst = 1.0;
+    for (std::size_t step = 1; step + 1 < count; ++step) {
+      const std::size_t j = i + step < count ? i + step : i + step - count;
+      const std::size_t k = j + 1 < count ? j + 1 : 0;
+      const Vector3 a = corners_[j] - q;
+      const Vector3 b = corners_[k] - q;
+      const Vector3 normal = a.cross(b);
+      const double doubled = normal.norm();
+      const double edges = squares_[j] + a.squaredNorm() + b.squaredNorm();
+      double shape = std::min(1e4, edges / (2.0 * std::sqrt(3.0) * doubled + 1e-300));
+      if (normal.dot(normals_[j]) < 0.2 * doubled * normals_[j].norm()) {
+        shape = std::max(shape, 100.0);
+      }
+      worst = std::max(worst, shape);
+    }
+    return worst;
+  }
+
+  void carry_out(std::int32_t half_edge, float cost) {
+    const std::int32_t v = mesh_.origin(half_edge);
+    const std::int32_t w = mesh_.target(half_edge);
+    quadrics_[w].add(quadrics_[v]);
+    areas_[w] += areas_[v];
+    load_ring(v);
+    mesh_.collapse(half_edge);
+    if ((states_[w] & hub) != 0) {
+      for (const std::int32_t u : ring_) {
+        if (u != w && (states_[u] & hub) != 0) hub_edges_.insert(pair_of(u, w));
+      }
+    } else if (mesh_.valences_[w] > hub_valence) {
+      make_hub(w);
+    }
+    for (const std::int32_t u : ring_) {
+      states_[u] |= stale;
+      // A vertex whose valence has come down enough joins at the cost of the day; its own is
+      // computed when its turn comes.
+      if ((states_[u] & waiting) == 0 && mesh_.valences_[u] <= largest_valence) push({cost, u});
+    }
+  }
+
+  MeshCollapse& mesh_;
+  std::vector<Quadric> quadrics_;
+  std::vector<double> areas_;  ///< of the surface behind each vertex
+  std::vector<Entry> entries_;
+  std::vector<std::int32_t> chosen_;  ///< half-edge of each vertex's cheapest collapse
+  std::vector<unsigned char> states_;
+  std::unordered_set<std::uint64_t> hub_edges_;
+  std::vector<std::int32_t> marks_;
+  std::int32_t mark_ = 0;
+  std::vector<std::int32_t> ring_;
+  std::vector<std::int32_t> outgoing_;
+  std::vector<Vector3> corners_;
+  std::vector<Vector3> normals_;  ///< of the triangles about v, times twice their areas
+  std::vector<double> squares_;   ///< squared lengths of the ring's edges
+};
+
+void MeshCollapse::collapse_to(std::size_t vertices, const Execution& execution) {
+  const std::size_t aim = std::max<std::size_t>(vertices, 4);
+  if (alive_ > aim) {
+    Queue queue(*this);
+    const std::size_t start = alive_;
+    log_.reserve(log_.size() + alive_ - aim);
+    while (alive_ > aim) {
+      queue.collapse_next();
+      if (alive_ % report_interval == 0) {
+        execution.report(static_cast<double>(start - alive_) / static_cast<double>(start - aim),
+                         "Collapsing the scan");
+      }
+    }
+  }
+  const std::vector<char> absent = absent_triangles();
+  present_.clear();
+  present_.reserve(triangles_.size());
+  for (std::size_t t = 0; t < absent.size(); ++t) {
+    if (absent[t] == 0) present_.push_back(static_cast<std::int32_t>(t));
+  }
+}
+
+std::vector<char> MeshCollapse::absent_triangles() const {
+  std::vector<char> absent(triangles_.size(), 0);
+  for (const std::int32_t h : log_) absent[h / 3] = absent[opposite_[h] / 3] = 1;
+  return absent;
+}
+
+IndexedMesh MeshCollapse::present_mesh(const std::vector<Vector3>& positions) const {
+  IndexedMesh mesh;
+  std::vector<std::int32_t> places(points_.size(), -1);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (first_[i] < 0) continue;
+    places[i] = static_cast<std::int32_t>(mesh.points.size());
+    mesh.points.push_back(positions[i]);
+  }
+  for (const std::int32_t t : present_) {
+    const Triangle& corners = triangles_[t];
+    mesh.triangles.push_back({places[corners[0]], places[corners[1]], places[corners[2]]});
+  }
+  return mesh;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// How far the map is optimised on its way from a tetrahedron to the whole mesh.
+struct SphereMapOptions {
+  /// Vertices of a level / those of the one before, in [1.1, 10]: the map is optimised as a whole
+  /// once a level.
+  double level_growth = 1.5;
+  /// Sweeps over all vertices at most, in [0, 1000], at levels of up to `coarse_vertices` and of up
+  /// to `fine_vertices`; there are none above, where they change nothing.
+  int coarse_sweeps = 40;
+  int fine_sweeps = 10;
+  std::size_t coarse_vertices = 4000;
+  std::size_t fine_vertices = 30000;
+  /// A level is done when four sweeps lower the energy by less than this share, >= 0.
+  double tolerance = 2e-4;
+};
+
+/// How the map came out. Distortions are those of the triangles of the mesh whose area is not zero.
+struct SphereMapReport {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  int levels = 0;
+  int sweeps = 0;                   ///< over all levels
+  std::size_t clipped_kernels = 0;  ///< vertices put into the centroid of their ring's kernel
+  std::size_t mended_kernels = 0;   ///< vertices whose ring had to be widened first
+  /// (s1 / s2 + s2 / s1) / 2 of the stretches s1, s2 of a triangle: 1 where angles are kept.
+  /// The mean is taken over the area.
+  double mean_angle_distortion = 1.0;
+  double largest_angle_distortion = 1.0;
+  /// (Area on the sphere / 4 pi) / (area on the surface / its total): 1 where areas are kept.
+  double smallest_area_ratio = 1.0;
+  double largest_area_ratio = 1.0;
+  /// Symmetric Dirichlet energy over that of an isometry, mean over the area: >= 1.
+  double energy = 1.0;
+};
+
+/// A mesh spread over the unit sphere, one to one.
+struct SphereMap {
+  std::vector<Vector3> directions;  ///< unit vectors, one for each vertex
+  SphereMapReport report;
+  /// All vertices, from the last survivor of the collapse to the first one collapsed: the first n
+  /// of them are a subset well spread over the surface, for every n.
+  std::vector<std::int32_t> collapse_order;
+};
+
+/// Maps a closed mesh of genus 0, as check_mesh returns it, to the sphere: every triangle is
+/// counter-clockwise seen from outside by the exact sign of its determinant, and together they
+/// cover the sphere once. Whatever the shape of the triangles.
+///
+/// The mesh is collapsed to a tetrahedron, whose vertices are put on the sphere; the others return
+/// one by one, each into the kernel of its ring, and the symmetric Dirichlet energy is lowered from
+/// level to level (Praun and Hoppe 2003, "Spherical parametrization and remeshing"; Wan, Ye, Li
+/// and Qin 2012, "Efficient spherical parametrization using progressive optimization"; Hu, Fu and
+/// Liu 2018, "Advanced hierarchical spherical parameterizations"). The work runs on one thread, so
+/// the result is the same on any number.
+///
+/// Throws Error(InvalidInput) when the mesh is not one closed surface of genus 0 or an option is
+/// out of range, Error(NumericalFailure) when doubles are too coarse for its triangles, and
+/// Error(Cancelled).
+SphereMap map_to_sphere(const IndexedMesh& mesh, const SphereMapOptions& options,
+                        const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/mesh_collapse.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/random_triangulations.h"
+#include "support/seeds.h"
+#include "support/test_shapes.h"
+#include "wscvt/scan/mesh_check.h"
+
+namespace wscvt {
+namespace {
+
+/// All there is to say about a stage.
+struct Stage {
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> opposite;
+  std::vector<std::int32_t> valences;
+
+  explicit Stage(const MeshCollapse& mesh)
+      : triangles(mesh.triangles()), opposite(mesh.opposite()) {
+    for (std::size_t v = 0; v < mesh.points().size(); ++v) {
+      const auto vertex = static_cast<std::int32_t>(v);
+      std::int32_t valence = 0;
+      if (mesh.has_vertex(vertex)) {
+        mesh.visit_outgoing(vertex, [&](std::int32_t h) {
+          EXPECT_EQ(origin_of(mesh.triangles(), h), vertex);
+          ++valence;
+        });
+        EXPECT_EQ(valence, mesh.valence(vertex));
+      }
+      valences.push_back(valence);
+    }
+  }
+  bool operator==(const Stage& other) const {
+    return triangles == other.triangles && opposite == other.opposite && valences == other.valences;
+  }
+};
+
+TEST(MeshCollapse, TakesBackExactly) {
+  for (std::uint64_t seed = test::announced(1); seed < 30; ++seed) {
+    const IndexedMesh mesh = test::random_triangulation(60, seed);
+    MeshCollapse collapse(mesh, Execution(1));
+    const Stage whole(collapse);
+    EXPECT_EQ(whole.triangles, mesh.triangles);
+    // Down in single steps, every stage kept; then up, compared with each.
+    std::vector<Stage> stages;
+    for (std::size_t left = mesh.points.size(); left > 4; --left) {
+      collapse.collapse_to(left, Execution(1));
+      ASSERT_EQ(collapse.vertex_count(), left);
+      stages.emplace_back(collapse);
+    }
+    collapse.collapse_to(4, Execution(1));
+    EXPECT_EQ(collapse.present_triangles().size(), 4U);
+    while (!stages.empty()) {
+      const MeshCollapse::Undone undone = collapse.undo();
+      EXPECT_TRUE(collapse.has_vertex(undone.vertex));
+      ASSERT_TRUE(Stage(collapse) == stages.back()) << "seed " << seed;
+      stages.pop_back();
+    }
+    EXPECT_TRUE(Stage(collapse) == whole);
+    EXPECT_EQ(collapse.collapses(), 0U);
+  }
+}
+
+TEST(MeshCollapse, EveryStageIsAClosedSurface) {
+  const IndexedMesh mesh = test::lumpy(4);
+  MeshCollapse collapse(mesh, Execution(1));
+  for (const std::size_t left : {2000U, 500U, 100U, 20U, 5U, 4U}) {
+    collapse.collapse_to(left, Execution(1));
+    const IndexedMesh stage = collapse.present_mesh(mesh.points);
+    EXPECT_EQ(stage.points.size(), left);
+    EXPECT_EQ(stage.triangles.size(), 2 * left - 4);
+    EXPECT_EQ(test::bad_edges(stage), 0U);
+    for (const Vector3& p : stage.points) {
+      EXPECT_NE(std::find(mesh.points.begin(), mesh.points.end(), p), mesh.points.end());
+    }
+  }
+}
+
+TEST(MeshCollapse, KeepsTheShape) {
+  const IndexedMesh mesh = test::lumpy(5);
+  const auto before = check_mesh(mesh, {}, Execution(1)).report;
+  MeshCollapse collapse(mesh, Execution(1));
+  collapse.collapse_to(500, Execution(1));
+  const auto after = check_mesh(collapse.present_mesh(mesh.points), {}, Execution(1)).report;
+  // The chords of 500 nodes lose 660 / 500 % of a sphere's volume, and collapsed ones are uneven.
+  EXPECT_NEAR(after.volume, before.volume, 0.03 * before.volume);
+  EXPECT_NEAR(after.area, before.area, 0.03 * before.area);
+}
+
+TEST(MeshCollapse, TakesALongTimeForNoValence) {
+  // Tens of seconds where a hub's ring is walked for each of its neighbours; no clock, the test's
+  // time limit would tell.
+  const IndexedMesh fan = test::double_fan(100000);
+  MeshCollapse collapse(fan, Execution(1));
+  collapse.collapse_to(4, Execution(1));
+  EXPECT_EQ(collapse.vertex_count(), 4U);
+  while (collapse.collapses() > 0) collapse.undo();
+  EXPECT_EQ(collapse.triangles(), fan.triangles);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/sphere_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include "support/random_triangulations.h"
+#include "support/seeds.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/orientation.h"
+#include "wscvt/sphere/solid_angle.h"
+
+namespace wscvt {
+namespace {
+
+SphereMap map_of(const IndexedMesh& mesh) {
+  return map_to_sphere(mesh, SphereMapOptions{}, Execution(1));
+}
+
+/// One to one: all triangles counter-clockwise, and the sphere covered once.
+void expect_bijective(const IndexedMesh& mesh, const SphereMap& map, const std::string& what) {
+  ASSERT_EQ(map.directions.size(), mesh.points.size()) << what;
+  for (const Vector3& u : map.directions) ASSERT_NEAR(u.norm(), 1.0, 1e-15) << what;
+  double angles = 0.0;
+  std::size_t turned = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3& a = map.directions[t[0]];
+    const Vector3& b = map.directions[t[1]];
+    const Vector3& c = map.directions[t[2]];
+    if (!counter_clockwise(a, b, c)) ++turned;
+    angles += solid_angle(a, b, c);
+  }
+  EXPECT_EQ(turned, 0U) << what;
+  EXPECT_NEAR(angles, 4.0 * test::pi, 1e-9) << what;
+  std::vector<std::int32_t> order = map.collapse_order;
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    ASSERT_EQ(order[i], static_cast<std::int32_t>(i)) << what;
+  }
+  ASSERT_EQ(order.size(), mesh.points.size()) << what;
+}
+
+std::string refusal(const IndexedMesh& mesh, const SphereMapOptions& options = {}) {
+  try {
+    map_to_sphere(mesh, options, Execution(1));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SphereMap, CoversTheSphereOnce) {
+  const IndexedMesh bodies[] = {
+      test::tetrahedron(1.0),
+      test::box(1, 2, 3),
+      test::icosahedron(),
+      test::sphere(4),
+      test::lumpy(4),
+      test::scaled(test::sphere(4), Vector3(1.0, 0.05, 0.05)),
+      test::scaled(test::sphere(4), Vector3(1.0, 1.0, 0.01)),
+      test::subdivided(test::box(1, 1, 20), 3),
+  };
+  for (std::size_t i = 0; i < std::size(bodies); ++i) {
+    expect_bijective(bodies[i], map_of(bodies[i]), "body " + std::to_string(i));
+  }
+}
+
+/// More of them where the environment asks for more.
+TEST(SphereMap, CoversTheSphereOnceWhateverTheTriangulation) {
+  const char* count_text = std::getenv("WSCVT_RANDOM_TRIANGULATIONS");
+  const int count = count_text != nullptr ? std::atoi(count_text) : 200;
+  const std::uint64_t first = test::announced(1000);
+  for (int i = 0; i < count; ++i) {
+    const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
+    const IndexedMesh mesh = test::random_triangulation(6 + (i * 37) % 200, seed);
+    ASSERT_EQ(test::bad_edges(mesh), 0U) << "seed " << seed;
+    const std::string what = "seed " + std::to_string(seed);
+    try {
+      expect_bijective(mesh, map_of(mesh), what);
+    } catch (const Error& error) {
+      ADD_FAILURE() << what << ": " << error.what();
+    }
+  }
+}
+
+TEST(SphereMap, CopesWithAFanOfThousands) {
+  const IndexedMesh fan = test::double_fan(6000);
+  expect_bijective(fan, map_of(fan), "fan");
+}
+
+TEST(SphereMap, KeepsASphereNearlyAsItIs) {
+  const SphereMap map = map_of(test::sphere(5));
+  EXPECT_LT(map.report.mean_angle_distortion, 1.01);
+  EXPECT_LT(map.report.energy, 1.02);
+  EXPECT_GT(map.report.smallest_area_ratio, 0.7);
+  EXPECT_LT(map.report.largest_area_ratio, 1.4);
+}
+
+TEST(SphereMap, MapsARotatedBodyAsWell) {
+  const IndexedMesh body = test::scaled(test::lumpy(4), Vector3(1.0, 0.3, 0.3));
+  const double energy = map_of(body).report.energy;
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    const IndexedMesh turned =
+        test::transformed(body, test::random_rotation(test::announced(20 + k)), Vector3(5, 6, 7));
+    const SphereMap map = map_of(turned);
+    expect_bijective(turned, map, "rotated");
+    // Rounding decides between collapses of equal cost, so the two maps differ, but not in worth.
+    EXPECT_NEAR(map.report.energy, energy, 0.02 * energy);
+  }
+}
+
+TEST(SphereMap, DoesNotDependOnTheUnitOfLength) {
+  const IndexedMesh body = test::lumpy(4);
+  // Powers of two change no digit.
+  const SphereMap one = map_of(body);
+  const SphereMap other = map_of(test::scaled(body, Vector3::Constant(1024.0)));
+  EXPECT_EQ(one.directions, other.directions);
+  EXPECT_EQ(one.collapse_order, other.collapse_order);
+}
+
+TEST(SphereMap, SameBytesOnAnyNumberOfThreads) {
+  const IndexedMesh body = test::lumpy(5);
+  const SphereMap one = map_to_sphere(body, {}, Execution(1));
+  const SphereMap two = map_to_sphere(body, {}, Execution(2));
+  EXPECT_EQ(one.directions, two.directions);
+  EXPECT_EQ(one.collapse_order, two.collapse_order);
+  EXPECT_EQ(one.report.mean_angle_distortion, two.report.mean_angle_distortion);
+  EXPECT_EQ(one.report.energy, two.report.energy);
+}
+
+TEST(SphereMap, OrderBeginsWithASpreadSubset) {
+  const IndexedMesh body = test::sphere(5);
+  const SphereMap map = map_of(body);
+  // With N vertices on the sphere the farthest point of it is about sqrt(4 pi / N) away, twice that
+  // where they are spread as loosely as a collapse leaves them.
+  for (const std::size_t count : {10U, 100U, 1000U}) {
+    double farthest = 0.0;
+    for (const Vector3& p : body.points) {
+      double nearest = 2.0;
+      for (std::size_t i = 0; i < count; ++i) {
+        nearest = std::min(nearest, (p - body.points[map.collapse_order[i]]).norm());
+      }
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_LT(farthest, 2.0 * std::sqrt(4.0 * test::pi / static_cast<double>(count))) << count;
+  }
+}
+
+TEST(SphereMap, StopsWhenAskedTo) {
+  const IndexedMesh body = test::sphere(5);
+  std::set<std::string> stages;
+  double last = 0.0;
+  map_to_sphere(body, {}, Execution(1, [&](double fraction, const std::string& stage) {
+                  EXPECT_GE(fraction, last);
+                  last = fraction;
+                  stages.insert(stage);
+                  return true;
+                }));
+  EXPECT_EQ(last, 1.0);
+  EXPECT_GE(stages.size(), 2U);
+  for (const double stop : {0.0, 0.2, 0.6}) {
+    try {
+      map_to_sphere(body, {}, Execution(1, [&](double fraction, const std::string&) {
+                      return fraction < stop;
+                    }));
+      ADD_FAILURE() << "not cancelled";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+    }
+  }
+}
+
+TEST(SphereMap, RefusesWhatIsNoSphere) {
+  EXPECT_NE(refusal(test::torus(1.0, 0.3, 20)).find("1 handle"), std::string::npos);
+  IndexedMesh open = test::sphere(1);
+  open.triangles.pop_back();
+  EXPECT_NE(refusal(open).find("not closed"), std::string::npos);
+  EXPECT_NE(refusal(test::unwelded(test::sphere(1))).find("not closed"), std::string::npos);
+  // A sphere and a torus have together the Euler number of one sphere.
+  EXPECT_NE(refusal(test::joined(test::sphere(1), test::torus(1.0, 0.3, 20))).find("parts"),
+            std::string::npos);
+  IndexedMesh lonely = test::sphere(1);
+  lonely.points.emplace_back(3, 3, 3);
+  EXPECT_NE(refusal(lonely).find("corner of no face"), std::string::npos);
+  IndexedMesh infinite = test::sphere(1);
+  infinite.points[7].x() = std::numeric_limits<double>::infinity();
+  EXPECT_NE(refusal(infinite).find("Vertex 7"), std::string::npos);
+  IndexedMesh outside = test::sphere(1);
+  outside.triangles[3][1] = 1000;
+  EXPECT_NE(refusal(outside).find("Face 3"), std::string::npos);
+  EXPECT_FALSE(refusal(IndexedMesh{}).empty());
+  // Two tetrahedra that share a vertex.
+  IndexedMesh touching = test::joined(test::tetrahedron(1), test::tetrahedron(1));
+  for (Triangle& t : touching.triangles) {
+    for (std::int32_t& v : t) v = v == 4 ? 0 : v > 4 ? v - 1 : v;
+  }
+  touching.points.pop_back();
+  EXPECT_NE(refusal(touching).find("touches itself"), std::string::npos);
+}
+
+TEST(SphereMap, RefusesOptionsOutOfRange) {
+  const IndexedMesh mesh = test::sphere(1);
+  SphereMapOptions options;
+  options.level_growth = 1.0;
+  EXPECT_NE(refusal(mesh, options).find("1.1 to 10"), std::string::npos);
+  options = {};
+  options.coarse_sweeps = -1;
+  EXPECT_NE(refusal(mesh, options).find("0 to 1000"), std::string::npos);
+  options = {};
+  options.fine_sweeps = 1001;
+  EXPECT_NE(refusal(mesh, options).find("0 to 1000"), std::string::npos);
+  options = {};
+  options.tolerance = std::nan("");
+  EXPECT_NE(refusal(mesh, options).find("0 or more"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wscvt
