@@ -2,16 +2,18 @@
 #include "wscvt/scan/mesh_io.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <thread>
 
+#include "support/read_content.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/scan/mesh_check.h"
@@ -52,13 +54,7 @@ class MeshIo : public ::testing::Test {
   fs::path folder_;
 };
 
-template <class Value>
-std::string bytes(Value value, bool big_endian = false) {
-  std::string result(sizeof value, '\0');
-  std::memcpy(result.data(), &value,
-              sizeof value);  // the machines this is tested on: little-endian
-  return big_endian ? std::string(result.rbegin(), result.rend()) : result;
-}
+using test::bytes;
 
 const Vector3 far_away(1e6 + 0.123456789, -3.0e6, 1.0 / 3.0);
 
@@ -222,6 +218,19 @@ TEST_F(MeshIo, PassesOnPositionsThatAreNotFinite) {
   EXPECT_TRUE(std::isnan(back.points[4].y()));
 }
 
+TEST_F(MeshIo, ReadsFromAPipe) {
+  const IndexedMesh mesh = test::lumpy(3);
+  write_mesh(mesh, path("a.stl"));
+  ASSERT_EQ(mkfifo(path("pipe.stl").c_str(), 0600), 0);
+  std::thread writer([&] {
+    std::ofstream(path("pipe.stl"), std::ios::binary)
+        << std::ifstream(path("a.stl"), std::ios::binary).rdbuf();
+  });
+  const IndexedMesh back = read_mesh(path("pipe.stl"));
+  writer.join();
+  EXPECT_EQ(back.points, read_mesh(path("a.stl")).points);
+}
+
 TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {
   EXPECT_NE(refusal(path("nothing.ply")).find("cannot be opened"), std::string::npos);
   EXPECT_NE(refusal(path("a.vtk")).find(".off"), std::string::npos);
@@ -236,6 +245,10 @@ TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {
   EXPECT_NE(refusal(file("half.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n")),
             "");
   EXPECT_NE(refusal(folder_.string() + "/.ply"), "");
+  fs::create_directory(path("folder.ply"));
+  EXPECT_NE(refusal(path("folder.ply")).find("folder"), std::string::npos);
+  fs::create_symlink("/dev/zero", path("endless.ply"));
+  EXPECT_NE(refusal(path("endless.ply")).find("device"), std::string::npos);
   // A header that promises more than the file can hold must not be believed.
   EXPECT_NE(refusal(file("huge.ply",
                          "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000000\n"

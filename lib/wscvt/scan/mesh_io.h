@@ -8,11 +8,15 @@
 namespace wscvt {
 
 /// Reads a triangle mesh into flat arrays; polygons are cut into fans. The format follows from the
-/// extension, in either case: PLY, STL, OBJ, OFF, text or binary. Coordinates keep the precision of
-/// the file. Nothing is repaired: an STL file comes back with the corners of each triangle as
-/// points of their own or already merged (see check_mesh). Throws Error(InputOutput) when the file
-/// cannot be read, is cut short or names vertices it does not hold, or when the extension is not
-/// known.
+/// extension, in either case: PLY, STL, OBJ, OFF (see their readers for the forms). Coordinates keep
+/// the precision of the file. Nothing is repaired: an STL file comes back with the corners of each
+/// triangle as points of their own (see check_mesh). A file that holds no faces at all gives points
+/// alone (see mesh_of_points).
+///
+/// Takes memory for what is there, never for what a file claims. Throws Error(InputOutput), which
+/// names the line of a text or the element of a binary file, when the file cannot be read, is cut
+/// short, names vertices it does not hold or has only faces of less than three corners, or when the
+/// extension is not known.
 IndexedMesh read_mesh(const std::string& path);
 
 /// How many digits a binary PLY file keeps of each coordinate.

@@ -1,0 +1,550 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/ply_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wscvt/scan/polygon_fan.h"
+#include "wscvt/scan/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+using boost::endian::order;
+
+enum class ScalarType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
+
+enum class Encoding { Text, LittleEndian, BigEndian };
+
+struct Property {
+  std::string name;
+  ScalarType type = ScalarType::Float32;  ///< of a list: of its items
+  bool is_list = false;
+  ScalarType count_type = ScalarType::Uint8;  ///< of a list
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+struct Header {
+  Encoding encoding = Encoding::Text;
+  std::vector<Element> elements;
+};
+
+constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
+
+std::optional<ScalarType> scalar_type(const std::string& name) {
+  static const std::map<std::string, ScalarType> types{
+      {"char", ScalarType::Int8},      {"int8", ScalarType::Int8},
+      {"uchar", ScalarType::Uint8},    {"uint8", ScalarType::Uint8},
+      {"short", ScalarType::Int16},    {"int16", ScalarType::Int16},
+      {"ushort", ScalarType::Uint16},  {"uint16", ScalarType::Uint16},
+      {"int", ScalarType::Int32},      {"int32", ScalarType::Int32},
+      {"uint", ScalarType::Uint32},    {"uint32", ScalarType::Uint32},
+      {"float", ScalarType::Float32},  {"float32", ScalarType::Float32},
+      {"double", ScalarType::Float64}, {"float64", ScalarType::Float64}};
+  const auto found = types.find(name);
+  if (found == types.end()) return {};
+  return found->second;
+}
+
+std::size_t size_of(ScalarType type) {
+  switch (type) {
+    case ScalarType::Int8:
+    case ScalarType::Uint8:
+      return 1;
+    case ScalarType::Int16:
+    case ScalarType::Uint16:
+      return 2;
+    case ScalarType::Float64:
+      return 8;
+    case ScalarType::Int32:
+    case ScalarType::Uint32:
+    case ScalarType::Float32:
+      break;
+  }
+  return 4;
+}
+
+/// Calls use(read), where read(bytes) gives a number of the type: loops over a million of them
+/// decide on the type once.
+template <order Order, class Use>
+void with_type(ScalarType type, const Use& use) {
+  switch (type) {
+    case ScalarType::Int8:
+      return use(load<std::int8_t, Order>);
+    case ScalarType::Uint8:
+      return use(load<std::uint8_t, Order>);
+    case ScalarType::Int16:
+      return use(load<std::int16_t, Order>);
+    case ScalarType::Uint16:
+      return use(load<std::uint16_t, Order>);
+    case ScalarType::Int32:
+      return use(load<std::int32_t, Order>);
+    case ScalarType::Uint32:
+      return use(load<std::uint32_t, Order>);
+    case ScalarType::Float32:
+      return use(load<float, Order>);
+    case ScalarType::Float64:
+      return use(load<double, Order>);
+  }
+}
+
+/// Every number of a PLY file fits a double.
+template <order Order>
+double load_as_double(ScalarType type, const char* bytes) {
+  double value = 0.0;
+  with_type<Order>(type, [&](auto read) { value = static_cast<double>(read(bytes)); });
+  return value;
+}
+
+Header read_header(ByteReader& reader) {
+  Header header;
+  std::optional<std::string_view> line = reader.line();
+  if (!line || TextFields(*line).next() != "ply") {
+    reader.fail("does not begin with the line \"ply\" and is no PLY file" +
+                std::string(export_again));
+  }
+  bool format_known = false;
+  while ((line = reader.line())) {
+    TextFields fields(*line);
+    const std::string_view keyword = fields.next();
+    if (keyword.empty() || keyword == "comment" || keyword == "obj_info") continue;
+    if (keyword == "end_header") {
+      if (!format_known) reader.fail("has a header without the line \"format\".");
+      return header;
+    }
+    if (keyword == "format") {
+      const std::string_view format = fields.next();
+      static const std::map<std::string_view, Encoding> encodings{
+          {"ascii", Encoding::Text},
+          {"binary_little_endian", Encoding::LittleEndian},
+          {"binary_big_endian", Encoding::BigEndian}};
+      const auto found = encodings.find(format);
+      if (found == encodings.end()) {
+        reader.fail_line("gives the format " + quoted(format) +
+                         "; it must be ascii, binary_little_endian or binary_big_endian.");
+      }
+      header.encoding = found->second;
+      format_known = true;
+    } else if (keyword == "element") {
+      Element element;
+      element.name = lower_case(fields.next());
+      const std::string_view field = fields.next();
+      const std::optional<std::int64_t> count = whole_number_in(field);
+      if (!count || *count < 0) {
+        reader.fail_line("gives " + quoted(field) + " for the number of elements " +
+                         quoted(element.name) + "; it must be a whole number from 0.");
+      }
+      element.count = static_cast<std::uint64_t>(*count);
+      header.elements.push_back(std::move(element));
+    } else if (keyword == "property") {
+      if (header.elements.empty()) {
+        reader.fail_line("has a property before the first element" + std::string(export_again));
+      }
+      Property property;
+      std::string type = lower_case(fields.next());
+      if (type == "list") {
+        property.is_list = true;
+        const std::string count_type = lower_case(fields.next());
+        const std::optional<ScalarType> known = scalar_type(count_type);
+        if (!known || *known == ScalarType::Float32 || *known == ScalarType::Float64) {
+          reader.fail_line("counts a list in the type " + quoted(count_type) +
+                           "; it must be a type of whole numbers.");
+        }
+        property.count_type = *known;
+        type = lower_case(fields.next());
+      }
+      const std::optional<ScalarType> known = scalar_type(type);
+      if (!known) {
+        reader.fail_line("has a property of the type " + quoted(type) +
+                         ", which PLY does not know" + export_again);
+      }
+      property.type = *known;
+      property.name = lower_case(fields.next());
+      header.elements.back().properties.push_back(std::move(property));
+    } else {
+      reader.fail_line("of the header begins with " + quoted(keyword) +
+                       ", which is no keyword of PLY" + export_again);
+    }
+  }
+  reader.fail("has a header without the line \"end_header\"" + std::string(export_again));
+}
+
+/// Index of the first property that fits; the number of properties when there is none.
+template <class Fits>
+std::size_t find_property(const Element& element, const Fits& fits) {
+  const auto& all = element.properties;
+  return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), fits) - all.begin());
+}
+
+/// What follows the header: the records of the elements, in the header's order.
+class Body {
+ public:
+  Body(ByteReader& reader, const Header& header) : reader_(reader), header_(header) {}
+
+  IndexedMesh read() {
+    const Element* vertices = nullptr;
+    for (const Element& element : header_.elements) {
+      if (element.name != "vertex") continue;
+      if (vertices != nullptr) reader_.fail("declares the element \"vertex\" twice.");
+      vertices = &element;
+    }
+    if (vertices == nullptr) {
+      reader_.fail("declares no element \"vertex\"" + std::string(export_again));
+    }
+    vertices_ = vertices->count;
+    if (vertices_ > most_vertices) {
+      reader_.fail("declares " + std::to_string(vertices_) +
+                   " vertices, more than can be numbered; reduce the scan first.");
+    }
+    bool has_faces = false;
+    for (const Element& element : header_.elements) {
+      check_size(element);
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (element.name == "face" && element.count > 0) {
+        has_faces = true;
+        read_polygons(element, false);
+      } else if (element.name == "tristrips" && element.count > 0) {
+        has_faces = true;
+        read_polygons(element, true);
+      } else {
+        pass_over(element);
+      }
+    }
+    if (has_faces && mesh_.triangles.empty()) {
+      reader_.fail("declares faces, but none of them has three corners" +
+                   std::string(export_again));
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  bool is_text() const { return header_.encoding == Encoding::Text; }
+
+  [[noreturn]] void fail_cut(const Element& element, std::uint64_t record) const {
+    reader_.fail("ends within " + element.name + " " + std::to_string(record) + ", but declares " +
+                 std::to_string(element.count) + " of them; it was cut off" + export_again);
+  }
+
+  [[noreturn]] void fail_record(const Element& element, std::uint64_t record,
+                                const std::string& what) const {
+    const std::string named = "(" + element.name + " " + std::to_string(record) + ") " + what;
+    if (is_text()) reader_.fail_line(named);
+    reader_.fail(named);
+  }
+
+  /// A header that promises more than the file can hold is not believed.
+  void check_size(const Element& element) const {
+    std::uint64_t least = is_text() ? 1 : 0;  // a record of text is a line
+    for (const Property& property : element.properties) {
+      least += is_text() ? 1 : size_of(property.is_list ? property.count_type : property.type);
+    }
+    if (element.properties.empty()) return;
+    // The last line needs no end.
+    if (element.count > (reader_.remaining() + 1) / least) {
+      reader_.fail("declares " + std::to_string(element.count) + " elements \"" + element.name +
+                   "\", but only " + std::to_string(reader_.remaining()) +
+                   " bytes are left for them; it was cut off" + export_again);
+    }
+  }
+
+  void read_vertices(const Element& element) {
+    std::array<std::size_t, 3> columns{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const char name = static_cast<char>('x' + k);
+      columns[k] = find_property(element, [&](const Property& property) {
+        return !property.is_list && property.name.size() == 1 && property.name[0] == name;
+      });
+      if (columns[k] == element.properties.size()) {
+        reader_.fail(std::string("declares vertices without the property \"") + name + "\"" +
+                     export_again);
+      }
+    }
+    mesh_.points.reserve(static_cast<std::size_t>(element.count));
+    switch (header_.encoding) {
+      case Encoding::Text:
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+          read_text_record(element, i, element.properties.size());
+          mesh_.points.emplace_back(scalars_[columns[0]], scalars_[columns[1]],
+                                    scalars_[columns[2]]);
+        }
+        return;
+      case Encoding::LittleEndian:
+        return read_binary_vertices<order::little>(element, columns);
+      case Encoding::BigEndian:
+        return read_binary_vertices<order::big>(element, columns);
+    }
+  }
+
+  template <order Order>
+  void read_binary_vertices(const Element& element, const std::array<std::size_t, 3>& columns) {
+    const auto& properties = element.properties;
+    const bool same_type = properties[columns[0]].type == properties[columns[1]].type &&
+                           properties[columns[0]].type == properties[columns[2]].type;
+    const bool has_list = std::any_of(properties.begin(), properties.end(),
+                                      [](const Property& property) { return property.is_list; });
+    if (!same_type || has_list) {
+      for (std::uint64_t i = 0; i < element.count; ++i) {
+        read_binary_record<Order>(element, i, properties.size());
+        mesh_.points.emplace_back(scalars_[columns[0]], scalars_[columns[1]], scalars_[columns[2]]);
+      }
+      return;
+    }
+    // Nearly all files: records of one size, in blocks.
+    std::vector<std::size_t> offsets(1, 0);
+    for (const Property& property : properties) {
+      offsets.push_back(offsets.back() + size_of(property.type));
+    }
+    const std::size_t x = offsets[columns[0]];
+    const std::size_t y = offsets[columns[1]];
+    const std::size_t z = offsets[columns[2]];
+    with_type<Order>(properties[columns[0]].type, [&](auto number) {
+      for (std::uint64_t i = 0; i < element.count; ++i) {
+        const char* const bytes = reader_.next(offsets.back());
+        if (bytes == nullptr) fail_cut(element, i);
+        mesh_.points.emplace_back(static_cast<double>(number(bytes + x)),
+                                  static_cast<double>(number(bytes + y)),
+                                  static_cast<double>(number(bytes + z)));
+      }
+    });
+  }
+
+  /// Faces, or strips of triangles.
+  void read_polygons(const Element& element, bool strips) {
+    const std::size_t list = find_property(element, [](const Property& property) {
+      return property.is_list &&
+             (property.name == "vertex_indices" || property.name == "vertex_index");
+    });
+    if (list == element.properties.size()) {
+      reader_.fail("declares elements \"" + element.name +
+                   "\" without the list \"vertex_indices\"" + export_again);
+    }
+    // A strip's number of triangles is not known before it is read.
+    if (!strips) mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
+    switch (header_.encoding) {
+      case Encoding::Text:
+        for (std::uint64_t f = 0; f < element.count; ++f) {
+          read_text_record(element, f, list);
+          add_polygon(element, f, strips);
+        }
+        return;
+      case Encoding::LittleEndian:
+        return read_binary_polygons<order::little>(element, list, strips);
+      case Encoding::BigEndian:
+        return read_binary_polygons<order::big>(element, list, strips);
+    }
+  }
+
+  template <order Order>
+  void read_binary_polygons(const Element& element, std::size_t list, bool strips) {
+    const auto& properties = element.properties;
+    const bool other_lists = std::count_if(properties.begin(), properties.end(),
+                                           [](const auto& p) { return p.is_list; }) > 1;
+    const Property& indices = properties[list];
+    const bool whole = indices.type != ScalarType::Float32 && indices.type != ScalarType::Float64;
+    if (other_lists || !whole || indices.count_type != ScalarType::Uint8 || strips) {
+      for (std::uint64_t f = 0; f < element.count; ++f) {
+        read_binary_record<Order>(element, f, list);
+        add_polygon(element, f, strips);
+      }
+      return;
+    }
+    // Nearly all files: one list with a one-byte count among numbers.
+    std::size_t before = 0;
+    std::size_t after = 0;
+    for (std::size_t k = 0; k < properties.size(); ++k) {
+      if (k != list) (k < list ? before : after) += size_of(properties[k].type);
+    }
+    const std::size_t index_size = size_of(indices.type);
+    std::array<std::uint32_t, 255> corners{};
+    with_type<Order>(indices.type, [&](auto number) {
+      for (std::uint64_t f = 0; f < element.count; ++f) {
+        const char* bytes = reader_.next(before + 1);
+        if (bytes == nullptr) fail_cut(element, f);
+        const std::size_t count = static_cast<unsigned char>(bytes[before]);
+        bytes = reader_.next(index_size * count + after);
+        if (bytes == nullptr) fail_cut(element, f);
+        for (std::size_t i = 0; i < count; ++i) {
+          const auto index = number(bytes + index_size * i);
+          // A negative one becomes larger than any count.
+          corners[i] = static_cast<std::uint32_t>(index);
+          if (corners[i] >= vertices_) fail_index(element, f, static_cast<double>(index));
+        }
+        add_fan(corners.data(), count, mesh_.triangles);
+      }
+    });
+  }
+
+  /// Adds the polygon, or the strip, that the record read last holds.
+  void add_polygon(const Element& element, std::uint64_t record, bool strip) {
+    corners_.clear();
+    const auto end_strip = [&] {
+      for (std::size_t i = 2; i < corners_.size(); ++i) {
+        // Every second triangle of a strip turns the other way.
+        const std::size_t odd = i % 2;
+        const Triangle t{corners_[i - 2 + odd], corners_[i - 1 - odd], corners_[i]};
+        // Strips are joined by triangles without area.
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.triangles.push_back(t);
+      }
+      corners_.clear();
+    };
+    for (const double item : items_) {
+      if (strip && item == -1.0) {
+        end_strip();
+        continue;
+      }
+      const bool fits = item >= 0.0 && item < static_cast<double>(vertices_);
+      if (!fits || item != static_cast<double>(static_cast<std::int32_t>(item))) {
+        fail_index(element, record, item);
+      }
+      corners_.push_back(static_cast<std::int32_t>(item));
+    }
+    if (strip) {
+      end_strip();
+    } else {
+      add_fan(corners_.data(), corners_.size(), mesh_.triangles);
+    }
+  }
+
+  [[noreturn]] void fail_index(const Element& element, std::uint64_t record, double index) const {
+    // Indices are at most 32 bits long; what a text gives beyond need not be shown.
+    const std::string shown = index > -1e15 && index < 1e15
+                                  ? std::to_string(static_cast<long long>(index))
+                                  : "beyond all";
+    fail_record(element, record,
+                "names vertex " + shown + ", but the file holds " + std::to_string(vertices_) +
+                    ", numbered from 0" + export_again);
+  }
+
+  /// Passes over the records of an element that is not needed.
+  void pass_over(const Element& element) {
+    if (element.properties.empty()) return;
+    const bool has_list = std::any_of(element.properties.begin(), element.properties.end(),
+                                      [](const Property& property) { return property.is_list; });
+    if (!is_text() && !has_list) {
+      std::uint64_t size = 0;
+      for (const Property& property : element.properties) size += size_of(property.type);
+      // check_size has seen that the product is not larger than the file.
+      if (!reader_.skip(size * element.count)) fail_cut(element, 0);
+      return;
+    }
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      switch (header_.encoding) {
+        case Encoding::Text:
+          if (!reader_.filled_line()) fail_cut(element, i);
+          break;
+        case Encoding::LittleEndian:
+          read_binary_record<order::little>(element, i, element.properties.size());
+          break;
+        case Encoding::BigEndian:
+          read_binary_record<order::big>(element, i, element.properties.size());
+          break;
+      }
+    }
+  }
+
+  /// Reads a record: scalars_[k] becomes the number of property k, items_ the list that is wanted.
+  template <order Order>
+  void read_binary_record(const Element& element, std::uint64_t record, std::size_t wanted_list) {
+    scalars_.resize(element.properties.size());
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      const Property& property = element.properties[k];
+      const ScalarType type = property.is_list ? property.count_type : property.type;
+      const char* const bytes = reader_.next(size_of(type));
+      if (bytes == nullptr) fail_cut(element, record);
+      scalars_[k] = load_as_double<Order>(type, bytes);
+      if (!property.is_list) continue;
+      const std::uint64_t count = list_count(element, record, scalars_[k]);
+      const std::size_t item_size = size_of(property.type);
+      if (count > reader_.remaining() / item_size) fail_list(element, record, count);
+      if (k != wanted_list) {
+        if (!reader_.skip(item_size * count)) fail_cut(element, record);
+        continue;
+      }
+      const char* const items = reader_.next(item_size * static_cast<std::size_t>(count));
+      if (items == nullptr) fail_cut(element, record);
+      items_.resize(static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < items_.size(); ++i) {
+        items_[i] = load_as_double<Order>(property.type, items + item_size * i);
+      }
+    }
+  }
+
+  void read_text_record(const Element& element, std::uint64_t record, std::size_t wanted_list) {
+    const std::optional<std::string_view> line = reader_.filled_line();
+    if (!line) fail_cut(element, record);
+    TextFields fields(*line);
+    const auto next_number = [&] {
+      const std::string_view field = fields.next();
+      const std::optional<double> value = number_in(field);
+      if (value) return *value;
+      fail_record(element, record,
+                  field.empty() ? "holds fewer numbers than the header declares for one" +
+                                      std::string(export_again)
+                                : "has " + quoted(field) + " where a number is due.");
+    };
+    scalars_.resize(element.properties.size());
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      scalars_[k] = next_number();
+      if (!element.properties[k].is_list) continue;
+      const std::uint64_t count = list_count(element, record, scalars_[k]);
+      // An item takes a digit and a blank.
+      if (count > (fields.rest().size() + 1) / 2) fail_list(element, record, count);
+      if (k == wanted_list) items_.resize(static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < count; ++i) {
+        const double value = next_number();
+        if (k == wanted_list) items_[i] = value;
+      }
+    }
+    if (!fields.next().empty()) {
+      fail_record(
+          element, record,
+          "holds more numbers than the header declares for one" + std::string(export_again));
+    }
+  }
+
+  std::uint64_t list_count(const Element& element, std::uint64_t record, double count) const {
+    if (!(count >= 0.0 && count < 4294967296.0) ||
+        count != static_cast<double>(static_cast<std::uint64_t>(count))) {
+      fail_record(element, record,
+                  "has a list whose count is no whole number from 0" + std::string(export_again));
+    }
+    return static_cast<std::uint64_t>(count);
+  }
+
+  [[noreturn]] void fail_list(const Element& element, std::uint64_t record,
+                              std::uint64_t count) const {
+    fail_record(element, record,
+                "has a list of " + std::to_string(count) +
+                    " items, more than there is left to read" + export_again);
+  }
+
+  ByteReader& reader_;
+  const Header& header_;
+  IndexedMesh mesh_;
+  std::uint64_t vertices_ = 0;
+  std::vector<double> scalars_;
+  std::vector<double> items_;
+  std::vector<std::int32_t> corners_;
+};
+
+}  // namespace
+
+IndexedMesh read_ply(ByteReader& reader) {
+  const Header header = read_header(reader);
+  return Body(reader, header).read();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Adds the fan of a polygon whose corners are known to fit. Fewer than three corners enclose
+/// nothing and are passed over.
+template <class Index>
+void add_fan(const Index* corners, std::size_t count, std::vector<Triangle>& triangles) {
+  for (std::size_t i = 2; i < count; ++i) {
+    triangles.push_back({static_cast<std::int32_t>(corners[0]),
+                         static_cast<std::int32_t>(corners[i - 1]),
+                         static_cast<std::int32_t>(corners[i])});
+  }
+}
+
+}  // namespace wscvt

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/stl_reader.h"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "wscvt/scan/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t header_size = 84;
+constexpr std::size_t record_size = 50;
+constexpr auto most_triangles =
+    static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
+
+std::int32_t next_index(ByteReader& reader, const IndexedMesh& mesh) {
+  if (mesh.triangles.size() >= most_triangles) {
+    reader.fail("has more triangles than can be numbered; reduce the scan first.");
+  }
+  return static_cast<std::int32_t>(mesh.points.size());
+}
+
+IndexedMesh read_binary(ByteReader& reader) {
+  using boost::endian::order;
+  const std::string_view header = reader.peek(header_size);
+  if (header.size() < header_size) {
+    reader.fail("is too short for an STL file" + std::string(export_again));
+  }
+  const std::size_t triangles = load<std::uint32_t, order::little>(header.data() + 80);
+  const std::uintmax_t expected = header_size + std::uintmax_t{record_size} * triangles;
+  if (expected != reader.remaining()) {
+    reader.fail("is no text and declares " + std::to_string(triangles) + " triangles, which take " +
+                std::to_string(expected) + " bytes, but has " + std::to_string(reader.remaining()) +
+                "; it is no STL file or was cut off" + export_again);
+  }
+  if (triangles == 0) reader.fail("holds no triangles" + std::string(export_again));
+  reader.skip(header_size);
+  IndexedMesh mesh;
+  mesh.points.reserve(3 * triangles);
+  mesh.triangles.reserve(triangles);
+  for (std::size_t f = 0; f < triangles; ++f) {
+    const char* bytes = reader.next(record_size);
+    if (bytes == nullptr) {
+      reader.fail("ends within triangle " + std::to_string(f) + " of " + std::to_string(triangles) +
+                  export_again);
+    }
+    const std::int32_t first = next_index(reader, mesh);
+    for (std::size_t i = 1; i <= 3; ++i) {  // 0 is the normal
+      const char* const corner = bytes + 12 * i;
+      mesh.points.emplace_back(load<float, order::little>(corner),
+                               load<float, order::little>(corner + 4),
+                               load<float, order::little>(corner + 8));
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+/// The words of a text STL file, which lines separate no more than blanks do.
+class TextReader {
+ public:
+  explicit TextReader(ByteReader& reader) : reader_(reader) {}
+
+  IndexedMesh read() {
+    IndexedMesh mesh;
+    do {  // several solids may follow each other
+      expect("solid");
+      fields_ = TextFields("");  // the name, which may hold any words
+      for (std::string word = next_word(); word != "endsolid"; word = next_word()) {
+        if (word != "facet") fail(word, "\"facet\" or \"endsolid\"");
+        read_facet(mesh);
+      }
+      fields_ = TextFields("");
+    } while (has_more());
+    if (mesh.triangles.empty()) reader_.fail("holds no triangles" + std::string(export_again));
+    return mesh;
+  }
+
+ private:
+  void read_facet(IndexedMesh& mesh) {
+    // The normal follows from the corners, whatever is written.
+    std::string word = next_word();
+    for (int k = 0; word != "outer"; ++k) {
+      if (k > 4) fail(word, "\"outer loop\"");
+      word = next_word();
+    }
+    expect("loop");
+    const std::int32_t first = next_index(reader_, mesh);
+    for (int i = 0; i < 3; ++i) {
+      expect("vertex");
+      Vector3 point;
+      for (double& coordinate : point) {
+        word = next_word();
+        const std::optional<double> value = number_in(word);
+        if (!value) fail(word, "a coordinate");
+        coordinate = *value;
+      }
+      mesh.points.push_back(point);
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    expect("endloop");
+    expect("endfacet");
+  }
+
+  void expect(const std::string& due) {
+    const std::string word = next_word();
+    if (word != due) fail(word, quoted(due));
+  }
+
+  /// The next word in lower case; empty at the end of the file.
+  std::string next_word() {
+    if (!has_more()) return "";
+    return lower_case(std::exchange(word_, std::string_view()));
+  }
+
+  bool has_more() {
+    while (word_.empty()) {
+      word_ = fields_.next();
+      if (!word_.empty()) break;
+      const std::optional<std::string_view> line = reader_.line();
+      if (!line) return false;
+      fields_ = TextFields(*line);
+    }
+    return true;
+  }
+
+  [[noreturn]] void fail(const std::string& word, const std::string& due) {
+    if (word.empty()) {
+      reader_.fail("ends where " + due + " is due; it was cut off" + export_again);
+    }
+    reader_.fail_line("has " + quoted(word) + " where " + due + " is due" + export_again);
+  }
+
+  ByteReader& reader_;
+  TextFields fields_{""};
+  std::string_view word_;
+};
+
+/// By its size, since a binary header may begin with "solid" too.
+bool is_binary(ByteReader& reader) {
+  const std::string_view header = reader.peek(header_size);
+  if (header.size() == header_size) {
+    const auto triangles = load<std::uint32_t, boost::endian::order::little>(header.data() + 80);
+    if (reader.remaining() == header_size + std::uintmax_t{record_size} * triangles) return true;
+  }
+  return lower_case(TextFields(header).next()) != "solid";
+}
+
+}  // namespace
+
+IndexedMesh read_stl(ByteReader& reader) {
+  return is_binary(reader) ? read_binary(reader) : TextReader(reader).read();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/text_fields.h"
+
+#include <charconv>
+#include <system_error>
+
+namespace wscvt {
+
+namespace {
+
+template <class Number>
+std::optional<Number> parse(std::string_view field) {
+  // std::from_chars knows no plus sign, and only itself would let "+-1" pass.
+  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);
+  Number value{};
+  const char* const end = field.data() + field.size();
+  const auto [parsed_to, error] = std::from_chars(field.data(), end, value);
+  if (field.empty() || error != std::errc() || parsed_to != end) return {};
+  return value;
+}
+
+}  // namespace
+
+std::optional<double> number_in(std::string_view field) { return parse<double>(field); }
+
+std::optional<std::int64_t> whole_number_in(std::string_view field) {
+  return parse<std::int64_t>(field);
+}
+
+std::string quoted(std::string_view field) {
+  constexpr std::size_t longest = 40;
+  std::string text = "\"";
+  for (const char c : field.substr(0, longest)) {
+    text += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return text + (field.size() > longest ? "...\"" : "\"");
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+}  // namespace wscvt

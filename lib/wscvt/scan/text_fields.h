@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace wscvt {
+
+// Fields of a line of text and the numbers they hold, the same in every locale.
+
+/// The fields of a line, which blanks and tabs separate.
+class TextFields {
+ public:
+  explicit TextFields(std::string_view line) : rest_(line) {}
+
+  /// The next field; empty when there is none.
+  std::string_view next() {
+    std::size_t begin = 0;
+    while (begin < rest_.size() && is_space(rest_[begin])) ++begin;
+    std::size_t end = begin;
+    while (end < rest_.size() && !is_space(rest_[end])) ++end;
+    const std::string_view field = rest_.substr(begin, end - begin);
+    rest_.remove_prefix(end);
+    return field;
+  }
+
+  /// What stands after the field read last.
+  std::string_view rest() const { return rest_; }
+
+ private:
+  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+  std::string_view rest_;
+};
+
+/// The number a field holds, whole field, also "nan" and "inf"; nothing when it is none, or one
+/// that no double comes near.
+std::optional<double> number_in(std::string_view field);
+
+/// The same for whole numbers.
+std::optional<std::int64_t> whole_number_in(std::string_view field);
+
+/// A field as a sentence shows it: in quotes, cut when long, without control characters.
+std::string quoted(std::string_view field);
+
+/// Lower-case letters in place of ASCII capitals.
+std::string lower_case(std::string_view text);
+
+}  // namespace wscvt

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/scan/byte_reader.h"
+
+namespace wscvt::test {
+
+/// What a reader makes of a file with this content.
+inline IndexedMesh read_content(IndexedMesh (*read)(ByteReader&), const std::string& content) {
+  std::istringstream stream(content);
+  ByteReader reader(stream, content.size(), "a file");
+  return read(reader);
+}
+
+/// The sentence with which a reader refuses a content; empty, and a failure, when it does not.
+inline std::string refusal(IndexedMesh (*read)(ByteReader&), const std::string& content) {
+  try {
+    read_content(read, content);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InputOutput);
+    return error.what();
+  }
+  ADD_FAILURE() << "was read: " << content.substr(0, 200);
+  return "";
+}
+
+/// Bytes of a number; the machines this is tested on are little-endian.
+template <class Value>
+std::string bytes(Value value, bool big_endian = false) {
+  std::string result(sizeof value, '\0');
+  std::memcpy(result.data(), &value, sizeof value);
+  return big_endian ? std::string(result.rbegin(), result.rend()) : result;
+}
+
+}  // namespace wscvt::test
