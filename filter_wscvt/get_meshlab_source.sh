@@ -7,11 +7,26 @@
 # Needs no root: the source entry and apt's lists are kept in a folder of our own. Only the tarball
 # of the source package is fetched: Debian's patches leave the headers of src/common as they are,
 # and mirrors do not all serve the rest. apt checks its hash against the archive's signed index.
+# May be killed at any point and run again, or twice at once: FOLDER appears whole, by one rename.
 set -eu
 
-folder=${1:?usage: get_meshlab_source.sh FOLDER [SUITE]}
+folder=$(realpath -m "${1:?usage: get_meshlab_source.sh FOLDER [SUITE]}")
 suite=${2:-}
-if [ -f "$folder/ML_VERSION" ]; then exit 0; fi
+is_whole() { [ -f "$folder/ML_VERSION" ] && [ -d "$folder/src/common" ] && [ -d "$folder/vcglib" ]; }
+
+# One run at a time; the lock goes with the processes that hold it, however they end.
+mkdir -p "$(dirname "$folder")"
+exec 9< "$(dirname "$folder")"
+flock 9
+# Beside FOLDER, so that the last step is a rename, and of one name, so that what a killed run left
+# is found.
+scratch=$folder.part
+rm -rf "$scratch"
+if is_whole; then exit 0; fi
+if [ -e "$folder" ] && ! rmdir "$folder" 2>/dev/null; then
+  echo "$folder is there and is not the whole source of MeshLab; remove it or name another" >&2
+  exit 1
+fi
 
 package=meshlab
 uri=http://deb.debian.org/debian
@@ -32,9 +47,17 @@ if [ -z "$suite" ]; then
   package=meshlab=$(dpkg-query -W -f '${source:Version}' meshlab)
 fi
 
-scratch=$(mktemp -d)
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$scratch/lists/partial" "$scratch/archives/partial" "$scratch/parts"
+# As root apt downloads as the user _apt, where that user can come.
+sandbox=root
+if [ "$(id -u)" -eq 0 ] && chmod 755 "$scratch" && chown _apt "$scratch" 2>/dev/null &&
+  runuser -u _apt -- test -w "$scratch" 2>/dev/null; then
+  sandbox=_apt
+fi
 
 if [ -n "$suite" ]; then
   keyring=/usr/share/keyrings/debian-archive-keyring.gpg
@@ -62,7 +85,7 @@ done
 
 in_private() {
   "$@" -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$scratch/parts" \
-    -o Dir::State::Lists="$scratch/lists" -o Dir::Cache="$scratch" -o APT::Sandbox::User=root \
+    -o Dir::State::Lists="$scratch/lists" -o Dir::Cache="$scratch" -o APT::Sandbox::User="$sandbox" \
     -o Acquire::Check-Valid-Until="$valid_until"
 }
 # The index of sid on a mirror that lags is out of date, but signed.
@@ -70,9 +93,8 @@ valid_until=true
 [ "$suite" != sid ] || valid_until=false
 in_private apt-get update
 (cd "$scratch" && in_private apt-get source --download-only --tar-only "$package")
-(cd "$scratch" && tar -xf ./*.orig.tar.*)
-
-mkdir -p "$(dirname "$folder")"
-unpacked=$(find "$scratch" -mindepth 2 -maxdepth 2 -name ML_VERSION -printf '%h\n')
-mv "$unpacked" "$folder"
+mkdir "$scratch/unpacked"
+tar -xf "$scratch"/*.orig.tar.* -C "$scratch/unpacked" --no-same-owner
+unpacked=$(find "$scratch/unpacked" -mindepth 2 -maxdepth 2 -name ML_VERSION -printf '%h\n')
+mv -T "$unpacked" "$folder"
 echo "The source of MeshLab $(cat "$folder/ML_VERSION") is in $folder."

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what the library, the plugin and their tests need on Debian 12. As root or with sudo;
-# when everything is there already, neither is needed.
+# when everything is there already, neither is needed. May be killed and run again.
 set -eu
 
 packages="
@@ -12,11 +12,19 @@ packages="
   libqwt-qt5-dev libglew-dev libglu1-mesa-dev
   xvfb xauth xdotool imagemagick"
 
-missing=
-for package in $packages; do
-  state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
-  [ "$state" = "install ok installed" ] || missing="$missing $package"
-done
+find_missing() {
+  missing=
+  for package in $packages; do
+    state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+    [ "$state" = "install ok installed" ] || missing="$missing $package"
+  done
+}
+find_missing
+[ -n "$missing" ] || exit 0
+# One run at a time; another may have installed everything meanwhile.
+exec 9< "$0"
+flock 9
+find_missing
 [ -n "$missing" ] || exit 0
 
 as_root=
@@ -27,6 +35,9 @@ if [ "$(id -u)" -ne 0 ]; then
   }
   as_root=sudo
 fi
+# A run that was killed leaves packages unpacked that wait to be set up.
+$as_root env DEBIAN_FRONTEND=noninteractive dpkg --configure -a
 $as_root apt-get update
 # shellcheck disable=SC2086
-$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
+  -o DPkg::Lock::Timeout=600 --fix-broken $missing
