@@ -26,20 +26,10 @@ constexpr std::size_t report_interval = 4096;
 constexpr std::int32_t largest_valence = 32;
 
 void check_options(const SphereMapOptions& options) {
-  const auto refuse = [](const std::string& what) { throw Error(ErrorCode::InvalidInput, what); };
-  if (!(options.level_growth >= 1.1 && options.level_growth <= 10.0)) {
-    refuse("The growth of the map's levels is " + format_number(options.level_growth) +
-           "; give one from 1.1 to 10.");
-  }
-  for (const int sweeps : {options.coarse_sweeps, options.fine_sweeps}) {
-    if (sweeps < 0 || sweeps > 1000) {
-      refuse("The number of sweeps of the map is " + std::to_string(sweeps) +
-             "; give one from 0 to 1000.");
-    }
-  }
-  if (!(options.tolerance >= 0.0)) {
-    refuse("The tolerance of the map is " + format_number(options.tolerance) + "; give 0 or more.");
-  }
+  require_in_range(options.level_growth, level_growth_option);
+  require_in_range(options.coarse_sweeps, coarse_sweeps_option);
+  require_in_range(options.fine_sweeps, fine_sweeps_option);
+  require_in_range(options.tolerance, map_tolerance_option);
 }
 
 /// Puts the vertices of a collapsed mesh on the sphere, one after another.

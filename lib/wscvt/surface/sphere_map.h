@@ -3,27 +3,37 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt {
 
 /// How far the map is optimised on its way from a tetrahedron to the whole mesh.
 struct SphereMapOptions {
-  /// Vertices of a level / those of the one before, in [1.1, 10]: the map is optimised as a whole
-  /// once a level.
+  /// Vertices of a level / those of the one before: the map is optimised as a whole once a level.
   double level_growth = 1.5;
-  /// Sweeps over all vertices at most, in [0, 1000], at levels of up to `coarse_vertices` and of up
-  /// to `fine_vertices`; there are none above, where they change nothing.
+  /// Sweeps over all vertices at most, at levels of up to `coarse_vertices` and of up to
+  /// `fine_vertices`; there are none above, where they change nothing.
   int coarse_sweeps = 40;
   int fine_sweeps = 10;
   std::size_t coarse_vertices = 4000;
   std::size_t fine_vertices = 30000;
-  /// A level is done when four sweeps lower the energy by less than this share, >= 0.
+  /// A level is done when four sweeps lower the energy by less than this share.
   double tolerance = 2e-4;
 };
+
+inline constexpr NumberOption<double> level_growth_option{"levelGrowth",
+                                                          "growth of the map's levels", 1.1, 10.0};
+inline constexpr NumberOption<int> coarse_sweeps_option{
+    "coarseSweeps", "number of sweeps on the map's coarse levels", 0, 1000};
+inline constexpr NumberOption<int> fine_sweeps_option{
+    "fineSweeps", "number of sweeps on the map's fine levels", 0, 1000};
+inline constexpr NumberOption<double> map_tolerance_option{
+    "mapTolerance", "tolerance of the map's levels", 0.0, std::numeric_limits<double>::infinity()};
 
 /// How the map came out. Distortions are those of the triangles of the mesh whose area is not zero.
 struct SphereMapReport {

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/handles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Places a shortest loop is looked for at; every handle has two.
+constexpr std::size_t maximum_roots = 64;
+/// Steps of fairing, each half way to the mean of the neighbours: after five the caps are most of
+/// an edge apart, more would thin the stumps.
+constexpr int fairing_steps = 5;
+
+/// A closed way along half-edges.
+struct Loop {
+  double length = infinity;
+  std::vector<std::int32_t> half_edges;
+};
+
+double volume_of(const IndexedMesh& mesh) {
+  const Vector3 origin = mesh.points[mesh.triangles[0][0]];
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3 a = mesh.points[t[0]] - origin;
+    sum += a.dot((mesh.points[t[1]] - origin).cross(mesh.points[t[2]] - origin)) / 6.0;
+  }
+  return sum;
+}
+
+std::size_t genus_of(const IndexedMesh& mesh) {
+  // V - E + F = 2 - 2 g with E = 3 F / 2.
+  return (mesh.triangles.size() + 4 - 2 * mesh.points.size()) / 4;
+}
+
+/// Shortest paths from a root and what they leave of the surface.
+class TreeCotree {
+ public:
+  TreeCotree(const IndexedMesh& mesh, const HalfEdges& links) : mesh_(mesh), links_(links) {}
+
+  /// Loops through the root's tree that do not separate the surface, of at most 2 `reach` before
+  /// the common way to them is taken off. They are independent; without a bound there are two for
+  /// every handle.
+  std::vector<Loop> loops(std::int32_t root, double reach) {
+    grow_tree(root, reach);
+    std::vector<std::pair<double, std::int32_t>> candidates;
+    faces_.resize(mesh_.triangles.size());
+    std::iota(faces_.begin(), faces_.end(), 0);
+    for (std::int32_t h = 0; h < static_cast<std::int32_t>(links_.opposite.size()); ++h) {
+      const std::int32_t other = links_.opposite[h];
+      if (other < h) continue;
+      const std::int32_t from = origin(h);
+      const std::int32_t to = origin(other);
+      if (parents_[to] == h || parents_[from] == other) continue;  // of the tree
+      if (distances_[from] < infinity && distances_[to] < infinity) {
+        candidates.emplace_back(distances_[from] + distances_[to] + edge_length(h), h);
+      } else {
+        join(h / 3, other / 3);
+      }
+    }
+    // Longest first: the faces are joined across what would make long loops. An edge whose faces
+    // are joined already closes a loop that the way from the one face to the other crosses once;
+    // so the loop does not separate the surface.
+    std::sort(candidates.begin(), candidates.end(), std::greater<>());
+    std::vector<Loop> result;
+    for (const auto& [length, h] : candidates) {
+      if (!join(h / 3, links_.opposite[h] / 3)) result.push_back(loop_through(h));
+    }
+    return result;
+  }
+
+ private:
+  std::int32_t origin(std::int32_t h) const { return origin_of(mesh_.triangles, h); }
+  std::int32_t target(std::int32_t h) const { return target_of(mesh_.triangles, h); }
+  double edge_length(std::int32_t h) const {
+    return (mesh_.points[target(h)] - mesh_.points[origin(h)]).norm();
+  }
+
+  void grow_tree(std::int32_t root, double reach) {
+    distances_.assign(mesh_.points.size(), infinity);
+    parents_.assign(mesh_.points.size(), -1);
+    using Entry = std::pair<double, std::int32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    distances_[root] = 0.0;
+    queue.emplace(0.0, root);
+    while (!queue.empty()) {
+      const auto [distance, v] = queue.top();
+      queue.pop();
+      if (distance > distances_[v]) continue;
+      visit_outgoing(links_.opposite, links_.first[v], [&](std::int32_t h) {
+        const std::int32_t w = target(h);
+        const double longer = distance + edge_length(h);
+        if (longer < distances_[w] && longer <= reach) {
+          distances_[w] = longer;
+          parents_[w] = h;
+          queue.emplace(longer, w);
+        }
+      });
+    }
+  }
+
+  std::int32_t representative(std::int32_t face) {
+    while (faces_[face] != face) face = faces_[face] = faces_[faces_[face]];
+    return face;
+  }
+
+  bool join(std::int32_t a, std::int32_t b) {
+    a = representative(a);
+    b = representative(b);
+    faces_[a] = b;
+    return a != b;
+  }
+
+  /// From the tree's last common vertex to the edge, over it and back.
+  Loop loop_through(std::int32_t h) const {
+    const auto way_to = [&](std::int32_t v) {
+      std::vector<std::int32_t> way;
+      for (; parents_[v] >= 0; v = origin(parents_[v])) way.push_back(parents_[v]);
+      return way;
+    };
+    std::vector<std::int32_t> there = way_to(origin(h));
+    std::vector<std::int32_t> back = way_to(target(h));
+    while (!there.empty() && !back.empty() && there.back() == back.back()) {
+      there.pop_back();
+      back.pop_back();
+    }
+    Loop loop;
+    loop.half_edges.assign(there.rbegin(), there.rend());
+    loop.half_edges.push_back(h);
+    for (const std::int32_t edge : back) loop.half_edges.push_back(links_.opposite[edge]);
+    loop.length = 0.0;
+    for (const std::int32_t edge : loop.half_edges) loop.length += edge_length(edge);
+    return loop;
+  }
+
+  const IndexedMesh& mesh_;
+  const HalfEdges& links_;
+  std::vector<double> distances_;
+  std::vector<std::int32_t> parents_;  ///< half-edge that leads to each vertex, -1 at the root
+  std::vector<std::int32_t> faces_;    ///< disjoint sets of faces
+};
+
+/// The first of the shortest.
+const Loop* shortest_of(const std::vector<Loop>& loops) {
+  const auto shortest = std::min_element(
+      loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.length < b.length; });
+  return shortest == loops.end() ? nullptr : &*shortest;
+}
+
+/// A loop as short as searches from all handles find it.
+Loop short_loop(const IndexedMesh& mesh, const HalfEdges& links, const Execution& execution) {
+  std::vector<Loop> found = TreeCotree(mesh, links).loops(0, infinity);
+  // Every handle has a loop here, but from afar: the root of the next search stands on it.
+  std::vector<std::int32_t> roots;
+  for (const Loop& loop : found) {
+    for (const std::size_t k : {std::size_t{0}, loop.half_edges.size() / 2}) {
+      roots.push_back(origin_of(mesh.triangles, loop.half_edges[k]));
+    }
+  }
+  std::sort(roots.begin(), roots.end());
+  roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+  if (roots.size() > maximum_roots) roots.resize(maximum_roots);
+  const Loop* const first = shortest_of(found);
+  if (first == nullptr) return {};
+  std::vector<Loop> candidates(roots.size() + 1);
+  candidates.back() = *first;
+  const double reach = 0.5 * first->length;
+  execution.parallel_for(roots.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::vector<Loop> loops = TreeCotree(mesh, links).loops(roots[i], reach);
+      const Loop* const shortest = shortest_of(loops);
+      if (shortest != nullptr) candidates[i] = *shortest;
+    }
+  });
+  return *shortest_of(candidates);
+}
+
+/// Cuts along the loop and caps both sides. Returns the vertices of the rings and caps.
+std::vector<std::int32_t> cut_and_cap(IndexedMesh& mesh, const HalfEdges& links, const Loop& loop) {
+  const std::size_t count = loop.half_edges.size();
+  const auto first_copy = static_cast<std::int32_t>(mesh.points.size());
+  std::vector<std::int32_t> right;
+  std::vector<std::int32_t> left;
+  Vector3 middle = Vector3::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    right.push_back(origin_of(mesh.triangles, loop.half_edges[i]));
+    left.push_back(first_copy + static_cast<std::int32_t>(i));
+    mesh.points.emplace_back(mesh.points[right.back()]);
+    middle += mesh.points[right.back()] / static_cast<double>(count);
+  }
+  // The faces to the left of the loop get the copies. Corners are half-edges: collected before any
+  // is changed.
+  std::vector<std::pair<std::int32_t, std::int32_t>> changes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t coming = loop.half_edges[(i + count - 1) % count];
+    std::int32_t h = loop.half_edges[i];
+    do {
+      changes.emplace_back(h, left[i]);
+      h = links.opposite[previous_half_edge(h)];
+    } while (h != links.opposite[coming]);
+  }
+  for (const auto& [h, copy] : changes) mesh.triangles[h / 3][h % 3] = copy;
+  std::vector<std::int32_t> moved = right;
+  moved.insert(moved.end(), left.begin(), left.end());
+  if (count == 3) {
+    mesh.triangles.push_back({right[0], right[1], right[2]});
+    mesh.triangles.push_back({left[1], left[0], left[2]});
+    return moved;
+  }
+  const auto right_middle = static_cast<std::int32_t>(mesh.points.size());
+  const std::int32_t left_middle = right_middle + 1;
+  mesh.points.push_back(middle);
+  mesh.points.push_back(middle);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    mesh.triangles.push_back({right[i], right[next], right_middle});
+    mesh.triangles.push_back({left[next], left[i], left_middle});
+  }
+  moved.push_back(right_middle);
+  moved.push_back(left_middle);
+  return moved;
+}
+
+/// Moves the vertices towards the means of their neighbours. Those of a ring have neighbours on
+/// their own side only, so the two sides part: the stumps of a bridge draw back, the plug of a
+/// tunnel gets thick.
+void fair(IndexedMesh& mesh, const HalfEdges& links, const std::vector<std::int32_t>& moved) {
+  std::vector<Vector3> places(moved.size());
+  for (int step = 0; step < fairing_steps; ++step) {
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      Vector3 sum = Vector3::Zero();
+      double count = 0.0;
+      visit_outgoing(links.opposite, links.first[moved[i]], [&](std::int32_t h) {
+        sum += mesh.points[target_of(mesh.triangles, h)];
+        count += 1.0;
+      });
+      places[i] = 0.5 * (mesh.points[moved[i]] + sum / count);
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) mesh.points[moved[i]] = places[i];
+  }
+}
+
+HalfEdges linked(const IndexedMesh& mesh) {
+  HalfEdges links = link_half_edges(mesh.triangles, mesh.points.size());
+  const bool closed =
+      !mesh.triangles.empty() &&
+      std::find(links.opposite.begin(), links.opposite.end(), -1) == links.opposite.end() &&
+      std::find(links.first.begin(), links.first.end(), -1) == links.first.end();
+  if (!closed) {
+    throw Error(ErrorCode::InvalidInput,
+                "The mesh is not closed, so its handles cannot be told; run check_mesh on it "
+                "first.");
+  }
+  return links;
+}
+
+}  // namespace
+
+HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
+                              const Execution& execution) {
+  require_in_range(options.length_limit, handle_length_option);
+  HalfEdges links = linked(mesh);
+  HandleFreeMesh result;
+  const std::size_t genus = genus_of(mesh);
+  const double volume = volume_of(mesh);
+  const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
+  for (std::size_t left = genus; left > 0; --left) {
+    execution.report(static_cast<double>(genus - left) / static_cast<double>(genus),
+                     "Cutting handles");
+    const Loop loop = short_loop(mesh, links, execution);
+    CutHandle handle;
+    handle.length = loop.length;
+    handle.edges = static_cast<int>(loop.half_edges.size());
+    for (const std::int32_t h : loop.half_edges) {
+      handle.place += mesh.points[origin_of(mesh.triangles, h)] / handle.edges;
+    }
+    if (!(loop.length <= options.length_limit * radius)) {
+      throw Error(
+          ErrorCode::InvalidInput,
+          "Of the scan's " + std::to_string(genus) + (genus == 1 ? " handle " : " handles ") +
+              std::to_string(genus - left) + " could be cut; the shortest loop left is " +
+              format_number(loop.length / radius) + " equal-volume radii long, about (" +
+              format_number(handle.place.x()) + ", " + format_number(handle.place.y()) + ", " +
+              format_number(handle.place.z()) + "), above the limit of " +
+              format_number(options.length_limit) +
+              ": too wide for a flaw of the scanner. A ring has a real hole and cannot be mapped "
+              "to the sphere. Fill the hole or cut the ring in the scan, or raise the limit above "
+              "that length to have it cut there.");
+    }
+    const std::vector<std::int32_t> moved = cut_and_cap(mesh, links, loop);
+    links = linked(mesh);
+    fair(mesh, links, moved);
+    result.report.cut.push_back(handle);
+  }
+  if (genus > 0) result.report.volume_change = volume_of(mesh) / volume - 1.0;
+  result.mesh = std::move(mesh);
+  execution.report(1.0, "Cutting handles");
+  return result;
+}
+
+}  // namespace wscvt

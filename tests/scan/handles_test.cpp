@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/handles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "grains/marching_cubes.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/sphere/orientation.h"
+
+namespace wscvt {
+namespace {
+
+/// The surface of a body given by its depth, of spacing 0.04, in a box of -1.5 to 1.5.
+IndexedMesh body(const std::function<double(const Vector3&)>& depth) {
+  test::VoxelGrid grid;
+  grid.spacing = 0.04;
+  grid.origin = Vector3(-1.507, -1.511, -1.513);
+  grid.size = {76, 76, 76};
+  for (int z = 0; z < grid.size[2]; ++z) {
+    for (int y = 0; y < grid.size[1]; ++y) {
+      for (int x = 0; x < grid.size[0]; ++x) {
+        grid.values.push_back(depth(grid.origin + grid.spacing * Vector3(x, y, z)));
+      }
+    }
+  }
+  return check_mesh(test::marching_cubes(grid, 0.0), {}, Execution(1)).mesh;
+}
+
+double ball(const Vector3& p) { return 1.0 - p.norm(); }
+
+/// Half of a ring stands out of the ball as the handle of a cup does.
+double bridge(const Vector3& p) {
+  const Vector3 q = p - Vector3(1.0, 0.0, 0.0);
+  return 0.08 - std::hypot(std::hypot(q.x(), q.z()) - 0.3, q.y());
+}
+
+/// Depth of the ball with a hole drilled through it near its edge.
+double drilled(const Vector3& p) {
+  return std::min(ball(p), std::hypot(p.x() + 0.8, p.y()) - 0.07);
+}
+
+IndexedMesh ball_with_a_bridge() {
+  return body([](const Vector3& p) { return std::max(ball(p), bridge(p)); });
+}
+
+IndexedMesh ball_with_a_tunnel() { return body(drilled); }
+
+int genus_of(const IndexedMesh& mesh) { return check_mesh(mesh, {}, Execution(1)).report.genus; }
+
+/// Whether a segment and a triangle without a common vertex meet, by exact signs.
+bool segment_meets(const Vector3& p, const Vector3& q, const Vector3& a, const Vector3& b,
+                   const Vector3& c) {
+  const int above_p = orientation(a, b, c, p);
+  const int above_q = orientation(a, b, c, q);
+  // Within the plane of the triangle nothing is crossed.
+  if (above_p * above_q > 0 || (above_p == 0 && above_q == 0)) return false;
+  const int ab = orientation(p, q, a, b);
+  const int bc = orientation(p, q, b, c);
+  const int ca = orientation(p, q, c, a);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+/// Pairs of triangles without a common vertex that meet, among those within `reach` of a place.
+int meeting_pairs(const IndexedMesh& mesh, const Vector3& place, double reach) {
+  std::vector<Triangle> near;
+  for (const Triangle& t : mesh.triangles) {
+    if ((mesh.points[t[0]] - place).norm() < reach) near.push_back(t);
+  }
+  EXPECT_GT(near.size(), 10U);
+  int count = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    for (std::size_t j = 0; j < near.size(); ++j) {
+      const Triangle& s = near[i];
+      const Triangle& t = near[j];
+      bool apart = i == j;
+      for (const std::int32_t v : s) {
+        apart = apart || std::find(t.begin(), t.end(), v) != t.end();
+      }
+      for (std::size_t k = 0; k < 3 && !apart; ++k) {
+        if (segment_meets(mesh.points[s[k]], mesh.points[s[(k + 1) % 3]], mesh.points[t[0]],
+                          mesh.points[t[1]], mesh.points[t[2]])) {
+          ++count;
+          break;
+        }
+      }
+    }
+  }
+  return count;
+}
+
+TEST(Handles, CutsABridge) {
+  const IndexedMesh mesh = ball_with_a_bridge();
+  ASSERT_EQ(genus_of(mesh), 1);
+  const HandleFreeMesh result = remove_handles(mesh, {}, Execution(1));
+  EXPECT_EQ(genus_of(result.mesh), 0);
+  EXPECT_EQ(test::bad_edges(result.mesh), 0U);
+  ASSERT_EQ(result.report.cut.size(), 1U);
+  const CutHandle& cut = result.report.cut[0];
+  // Once round the tube of radius 0.08; along edges it is somewhat longer.
+  EXPECT_NEAR(cut.length, 2.0 * test::pi * 0.08, 0.3 * 2.0 * test::pi * 0.08);
+  EXPECT_GT(bridge(cut.place), 0.0);
+  EXPECT_LT(std::abs(result.report.volume_change), 1e-3);
+  // All that is far from the cut is as it was.
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if ((mesh.points[i] - cut.place).norm() > 0.25) {
+      EXPECT_EQ(result.mesh.points[i], mesh.points[i]);
+    }
+  }
+}
+
+TEST(Handles, ClosesATunnel) {
+  const IndexedMesh mesh = ball_with_a_tunnel();
+  ASSERT_EQ(genus_of(mesh), 1);
+  const HandleFreeMesh result = remove_handles(mesh, {}, Execution(1));
+  EXPECT_EQ(genus_of(result.mesh), 0);
+  ASSERT_EQ(result.report.cut.size(), 1U);
+  EXPECT_NEAR(std::hypot(result.report.cut[0].place.x() + 0.8, result.report.cut[0].place.y()), 0.0,
+              0.05);
+  EXPECT_NEAR(result.report.volume_change, 0.0, 1e-3);
+}
+
+TEST(Handles, PartsTheTwoCaps) {
+  for (const IndexedMesh& mesh : {ball_with_a_bridge(), ball_with_a_tunnel()}) {
+    const HandleFreeMesh result = remove_handles(mesh, {}, Execution(1));
+    EXPECT_EQ(meeting_pairs(result.mesh, result.report.cut[0].place, 0.4), 0);
+  }
+}
+
+TEST(Handles, CutsTheShortestFirst) {
+  const IndexedMesh mesh = body([](const Vector3& p) {
+    const double other = bridge(Vector3(-p.z(), p.x(), p.y()));
+    return std::max({drilled(p), bridge(p), other + 0.03});
+  });
+  ASSERT_EQ(genus_of(mesh), 3);
+  HandleOptions options;
+  options.length_limit = 1.0;
+  const HandleFreeMesh result = remove_handles(mesh, options, Execution(1));
+  EXPECT_EQ(genus_of(result.mesh), 0);
+  ASSERT_EQ(result.report.cut.size(), 3U);
+  EXPECT_LT(result.report.cut[0].length, result.report.cut[1].length);
+  EXPECT_LT(result.report.cut[1].length, result.report.cut[2].length);
+  // The tunnel, the bridge of radius 0.08 and that of 0.11.
+  const auto is_at = [&](std::size_t i, const Vector3& direction, double distance) {
+    return result.report.cut[i].place.dot(direction) > distance;
+  };
+  EXPECT_TRUE(is_at(0, Vector3::UnitX(), 1.0) || is_at(1, Vector3::UnitX(), 1.0));
+  EXPECT_TRUE(is_at(0, -Vector3::UnitX(), 0.7) || is_at(1, -Vector3::UnitX(), 0.7));
+  EXPECT_TRUE(is_at(2, -Vector3::UnitZ(), 1.0));
+}
+
+TEST(Handles, RefusesARingWithAdviceThatWorks) {
+  const IndexedMesh ring = test::torus(1.0, 0.4, 24);
+  const double volume = 2.0 * test::pi * test::pi * 0.16;
+  try {
+    remove_handles(ring, {}, Execution(1));
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    const std::string what = error.what();
+    EXPECT_NE(what.find("Of the scan's 1 handle 0 could be cut"), std::string::npos) << what;
+    EXPECT_NE(what.find("real hole"), std::string::npos) << what;
+    EXPECT_NE(what.find("raise the limit"), std::string::npos) << what;
+  }
+  HandleOptions options;
+  options.length_limit = 1.1 * 2.0 * test::pi * 0.4 / std::cbrt(3.0 * volume / (4.0 * test::pi));
+  const HandleFreeMesh cut = remove_handles(ring, options, Execution(1));
+  EXPECT_EQ(genus_of(cut.mesh), 0);
+  EXPECT_EQ(cut.report.cut.size(), 1U);
+}
+
+TEST(Handles, SaysHowManyAreLeft) {
+  // A thin handle on a ring: the one is cut, the other is the ring's hole.
+  const IndexedMesh ring = body([](const Vector3& p) {
+    const double tube = 0.35 - std::hypot(std::hypot(p.x(), p.z()) - 0.75, p.y());
+    return std::max(tube, bridge(p - Vector3(0.05, 0.0, 0.0)) - 0.03);
+  });
+  ASSERT_EQ(genus_of(ring), 2);
+  try {
+    remove_handles(ring, {}, Execution(1));
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("Of the scan's 2 handles 1 could be cut"), std::string::npos) << what;
+  }
+}
+
+TEST(Handles, LeavesASphereAsItIs) {
+  const IndexedMesh mesh = test::lumpy(3);
+  const HandleFreeMesh result = remove_handles(mesh, {}, Execution(1));
+  EXPECT_EQ(result.mesh.points, mesh.points);
+  EXPECT_EQ(result.mesh.triangles, mesh.triangles);
+  EXPECT_TRUE(result.report.cut.empty());
+  EXPECT_EQ(result.report.volume_change, 0.0);
+}
+
+TEST(Handles, SameBytesOnAnyNumberOfThreads) {
+  const IndexedMesh mesh = ball_with_a_bridge();
+  const HandleFreeMesh one = remove_handles(mesh, {}, Execution(1));
+  const HandleFreeMesh two = remove_handles(mesh, {}, Execution(2));
+  EXPECT_EQ(one.mesh.points, two.mesh.points);
+  EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
+}
+
+TEST(Handles, RefusesWhatItCannotUse) {
+  IndexedMesh open = test::sphere(1);
+  open.triangles.pop_back();
+  EXPECT_THROW(remove_handles(open, {}, Execution(1)), Error);
+  EXPECT_THROW(remove_handles(IndexedMesh{}, {}, Execution(1)), Error);
+  HandleOptions options;
+  options.length_limit = -1.0;
+  EXPECT_THROW(remove_handles(test::sphere(1), options, Execution(1)), Error);
+}
+
+TEST(Handles, StopsWhenAskedTo) {
+  const IndexedMesh mesh = ball_with_a_bridge();
+  try {
+    remove_handles(mesh, {}, Execution(1, [](double, const std::string&) { return false; }));
+    ADD_FAILURE() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
