@@ -112,7 +112,7 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
     check_extension(settings.coefficients_file, {".dat", ".json"}, "CoefficientsFile");
   }
   settings.options = read_node_options(checked);
-  settings.options.placement =
+  settings.options.placement.kind =
       checked.whole("Placement") == 0 ? NodePlacement::FittedSurface : NodePlacement::LeastSquares;
   settings.result.quality = checked.choice<VertexQuality>("Quality");
   request_quality(settings.options, settings.result.quality);

@@ -15,7 +15,7 @@ FilterParameter node_count_parameter() {
 
 FilterParameter sampling_parameter() {
   return choice_parameter(
-      "Sampling", static_cast<int>(RemeshOptions().sampling),
+      "Sampling", static_cast<int>(RemeshOptions().seeding.sampling),
       {"Weighted Voronoi", "Fibonacci lattice", "Equal-angle grid", "Icosahedron"}, "Sampling",
       "Where the directions of the nodes come from. Weighted Voronoi: the method, with the "
       "weighting below. The others are there to be compared with and ignore it: a Fibonacci "
@@ -25,7 +25,7 @@ FilterParameter sampling_parameter() {
 
 FilterParameter weighting_parameter() {
   return choice_parameter(
-      "Weighting", static_cast<int>(RemeshOptions().weighting),
+      "Weighting", static_cast<int>(RemeshOptions().weighting.kind),
       {"Constant", "WSCVT-D (radial distance)", "WSCVT-C (curvature)", "Area", "Error-adaptive"},
       "Weighting",
       "What decides how large the cell of a node is. Constant: equal solid angles. WSCVT-D: "
@@ -36,7 +36,7 @@ FilterParameter weighting_parameter() {
 
 FilterParameter curvature_alpha_parameter() {
   return real_parameter(
-      "CurvatureAlpha", RemeshOptions().curvature_alpha, -3, 3, "Curvature strength alpha",
+      "CurvatureAlpha", RemeshOptions().weighting.curvature_alpha, -3, 3, "Curvature strength alpha",
       "Strength of the curvature weighting (WSCVT-C only), -3 to 3, no unit. 0 ignores "
       "curvature, larger gathers more nodes at edges and corners, negative keeps them away.");
 }
@@ -51,7 +51,7 @@ FilterParameter metric_parameter() {
 
 FilterParameter seed_start_parameter() {
   return choice_parameter(
-      "SeedStart", static_cast<int>(RemeshOptions().seed_start),
+      "SeedStart", static_cast<int>(RemeshOptions().seeding.start),
       {"Multilevel", "Warped lattice", "Random"}, "Start from",
       "Multilevel: a few hundred nodes are relaxed, subdivided and relaxed again; fastest "
       "and most even. Warped lattice: all nodes in a Fibonacci lattice adapted to the "
@@ -59,7 +59,7 @@ FilterParameter seed_start_parameter() {
 }
 
 FilterParameter random_seed_parameter() {
-  return integer_parameter("RandomSeed", static_cast<int>(RemeshOptions().random_seed), 0,
+  return integer_parameter("RandomSeed", static_cast<int>(RemeshOptions().seeding.random_seed), 0,
                            std::numeric_limits<int>::max(), "Random seed",
                            "Start of the random directions, 0 to 2147483647; has no effect unless "
                            "the start is random. The same seed gives the same mesh.");
@@ -81,12 +81,12 @@ FilterParameter colour_by_quality_parameter() {
 RemeshOptions read_node_options(const CheckedValues& values) {
   RemeshOptions options;
   options.node_count = values.whole("NodeCount");
-  options.sampling = values.choice<Sampling>("Sampling");
-  options.weighting = values.choice<Weighting>("Weighting");
-  options.curvature_alpha = values.real("CurvatureAlpha");
+  options.seeding.sampling = values.choice<Sampling>("Sampling");
+  options.weighting.kind = values.choice<Weighting>("Weighting");
+  options.weighting.curvature_alpha = values.real("CurvatureAlpha");
   options.relaxation.metric = values.choice<RelaxationMetric>("Metric");
-  options.seed_start = values.choice<SeedStart>("SeedStart");
-  options.random_seed = static_cast<std::uint64_t>(values.whole("RandomSeed"));
+  options.seeding.start = values.choice<SeedStart>("SeedStart");
+  options.seeding.random_seed = static_cast<std::uint64_t>(values.whole("RandomSeed"));
   options.relaxation.maximum_iterations = values.whole("MaxIterations");
   return options;
 }
@@ -96,8 +96,8 @@ std::vector<std::string> quality_names() {
 }
 
 void request_quality(RemeshOptions& options, VertexQuality quality) {
-  if (quality == VertexQuality::Curvature) options.node_curvatures = true;
-  if (quality == VertexQuality::OriginalDistance) options.distances = true;
+  if (quality == VertexQuality::Curvature) options.measures.node_curvatures = true;
+  if (quality == VertexQuality::OriginalDistance) options.measures.distances = true;
 }
 
 const std::vector<double>& quality_values(const RemeshResult& result, VertexQuality quality) {
@@ -115,7 +115,7 @@ const std::vector<double>& quality_values(const RemeshResult& result, VertexQual
 }
 
 std::string nodes_name(const RemeshOptions& options) {
-  switch (options.sampling) {
+  switch (options.seeding.sampling) {
     case Sampling::Fibonacci:
       return "Fibonacci";
     case Sampling::EqualAngle:
@@ -125,7 +125,7 @@ std::string nodes_name(const RemeshOptions& options) {
     case Sampling::Weighted:
       break;
   }
-  switch (options.weighting) {
+  switch (options.weighting.kind) {
     case Weighting::Constant:
       return "Constant";
     case Weighting::RadialDistance:

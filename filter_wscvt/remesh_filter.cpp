@@ -29,12 +29,12 @@ ParameterList remesh_parameters() {
   return {
       node_count_parameter(),
       real_parameter(
-          "ErrorTarget", defaults.error_target.percent, 0, 100, "Error target (%)",
+          "ErrorTarget", defaults.target.percent, 0, 100, "Error target (%)",
           "0: the number of nodes counts. Above, up to 100: the smallest number of "
           "nodes whose error is at most this many % is looked for, from the number of "
           "nodes given and up to 20000, or that number if it is larger; the log says what "
           "each number tried cost. Takes about ten times as long."),
-      choice_parameter("TargetMeasure", static_cast<int>(defaults.error_target.measure),
+      choice_parameter("TargetMeasure", static_cast<int>(defaults.target.measure),
                        {"Volume", "Area", "Sphericity", "Inertia", "RMS distance"},
                        "Error target is of the",
                        "Which error the target limits, each in % of the original's own: volume, "
@@ -43,31 +43,31 @@ ParameterList remesh_parameters() {
       sampling_parameter(),
       weighting_parameter(),
       integer_parameter(
-          "HarmonicDegree", defaults.degree, 1, 60, "Harmonic degree",
+          "HarmonicDegree", defaults.surface.degree, 1, 60, "Harmonic degree",
           "Degree of the spherical-harmonic series fitted to the surface, 1 to 60. 20 suits "
           "most grains, 30 rough ones; lower smooths. Lowered, with a line in the log, when the "
           "mesh has too few points to carry it."),
       curvature_alpha_parameter(),
       choice_parameter(
-          "CurvatureSource", static_cast<int>(defaults.curvature_source),
+          "CurvatureSource", static_cast<int>(defaults.weighting.curvature_source),
           {"Harmonic series", "Quadrics on the scan"}, "Curvature from",
           "Where WSCVT-C takes the curvature from. Harmonic series: exact derivatives "
           "of the fitted surface. Quadrics on the scan: a quadric fitted around each "
           "vertex of the scan over two rings, as in the paper; follows its noise too."),
       choice_parameter(
-          "Placement", static_cast<int>(defaults.placement),
+          "Placement", static_cast<int>(defaults.placement.kind),
           {"Fitted surface", "Original mesh", "Least squares (volume exact)"}, "Place nodes",
           "Fitted surface: on the harmonic series, which is free of scanning noise. Original "
           "mesh: on the scan itself, with its noise, where rays from the centroid leave it. Least "
           "squares: off the surface, so that the triangles fit the scan best and enclose exactly "
           "its volume."),
-      integer_parameter("RefinementRounds", defaults.refinement.rounds, 0, 1000,
+      integer_parameter("RefinementRounds", defaults.placement.refinement.rounds, 0, 1000,
                         "Rounds of refinement",
                         "After a least-squares placement, 0 to 1000: at most so many rounds of "
                         "moving nodes, flipping edges and taking nodes to where they help most, "
                         "all towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
       real_parameter(
-          "FoldLimit", 100.0 * defaults.fold_limit, 0, 99, "Fold limit (%)",
+          "FoldLimit", 100.0 * defaults.surface.fold_limit, 0, 99, "Fold limit (%)",
           "Where the surface folds, a ray from the centroid meets more than one sheet. Largest "
           "solid "
           "angle that all sheets beyond the first may fill together, in % of the whole sphere, 0 "
@@ -81,7 +81,7 @@ ParameterList remesh_parameters() {
           "NewLayer", true, "Result as a new layer",
           "Checked: the scan is kept and the result becomes a new, current layer. Unchecked: the "
           "result replaces the scan, which cannot be undone."),
-      flag_parameter("Distances", defaults.distances, "Measure distances",
+      flag_parameter("Distances", defaults.measures.distances, "Measure distances",
                      "Measures the one- and two-sided Hausdorff, rms and mean distance between "
                      "result and original, for the log and the report; takes about a second."),
       choice_parameter(
@@ -104,16 +104,16 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   RemeshSettings settings;
   RemeshOptions& options = settings.options;
   options = read_node_options(checked);
-  options.error_target.percent = checked.real("ErrorTarget");
-  options.error_target.measure = checked.choice<ErrorMeasure>("TargetMeasure");
-  options.error_target.largest_node_count =
-      std::max(options.error_target.largest_node_count, options.node_count);
-  options.degree = checked.whole("HarmonicDegree");
-  options.curvature_source = checked.choice<CurvatureSource>("CurvatureSource");
-  options.placement = checked.choice<NodePlacement>("Placement");
-  options.refinement.rounds = checked.whole("RefinementRounds");
-  options.fold_limit = checked.real("FoldLimit") / 100.0;
-  options.distances = checked.flag("Distances");
+  options.target.percent = checked.real("ErrorTarget");
+  options.target.measure = checked.choice<ErrorMeasure>("TargetMeasure");
+  options.target.largest_node_count =
+      std::max(options.target.largest_node_count, options.node_count);
+  options.surface.degree = checked.whole("HarmonicDegree");
+  options.weighting.curvature_source = checked.choice<CurvatureSource>("CurvatureSource");
+  options.placement.kind = checked.choice<NodePlacement>("Placement");
+  options.placement.refinement.rounds = checked.whole("RefinementRounds");
+  options.surface.fold_limit = checked.real("FoldLimit") / 100.0;
+  options.measures.distances = checked.flag("Distances");
   settings.new_layer = checked.flag("NewLayer");
   settings.result.quality = checked.choice<VertexQuality>("Quality");
   request_quality(options, settings.result.quality);

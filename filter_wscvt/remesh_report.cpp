@@ -30,8 +30,8 @@ std::string quality_line(const RemeshResult& result, VertexQuality quality) {
 }
 
 std::string seed_line(const RemeshOptions& options) {
-  return options.seed_start == SeedStart::Random
-             ? "Seed        " + std::to_string(options.random_seed)
+  return options.seeding.start == SeedStart::Random
+             ? "Seed        " + std::to_string(options.seeding.random_seed)
              : "Seed        not used: nothing was random";
 }
 
@@ -51,7 +51,7 @@ std::vector<std::string> log_lines(const RemeshResult& result, VertexQuality qua
 namespace {
 
 std::string html_report(const RemeshResult& result, IndexedMesh original) {
-  HtmlReport report("Remesh with " + std::to_string(result.mesh.n_vertices()) + " nodes");
+  HtmlReport report("Remesh with " + std::to_string(result.mesh.points.size()) + " nodes");
   for (const std::string& warning : result.warnings) report.add_paragraph(warning);
   report.add_table(
       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh)),
@@ -62,7 +62,7 @@ std::string html_report(const RemeshResult& result, IndexedMesh original) {
   if (!original.triangles.empty()) {
     original = check_mesh(std::move(original), result.options.check, Execution()).mesh;
   }
-  report.add_histograms(original, to_indexed(result.mesh), ComparisonNames());
+  report.add_histograms(original, result.mesh, ComparisonNames());
   report.add_lines("Everything", report_lines(result));
   return report.text();
 }

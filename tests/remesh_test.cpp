@@ -17,6 +17,7 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/report/remesh_warnings.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -35,14 +36,14 @@ RemeshOptions options_of(int nodes, Weighting weighting,
                          RelaxationMetric metric = RelaxationMetric::Sphere) {
   RemeshOptions options;
   options.node_count = nodes;
-  options.weighting = weighting;
+  options.weighting.kind = weighting;
   options.relaxation.metric = metric;
   return options;
 }
 
 // Closed, oriented outward, 2-manifold, star-shaped about the centre, of genus 0.
 void expect_promises(const RemeshResult& result, int nodes) {
-  const IndexedMesh mesh = to_indexed(result.mesh);
+  const IndexedMesh& mesh = result.mesh;
   ASSERT_EQ(mesh.points.size(), static_cast<std::size_t>(nodes));
   ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(2 * nodes - 4));
   std::map<std::pair<std::int32_t, std::int32_t>, int> directed;
@@ -95,8 +96,8 @@ TEST(Remesh, EveryStartAndPlacementKeepsThePromises) {
     for (const auto placement : {NodePlacement::FittedSurface, NodePlacement::OriginalMesh}) {
       for (const int nodes : {4, 5, 300}) {
         RemeshOptions options = options_of(nodes, Weighting::Area);
-        options.seed_start = start;
-        options.placement = placement;
+        options.seeding.start = start;
+        options.placement.kind = placement;
         expect_promises(remesh(sand(), options, Execution(1)), nodes);
       }
     }
@@ -105,9 +106,9 @@ TEST(Remesh, EveryStartAndPlacementKeepsThePromises) {
 
 TEST(Remesh, NodesOnTheOriginalMeshLieOnIt) {
   RemeshOptions options = options_of(200, Weighting::Area);
-  options.placement = NodePlacement::OriginalMesh;
+  options.placement.kind = NodePlacement::OriginalMesh;
   const RemeshResult result = remesh(sand(), options, Execution(1));
-  const IndexedMesh mesh = to_indexed(result.mesh);
+  const IndexedMesh& mesh = result.mesh;
   for (const Vector3& p : mesh.points) {
     double nearest_plane = std::numeric_limits<double>::infinity();
     for (const Triangle& t : sand().triangles) {
@@ -158,7 +159,7 @@ TEST(Remesh, RotatedScanGivesTheSameDescriptors) {
 
 TEST(Remesh, FarAwayOrTinyGrainsGiveTheSameMesh) {
   const RemeshResult near = remesh(sand(), options_of(400, Weighting::Curvature), Execution(1));
-  const IndexedMesh reference = to_indexed(near.mesh);
+  const IndexedMesh& reference = near.mesh;
   struct Placement {
     double size;
     Vector3 offset;
@@ -169,7 +170,7 @@ TEST(Remesh, FarAwayOrTinyGrainsGiveTheSameMesh) {
     IndexedMesh moved = sand();
     for (Vector3& p : moved.points) p = placement.offset + placement.size * p;
     const RemeshResult result = remesh(moved, options_of(400, Weighting::Curvature), Execution(1));
-    const IndexedMesh mesh = to_indexed(result.mesh);
+    const IndexedMesh& mesh = result.mesh;
     EXPECT_EQ(mesh.triangles, reference.triangles);
     // Coordinates of size 1e6 carry 1e-10; the relaxation may amplify that.
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -197,19 +198,19 @@ TEST(Remesh, ShuffledVerticesAndFacesGiveTheSameTriangulation) {
   const RemeshResult a = remesh(sand(), options_of(1000, Weighting::RadialDistance), Execution(1));
   const RemeshResult b =
       remesh(shuffled, options_of(1000, Weighting::RadialDistance), Execution(1));
-  EXPECT_EQ(to_indexed(a.mesh).triangles, to_indexed(b.mesh).triangles);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
 }
 
 void expect_same_bytes_on_two_threads(int nodes, Weighting weighting, RelaxationMetric metric) {
   SCOPED_TRACE(testing::Message() << nodes << " nodes, weighting " << static_cast<int>(weighting)
                                   << ", metric " << static_cast<int>(metric));
   RemeshOptions options = options_of(nodes, weighting, metric);
-  options.placement = NodePlacement::OriginalMesh;
-  options.node_curvatures = true;
+  options.placement.kind = NodePlacement::OriginalMesh;
+  options.measures.node_curvatures = true;
   const RemeshResult one = remesh(sand(), options, Execution(1));
   const RemeshResult two = remesh(sand(), options, Execution(2));
-  EXPECT_EQ(to_indexed(one.mesh).points, to_indexed(two.mesh).points);
-  EXPECT_EQ(to_indexed(one.mesh).triangles, to_indexed(two.mesh).triangles);
+  EXPECT_EQ(one.mesh.points, two.mesh.points);
+  EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
   EXPECT_EQ(one.directions, two.directions);
   EXPECT_EQ(one.cell_areas, two.cell_areas);
   EXPECT_EQ(one.coefficients, two.coefficients);
@@ -247,9 +248,9 @@ TEST(Remesh, CellAreasAddUpToTheSurface) {
 
 TEST(Remesh, CurvatureWeightingPutsMoreNodesWhereCurvatureIsHigh) {
   RemeshOptions options = options_of(1000, Weighting::Curvature);
-  options.node_curvatures = true;
+  options.measures.node_curvatures = true;
   RemeshOptions constant = options_of(1000, Weighting::Constant);
-  constant.node_curvatures = true;
+  constant.measures.node_curvatures = true;
   const auto median = [](std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + 500, values.end());
     return values[500];
@@ -378,21 +379,21 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
   };
   refused([](RemeshOptions& o) { o.node_count = 3; }, "from 4 to");
   refused([](RemeshOptions& o) { o.node_count = maximum_node_count + 1; }, "from 4 to");
-  refused([](RemeshOptions& o) { o.degree = 0; }, "from 1 to 60");
-  refused([](RemeshOptions& o) { o.degree = 61; }, "from 1 to 60");
-  refused([](RemeshOptions& o) { o.fold_limit = 1.0; }, "less than 100 %");
-  refused([](RemeshOptions& o) { o.fold_limit = std::nan(""); }, "less than 100 %");
-  refused([](RemeshOptions& o) { o.curvature_alpha = 4.0; }, "from -3 to 3");
-  refused([](RemeshOptions& o) { o.adaptive_exponent = 2.0; }, "from 0 to 1.5");
-  refused([](RemeshOptions& o) { o.weighting = static_cast<Weighting>(17); }, "weighting");
-  refused([](RemeshOptions& o) { o.seed_start = static_cast<SeedStart>(-1); }, "start");
-  refused([](RemeshOptions& o) { o.placement = static_cast<NodePlacement>(9); }, "placement");
+  refused([](RemeshOptions& o) { o.surface.degree = 0; }, "from 1 to 60");
+  refused([](RemeshOptions& o) { o.surface.degree = 61; }, "from 1 to 60");
+  refused([](RemeshOptions& o) { o.surface.fold_limit = 1.0; }, "less than 100 %");
+  refused([](RemeshOptions& o) { o.surface.fold_limit = std::nan(""); }, "less than 100 %");
+  refused([](RemeshOptions& o) { o.weighting.curvature_alpha = 4.0; }, "from -3 to 3");
+  refused([](RemeshOptions& o) { o.weighting.adaptive_exponent = 2.0; }, "from 0 to 1.5");
+  refused([](RemeshOptions& o) { o.weighting.kind = static_cast<Weighting>(17); }, "weighting");
+  refused([](RemeshOptions& o) { o.seeding.start = static_cast<SeedStart>(-1); }, "start");
+  refused([](RemeshOptions& o) { o.placement.kind = static_cast<NodePlacement>(9); }, "placement");
   refused([](RemeshOptions& o) { o.levels.coarsest_seeds = 1; }, "coarsest level");
-  refused([](RemeshOptions& o) { o.distance_sampling.samples = 0; }, "distance samples");
+  refused([](RemeshOptions& o) { o.measures.distance_sampling.samples = 0; }, "distance samples");
   refused(
       [](RemeshOptions& o) {
-        o.sampling = Sampling::Icosahedron;
-        o.error_target.percent = 1.0;
+        o.seeding.sampling = Sampling::Icosahedron;
+        o.target.percent = 1.0;
       },
       "any number of nodes");
   refused([](RemeshOptions& o) { o.levels.middle_tolerance = 0.0; }, "tolerances");
@@ -430,7 +431,7 @@ TEST(Remesh, RefusesAFoldAboveTheLimit) {
 
 TEST(Remesh, AFoldUnderTheLimitIsRemeshedWithAWarning) {
   RemeshOptions options = options_of(200, Weighting::Area);
-  options.fold_limit = 0.6;
+  options.surface.fold_limit = 0.6;
   const RemeshResult bowl = remesh(mushroom(), options, Execution(1));
   expect_promises(bowl, 200);
   EXPECT_GT(bowl.folded_share, fold_warning_limit);
@@ -441,7 +442,7 @@ TEST(Remesh, AFoldUnderTheLimitIsRemeshedWithAWarning) {
   const RemeshResult bent = remesh(bent_rod(), options_of(200, Weighting::Area), Execution(1));
   expect_promises(bent, 200);
   EXPECT_GT(bent.folded_share, fold_warning_limit);
-  EXPECT_LT(bent.folded_share, RemeshOptions().fold_limit);
+  EXPECT_LT(bent.folded_share, RemeshOptions().surface.fold_limit);
   EXPECT_TRUE(warns_of(bent, "folds over itself"));
   EXPECT_FALSE(warns_of(remesh(sand(), options_of(200, Weighting::Area), Execution(1)), "fold"));
 }
@@ -464,7 +465,7 @@ TEST(Remesh, ASmallSecondPartIsLeftOutWithAWarning) {
   EXPECT_EQ(result.input.components, 2U);
   EXPECT_TRUE(warns_of(result, "2 separate parts"));
   EXPECT_FALSE(warns_of(alone, "parts"));
-  EXPECT_EQ(to_indexed(result.mesh).points, to_indexed(alone.mesh).points);
+  EXPECT_EQ(result.mesh.points, alone.mesh.points);
 }
 
 TEST(Remesh, AHandleIsClosedWithAWarning) {
@@ -499,13 +500,13 @@ TEST(Remesh, CurvatureFromTheQuadricFitGivesNearlyTheCellsOfTheSeries) {
   scan = test::scaled(std::move(scan), Vector3(1.3, 1.0, 0.8));
   RemeshOptions options = options_of(1000, Weighting::Curvature);
   const RemeshResult series = remesh(scan, options, Execution(1));
-  options.curvature_source = CurvatureSource::QuadricFit;
+  options.weighting.curvature_source = CurvatureSource::QuadricFit;
   const RemeshResult fit = remesh(scan, options, Execution(1));
   const RemeshResult even = remesh(scan, options_of(1000, Weighting::Constant), Execution(1));
   expect_promises(fit, 1000);
   EXPECT_NE(report_json(fit).find("quadric fit"), std::string::npos);
   EXPECT_EQ(report_json(series).find("quadric fit"), std::string::npos);
-  EXPECT_NE(to_indexed(fit.mesh).points, to_indexed(series.mesh).points);
+  EXPECT_NE(fit.mesh.points, series.mesh.points);
 
   // Nodes of the two need not correspond, so the sorted areas are compared, as relative rms.
   const auto difference = [](std::vector<double> a, std::vector<double> b) {
@@ -570,12 +571,12 @@ TEST(Remesh, CoefficientsOfARemeshGiveTheSameSurfaceAgain) {
 TEST(Remesh, SamplingsOfFigure1AreTriangulatedTheSameWay) {
   const auto nodes_of = [](Sampling sampling, int nodes, std::size_t warnings) {
     RemeshOptions options = options_of(nodes, Weighting::Area, RelaxationMetric::Surface);
-    options.sampling = sampling;
+    options.seeding.sampling = sampling;
     const RemeshResult result = remesh(sand(), options, Execution(1));
-    expect_promises(result, static_cast<int>(result.mesh.n_vertices()));
+    expect_promises(result, static_cast<int>(result.mesh.points.size()));
     EXPECT_EQ(result.warnings.size(), warnings);
     EXPECT_EQ(result.relaxation.iterations, 0);
-    return result.mesh.n_vertices();
+    return result.mesh.points.size();
   };
   EXPECT_EQ(nodes_of(Sampling::Fibonacci, 1000, 0), 1000U);
   EXPECT_EQ(nodes_of(Sampling::EqualAngle, 1000, 1), 1014U);
@@ -595,21 +596,22 @@ TEST(Remesh, PointsWithoutFacesAreFitted) {
   EXPECT_NEAR(cloud.remesh.area / scan.remesh.area, 1.0, 5e-3);
 }
 
-TEST(Remesh, OpenMeshOverloadGivesTheSame) {
+TEST(Remesh, HalfEdgeMeshesGoInAndOut) {
   const RemeshResult flat = remesh(sand(), options_of(200, Weighting::Area), Execution(1));
   const RemeshResult half_edges =
-      remesh(to_mesh(sand()), options_of(200, Weighting::Area), Execution(1));
-  EXPECT_EQ(to_indexed(flat.mesh).points, to_indexed(half_edges.mesh).points);
+      remesh(to_indexed(to_mesh(sand())), options_of(200, Weighting::Area), Execution(1));
+  EXPECT_EQ(flat.mesh.points, half_edges.mesh.points);
+  EXPECT_EQ(to_mesh(half_edges.mesh).n_vertices(), 200U);
 }
 
 // ---- nodes off the surface
 
 RemeshOptions fitted_options(int nodes, int rounds = 0) {
   RemeshOptions options = options_of(nodes, Weighting::ErrorAdaptive);
-  options.placement = NodePlacement::LeastSquares;
-  options.refinement.rounds = rounds;
-  options.distances = true;
-  options.distance_sampling.samples = 10000;
+  options.placement.kind = NodePlacement::LeastSquares;
+  options.placement.refinement.rounds = rounds;
+  options.measures.distances = true;
+  options.measures.distance_sampling.samples = 10000;
   return options;
 }
 
@@ -617,7 +619,7 @@ TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
   for (const int nodes : {4, 8, 10, 12, 60, 400}) {
     SCOPED_TRACE(nodes);
     RemeshOptions on_surface = fitted_options(nodes);
-    on_surface.placement = NodePlacement::OriginalMesh;
+    on_surface.placement.kind = NodePlacement::OriginalMesh;
     const RemeshResult on = remesh(sand(), on_surface, Execution(1));
     const RemeshResult fitted = remesh(sand(), fitted_options(nodes), Execution(1));
     const RemeshResult refined = remesh(sand(), fitted_options(nodes, 20), Execution(1));
@@ -683,15 +685,15 @@ TEST(RemeshLeastSquares, FollowsTheScanWhereverAndHoweverLargeItIs) {
 TEST(RemeshLeastSquares, SameBytesOnAnyNumberOfThreads) {
   const RemeshResult a = remesh(sand(), fitted_options(200, 5), Execution(1));
   const RemeshResult b = remesh(sand(), fitted_options(200, 5), Execution(3));
-  EXPECT_EQ(to_indexed(a.mesh).points, to_indexed(b.mesh).points);
-  EXPECT_EQ(to_indexed(a.mesh).triangles, to_indexed(b.mesh).triangles);
+  EXPECT_EQ(a.mesh.points, b.mesh.points);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
   EXPECT_EQ(a.vertex_distances, b.vertex_distances);
 }
 
 TEST(RemeshLeastSquares, RefinementNeedsIt) {
   RemeshOptions options = options_of(100, Weighting::RadialDistance);
-  options.placement = NodePlacement::FittedSurface;
-  options.refinement.rounds = 1;
+  options.placement.kind = NodePlacement::FittedSurface;
+  options.placement.refinement.rounds = 1;
   EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
 }
 
@@ -711,21 +713,21 @@ TEST(RemeshDistances, AreThereOnDemandOnly) {
 
 TEST(RemeshErrorTarget, FindsTheSmallestCountThatMeetsIt) {
   RemeshOptions options = fitted_options(200);
-  options.distances = false;
-  options.error_target.measure = ErrorMeasure::Distance;
-  options.error_target.percent = 1.0;
+  options.measures.distances = false;
+  options.target.measure = ErrorMeasure::Distance;
+  options.target.percent = 1.0;
   const RemeshResult result = remesh(sand(), options, Execution(1));
   ASSERT_TRUE(result.search.has_value());
   EXPECT_TRUE(result.search->met);
-  EXPECT_EQ(static_cast<int>(result.mesh.n_vertices()), result.search->node_count);
+  EXPECT_EQ(static_cast<int>(result.mesh.points.size()), result.search->node_count);
   expect_promises(result, result.search->node_count);
   EXPECT_LE(error_percent(result, ErrorMeasure::Distance), 1.0);
   EXPECT_EQ(result.options.node_count, result.search->node_count);
   // With a tenth fewer nodes the target is missed: errors go with 1 / N and waver by a few per
   // cent.
   RemeshOptions fewer = options;
-  fewer.error_target.percent = 0.0;
-  fewer.distances = true;
+  fewer.target.percent = 0.0;
+  fewer.measures.distances = true;
   fewer.node_count = result.search->node_count * 9 / 10;
   EXPECT_GT(error_percent(remesh(sand(), fewer, Execution(1)), ErrorMeasure::Distance), 1.0);
 }
@@ -735,10 +737,10 @@ TEST(RemeshErrorTarget, EveryMeasureCanBeATarget) {
                              ErrorMeasure::Inertia}) {
     SCOPED_TRACE(static_cast<int>(measure));
     RemeshOptions options = options_of(100, Weighting::RadialDistance);
-    options.placement = NodePlacement::FittedSurface;
-    options.error_target.measure = measure;
-    options.error_target.percent = 5.0;
-    options.error_target.largest_node_count = 3000;
+    options.placement.kind = NodePlacement::FittedSurface;
+    options.target.measure = measure;
+    options.target.percent = 5.0;
+    options.target.largest_node_count = 3000;
     const RemeshResult result = remesh(sand(), options, Execution(1));
     EXPECT_TRUE(result.search->met);
     EXPECT_LE(error_percent(result, measure), 5.0);
@@ -747,21 +749,21 @@ TEST(RemeshErrorTarget, EveryMeasureCanBeATarget) {
 
 TEST(RemeshErrorTarget, SaysSoWhenTheLimitIsTooLow) {
   RemeshOptions options = fitted_options(50);
-  options.error_target.percent = 0.01;
-  options.error_target.largest_node_count = 80;
+  options.target.percent = 0.01;
+  options.target.largest_node_count = 80;
   const RemeshResult result = remesh(sand(), options, Execution(1));
   EXPECT_FALSE(result.search->met);
-  EXPECT_EQ(result.mesh.n_vertices(), 80U);
+  EXPECT_EQ(result.mesh.points.size(), 80U);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_NE(result.warnings.back().find("error target"), std::string::npos);
 }
 
 TEST(RemeshErrorTarget, RefusesTargetsThatMakeNoSense) {
   RemeshOptions options = fitted_options(50);
-  options.error_target.percent = -1.0;
+  options.target.percent = -1.0;
   EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
-  options.error_target.percent = 1.0;
-  options.error_target.largest_node_count = 3;
+  options.target.percent = 1.0;
+  options.target.largest_node_count = 3;
   EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
 }
 

@@ -135,7 +135,7 @@ void fill_layer(MeshModel& layer, const wscvt::RemeshResult& result,
                    MeshModel::MM_TRANSFMATRIX;
   layer.clearDataMask(~kept);
   const std::vector<double>& quality = quality_values(result, settings.quality);
-  assign(layer.cm, wscvt::to_indexed(result.mesh), quality);
+  assign(layer.cm, result.mesh, quality);
   layer.cm.svn = 0;
   layer.cm.sfn = 0;
   layer.updateDataMask(result_mask);
@@ -158,7 +158,7 @@ void add_layer(MeshDocument& document, const QString& name, const MeshModel* sou
   // One call for all: a name may hold %1 itself.
   const QString label = QStringLiteral("%1 %2 %3")
                             .arg(name, QString::fromStdString(nodes_name(result.options)),
-                                 QString::number(result.mesh.n_vertices()));
+                                 QString::number(result.mesh.points.size()));
   MeshModel* layer = document.addNewMesh(QString(), label, true);
   try {
     if (source != nullptr) layer->cm.Tr = source->cm.Tr;

@@ -38,7 +38,7 @@ int run(int argc, char** argv) {
       {"curvature", wscvt::Weighting::Curvature},
       {"area", wscvt::Weighting::Area},
       {"error-adaptive", wscvt::Weighting::ErrorAdaptive}};
-  app.add_option("-w,--weighting", options.weighting, "What a node's cell size follows")
+  app.add_option("-w,--weighting", options.weighting.kind, "What a node's cell size follows")
       ->transform(CLI::CheckedTransformer(weightings))
       ->default_str("radial-distance");
   const std::map<std::string, wscvt::RelaxationMetric> metrics = {
@@ -50,11 +50,11 @@ int run(int argc, char** argv) {
       {"fitted", wscvt::NodePlacement::FittedSurface},
       {"original", wscvt::NodePlacement::OriginalMesh},
       {"least-squares", wscvt::NodePlacement::LeastSquares}};
-  app.add_option("-p,--placement", options.placement,
+  app.add_option("-p,--placement", options.placement.kind,
                  "Nodes on the fitted series, on the scan, or where the triangles fit the scan")
       ->transform(CLI::CheckedTransformer(placements))
       ->default_str("fitted");
-  app.add_option("-r,--refine", options.refinement.rounds,
+  app.add_option("-r,--refine", options.placement.refinement.rounds,
                  "Rounds of refinement towards the scan, 0 for none; needs least-squares")
       ->capture_default_str();
   const std::map<std::string, wscvt::ErrorMeasure> measures = {
@@ -63,36 +63,36 @@ int run(int argc, char** argv) {
       {"sphericity", wscvt::ErrorMeasure::Sphericity},
       {"inertia", wscvt::ErrorMeasure::Inertia},
       {"distance", wscvt::ErrorMeasure::Distance}};
-  app.add_option("--target", options.error_target.percent,
+  app.add_option("--target", options.target.percent,
                  "Find the smallest number of nodes with an error of at most this many %")
       ->check(CLI::PositiveNumber);
-  app.add_option("--target-measure", options.error_target.measure, "Which error the target limits")
+  app.add_option("--target-measure", options.target.measure, "Which error the target limits")
       ->transform(CLI::CheckedTransformer(measures))
       ->default_str("distance");
-  app.add_option("--largest", options.error_target.largest_node_count,
+  app.add_option("--largest", options.target.largest_node_count,
                  "Largest number of nodes the target may take")
       ->capture_default_str();
-  app.add_flag("--distances", options.distances, "Measure the distances to the scan");
+  app.add_flag("--distances", options.measures.distances, "Measure the distances to the scan");
   const std::map<std::string, wscvt::Sampling> samplings = {
       {"weighted", wscvt::Sampling::Weighted},
       {"fibonacci", wscvt::Sampling::Fibonacci},
       {"equal-angle", wscvt::Sampling::EqualAngle},
       {"icosahedron", wscvt::Sampling::Icosahedron}};
-  app.add_option("-s,--sampling", options.sampling, "How the nodes' directions are chosen")
+  app.add_option("-s,--sampling", options.seeding.sampling, "How the nodes' directions are chosen")
       ->transform(CLI::CheckedTransformer(samplings))
       ->default_str("weighted");
-  app.add_option("-d,--degree", options.degree, "Degree of the harmonic series, 1 to 60")
+  app.add_option("-d,--degree", options.surface.degree, "Degree of the harmonic series, 1 to 60")
       ->capture_default_str();
-  app.add_option("-a,--alpha", options.curvature_alpha,
+  app.add_option("-a,--alpha", options.weighting.curvature_alpha,
                  "Exponent of the curvature weighting, -3 to 3")
       ->capture_default_str();
   const std::map<std::string, wscvt::CurvatureSource> curvature_sources = {
       {"series", wscvt::CurvatureSource::Series}, {"quadrics", wscvt::CurvatureSource::QuadricFit}};
-  app.add_option("--curvature-source", options.curvature_source,
+  app.add_option("--curvature-source", options.weighting.curvature_source,
                  "Curvature of the fitted series, or of quadrics fitted to the scan")
       ->transform(CLI::CheckedTransformer(curvature_sources))
       ->default_str("series");
-  app.add_option("--adaptive-exponent", options.adaptive_exponent,
+  app.add_option("--adaptive-exponent", options.weighting.adaptive_exponent,
                  "Curvature exponent of the error-adaptive weighting, 0 to 1.5")
       ->capture_default_str();
   app.add_option("-i,--iterations", options.relaxation.maximum_iterations,
@@ -101,7 +101,7 @@ int run(int argc, char** argv) {
   app.add_option("--tolerance", options.relaxation.displacement_tolerance,
                  "Relaxation stops below this rms displacement / cell size")
       ->capture_default_str();
-  app.add_option("--fold-limit", options.fold_limit,
+  app.add_option("--fold-limit", options.surface.fold_limit,
                  "Largest solid angle of sheets beyond the first / 4 pi, 0 to 1")
       ->capture_default_str();
   app.add_option("-t,--threads", threads, "Number of threads, 0 for all")->capture_default_str();
@@ -126,7 +126,7 @@ int run(int argc, char** argv) {
 
   const wscvt::RemeshResult result =
       wscvt::remesh(wscvt::read_mesh(input), options, wscvt::Execution(threads));
-  wscvt::write_mesh(wscvt::to_indexed(result.mesh), output);
+  wscvt::write_mesh(result.mesh, output);
   if (!json.empty()) wscvt::write_file(json, wscvt::report_json(result));
   if (!coefficients.empty()) {
     wscvt::write_harmonics(coefficients, wscvt::HarmonicSurface(result.coefficients));

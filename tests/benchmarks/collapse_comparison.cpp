@@ -97,10 +97,10 @@ IndexedMesh remeshed(const IndexedMesh& scan, int nodes, Weighting weighting,
                      NodePlacement placement, int rounds) {
   RemeshOptions options;
   options.node_count = nodes;
-  options.weighting = weighting;
-  options.placement = placement;
-  options.refinement.rounds = rounds;
-  return to_indexed(remesh(scan, options).mesh);
+  options.weighting.kind = weighting;
+  options.placement.kind = placement;
+  options.placement.refinement.rounds = rounds;
+  return remesh(scan, options).mesh;
 }
 
 struct Method {

@@ -45,9 +45,8 @@ const HarmonicSurface& surface() {
 
 SurfaceSeedModel model_of(int nodes, const Execution& execution) {
   WeightingOptions options;
-  options.weighting = Weighting::Area;
-  options.node_count = nodes;
-  return {surface(), options, nullptr, execution};
+  options.kind = Weighting::Area;
+  return {surface(), options, nodes, nullptr, execution};
 }
 
 void count(benchmark::State& state, std::int64_t items) {
@@ -244,7 +243,7 @@ void measure_to_scan(benchmark::State& state) {
 
 void whole(benchmark::State& state) {
   RemeshOptions options;
-  options.weighting = Weighting::Area;
+  options.kind = Weighting::Area;
   options.node_count = static_cast<int>(state.range(1));
   const Execution execution(static_cast<int>(state.range(2)));
   const IndexedMesh& scan = scan_of(state.range(0));

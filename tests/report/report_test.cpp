@@ -20,7 +20,7 @@ RemeshResult example() {
   const IndexedMesh scan = test::sphere(5);
   const IndexedMesh coarse = test::sphere(3);
   RemeshResult result;
-  result.mesh = to_mesh(coarse);
+  result.mesh = coarse;
   result.original = describe_shape(scan, execution);
   result.remesh = describe_shape(coarse, execution);
   result.original_quality = measure_quality(scan);
@@ -118,14 +118,14 @@ TEST(Report, TextNamesSeedAndExponentsOnlyWhereTheyMatter) {
   RemeshResult result = example();
   EXPECT_FALSE(contains(text_of(result), "alpha"));
   EXPECT_FALSE(contains(text_of(result), "exponent"));
-  result.options.weighting = Weighting::Curvature;
-  result.options.curvature_alpha = 1.25;
-  result.options.seed_start = SeedStart::Random;
-  result.options.random_seed = 77;
+  result.options.weighting.kind = Weighting::Curvature;
+  result.options.weighting.curvature_alpha = 1.25;
+  result.options.seeding.start = SeedStart::Random;
+  result.options.seeding.random_seed = 77;
   EXPECT_TRUE(contains(text_of(result), "alpha 1.25"));
   EXPECT_TRUE(contains(text_of(result), "seed 77"));
-  result.options.weighting = Weighting::ErrorAdaptive;
-  result.options.adaptive_exponent = 0.75;
+  result.options.weighting.kind = Weighting::ErrorAdaptive;
+  result.options.weighting.adaptive_exponent = 0.75;
   EXPECT_TRUE(contains(text_of(result), "curvature exponent 0.75"));
 }
 

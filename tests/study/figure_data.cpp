@@ -72,7 +72,7 @@ Table write_samplings(const std::string& folder, const Scan& scan, const Executi
        {fibonacci, Method{"equal-angle", Sampling::EqualAngle, Weighting::Constant},
         Method{"icosahedron", Sampling::Icosahedron, Weighting::Constant}, wscvt_d}) {
     const RemeshResult result = remesh(scan.mesh, paper_options(method, node_count), execution);
-    IndexedMesh sphere = to_indexed(result.mesh);
+    IndexedMesh sphere = result.mesh;
     sphere.points = result.directions;
     write_triangles(folder + "/figure1_" + method.name + ".dat", sphere,
                     std::vector<double>(sphere.points.size(), 1.0));
@@ -88,7 +88,7 @@ Table write_pictures(const std::string& folder, const Scan& scan, const Executio
     const std::string figure = by_radius ? "figure6" : "figure9";
     for (const int node_count : {500, 1000, 2000}) {
       RemeshOptions options = paper_options(method, node_count);
-      options.node_curvatures = true;
+      options.measures.node_curvatures = true;
       const RemeshResult result = remesh(scan.mesh, options, execution);
       const double unit = result.input.equivalent_radius;
       const auto write = [&](const std::string& path, IndexedMesh mesh,
@@ -99,7 +99,7 @@ Table write_pictures(const std::string& folder, const Scan& scan, const Executio
         write_triangles(path, mesh, scaled);
       };
       write(folder + "/" + file_name(figure, scan.name, result.directions.size()),
-            to_indexed(result.mesh), by_radius ? result.radial_distances : result.curvatures,
+            result.mesh, by_radius ? result.radial_distances : result.curvatures,
             by_radius ? 1.0 / unit : unit);
       table.push_back(
           quality_row(scan.name + " " + method.name, result.directions.size(), result.quality));
@@ -130,7 +130,7 @@ Table write_distributions(const std::string& folder, const std::vector<Scan>& sc
     const RemeshResult result =
         remesh(scan.mesh, paper_options(wscvt_d, static_cast<int>(nodes)), execution);
     const QualityHistograms before = quality_histograms(scan.mesh, bins);
-    const QualityHistograms after = quality_histograms(to_indexed(result.mesh), bins);
+    const QualityHistograms after = quality_histograms(result.mesh, bins);
     const auto append = [&](const std::string& measure, const Histogram& a, const Histogram& b) {
       double total_a = 0.0;
       double total_b = 0.0;

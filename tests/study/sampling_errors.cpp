@@ -98,8 +98,8 @@ struct Sums {
 
 RemeshOptions paper_options(const Method& method, int node_count) {
   RemeshOptions options;
-  options.sampling = method.sampling;
-  options.weighting = method.weighting;
+  options.seeding.sampling = method.sampling;
+  options.weighting.kind = method.weighting;
   options.node_count = node_count;
   return options;
 }

@@ -20,9 +20,8 @@ const Ellipsoid& ellipsoid() {
 
 SurfaceSeedModel model_of(Weighting weighting, int nodes) {
   WeightingOptions options;
-  options.weighting = weighting;
-  options.node_count = nodes;
-  return {ellipsoid(), options, nullptr, Execution(1)};
+  options.kind = weighting;
+  return {ellipsoid(), options, nodes, nullptr, Execution(1)};
 }
 
 RelaxationResult relaxed(int count, Weighting weighting, RelaxationMetric metric, int threads = 1,

@@ -24,10 +24,9 @@ const Ellipsoid& ellipsoid() {
 
 SurfaceSeedModel model_of(Weighting weighting, int nodes, double alpha = 1.0) {
   WeightingOptions options;
-  options.weighting = weighting;
-  options.node_count = nodes;
+  options.kind = weighting;
   options.curvature_alpha = alpha;
-  return {ellipsoid(), options, nullptr, Execution(1)};
+  return {ellipsoid(), options, nodes, nullptr, Execution(1)};
 }
 
 double edge_variation(const RelaxationResult& result) {
@@ -115,9 +114,8 @@ TEST(Relaxation, SurfaceMetricComesToRestOnARoughGrain) {
        {Weighting::RadialDistance, Weighting::Curvature, Weighting::ErrorAdaptive}) {
     SCOPED_TRACE(static_cast<int>(weighting));
     WeightingOptions weights;
-    weights.weighting = weighting;
-    weights.node_count = 500;
-    const SurfaceSeedModel model(rough, weights, nullptr, Execution(1));
+    weights.kind = weighting;
+    const SurfaceSeedModel model(rough, weights, 500, nullptr, Execution(1));
     const RelaxationResult result = relax(fibonacci_lattice(500), model, options, Execution(1));
     // Curvature that changes within a cell or two keeps the areas from their targets; the seeds
     // must stand still all the same. With momentum to the end those of the curvature weighting go
@@ -131,9 +129,8 @@ TEST(Relaxation, SurfaceMetricComesToRestOnARoughGrain) {
 TEST(Relaxation, SmallestTessellationsAreThePolyhedra) {
   const Ellipsoid sphere(Vector3(1.0, 1.0, 1.0));
   WeightingOptions weighting;
-  weighting.weighting = Weighting::Constant;
-  weighting.node_count = 4;
-  const SurfaceSeedModel model(sphere, weighting, nullptr, Execution(1));
+  weighting.kind = Weighting::Constant;
+  const SurfaceSeedModel model(sphere, weighting, 4, nullptr, Execution(1));
   RelaxationOptions options;
   options.displacement_tolerance = 1e-9;
   const auto smallest_and_largest = [&](int count) {

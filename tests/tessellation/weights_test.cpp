@@ -25,10 +25,9 @@ const Ellipsoid& ellipsoid() {
 SurfaceSeedModel model_of(const RadialSurface& surface, Weighting weighting, int nodes = 1000,
                           double alpha = 1.0) {
   WeightingOptions options;
-  options.weighting = weighting;
-  options.node_count = nodes;
+  options.kind = weighting;
   options.curvature_alpha = alpha;
-  return {surface, options, nullptr, Execution(1)};
+  return {surface, options, nodes, nullptr, Execution(1)};
 }
 
 std::vector<double> weights_of(const SurfaceSeedModel& model, const std::vector<Vector3>& seeds) {
@@ -138,9 +137,9 @@ TEST(Weights, SamplesReplaceTheSurfacesCurvature) {
     samples.curvatures.push_back({k, k});
   }
   WeightingOptions options;
-  options.weighting = Weighting::Curvature;
-  options.node_count = 400;
-  const SurfaceSeedModel model(Ellipsoid(Vector3(1.0, 1.0, 1.0)), options, &samples, Execution(1));
+  options.kind = Weighting::Curvature;
+  const SurfaceSeedModel model(Ellipsoid(Vector3(1.0, 1.0, 1.0)), options, 400, &samples,
+                               Execution(1));
   const std::vector<Vector3> ends = {Vector3(0, 0, 1), Vector3(0.6, 0, 0.8), Vector3(0, 0, -1)};
   const std::vector<double> weights = weights_of(model, ends);
   EXPECT_LT(weights[0], 0.0);

@@ -215,4 +215,14 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
   return result;
 }
 
+void scale(MeshDistances& distances, double unit) {
+  for (OneSidedDistance* side : {&distances.to_reference, &distances.from_reference}) {
+    side->maximum *= unit;
+    side->root_mean_square *= unit;
+    side->mean *= unit;
+  }
+  distances.hausdorff *= unit;
+  distances.root_mean_square *= unit;
+}
+
 }  // namespace wscvt

@@ -87,4 +87,7 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 /// the mesh has no faces or no area.
 std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count);
 
+/// Distances measured in lengths of `unit`, in plain lengths.
+void scale(MeshDistances& distances, double unit);
+
 }  // namespace wscvt

@@ -176,4 +176,11 @@ QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins) 
   return histograms;
 }
 
+void scale(MeshQuality& quality, double unit) {
+  quality.edge_length.mean *= unit;
+  quality.edge_length.standard_deviation *= unit;
+  quality.edge_length.minimum *= unit;
+  quality.edge_length.maximum *= unit;
+}
+
 }  // namespace wscvt

@@ -49,4 +49,7 @@ struct QualityHistograms {
 /// Error(InvalidInput) if the mesh has no faces or `bins` is 0.
 QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins);
 
+/// Quality measured in lengths of `unit`, in plain lengths.
+void scale(MeshQuality& quality, double unit);
+
 }  // namespace wscvt

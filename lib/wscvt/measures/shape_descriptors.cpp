@@ -143,4 +143,12 @@ double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescripto
   return 100.0 * difference.cwiseAbs().maxCoeff() / solver.eigenvalues()[2];
 }
 
+void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre) {
+  descriptors.volume *= unit * unit * unit;
+  descriptors.area *= unit * unit;
+  descriptors.centroid = centre + unit * descriptors.centroid;
+  descriptors.inertia_semi_axes *= unit;
+  descriptors.inertia_tensor *= std::pow(unit, 5);
+}
+
 }  // namespace wscvt

@@ -51,4 +51,7 @@ double relative_error_percent(double value, double reference);
 /// reference, in % of the reference's largest principal moment.
 double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference);
 
+/// Descriptors measured in lengths of `unit` about `centre`, in plain lengths.
+void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre);
+
 }  // namespace wscvt

@@ -4,7 +4,16 @@
 #include <functional>
 #include <vector>
 
+#include "wscvt/measures/error_measure.h"
+
 namespace wscvt {
+
+/// Node count by error: the smallest N that meets it is looked for (see smallest_node_count).
+struct ErrorTarget {
+  ErrorMeasure measure = ErrorMeasure::Distance;
+  double percent = 0.0;            ///< 0: none, N is the options' node_count; else > 0
+  int largest_node_count = 20000;  ///< the search goes no further, in [4, maximum_node_count]
+};
 
 struct NodeCountTrial {
   int node_count = 0;

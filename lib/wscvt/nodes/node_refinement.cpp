@@ -74,4 +74,9 @@ RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation tr
   return {std::move(state.positions), std::move(state.triangulation), std::move(report)};
 }
 
+void scale(RefinementReport& report, double unit) {
+  report.start_distance *= unit;
+  for (RefinementStep& step : report.history) step.distance *= unit;
+}
+
 }  // namespace wscvt

@@ -79,4 +79,7 @@ RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation tr
                           const MeshSurface& original, const RefinementOptions& options,
                           const Execution& execution);
 
+/// A report in lengths of `unit`, in plain lengths.
+void scale(RefinementReport& report, double unit);
+
 }  // namespace wscvt

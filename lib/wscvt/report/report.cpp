@@ -195,7 +195,7 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                                    format_number(input.equivalent_radius)));
   lines.push_back(line("Fold", format_percent(result.folded_share) +
                                    " of the solid angle in sheets beyond the first (limit " +
-                                   format_percent(result.options.fold_limit) + ")"));
+                                   format_percent(result.options.surface.fold_limit) + ")"));
 }
 
 std::string reason(const HarmonicFitReport& fit) {
@@ -228,21 +228,22 @@ void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
 
 void append_relaxation(const RemeshResult& result, std::vector<std::string>& lines) {
   const RemeshOptions& options = result.options;
-  if (options.sampling != Sampling::Weighted) {
-    lines.push_back(line("Sampling", name_of(options.sampling) + std::string(", not relaxed")));
+  if (options.seeding.sampling != Sampling::Weighted) {
+    lines.push_back(
+        line("Sampling", name_of(options.seeding.sampling) + std::string(", not relaxed")));
     return;
   }
-  std::string seeds = name_of(options.seed_start);
-  if (options.seed_start == SeedStart::Random) {
-    seeds += " start, seed " + std::to_string(options.random_seed);
+  std::string seeds = name_of(options.seeding.start);
+  if (options.seeding.start == SeedStart::Random) {
+    seeds += " start, seed " + std::to_string(options.seeding.random_seed);
   }
-  std::string weighting = name_of(options.weighting);
-  if (options.weighting == Weighting::Curvature) {
-    weighting += ", alpha " + format_number(options.curvature_alpha, 3) + ", curvature from the " +
-                 name_of(options.curvature_source);
+  std::string weighting = name_of(options.weighting.kind);
+  if (options.weighting.kind == Weighting::Curvature) {
+    weighting += ", alpha " + format_number(options.weighting.curvature_alpha, 3) +
+                 ", curvature from the " + name_of(options.weighting.curvature_source);
   }
-  if (options.weighting == Weighting::ErrorAdaptive) {
-    weighting += ", curvature exponent " + format_number(options.adaptive_exponent, 3);
+  if (options.weighting.kind == Weighting::ErrorAdaptive) {
+    weighting += ", curvature exponent " + format_number(options.weighting.adaptive_exponent, 3);
   }
   lines.push_back(line("Weighting", weighting + "; seeds: " + seeds));
 
@@ -270,7 +271,7 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
 
 void append_search(const RemeshResult& result, std::vector<std::string>& lines) {
   if (!result.search) return;
-  const ErrorTarget& target = result.options.error_target;
+  const ErrorTarget& target = result.options.target;
   std::string text = std::string(name_of(target.measure)) + " error of at most " +
                      format_number(target.percent, 3) + " %: ";
   text += result.search->met ? "met by " : "not met, not even by ";
@@ -371,24 +372,24 @@ Json json_of(const MeshQuality& q) {
 
 Json json_of(const RemeshOptions& o) {
   return {{"node_count", o.node_count},
-          {"weighting", name_of(o.weighting)},
-          {"curvature_alpha", o.curvature_alpha},
-          {"adaptive_exponent", o.adaptive_exponent},
-          {"curvature_source", name_of(o.curvature_source)},
-          {"degree", o.degree},
-          {"sampling", name_of(o.sampling)},
-          {"placement", name_of(o.placement)},
+          {"weighting", name_of(o.weighting.kind)},
+          {"curvature_alpha", o.weighting.curvature_alpha},
+          {"adaptive_exponent", o.weighting.adaptive_exponent},
+          {"curvature_source", name_of(o.weighting.curvature_source)},
+          {"degree", o.surface.degree},
+          {"sampling", name_of(o.seeding.sampling)},
+          {"placement", name_of(o.placement.kind)},
           {"error_target",
-           {{"measure", name_of(o.error_target.measure)},
-            {"percent", o.error_target.percent},
-            {"largest_node_count", o.error_target.largest_node_count}}},
+           {{"measure", name_of(o.target.measure)},
+            {"percent", o.target.percent},
+            {"largest_node_count", o.target.largest_node_count}}},
           {"refinement",
-           {{"rounds", o.refinement.rounds},
-            {"smallest_angle_degrees", o.refinement.smallest_angle},
-            {"tolerance", o.refinement.tolerance}}},
-          {"fold_limit", o.fold_limit},
-          {"seed_start", name_of(o.seed_start)},
-          {"random_seed", o.random_seed},
+           {{"rounds", o.placement.refinement.rounds},
+            {"smallest_angle_degrees", o.placement.refinement.smallest_angle},
+            {"tolerance", o.placement.refinement.tolerance}}},
+          {"fold_limit", o.surface.fold_limit},
+          {"seed_start", name_of(o.seeding.start)},
+          {"random_seed", o.seeding.random_seed},
           {"relaxation",
            {{"maximum_iterations", o.relaxation.maximum_iterations},
             {"displacement_tolerance", o.relaxation.displacement_tolerance},
@@ -400,8 +401,8 @@ Json json_of(const RemeshOptions& o) {
            {{"coarsest_seeds", o.levels.coarsest_seeds},
             {"coarsest_tolerance", o.levels.coarsest_tolerance},
             {"middle_tolerance", o.levels.middle_tolerance}}},
-          {"distances", o.distances},
-          {"distance_samples", o.distance_sampling.samples},
+          {"distances", o.measures.distances},
+          {"distance_samples", o.measures.distance_sampling.samples},
           {"check", {{"dropped_volume_limit", o.check.dropped_volume_limit}}}};
 }
 
@@ -541,12 +542,12 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   append_search(result, lines);
   append_relaxation(result, lines);
   append_refinement(result, lines);
-  lines.push_back(line(
-      "Result", counted(result.mesh.n_vertices(), "node", "nodes") + ", " +
-                    counted(result.mesh.n_faces(), "face", "faces") +
-                    (result.options.placement == NodePlacement::LeastSquares ? ", nodes fitted by "
-                                                                             : ", nodes on the ") +
-                    name_of(result.options.placement)));
+  lines.push_back(line("Result", counted(result.mesh.points.size(), "node", "nodes") + ", " +
+                                     counted(result.mesh.triangles.size(), "face", "faces") +
+                                     (result.options.placement.kind == NodePlacement::LeastSquares
+                                          ? ", nodes fitted by "
+                                          : ", nodes on the ") +
+                                     name_of(result.options.placement.kind)));
   append_distances(result, lines);
   append_quality(result, lines);
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
@@ -566,7 +567,8 @@ std::string report_json(const RemeshResult& result) {
       {"folded_share", result.folded_share},
       {"fit", json_of(result.fit, result.input.equivalent_radius)},
       {"relaxation", json_of(result.relaxation)},
-      {"result", {{"vertices", result.mesh.n_vertices()}, {"faces", result.mesh.n_faces()}}},
+      {"result",
+       {{"vertices", result.mesh.points.size()}, {"faces", result.mesh.triangles.size()}}},
       {"quality",
        {{"original", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
       {"descriptors", Json::parse(table_json(comparison(result), ComparisonNames()))},
@@ -582,23 +584,23 @@ std::string report_json(const RemeshResult& result) {
 std::string report_csv(const RemeshResult& result) {
   const RemeshOptions& options = result.options;
   Record record;
-  record.add_count("nodes", result.mesh.n_vertices());
-  record.add_count("faces", result.mesh.n_faces());
-  record.add("sampling", name_of(options.sampling));
-  record.add("weighting", name_of(options.weighting));
-  record.add("curvature_alpha", options.curvature_alpha);
-  record.add("adaptive_exponent", options.adaptive_exponent);
-  record.add("curvature_source", name_of(options.curvature_source));
-  record.add("placement", name_of(options.placement));
+  record.add_count("nodes", result.mesh.points.size());
+  record.add_count("faces", result.mesh.triangles.size());
+  record.add("sampling", name_of(options.seeding.sampling));
+  record.add("weighting", name_of(options.weighting.kind));
+  record.add("curvature_alpha", options.weighting.curvature_alpha);
+  record.add("adaptive_exponent", options.weighting.adaptive_exponent);
+  record.add("curvature_source", name_of(options.weighting.curvature_source));
+  record.add("placement", name_of(options.placement.kind));
   record.add("metric", name_of(options.relaxation.metric));
-  record.add("refinement_rounds", std::to_string(options.refinement.rounds));
-  record.add("error_target_measure", name_of(options.error_target.measure));
-  record.add("error_target_percent", options.error_target.percent);
+  record.add("refinement_rounds", std::to_string(options.placement.refinement.rounds));
+  record.add("error_target_measure", name_of(options.target.measure));
+  record.add("error_target_percent", options.target.percent);
   record.add("error_target_met", !result.search ? "" : result.search->met ? "true" : "false");
-  record.add("fold_limit", options.fold_limit);
+  record.add("fold_limit", options.surface.fold_limit);
   record.add("maximum_iterations", std::to_string(options.relaxation.maximum_iterations));
-  record.add("seed_start", name_of(options.seed_start));
-  record.add("random_seed", std::to_string(options.random_seed));
+  record.add("seed_start", name_of(options.seeding.start));
+  record.add("random_seed", std::to_string(options.seeding.random_seed));
   record.add_count("input_vertices", result.input.input_vertices);
   record.add_count("input_faces", result.input.input_faces);
   record.add_count("welded_vertices", result.input.welded_vertices);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/remesh.h"
+#include "wscvt/report/remesh_result.h"
 
 namespace wscvt {
 

@@ -131,6 +131,18 @@ bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vec
 
 SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
                                          const std::vector<double>& weights) {
+  if (const char* reason = build(seeds, weights)) fail(reason);
+}
+
+std::optional<SphereTriangulation> SphereTriangulation::try_build(
+    const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
+  SphereTriangulation result;
+  if (result.build(seeds, weights) != nullptr) return std::nullopt;
+  return result;
+}
+
+const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
+                                       const std::vector<double>& weights) {
   if (seeds.size() < 4) {
     throw Error(ErrorCode::InvalidInput,
                 "A triangulation of the sphere needs at least 4 seeds, not " +
@@ -142,10 +154,8 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
                                              " seeds; give one each, or none.");
   }
   if (!can_be_lifted(weights)) {
-    fail(
-        "a weight is not a number, or far larger than the sphere's own solid angle. Use more "
-        "nodes, "
-        "or another weighting.");
+    return "a weight is not a number, or far larger than the sphere's own solid angle. Use more "
+           "nodes, or another weighting.";
   }
   const Execution serial(1);
   std::vector<Triangle> triangles = delaunay(seeds);
@@ -154,16 +164,16 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
     // Also brings CGAL's choice among cocircular seeds under our own predicate.
     if (restore_regular(seeds, weights, serial).complete()) {
       set_triangles(std::move(triangles_), seeds.size());
-      return;
+      return nullptr;
     }
   }
   triangles = convex_hull(weights.empty() ? seeds : lift(seeds, weights));
   if (!covers_sphere(triangles, seeds)) {
-    fail(
-        "they do not surround the grain's centre, two coincide, or a weight is so low that its "
-        "seed has no cell. Use more nodes, or a smaller curvature exponent.");
+    return "they do not surround the grain's centre, two coincide, or a weight is so low that its "
+           "seed has no cell. Use more nodes, or a smaller curvature exponent.";
   }
   set_triangles(std::move(triangles), seeds.size());
+  return nullptr;
 }
 
 SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -24,6 +25,11 @@ class SphereTriangulation {
   /// Error(InvalidInput) for fewer than 4 seeds or another number of weights.
   explicit SphereTriangulation(const std::vector<Vector3>& seeds,
                                const std::vector<double>& weights = {});
+
+  /// The same, but nothing where the constructor would throw NumericalFailure: for callers who have
+  /// other seeds to try.
+  static std::optional<SphereTriangulation> try_build(const std::vector<Vector3>& seeds,
+                                                      const std::vector<double>& weights = {});
 
   /// Takes over given triangles. Throws Error(InvalidInput) unless they are 2 N - 4 triangles,
   /// counter-clockwise on the sphere, that form a closed 2-manifold on all N seeds.
@@ -81,6 +87,9 @@ class SphereTriangulation {
   void replace(const std::vector<std::int32_t>& triangles, const std::vector<Triangle>& corners);
 
  private:
+  SphereTriangulation() = default;
+  /// Triangulates; returns why that is not possible, or null.
+  const char* build(const std::vector<Vector3>& seeds, const std::vector<double>& weights);
   template <class NeedsFlip>
   Repair flip_while(const std::vector<Vector3>& seeds, const NeedsFlip& needs_flip,
                     const Execution& execution);

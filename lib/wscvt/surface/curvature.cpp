@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/surface/radial_samples.h"
 
 namespace wscvt {
 
@@ -143,6 +145,22 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
       result[i] = fit_quadric(mesh.points, vertices, normal);
     }
   });
+  return result;
+}
+
+CurvatureSamples scan_curvatures(const IndexedMesh& mesh, const Execution& execution) {
+  // The paper fits over one ring, which scans leave under-determined.
+  constexpr int rings = 2;
+  RadialSamples samples = radial_samples(mesh, execution);
+  const std::vector<PrincipalCurvatures> of_vertices =
+      quadric_fit_curvatures(mesh, rings, execution);
+  CurvatureSamples result;
+  result.curvatures.reserve(samples.vertices.size());
+  for (const std::int32_t vertex : samples.vertices) {
+    result.curvatures.push_back(of_vertices[index(vertex)]);
+  }
+  result.directions = std::move(samples.directions);
+  result.weights = std::move(samples.weights);
   return result;
 }
 

@@ -19,4 +19,15 @@ namespace wscvt {
 std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh, int rings,
                                                         const Execution& execution);
 
+/// Curvatures given at single directions, such as the vertices of a scan.
+struct CurvatureSamples {
+  std::vector<Vector3> directions;
+  std::vector<PrincipalCurvatures> curvatures;  ///< 1 / length of the surface
+  std::vector<double> weights;                  ///< > 0, any scale: the solid angle each stands for
+};
+
+/// The quadric-fit curvatures over two rings at the vertices that radial_samples keeps, for a
+/// closed, oriented mesh about the origin.
+CurvatureSamples scan_curvatures(const IndexedMesh& mesh, const Execution& execution);
+
 }  // namespace wscvt

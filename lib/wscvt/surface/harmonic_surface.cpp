@@ -422,4 +422,9 @@ HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vec
                   "the mesh is closed around its centre.");
 }
 
+void scale(HarmonicFitReport& report, double unit) {
+  report.residual *= unit;
+  report.smallest_radius *= unit;
+}
+
 }  // namespace wscvt

@@ -33,7 +33,6 @@ class HarmonicSurface : public RadialSurface {
 /// length; a surface that is not positive everywhere is not star-shaped about the origin.
 double smallest_radius(const HarmonicSurface& surface, const Execution& execution);
 
-/// How the fit went.
 /// Why a series has a lower degree than was asked for.
 enum class DegreeLimit {
   None,       ///< it has the degree asked for
@@ -42,6 +41,7 @@ enum class DegreeLimit {
   Radius,  ///< of higher degree the series is not positive everywhere: a long, flat or sharp body
 };
 
+/// How the fit went.
 struct HarmonicFitReport {
   int requested_degree = 0;
   int degree = 0;  ///< lowered when the points cannot carry the requested one
@@ -71,5 +71,8 @@ struct HarmonicFit {
 HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vector<double>& radii,
                           const std::vector<double>& weights, int degree,
                           const Execution& execution);
+
+/// A report in lengths of `unit`, in plain lengths.
+void scale(HarmonicFitReport& report, double unit);
 
 }  // namespace wscvt

@@ -224,11 +224,6 @@ void check_weighting_options(const WeightingOptions& options) {
     throw Error(ErrorCode::InvalidInput,
                 what + " is " + format_number(value) + "; give a number from " + range + ".");
   };
-  if (options.node_count < 4) {
-    throw Error(ErrorCode::InvalidInput, "The number of nodes is " +
-                                             std::to_string(options.node_count) +
-                                             "; a closed mesh needs at least 4.");
-  }
   if (!(std::abs(options.curvature_alpha) <= 3.0)) {
     refuse("The curvature exponent alpha", options.curvature_alpha, "-3 to 3");
   }
@@ -238,10 +233,15 @@ void check_weighting_options(const WeightingOptions& options) {
 }
 
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
-                                   const CurvatureSamples* samples, const Execution& execution)
-    : options_((check_weighting_options(options), options)) {
-  const int rows = rows_for(options.node_count);
-  const double count = options.node_count;
+                                   int node_count, const CurvatureSamples* samples,
+                                   const Execution& execution)
+    : options_((check_weighting_options(options), options)), node_count_(node_count) {
+  if (node_count < 4) {
+    throw Error(ErrorCode::InvalidInput, "The number of nodes is " + std::to_string(node_count) +
+                                             "; a closed mesh needs at least 4.");
+  }
+  const int rows = rows_for(node_count);
+  const double count = node_count;
   TabulatedSurface table = tabulate(surface, rows, execution);
   radius_.emplace(rows, 1, 6, table.radii);
   area_element_.emplace(rows, 1, 6, table.area_elements);
@@ -252,15 +252,15 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   GridField field(rows);
   const double cap_radius = 0.6 * std::sqrt(4.0 * pi / count);
   const double radius = std::sqrt(area_ / (4.0 * pi));
-  if (options.weighting == Weighting::RadialDistance) {
+  if (options.kind == Weighting::RadialDistance) {
     field.values = std::move(table.radii);
-  } else if (options.weighting == Weighting::Area) {
+  } else if (options.kind == Weighting::Area) {
     field.values = area.values;
-  } else if (options.weighting == Weighting::Curvature) {
+  } else if (options.kind == Weighting::Curvature) {
     field = smoothed_curvature(surface, samples, largest_square, rows, cap_radius, execution);
     for (double& k : field.values) k = -std::log(std::max(k * radius, flat_curvature));
     field_.emplace(rows, 1, 4, field.values);
-  } else if (options.weighting == Weighting::ErrorAdaptive) {
+  } else if (options.kind == Weighting::ErrorAdaptive) {
     field = smoothed_curvature(surface, samples, mean_square, rows, cap_radius, execution);
     std::vector<double> order = field.values;
     const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
@@ -279,9 +279,9 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   // density.
   const double smallest = smallest_cell_share * 4.0 * pi / count;
   GridField cells(rows);
-  const int rounds = options.weighting == Weighting::Curvature ? 4 : 1;
+  const int rounds = options.kind == Weighting::Curvature ? 4 : 1;
   for (int round = 0; round < rounds; ++round) {
-    if (options.weighting == Weighting::Curvature) {
+    if (options.kind == Weighting::Curvature) {
       GridField density(rows);
       for (std::size_t i = 0; i < density.values.size(); ++i) {
         density.values[i] = round == 0 ? 1.0 : 1.0 / std::max(smallest, cells.values[i] + offset_);
@@ -297,7 +297,7 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
 
 double SurfaceSeedModel::weight_from(double field, double count,
                                      const FieldDeviation& over_seeds) const {
-  switch (options_.weighting) {
+  switch (options_.kind) {
     case Weighting::RadialDistance:  // eq. 10
       return area_ / (count * pi * field * field);
     case Weighting::Area:
@@ -326,7 +326,7 @@ void SurfaceSeedModel::look_up(const SphereGrid& grid, const std::vector<Vector3
 
 void SurfaceSeedModel::look_up_field(const std::vector<Vector3>& seeds, const Execution& execution,
                                      std::vector<double>& result) const {
-  switch (options_.weighting) {
+  switch (options_.kind) {
     case Weighting::Constant:
       result.assign(seeds.size(), 0.0);
       break;
@@ -346,11 +346,11 @@ void SurfaceSeedModel::look_up_field(const std::vector<Vector3>& seeds, const Ex
 void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Execution& execution,
                                std::vector<double>& result) const {
   result.clear();
-  if (options_.weighting == Weighting::Constant) return;
+  if (options_.kind == Weighting::Constant) return;
   look_up_field(seeds, execution, result);
   const auto count = static_cast<double>(seeds.size());
   FieldDeviation over_seeds;
-  if (options_.weighting == Weighting::Curvature) {
+  if (options_.kind == Weighting::Curvature) {
     for (const double value : result) over_seeds.mean += value / count;
     double squares = 0.0;
     for (const double value : result) {
@@ -369,7 +369,7 @@ void SurfaceSeedModel::radii(const std::vector<Vector3>& seeds, const Execution&
 void SurfaceSeedModel::surface_densities(const std::vector<Vector3>& seeds,
                                          const Execution& execution,
                                          std::vector<double>& result) const {
-  if (options_.weighting == Weighting::Area) {
+  if (options_.kind == Weighting::Area) {
     result.clear();
     return;
   }
@@ -381,12 +381,12 @@ void SurfaceSeedModel::surface_densities(const std::vector<Vector3>& seeds,
 
 std::vector<double> SurfaceSeedModel::number_densities(const std::vector<Vector3>& directions,
                                                        const Execution& execution) const {
-  const double mean_cell = 4.0 * pi / options_.node_count;
+  const double mean_cell = 4.0 * pi / node_count_;
   std::vector<double> result;
   look_up_field(directions, execution, result);
   for (double& value : result) {
     value = 1.0 / std::max(smallest_cell_share * mean_cell,
-                           cell_area_per_weight * weight_from(value, options_.node_count, wanted_) +
+                           cell_area_per_weight * weight_from(value, node_count_, wanted_) +
                                offset_);
   }
   return result;

@@ -7,6 +7,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/sphere_grid.h"
+#include "wscvt/surface/curvature.h"
 #include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
@@ -42,18 +43,17 @@ class SeedModel {
                                  std::vector<double>& result) const = 0;
 };
 
-/// Curvatures given at single directions, such as the vertices of a scan.
-struct CurvatureSamples {
-  std::vector<Vector3> directions;
-  std::vector<PrincipalCurvatures> curvatures;  ///< 1 / length of the surface
-  std::vector<double> weights;                  ///< > 0, any scale: the solid angle each stands for
+/// Which curvature the curvature weighting reads.
+enum class CurvatureSource {
+  Series,      ///< analytic, from the fitted series
+  QuadricFit,  ///< the paper's local quadric fit on the scan (2-ring)
 };
 
 struct WeightingOptions {
-  Weighting weighting = Weighting::RadialDistance;
-  int node_count = 1000;                 ///< N, >= 4
+  Weighting kind = Weighting::RadialDistance;
   double curvature_alpha = 1.0;          ///< alpha of eq. 11, in [-3, 3]
   double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, in [0, 1.5]
+  CurvatureSource curvature_source = CurvatureSource::Series;  ///< a formula has its own only
 };
 
 /// Throws Error(InvalidInput), with the range, for options out of range.
@@ -72,9 +72,9 @@ struct FieldDeviation {
 /// finer than the cells cannot be followed by them and keeps the iteration from settling.
 class SurfaceSeedModel : public SeedModel {
  public:
-  /// `samples` replace the surface's own curvature when given. Throws Error(InvalidInput) for
-  /// options out of range.
-  SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
+  /// For `node_count` >= 4 seeds. `samples` replace the surface's own curvature when given. Throws
+  /// Error(InvalidInput) for options out of range.
+  SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options, int node_count,
                    const CurvatureSamples* samples, const Execution& execution);
 
   void weights(const std::vector<Vector3>& seeds, const Execution& execution,
@@ -96,6 +96,7 @@ class SurfaceSeedModel : public SeedModel {
                const Execution& execution, std::vector<double>& result) const;
 
   WeightingOptions options_;
+  int node_count_;
   std::optional<SphereGrid> radius_;
   std::optional<SphereGrid> area_element_;
   /// Logarithm of 1 / curvature (WSCVT-C) or of the wanted density (ErrorAdaptive).

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/error_measure.h"
+
+#include <cmath>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
+                     const ShapeDescriptors& original,
+                     const std::optional<MeshDistances>& distances) {
+  constexpr double pi = 3.14159265358979323846;
+  switch (measure) {
+    case ErrorMeasure::Volume:
+      return std::abs(relative_error_percent(remesh.volume, original.volume));
+    case ErrorMeasure::Area:
+      return std::abs(relative_error_percent(remesh.area, original.area));
+    case ErrorMeasure::Sphericity:
+      return std::abs(relative_error_percent(remesh.sphericity, original.sphericity));
+    case ErrorMeasure::Inertia:
+      return inertia_error_percent(remesh, original);
+    case ErrorMeasure::Distance:
+      break;
+  }
+  if (!distances) {
+    throw Error(ErrorCode::InvalidInput,
+                "The result holds no distances; ask for them in the options of the remesh.");
+  }
+  const double equivalent_radius = std::cbrt(3.0 * original.volume / (4.0 * pi));
+  return 100.0 * distances->root_mean_square / equivalent_radius;
+}
+
+}  // namespace wscvt

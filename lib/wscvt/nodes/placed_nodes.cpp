@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/placed_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/nodes/node_placement.h"
+
+namespace wscvt {
+
+namespace {
+
+void put_on_radii(PlacedNodes& nodes) {
+  nodes.mesh.points.resize(nodes.directions.size());
+  for (std::size_t i = 0; i < nodes.directions.size(); ++i) {
+    nodes.mesh.points[i] = nodes.radii[i] * nodes.directions[i];
+  }
+}
+
+/// Gives every node a third of each of its triangles.
+std::vector<double> shared_areas(const IndexedMesh& mesh) {
+  std::vector<double> areas(mesh.points.size(), 0.0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3& a = mesh.points[t[0]];
+    const double area = 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
+    for (const std::int32_t v : t) areas[v] += area / 3.0;
+  }
+  return areas;
+}
+
+void place_by_least_squares(const MeshSurface& scan, SphereTriangulation triangulation,
+                            double volume, const RefinementOptions& refinement, PlacedNodes& nodes,
+                            const Execution& execution) {
+  // Points at which the radii read the scan: ten for every one of the usual scan's vertices, and
+  // thirty a triangle at a thousand nodes.
+  constexpr std::size_t fit_samples = 60000;
+  nodes.radii =
+      least_squares_radii(nodes.directions, nodes.mesh.triangles, scan, fit_samples, execution);
+  put_on_radii(nodes);
+  if (refinement.rounds > 0) {
+    RefinedNodes refined = refine_nodes(std::move(nodes.mesh.points), std::move(triangulation),
+                                        scan, refinement, execution.part(0.1, 1.0));
+    nodes.mesh = {std::move(refined.positions), refined.triangulation.triangles()};
+    nodes.refinement = std::move(refined.report);
+  }
+  scale_to_volume(nodes.mesh.triangles, volume, nodes.mesh.points, execution);
+  for (std::size_t i = 0; i < nodes.radii.size(); ++i) {
+    nodes.radii[i] = nodes.mesh.points[i].norm();
+    nodes.directions[i] = nodes.mesh.points[i] / nodes.radii[i];
+  }
+  if (refinement.rounds > 0) nodes.cell_areas = shared_areas(nodes.mesh);
+}
+
+}  // namespace
+
+void check_placement_options(const PlacementOptions& options) {
+  check_refinement_options(options.refinement);
+  if (options.refinement.rounds > 0 && options.kind != NodePlacement::LeastSquares) {
+    throw Error(ErrorCode::InvalidInput,
+                "Refinement takes the nodes off the surface they were to be placed on; place them "
+                "by least squares, or set the rounds of the refinement to 0.");
+  }
+}
+
+bool needs_rays(const PlacementOptions& options, bool is_scan) {
+  return options.kind == NodePlacement::LeastSquares ||
+         (options.kind == NodePlacement::OriginalMesh && is_scan);
+}
+
+PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, RelaxationMetric metric,
+                        double volume, const PlacementOptions& options,
+                        const Execution& execution) {
+  check_placement_options(options);
+  if (needs_rays(options, grain.is_scan) && !grain.rays) {
+    throw Error(ErrorCode::InvalidInput,
+                "The grain has no rays to place nodes by; make them before placing.");
+  }
+  execution.report(0.0, "Placing the nodes");
+  PlacedNodes nodes;
+  nodes.directions = std::move(relaxed.seeds);
+  nodes.cell_areas = std::move(relaxed.cell_areas);
+  SphereTriangulation& triangulation = relaxed.triangulation;
+  const std::vector<RadialJet> jets =
+      grain.surface->jets(nodes.directions, Derivatives::First, execution);
+  nodes.radii.resize(jets.size());
+  for (std::size_t i = 0; i < jets.size(); ++i) {
+    nodes.radii[i] = jets[i].radius;
+    if (metric == RelaxationMetric::Sphere) nodes.cell_areas[i] *= area_element(jets[i]);
+  }
+  if (options.kind == NodePlacement::OriginalMesh && grain.is_scan) {
+    nodes.radii = grain.rays->radii(nodes.directions, execution);
+  }
+  put_on_radii(nodes);
+  triangulation.restore_surface_delaunay(nodes.directions, nodes.mesh.points, execution);
+  nodes.mesh.triangles = triangulation.triangles();
+  if (options.kind == NodePlacement::LeastSquares) {
+    place_by_least_squares(*grain.rays, std::move(triangulation), volume, options.refinement, nodes,
+                           execution);
+  }
+  return nodes;
+}
+
+std::vector<double> largest_curvatures(const RadialSurface& surface,
+                                       const std::vector<Vector3>& directions,
+                                       const Execution& execution) {
+  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::Second, execution);
+  std::vector<double> result;
+  result.reserve(jets.size());
+  for (std::size_t i = 0; i < jets.size(); ++i) {
+    const PrincipalCurvatures k = principal_curvatures(jets[i], directions[i]);
+    result.push_back(std::max(std::abs(k.maximum), std::abs(k.minimum)));
+  }
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/nodes/node_refinement.h"
+#include "wscvt/surface/grain.h"
+#include "wscvt/tessellation/relaxation.h"
+
+namespace wscvt {
+
+/// Where the nodes are put along their directions.
+enum class NodePlacement {
+  FittedSurface,  ///< on the fitted harmonic series
+  OriginalMesh,   ///< on the scan itself, by rays
+  LeastSquares,   ///< off it, so that the triangles fit the scan best and the volume is the scan's
+};
+
+struct PlacementOptions {
+  NodePlacement kind = NodePlacement::FittedSurface;
+  RefinementOptions refinement;  ///< of the nodes towards the scan; needs LeastSquares
+};
+
+/// Throws Error(InvalidInput) for options out of range, and for a refinement of nodes that are to
+/// stay on a surface.
+void check_placement_options(const PlacementOptions& options);
+
+/// Whether place_nodes will read Grain::rays.
+bool needs_rays(const PlacementOptions& options, bool is_scan);
+
+/// The nodes and their mesh, in the grain's units and about the origin.
+struct PlacedNodes {
+  IndexedMesh mesh;
+  std::vector<Vector3> directions;  ///< unit, from the origin to each node
+  std::vector<double> radii;        ///< |node|
+  /// Surface area of each node's power cell, or, after refinement, a third of its triangles'.
+  std::vector<double> cell_areas;
+  RefinementReport refinement;
+};
+
+/// Puts relaxed seeds where `options` want them. `metric` is the one they were relaxed in, which
+/// says what their cells' areas are; `volume` (> 0) is what the mesh encloses after a least-squares
+/// placement. The triangulation becomes the intrinsic Delaunay one of the nodes on their surface.
+/// Throws Error: InvalidInput for options out of range or rays that are needed and missing,
+/// NumericalFailure, Cancelled.
+PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, RelaxationMetric metric,
+                        double volume, const PlacementOptions& options, const Execution& execution);
+
+/// Largest absolute principal curvature of the grain's surface in each direction, 1 / length.
+std::vector<double> largest_curvatures(const RadialSurface& surface,
+                                       const std::vector<Vector3>& directions,
+                                       const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/error_measure.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/nodes/node_count_search.h"
+#include "wscvt/nodes/node_refinement.h"
+#include "wscvt/report/remesh_options.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/tessellation/relaxation.h"
+
+namespace wscvt {
+
+/// A remesh and the reports of its stages, all in the input's units and coordinates.
+struct RemeshResult {
+  IndexedMesh mesh;  ///< exactly N points and 2 N - 4 triangles, closed, outward (to_mesh: OpenMesh)
+  std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
+  std::vector<double> radial_distances;  ///< |vertex - centre|, length
+  std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
+  /// Surface area of each node's power cell, or, after refinement, a third of its triangles';
+  /// length^2
+  std::vector<double> cell_areas;
+  std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
+  Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
+  MeshCheckReport input;
+  double folded_share = 0.0;         ///< see folded_solid_angle
+  HarmonicFitReport fit;             ///< of the series
+  std::vector<double> coefficients;  ///< of the fitted series about `centre`, length
+  RelaxationReport relaxation;
+  RefinementReport refinement;
+  std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for
+  std::optional<NodeCountSearch> search;   ///< what each N tried cost, in %; with an error target
+  MeshQuality original_quality;
+  MeshQuality quality;
+  ShapeDescriptors original;
+  ShapeDescriptors remesh;
+  RemeshOptions options;              ///< as used
+  std::vector<std::string> warnings;  ///< sentences for the user
+};
+
+/// A result's error by a measure, in %, >= 0. Throws Error(InvalidInput) for Distance when the
+/// result holds no distances.
+double error_percent(const RemeshResult& result, ErrorMeasure measure);
+
+}  // namespace wscvt

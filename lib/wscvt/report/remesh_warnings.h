@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wscvt/report/remesh_result.h"
+
+namespace wscvt {
+
+/// Share of the sphere covered more than once above which the result carries a warning.
+inline constexpr double fold_warning_limit = 0.01;
+
+/// Residual of the fit / equivalent radius above which the result carries a warning.
+inline constexpr double residual_warning_limit = 0.05;
+
+/// What the user of a result ought to know, a sentence each, the scan's faults first.
+std::vector<std::string> remesh_warnings(const RemeshResult& result);
+
+}  // namespace wscvt
