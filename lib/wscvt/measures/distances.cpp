@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/measures/distances.h"
 
+// CGAL 6 calls two of these headers *_3.h, which CGAL 5 does not have.
+#define CGAL_NO_DEPRECATION_WARNINGS
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
