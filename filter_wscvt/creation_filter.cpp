@@ -38,19 +38,11 @@ bool is_json(const std::string& path) {
 std::string creation_name() { return "Create: grain from ellipsoid, superellipsoid or harmonics"; }
 
 std::string creation_help() {
-  return "Makes a mesh of a number of nodes from a surface that is known exactly: an ellipsoid, a "
-         "superellipsoid or a series of spherical harmonics from a file, by the same weighted "
-         "Voronoi tessellation as the remesher. The result is closed, 2-manifold and outward and "
-         "becomes a new layer; the log lists its errors in volume, area and shape against the "
-         "surface itself.<br>"
-         "Harmonics are read from the text of the NIST/VCCTL particle shape sets (.dat, lines "
-         "<i>n m Re Im</i>, complex, orthonormal, Condon-Shortley phase) or from the .json that "
-         "the remesher saves. <b>It refuses</b> files that hold something else, and series whose "
-         "radius is not positive everywhere.<br>"
-         "See: <i>Wu F., Huang L., Lai Z.</i> <b>\"A spherical Voronoi tessellation-based approach "
-         "for particle surface discretization and reconstruction\"</b>, Engineering Mechanics, "
-         "2022, doi 10.6052/j.issn.1000-4750.2022.07.0614; <i>Barr A.</i> <b>\"Superquadrics and "
-         "angle-preserving transformations\"</b>, IEEE Computer Graphics and Applications, 1981";
+  return "Makes a closed mesh of a number of nodes from a surface that is known exactly: an "
+         "ellipsoid, a superellipsoid (<i>Barr</i>, 1981) or spherical harmonics from a file, as a "
+         "new layer. It refuses files that hold something else and series whose radius is not "
+         "positive everywhere. Method: <i>Wu F., Huang L., Lai Z.</i>, Engineering Mechanics, "
+         "2022.";
 }
 
 ParameterList creation_parameters() {
@@ -64,9 +56,10 @@ ParameterList creation_parameters() {
       semi_axis("SemiAxisZ", 1.0, "z"),
       exponent("PolarExponent", "Polar exponent", "seen from the side"),
       exponent("AzimuthalExponent", "Azimuthal exponent", "seen along z"),
-      text_parameter("CoefficientsFile", "Coefficients file",
-                     "Harmonics only: name of the file that holds the coefficients, .dat (text of "
-                     "the NIST/VCCTL particle shape sets) or .json (as the remesher saves it)."),
+      input_file_parameter(
+          "CoefficientsFile", {".dat", ".json"}, "Coefficients file",
+          "Harmonics only: the file that holds the coefficients, .dat (text of the NIST/VCCTL "
+          "particle shape sets) or .json (as the remesher saves it)."),
       integer_parameter("CoefficientDegree", -1, -1, highest_degree, "Cut the series at degree",
                         "Harmonics from a .dat file only: the series is cut at this degree, 0 to "
                         "200; -1 keeps all. The tables beside the particle shape sets are those "

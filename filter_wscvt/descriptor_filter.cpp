@@ -167,26 +167,20 @@ MeasuredMesh measured(NamedMesh mesh, const DetailedOptions& options, const Exec
 std::string descriptor_name() { return "Grain shape descriptors"; }
 
 std::string descriptor_help() {
-  return "Measures the shape of the current layer, a closed mesh of a grain: volume, area, "
-         "equivalent diameter, axes and their ratios from the inertia ellipsoid and from the "
-         "smallest oriented box, Wadell and Krumbein sphericity, convexity, Wadell's roundness, "
-         "roughness Sa, Sq, Ssk, Sku and Sdq of the radial deviation from the low-degree shape, "
-         "and the surface orientation tensor. When a second layer is named, the errors against it "
-         "and the distances between the two as well. Layers are measured as they are shown, their "
-         "transforms applied, and not changed.<br>"
-         "<b>It refuses</b> meshes that are open, not manifold, without volume or in parts of "
-         "comparable volume.<br>"
-         "See: <i>Wadell H.</i>, Journal of Geology, 1932; <i>Krumbein W.C.</i>, Journal of "
-         "Sedimentary Petrology, 1941; <i>Zingg T.</i>, 1935; <i>Kong D., Fonseca J.</i>, "
-         "Geotechnique, 2018; <i>Orosz A., Angelidakis V., Bagi K.</i>, Powder Technology, 2021";
+  return "Measures the shape of the current layer, a closed mesh of a grain: size, axes, "
+         "sphericity, convexity, roundness, roughness and orientation; against a second layer also "
+         "errors and distances. Layers are measured as they are shown and not changed. It refuses "
+         "what is open, not manifold or in parts. See: <i>Wadell</i>, 1932; <i>Krumbein</i>, 1941; "
+         "<i>Kong, Fonseca</i>, 2018";
 }
 
 ParameterList descriptor_parameters() {
   const DetailedOptions defaults;
   return {
       text_parameter("ReferenceLayer", "Compare with layer",
-                     "Label of a second layer, as the list of layers shows it, or nothing: errors "
-                     "are those of the current layer against this one, the original."),
+                     "A second layer as the list of layers shows it, its name with or without the "
+                     "ending or its number, or nothing: errors are those of the current layer "
+                     "against this one, the original."),
       integer_parameter("RoundnessDegree", defaults.roundness_degree, 1, 60, "Degree of roundness",
                         "Degree of the harmonic series whose corners roundness reads, 1 to 60. "
                         "Higher sees sharper corners, and noise."),
@@ -226,8 +220,8 @@ DescriptorResult measure_grains(NamedMesh mesh, std::optional<NamedMesh> referen
   return result;
 }
 
-std::vector<std::string> descriptor_lines(const DescriptorResult& result, double seconds) {
-  std::vector<std::string> lines = {"", "Layer       " + layer_line(result.mesh)};
+std::vector<LogLine> descriptor_lines(const DescriptorResult& result, double seconds) {
+  std::vector<std::string> lines = {"Layer       " + layer_line(result.mesh)};
   const auto append = [&](std::vector<std::string> more) {
     for (std::string& line : more) lines.push_back(std::move(line));
   };
@@ -238,10 +232,8 @@ std::vector<std::string> descriptor_lines(const DescriptorResult& result, double
   } else {
     append(table_lines(list_descriptors(result.mesh.descriptors)));
   }
-  for (const std::string& remark : all_remarks(result)) lines.push_back("Remark      " + remark);
   lines.push_back(seconds_line(seconds));
-  cut_lines(lines);
-  return lines;
+  return as_log(all_remarks(result), lines);
 }
 
 void write_report(const DescriptorResult& result, const std::string& path) {

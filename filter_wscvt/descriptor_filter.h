@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "log_text.h"
 #include "parameters.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/measures/detailed_descriptors.h"
@@ -53,7 +54,7 @@ DescriptorResult measure_grains(NamedMesh mesh, std::optional<NamedMesh> referen
                                 const DetailedOptions& options, const Execution& execution);
 
 /// As log_lines of the remesher.
-std::vector<std::string> descriptor_lines(const DescriptorResult& result, double seconds);
+std::vector<LogLine> descriptor_lines(const DescriptorResult& result, double seconds);
 
 /// Writes the report in the format of the file's extension; nothing for an empty name. Throws
 /// Error(InputOutput) when the file cannot be written, Error(InvalidInput) for an extension other

@@ -12,7 +12,8 @@ set -eu
 
 folder=$(realpath -m "${1:?usage: get_meshlab_source.sh FOLDER [SUITE]}")
 suite=${2:-}
-is_whole() { [ -f "$folder/ML_VERSION" ] && [ -d "$folder/src/common" ] && [ -d "$folder/vcglib" ]; }
+is_whole() { [ -f "$folder/ML_VERSION" ] && [ -d "$folder/src/common" ] &&
+  { [ -d "$folder/vcglib" ] || [ -d "$folder/src/vcglib" ]; }; }  # beside src until 2020.09
 
 # One run at a time; the lock goes with the processes that hold it, however they end.
 mkdir -p "$(dirname "$folder")"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "log_text.h"
 
+#include <QApplication>
+#include <QWidget>
 #include <algorithm>
 #include <iomanip>
 #include <locale>
@@ -15,9 +17,14 @@ std::string seconds_line(double seconds) {
   return line.str();
 }
 
-void cut_lines(std::vector<std::string>& lines) {
+std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
+                            const std::vector<std::string>& lines) {
   constexpr std::size_t longest_line = 4000;
-  for (std::string& line : lines) line.resize(std::min(line.size(), longest_line));
+  std::vector<LogLine> log = {{""}};
+  for (const std::string& warning : warnings)
+    log.push_back({warning.substr(0, longest_line), true});
+  for (const std::string& line : lines) log.push_back({line.substr(0, longest_line)});
+  return log;
 }
 
 std::string html_line(const std::string& line) {
@@ -43,6 +50,23 @@ std::string html_line(const std::string& line) {
     }
   }
   return html;
+}
+
+bool host_has_window() {
+  const QWidgetList widgets = QApplication::topLevelWidgets();
+  return std::any_of(widgets.begin(), widgets.end(),
+                     [](const QWidget* widget) { return widget->inherits("QMainWindow"); });
+}
+
+std::string shown_line(const LogLine& line) {
+  const std::string text = line.warning ? "Warning: " + line.text : line.text;
+  if (!host_has_window()) return text;
+  return line.warning ? "<font color=\"red\">" + html_line(text) + "</font>" : html_line(text);
+}
+
+std::string shown_sentence(const std::string& sentence) {
+  if (!host_has_window()) return sentence;
+  return QString::fromStdString(sentence).toHtmlEscaped().toStdString();
 }
 
 }  // namespace wscvt::filter

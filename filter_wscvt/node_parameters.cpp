@@ -140,4 +140,22 @@ std::string nodes_name(const RemeshOptions& options) {
   return "unknown weighting";
 }
 
+std::vector<std::string> all_nodes_names() {
+  std::vector<std::string> names;
+  RemeshOptions options;
+  for (const Sampling sampling :
+       {Sampling::Fibonacci, Sampling::EqualAngle, Sampling::Icosahedron}) {
+    options.seeding.sampling = sampling;
+    names.push_back(nodes_name(options));
+  }
+  options.seeding.sampling = Sampling::Weighted;
+  for (const Weighting weighting :
+       {Weighting::Constant, Weighting::RadialDistance, Weighting::Curvature, Weighting::Area,
+        Weighting::ErrorAdaptive}) {
+    options.weighting.kind = weighting;
+    names.push_back(nodes_name(options));
+  }
+  return names;
+}
+
 }  // namespace wscvt::filter

@@ -44,6 +44,9 @@ const std::vector<double>& quality_values(const RemeshResult& result, VertexQual
 /// How the nodes were chosen, short, for labels: Constant, WSCVT-D, Fibonacci, ...
 std::string nodes_name(const RemeshOptions& options);
 
+/// All that nodes_name gives.
+std::vector<std::string> all_nodes_names();
+
 /// What a filter does with a mesh of N nodes.
 struct ResultSettings {
   VertexQuality quality = VertexQuality::RadialDistance;

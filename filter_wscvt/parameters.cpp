@@ -56,14 +56,22 @@ double checked_value(const FilterParameter& parameter, double value) {
   throw Error(ErrorCode::InvalidInput, sentence + ". Nothing was changed.");
 }
 
+FilterParameter file(std::string name, ParameterKind kind, std::vector<std::string> extensions,
+                     std::string label, std::string tooltip) {
+  FilterParameter parameter =
+      number(std::move(name), kind, 0, 0, 0, std::move(label), std::move(tooltip));
+  parameter.extensions = std::move(extensions);
+  return parameter;
+}
+
 ParameterValue default_of(const FilterParameter& parameter) {
-  if (parameter.kind == ParameterKind::Text) return std::string();
+  if (holds_text(parameter.kind)) return std::string();
   return parameter.default_value;
 }
 
 ParameterValue checked(const FilterParameter& parameter, const ParameterValue& value) {
   const bool is_text = std::holds_alternative<std::string>(value);
-  if (is_text != (parameter.kind == ParameterKind::Text)) {
+  if (is_text != holds_text(parameter.kind)) {
     throw Error(ErrorCode::InvalidInput,
                 "Parameter " + parameter.name + " (" + parameter.label + ") is " +
                     (is_text ? "a text; give a number." : "a number; give a text."));
@@ -73,6 +81,12 @@ ParameterValue checked(const FilterParameter& parameter, const ParameterValue& v
 }
 
 }  // namespace
+
+bool holds_text(ParameterKind kind) { return kind == ParameterKind::Text || holds_file(kind); }
+
+bool holds_file(ParameterKind kind) {
+  return kind == ParameterKind::InputFile || kind == ParameterKind::OutputFile;
+}
 
 FilterParameter integer_parameter(std::string name, int default_value, int minimum, int maximum,
                                   std::string label, std::string tooltip) {
@@ -105,6 +119,18 @@ FilterParameter flag_parameter(std::string name, bool default_value, std::string
 FilterParameter text_parameter(std::string name, std::string label, std::string tooltip) {
   return number(std::move(name), ParameterKind::Text, 0, 0, 0, std::move(label),
                 std::move(tooltip));
+}
+
+FilterParameter input_file_parameter(std::string name, std::vector<std::string> extensions,
+                                     std::string label, std::string tooltip) {
+  return file(std::move(name), ParameterKind::InputFile, std::move(extensions), std::move(label),
+              std::move(tooltip));
+}
+
+FilterParameter output_file_parameter(std::string name, std::vector<std::string> extensions,
+                                      std::string label, std::string tooltip) {
+  return file(std::move(name), ParameterKind::OutputFile, std::move(extensions), std::move(label),
+              std::move(tooltip));
 }
 
 CheckedValues::CheckedValues(const ParameterList& parameters, const ParameterValues& values) {

@@ -10,23 +10,33 @@ namespace wscvt::filter {
 
 /// What a parameter holds.
 enum class ParameterKind {
-  Integer,  ///< a whole number
-  Real,     ///< a decimal number
-  Choice,   ///< an index into `choices`
-  Flag,     ///< 0 or 1
-  Text,     ///< a file's or a layer's name, UTF-8
+  Integer,     ///< a whole number
+  Real,        ///< a decimal number
+  Choice,      ///< an index into `choices`
+  Flag,        ///< 0 or 1
+  Text,        ///< a layer's name, UTF-8
+  InputFile,   ///< name of a file to be read, UTF-8
+  OutputFile,  ///< name of a file to be written, UTF-8
 };
+
+/// Whether a value of the kind is a text, not a number.
+bool holds_text(ParameterKind kind);
+
+/// Whether a value of the kind names a file.
+bool holds_file(ParameterKind kind);
 
 /// One parameter of a filter, free of any host's types.
 struct FilterParameter {
   std::string name;  ///< saved in scripts: never changes
   ParameterKind kind = ParameterKind::Integer;
-  double default_value = 0.0;        ///< of a number; a Text is empty
-  double minimum = 0.0;              ///< smallest value accepted
-  double maximum = 0.0;              ///< largest value accepted
-  std::vector<std::string> choices;  ///< of a Choice, in the order of their index
+  double default_value = 0.0;           ///< of a number; a Text is empty
+  double minimum = 0.0;                 ///< smallest value accepted
+  double maximum = 0.0;                 ///< largest value accepted
+  std::vector<std::string> choices;     ///< of a Choice, in the order of their index
+  std::vector<std::string> extensions;  ///< of a file: ".json", ...
   std::string label;
   std::string tooltip;
+  bool advanced = false;  ///< folded away at first by hosts that can
 };
 
 /// Parameters in the order in which a dialog shows them.
@@ -42,6 +52,10 @@ FilterParameter choice_parameter(std::string name, int default_index,
 FilterParameter flag_parameter(std::string name, bool default_value, std::string label,
                                std::string tooltip);
 FilterParameter text_parameter(std::string name, std::string label, std::string tooltip);
+FilterParameter input_file_parameter(std::string name, std::vector<std::string> extensions,
+                                     std::string label, std::string tooltip);
+FilterParameter output_file_parameter(std::string name, std::vector<std::string> extensions,
+                                      std::string label, std::string tooltip);
 
 /// A number, with enumerations as index and flags as 0 or 1, or a text.
 using ParameterValue = std::variant<double, std::string>;
@@ -74,5 +88,8 @@ class CheckedValues {
 
 /// The decimal number a user typed, given the float a host made of it: 0.1, not 0.100000001.
 double typed_value(float value);
+
+/// The same in a host whose numbers are doubles.
+inline double typed_value(double value) { return value; }
 
 }  // namespace wscvt::filter

@@ -10,18 +10,11 @@ namespace wscvt::filter {
 std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Voronoi"; }
 
 std::string remesh_help() {
-  return "Turns a dense closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
-         "for</b>: a series of spherical harmonics is fitted to the surface, nodes on the sphere "
-         "are relaxed to a weighted centroidal Voronoi tessellation and put back on the surface. "
-         "The result is closed, 2-manifold and free of self-intersections; its errors are in the "
-         "log. Instead of a number an error target can be given.<br>"
-         "<b>It repairs</b> equal points, degenerate faces, orientation and small loose parts, and "
-         "says so in the log; points without faces are triangulated. <b>It refuses</b>, and "
-         "changes nothing, when the mesh is open, not manifold, without volume, not finite or in "
-         "parts of comparable volume, or folds over itself beyond the fold limit.<br>"
-         "See: <i>Wu F., Huang L., Lai Z.</i> <b>\"A spherical Voronoi tessellation-based approach "
-         "for particle surface discretization and reconstruction\"</b>, Engineering Mechanics, "
-         "2022, doi 10.6052/j.issn.1000-4750.2022.07.0614";
+  return "Turns a closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
+         "for</b>, by a weighted Voronoi tessellation of the sphere. It repairs small faults and "
+         "says so; it refuses, changing nothing, what is open, not manifold or folded too much. "
+         "See: <i>Wu F., Huang L., Lai Z.</i>, Engineering Mechanics, 2022, doi "
+         "10.6052/j.issn.1000-4750.2022.07.0614";
 }
 
 ParameterList remesh_parameters() {
@@ -92,10 +85,11 @@ ParameterList remesh_parameters() {
           "to the scan, in units of the mesh."),
       colour_by_quality_parameter(),
       report_file_parameter(),
-      text_parameter("CoefficientsFile", "Save coefficients to",
-                     "Name of a .json file for the coefficients of the fitted harmonic series, "
-                     "about the volume centroid and in units of the mesh, or nothing. The filter "
-                     "that creates grains reads it."),
+      output_file_parameter(
+          "CoefficientsFile", {".json"}, "Save coefficients to",
+          "A .json file for the coefficients of the fitted harmonic series, about the volume "
+          "centroid and in units of the mesh, or nothing. A name without a folder lands beside the "
+          "scan. The filter that creates grains reads it."),
   };
 }
 

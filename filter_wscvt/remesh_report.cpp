@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remesh_report.h"
 
-#include <algorithm>
-#include <locale>
-#include <sstream>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "html_report.h"
 #include "log_text.h"
 #include "report_file.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_check.h"
@@ -19,33 +19,67 @@ namespace wscvt::filter {
 
 namespace {
 
-std::string quality_line(const RemeshResult& result, VertexQuality quality) {
-  const std::vector<double>& values = quality_values(result, quality);
-  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-  std::ostringstream line;
-  line.imbue(std::locale::classic());
-  line << "Stored      vertex quality: " << quality_names()[static_cast<std::size_t>(quality)];
-  if (lowest != values.end()) line << ", " << *lowest << " to " << *highest;
-  return line.str();
+/// The descriptors of the short table, by key.
+const std::map<std::string, std::string> short_labels = {{"volume", "volume"},
+                                                         {"area", "surface area"},
+                                                         {"sphericity_wadell", "sphericity"},
+                                                         {"aspect_ratio_inertia", "aspect ratio"}};
+
+/// The lines of the library's report on these topics.
+void append_topics(std::vector<std::string>& lines, const std::vector<std::string>& report,
+                   const std::vector<std::string>& topics) {
+  for (const std::string& line : report) {
+    for (const std::string& topic : topics) {
+      const bool is_news = line.find("none needed") == std::string::npos;
+      if (line.rfind(topic + " ", 0) == 0 && is_news) lines.push_back(line);
+    }
+  }
 }
 
-std::string seed_line(const RemeshOptions& options) {
-  return options.seeding.start == SeedStart::Random
-             ? "Seed        " + std::to_string(options.seeding.random_seed)
-             : "Seed        not used: nothing was random";
+/// What a person looks at first, one row a measure: before, after, error in %.
+std::vector<std::string> short_table(const RemeshResult& result) {
+  std::vector<std::vector<std::string>> cells = {{"", "original", "remesh", "error %"}};
+  const auto add = [&](const std::string& label, double from, double to) {
+    cells.push_back({"  " + label, format_number(from, 5), format_number(to, 5), ""});
+  };
+  // A surface from a formula has neither vertices nor triangles.
+  const bool is_scan = result.input.input_vertices > 0;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  add("vertices", is_scan ? static_cast<double>(result.input.vertices) : none,
+      static_cast<double>(result.mesh.points.size()));
+  add("faces", is_scan ? static_cast<double>(result.input.faces) : none,
+      static_cast<double>(result.mesh.triangles.size()));
+  for (const DescriptorComparison& row :
+       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh))) {
+    const auto label = short_labels.find(row.key);
+    if (label == short_labels.end()) continue;
+    cells.push_back({"  " + label->second, format_number(row.reference, 5),
+                     format_number(row.value, 5), format_error(row.error_percent)});
+  }
+  add("mean edge ratio", is_scan ? result.original_quality.edge_ratio.mean : none,
+      result.quality.edge_ratio.mean);
+  add("smallest angle", is_scan ? result.original_quality.smallest_angle : none,
+      result.quality.smallest_angle);
+  if (result.distances) {
+    const double radius = result.input.equivalent_radius;
+    cells.push_back({"  rms distance, % of radius", "",
+                     format_number(100.0 * result.distances->root_mean_square / radius, 3), ""});
+  }
+  return aligned_lines(cells);
 }
 
 }  // namespace
 
-std::vector<std::string> log_lines(const RemeshResult& result, VertexQuality quality,
-                                   double seconds) {
-  std::vector<std::string> lines{""};
-  for (std::string& line : report_lines(result)) lines.push_back(std::move(line));
-  lines.push_back(quality_line(result, quality));
+std::vector<LogLine> log_lines(const RemeshResult& result, double seconds) {
+  std::vector<std::string> lines = short_table(result);
+  const std::vector<std::string> report = report_lines(result);
+  if (result.input.input_vertices > 0) append_topics(lines, report, {"Repairs"});
+  append_topics(lines, report, {"Target"});
+  if (result.options.seeding.start == SeedStart::Random) {
+    lines.push_back("Seed        " + std::to_string(result.options.seeding.random_seed));
+  }
   lines.push_back(seconds_line(seconds));
-  lines.push_back(seed_line(result.options));
-  cut_lines(lines);
-  return lines;
+  return as_log(result.warnings, lines);
 }
 
 namespace {

@@ -4,17 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "node_parameters.h"
+#include "log_text.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/remesh.h"
 
 namespace wscvt::filter {
 
-/// The log of a run: the library's report, what the vertex quality holds, seed and seconds. The
-/// first line is empty, because a host may have left progress text without a line end; every line
-/// is shorter than the 4096 characters at which hosts cut.
-std::vector<std::string> log_lines(const RemeshResult& result, VertexQuality quality,
-                                   double seconds);
+/// The log of a run, short enough for a host's panel: warnings, then what changed, one row a
+/// measure, then what was repaired and the seconds. Everything else is in the report.
+std::vector<LogLine> log_lines(const RemeshResult& result, double seconds);
 
 /// Writes the report in the format of the file's extension; nothing for an empty name. `original`
 /// is the mesh as it was given, of which an HTML report shows the edges; empty when there was none.

@@ -35,11 +35,12 @@ const std::vector<std::string> report_extensions = {".html", ".json", ".csv"};
 }  // namespace
 
 FilterParameter report_file_parameter() {
-  return text_parameter(
-      "ReportFile", "Report file",
-      "Name of a file for the report, or nothing. Its extension decides what it becomes: .html "
-      "(for reading), .json (everything) or .csv (one row, for tables). It is written whole or "
-      "not at all; an existing file is replaced.");
+  return output_file_parameter(
+      "ReportFile", report_extensions, "Report file",
+      "File for the report, or nothing. Its extension decides what it becomes: .html "
+      "(for reading), .json (everything) or .csv (one row, for tables). A name without a folder "
+      "lands beside the scan; the log says where. It is written whole or not at all; an existing "
+      "file is replaced.");
 }
 
 ReportFormat report_format(const std::string& path) {

@@ -4,10 +4,7 @@
 #include <common/interfaces.h>
 #include <common/mlexception.h>
 
-#include <string>
-#include <vector>
-
-/// The filters as MeshLab 2020.09 wants it: the only class that knows this version's interface.
+/// The filters as MeshLab 2020.09 wants them: the only class that knows this version's interface.
 class FilterWscvt : public QObject, public MeshFilterInterface {
   Q_OBJECT
   MESHLAB_PLUGIN_IID_EXPORTER(MESH_FILTER_INTERFACE_IID)
@@ -30,14 +27,4 @@ class FilterWscvt : public QObject, public MeshFilterInterface {
 
   bool applyFilter(QAction* action, MeshDocument& document, const RichParameterList& parameters,
                    vcg::CallBackPos* callback) override;
-
- private:
-  void remesh_current_layer(MeshDocument& document, const RichParameterList& parameters,
-                            vcg::CallBackPos* callback);
-  void create_layer(MeshDocument& document, const RichParameterList& parameters,
-                    vcg::CallBackPos* callback);
-  void describe_current_layer(MeshDocument& document, const RichParameterList& parameters,
-                              vcg::CallBackPos* callback);
-  void log(const std::vector<std::string>& lines);
-  bool fail(const QString& sentence);
 };

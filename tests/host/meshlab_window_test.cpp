@@ -1,47 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The real meshlab in a window on a virtual display, driven by keys and clicks as a person would.
 // Each step waits for what it should bring about: a window's title, or a line of MeshLab's log.
-#include <common/interfaces.h>
-#include <common/pluginmanager.h>
 #include <gtest/gtest.h>
 
 #include <QDomDocument>
 #include <QFile>
+#include <QRect>
 #include <QThread>
 
+#include "everyday_filter.h"
 #include "programs.h"
+#include "remesh_filter.h"
 #include "sample_meshes.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::host_test {
 namespace {
 
-const QString filter_menu_text = "Remeshing: Weighted Spherical Centroidal Voronoi";
+const QString remesh_menu_text = QString::fromStdString(filter::remesh_name());
+const QString everyday_menu_text = QString::fromStdString(filter::everyday_name());
 constexpr double patience = 60.0;  // seconds for any one step
 
-/// Entries of the Filters menu below "Remeshing, Simplification and Reconstruction".
-constexpr int entries_after_remeshing = 12;
+const QSize small_screen(1366, 768);  // of an older laptop
+const QSize usual_screen(1280, 1000);
 
-/// Place of the filter in its submenu, 0 first, by the rule with which MeshLab fills its menus.
-int place_in_submenu() {
-  PluginManager plugins;
-  RichParameterList settings;
-  plugins.loadPlugins(settings, QDir(QStringLiteral(WSCVT_PLUGIN_DIR)));
-  int place = 0;
-  for (auto entry = plugins.actionFilterMap.begin(); entry != plugins.actionFilterMap.end();
-       ++entry) {
-    if (entry.key() == filter_menu_text) return place;
-    auto* filter = qobject_cast<MeshFilterInterface*>(entry.value()->parent());
-    if ((filter->getClass(entry.value()) & MeshFilterInterface::Remeshing) != 0) ++place;
-  }
-  return -1;
-}
-
-/// MeshLab with one mesh open.
+/// MeshLab with one mesh open that fills a screen.
 class Window {
  public:
-  Window(const QString& scan, const QString& folder)
-      : environment_(environment_on(display_, folder)) {
+  Window(const QString& scan, const QString& folder, const QSize& screen = usual_screen)
+      : screen_(screen), display_(screen), environment_(environment_on(display_, folder)) {
     meshlab_.setProcessEnvironment(environment_);
     meshlab_.setProcessChannelMode(QProcess::MergedChannels);
     meshlab_.start(QStringLiteral(WSCVT_STAGE_DIR "/bin/meshlab"), {scan});
@@ -80,10 +67,14 @@ class Window {
     QThread::msleep(200);
   }
 
-  void fill_screen(const QString& title) {
-    xdotool({"windowmove", window(title), "0", "0"});
-    xdotool({"windowsize", window(title), "1280", "1000"});
+  /// Waits for the mesh and for the window, and gives it the screen. False when it does not come.
+  bool start() {
+    if (!wait_for_log("Opened mesh") || !wait_for_window(main_title)) return false;
+    xdotool({"windowmove", window(main_title), "0", "0"});
+    xdotool({"windowsize", window(main_title), QString::number(screen_.width()),
+             QString::number(screen_.height())});
     QThread::msleep(500);
+    return true;
   }
 
   void press(const QString& key, int times = 1) {
@@ -95,17 +86,25 @@ class Window {
 
   void type(const QString& text) { xdotool({"type", "--delay", "20", text}); }
 
+  /// Where a window is on the screen.
+  QRect place(const QString& title) {
+    std::map<QString, int> values;
+    for (const QString& line :
+         xdotool({"getwindowgeometry", "--shell", window(title)}).split('\n')) {
+      values[line.section('=', 0, 0)] = line.section('=', 1).toInt();
+    }
+    return {values["X"], values["Y"], values["WIDTH"], values["HEIGHT"]};
+  }
+
+  bool is_on_screen(const QString& title) {
+    return QRect(QPoint(0, 0), screen_).contains(place(title));
+  }
+
   /// Clicks a window at a share of its width and a distance from its lower edge.
   void click(const QString& title, double across, int above_bottom) {
-    const QString id = window(title);
-    int width = 0;
-    int height = 0;
-    for (const QString& line : xdotool({"getwindowgeometry", "--shell", id}).split('\n')) {
-      if (line.startsWith("WIDTH=")) width = line.section('=', 1).toInt();
-      if (line.startsWith("HEIGHT=")) height = line.section('=', 1).toInt();
-    }
-    xdotool({"mousemove", "--window", id, QString::number(static_cast<int>(across * width)),
-             QString::number(height - above_bottom)});
+    const QRect at = place(title);
+    xdotool({"mousemove", QString::number(at.x() + static_cast<int>(across * at.width())),
+             QString::number(at.y() + at.height() - above_bottom)});
     QThread::msleep(200);
     xdotool({"click", "1"});
   }
@@ -115,30 +114,31 @@ class Window {
         {"-window", "root", QStringLiteral(WSCVT_SCREENSHOT_DIR "/") + name});
   }
 
-  /// Opens the filter's dialog through the menus; false when it does not come up.
-  bool open_filter(int place) {
+  /// Opens a filter's dialog as a person finds it, by words of its name; false when it does not
+  /// come up.
+  bool open_filter(const QString& name) {
     for (int attempt = 0; attempt < 3; ++attempt) {
       press("Escape", 3);
       focus(main_title);
-      press("alt+l");  // Filters
+      press("ctrl+f");
       QThread::msleep(700);
-      // The first entry that is on is selected; the next one up is the last.
-      press("Up", 1 + entries_after_remeshing);
-      QThread::msleep(300);
-      press("Right");
-      QThread::msleep(700);
-      press("Down", place);
-      QThread::msleep(300);
+      type(name.section(": ", 1));
+      QThread::msleep(1000);
       screenshot("menu.png");
+      press("Down");
+      QThread::msleep(300);
       press("Return");
-      if (wait_for_window(filter_menu_text, 10.0)) return true;
+      if (wait_for_window(name, 10.0)) return true;
     }
     return false;
   }
 
-  void apply_filter() { click(filter_menu_text, 0.75, 22); }
+  // The dialog's four buttons stand in two rows at its lower edge, in every version.
+  void apply(const QString& filter) { click(filter, 0.75, 22); }
+  void close(const QString& filter) { click(filter, 0.25, 22); }
+  void help(const QString& filter) { click(filter, 0.75, 52); }
 
-  const QString main_title = "^MeshLab 2020.09";
+  const QString main_title = "^MeshLab " WSCVT_MESHLAB_VERSION;
 
  private:
   QString run(const QString& program, const QStringList& arguments) {
@@ -153,31 +153,64 @@ class Window {
     return run(QStringLiteral(XDOTOOL_EXECUTABLE), arguments);
   }
 
+  QSize screen_;
   VirtualDisplay display_;
   QProcessEnvironment environment_;
   QProcess meshlab_;
   QString log_;
 };
 
-TEST(Window, MenuEntryAddsALayerThatIsSavedWithTheProject) {
+TEST(Window, EverydayFilterIsAppliedByMouseOnASmallScreen) {
+  QTemporaryDir folder;
+  Window meshlab(sample("sand_7228.ply"), folder.path(), small_screen);
+  ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(everyday_menu_text)) << meshlab.log().toStdString();
+  meshlab.screenshot("small_screen.png");
+  EXPECT_TRUE(meshlab.is_on_screen(everyday_menu_text));
+  meshlab.apply(everyday_menu_text);
+  ASSERT_TRUE(meshlab.wait_for_log(everyday_menu_text + " in ")) << meshlab.log().toStdString();
+  EXPECT_TRUE(meshlab.log().contains("volume"));
+
+  // The dialog is still there: once more, on the scan and not on the remesh.
+  meshlab.apply(everyday_menu_text);
+  ASSERT_TRUE(meshlab.wait_for_log("is a remesh of 'sand_7228.ply'"))
+      << meshlab.log().toStdString();
+  meshlab.close(everyday_menu_text);
+  meshlab.screenshot("small_screen_result.png");
+  EXPECT_TRUE(meshlab.is_running());
+}
+
+TEST(Window, HelpOfTheEverydayFilterStaysOnTheScreen) {
+  QTemporaryDir folder;
+  Window meshlab(sample("sand_7228.ply"), folder.path());
+  ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(everyday_menu_text)) << meshlab.log().toStdString();
+  const QRect before = meshlab.place(everyday_menu_text);
+  meshlab.help(everyday_menu_text);
+  EXPECT_TRUE(wait_until([&] { return meshlab.place(everyday_menu_text).width() > before.width(); },
+                         patience));
+  QThread::msleep(500);
+  meshlab.screenshot("help.png");
+  EXPECT_TRUE(meshlab.is_on_screen(everyday_menu_text));
+}
+
+TEST(Window, FilterAddsALayerThatIsSavedWithTheProject) {
   const QString scan = sample("sand_7228.ply");
   ASSERT_TRUE(QFile::exists(scan)) << scan.toStdString();
-  const int place = place_in_submenu();
-  ASSERT_GE(place, 0);
   QTemporaryDir folder;
   Window meshlab(scan, folder.path());
-  ASSERT_TRUE(meshlab.wait_for_log("All files opened")) << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.wait_for_window(meshlab.main_title));
-  meshlab.fill_screen(meshlab.main_title);
+  ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
 
-  ASSERT_TRUE(meshlab.open_filter(place)) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(remesh_menu_text)) << meshlab.log().toStdString();
   meshlab.screenshot("dialog.png");
-  meshlab.apply_filter();
-  ASSERT_TRUE(meshlab.wait_for_log("Applied filter " + filter_menu_text))
-      << meshlab.log().toStdString();
-  meshlab.click(filter_menu_text, 0.25, 22);  // Close
+  meshlab.apply(remesh_menu_text);
+  ASSERT_TRUE(meshlab.wait_for_log(remesh_menu_text + " in ")) << meshlab.log().toStdString();
+  meshlab.close(remesh_menu_text);
   meshlab.screenshot("result.png");
 
+  if (QStringLiteral(WSCVT_MESHLAB_VERSION) != "2020.09") {
+    GTEST_SKIP() << "Saving is driven in the dialogs of 2020.09 only";
+  }
   // Saving the project first asks for a file for each layer that has none, by the layer's name.
   meshlab.focus(meshlab.main_title);
   meshlab.press("ctrl+s");
@@ -213,24 +246,21 @@ TEST(Window, MenuEntryAddsALayerThatIsSavedWithTheProject) {
 }
 
 TEST(Window, RefusalShowsAMessageAndMeshLabGoesOn) {
-  const int place = place_in_submenu();
-  ASSERT_GE(place, 0);
   QTemporaryDir folder;
   const QString scan = folder.filePath("open.ply");
   write_as_it_is(without_a_patch(), scan);
   Window meshlab(scan, folder.path());
-  ASSERT_TRUE(meshlab.wait_for_log("All files opened")) << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.wait_for_window(meshlab.main_title));
-  meshlab.fill_screen(meshlab.main_title);
-  ASSERT_TRUE(meshlab.open_filter(place)) << meshlab.log().toStdString();
-  meshlab.apply_filter();
+  ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(remesh_menu_text)) << meshlab.log().toStdString();
+  meshlab.apply(remesh_menu_text);
   ASSERT_TRUE(meshlab.wait_for_window("Filter Failure")) << meshlab.log().toStdString();
   meshlab.screenshot("refusal.png");
   meshlab.focus("Filter Failure");
   meshlab.press("Return");
-  ASSERT_TRUE(meshlab.wait_for_log("Filter failed:")) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.wait_for_log("failed: ")) << meshlab.log().toStdString();
   EXPECT_TRUE(meshlab.log().contains("boundary", Qt::CaseInsensitive))
       << meshlab.log().toStdString();
+  EXPECT_TRUE(wait_until([&] { return meshlab.window("Filter Failure").isEmpty(); }, patience));
   EXPECT_TRUE(meshlab.is_running());
 }
 

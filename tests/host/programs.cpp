@@ -17,10 +17,12 @@ constexpr int run_milliseconds = 300000;
 
 }  // namespace
 
-VirtualDisplay::VirtualDisplay() {
+VirtualDisplay::VirtualDisplay(const QSize& size) {
   // -displayfd: the server finds a free number and tells it when it is ready.
-  server_.start(QStringLiteral(XVFB_EXECUTABLE),
-                {"-displayfd", "1", "-screen", "0", "1280x1000x24", "-nolisten", "tcp"});
+  server_.start(
+      QStringLiteral(XVFB_EXECUTABLE),
+      {"-displayfd", "1", "-screen", "0",
+       QStringLiteral("%1x%2x24").arg(size.width()).arg(size.height()), "-nolisten", "tcp"});
   while (!server_.canReadLine()) {
     if (!server_.waitForReadyRead(start_milliseconds)) {
       throw std::runtime_error("Xvfb does not start: " +
@@ -48,6 +50,8 @@ QProcessEnvironment environment_on(const VirtualDisplay& display, const QString&
   environment.insert("XDG_CONFIG_HOME", home + "/config");
   environment.insert("XDG_RUNTIME_DIR", runtime);
   environment.insert("LIBGL_ALWAYS_SOFTWARE", "1");
+  // Debian unstable's meshlab does not find its library without help.
+  environment.insert("LD_LIBRARY_PATH", QStringLiteral(WSCVT_MESHLAB_LIBRARY_DIR));
   environment.insert("LC_ALL", "C.UTF-8");
   return environment;
 }

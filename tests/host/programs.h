@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QProcess>
+#include <QSize>
 #include <QString>
 #include <QStringList>
 #include <QTemporaryDir>
@@ -11,11 +12,11 @@
 
 namespace wscvt::host_test {
 
-/// An X server without a screen, on a display number of its own choice. Throws std::runtime_error
-/// when it does not start.
+/// An X server without a screen, of width x height pixels, on a display number of its own choice.
+/// Throws std::runtime_error when it does not start.
 class VirtualDisplay {
  public:
-  VirtualDisplay();
+  explicit VirtualDisplay(const QSize& size = QSize(1280, 1000));
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filters.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <chrono>
+#include <exception>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "creation_filter.h"
+#include "descriptor_filter.h"
+#include "everyday_filter.h"
+#include "remesh_filter.h"
+#include "remesh_report.h"
+#include "wscvt/measures/descriptor_table.h"
+#include "wscvt/remesh.h"
+#include "wscvt/surface/harmonic_io.h"
+
+namespace wscvt::filter {
+
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The values with the names of files in full: a name without a folder is in `folder`.
+ParameterValues with_full_names(const ParameterList& parameters, ParameterValues values,
+                                const std::string& folder) {
+  for (const FilterParameter& parameter : parameters) {
+    const auto value = values.find(parameter.name);
+    if (!holds_file(parameter.kind) || value == values.end()) continue;
+    auto* name = std::get_if<std::string>(&value->second);
+    if (name == nullptr || name->empty()) continue;
+    *name =
+        QDir::cleanPath(
+            QDir(QString::fromStdString(folder)).absoluteFilePath(QString::fromStdString(*name)))
+            .toStdString();
+  }
+  return values;
+}
+
+void add_file_line(std::vector<LogLine>& log, const std::string& title, const std::string& file) {
+  if (!file.empty()) log.push_back({title + file});
+}
+
+LayerContent content_of(const RemeshResult& result, const ResultSettings& settings) {
+  return {result.mesh, quality_values(result, settings.quality),
+          settings.colour_by_quality};
+}
+
+/// Errors and values of a remesh, under the names of the reports.
+std::map<std::string, double> values_of(const RemeshResult& result) {
+  std::map<std::string, double> values;
+  for (const DescriptorComparison& row :
+       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh))) {
+    values[row.key + "_original"] = row.reference;
+    values[row.key] = row.value;
+    values[row.key + "_error_percent"] = row.error_percent;
+  }
+  values["vertices"] = static_cast<double>(result.mesh.points.size());
+  values["faces"] = static_cast<double>(result.mesh.triangles.size());
+  return values;
+}
+
+FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValues& values,
+                           Layers& layers, const Execution& execution) {
+  const Stopwatch stopwatch;
+  const Layer current = current_layer(layers);
+  // A remesh of a remesh has errors that nobody asks for: the scan it came from is remeshed again.
+  const std::optional<Layer> origin = source_of(layers, current.number);
+  const Layer scan = origin.value_or(current);
+  const RemeshSettings settings =
+      read_remesh_settings(with_full_names(parameters, values, folder_of(scan)));
+  const IndexedMesh mesh = layers.mesh(scan.number);
+  const Eigen::Matrix4d transform = layers.transform(scan.number);
+  const RemeshResult result = remesh(mesh, settings.options, execution);
+  // Files first: when they cannot be written the document stays as it was.
+  write_report(result, mesh, settings.result.report_file);
+  if (!settings.coefficients_file.empty()) {
+    write_harmonics(settings.coefficients_file, HarmonicSurface(result.coefficients));
+  }
+
+  const std::string label =
+      remesh_label(scan.label, nodes_name(result.options), result.mesh.points.size());
+  const LayerContent content = content_of(result, settings.result);
+  if (settings.new_layer) {
+    const int added = layers.add(label, content, transform);
+    set_source(layers, added, scan.number);
+    // The result is to be seen, and it lies in the scan.
+    layers.hide(scan.number);
+    if (origin) layers.hide(current.number);
+  } else {
+    layers.replace(current.number, content);
+    if (origin) {
+      layers.rename(current.number, label);
+      set_source(layers, current.number, scan.number);
+    }
+  }
+
+  FilterOutcome outcome;
+  outcome.log = log_lines(result, stopwatch.seconds());
+  if (origin) {
+    outcome.log.push_back({"'" + current.label + "' is a remesh of '" + scan.label +
+                           "', so that was remeshed again; duplicate the layer to remesh the "
+                           "remesh itself."});
+  }
+  add_file_line(outcome.log, "Report in ", settings.result.report_file);
+  add_file_line(outcome.log, "Coefficients in ", settings.coefficients_file);
+  outcome.values = values_of(result);
+  return outcome;
+}
+
+/// Folder for names without one where no scan is worked on: that of what is open.
+std::string folder_at_hand(const Layers& layers) {
+  const std::optional<Layer> current = layers.current();
+  if (!current) return folder_of(Layer());
+  return folder_of(source_of(layers, current->number).value_or(*current));
+}
+
+FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
+                           const Execution& execution) {
+  const Stopwatch stopwatch;
+  const CreationSettings settings = read_creation_settings(
+      with_full_names(creation_parameters(), values, folder_at_hand(layers)));
+  const auto surface = make_surface(settings);
+  const RemeshResult result = remesh(*surface, settings.options, execution);
+  write_report(result, IndexedMesh(), settings.result.report_file);
+  layers.add(
+      remesh_label(surface_name(settings), nodes_name(result.options), result.mesh.points.size()),
+      content_of(result, settings.result), Eigen::Matrix4d::Identity());
+
+  FilterOutcome outcome;
+  outcome.log = log_lines(result, stopwatch.seconds());
+  add_file_line(outcome.log, "Report in ", settings.result.report_file);
+  outcome.values = values_of(result);
+  return outcome;
+}
+
+FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
+                             const Execution& execution) {
+  const Stopwatch stopwatch;
+  const DescriptorSettings settings = read_descriptor_settings(
+      with_full_names(descriptor_parameters(), values, folder_at_hand(layers)));
+  const Layer current = current_layer(layers);
+  std::optional<NamedMesh> reference;
+  if (!settings.reference_layer.empty()) {
+    const Layer layer = layer_named(layers, settings.reference_layer, "ReferenceLayer");
+    reference = NamedMesh{layer.label, shown_mesh(layers, layer.number)};
+  }
+  const DescriptorResult result =
+      measure_grains({current.label, shown_mesh(layers, current.number)}, std::move(reference),
+                     settings.options, execution);
+  write_report(result, settings.report_file);
+
+  FilterOutcome outcome;
+  outcome.log = descriptor_lines(result, stopwatch.seconds());
+  add_file_line(outcome.log, "Report in ", settings.report_file);
+  for (const DescriptorValue& row : list_descriptors(result.mesh.descriptors)) {
+    outcome.values[row.key] = row.value;
+  }
+  return outcome;
+}
+
+}  // namespace
+
+std::vector<Filter> all_filters() {
+  return {
+      {FilterId::Everyday, everyday_name(), "meshing_grain_to_node_count", everyday_help(),
+       everyday_parameters(), FilterMenu::Remeshing, false, true},
+      {FilterId::Remesh, remesh_name(), "meshing_weighted_spherical_voronoi", remesh_help(),
+       with_advanced_flags(remesh_parameters()), FilterMenu::Remeshing, false, true},
+      {FilterId::Create, creation_name(), "create_grain", creation_help(), creation_parameters(),
+       FilterMenu::Creation, false, true},
+      {FilterId::Describe, descriptor_name(), "get_grain_shape_descriptors", descriptor_help(),
+       descriptor_parameters(), FilterMenu::Measure, true, false},
+  };
+}
+
+Filter filter_with_number(int number) {
+  for (Filter& filter : all_filters()) {
+    if (static_cast<int>(filter.id) == number) return std::move(filter);
+  }
+  return filter_with_number(static_cast<int>(FilterId::Remesh));
+}
+
+FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers& layers,
+                         const ProgressCallback& progress) {
+  const Execution execution(0, progress);
+  switch (filter) {
+    case FilterId::Create:
+      return create_layer(values, layers, execution);
+    case FilterId::Describe:
+      return describe_layer(values, layers, execution);
+    case FilterId::Everyday:
+    case FilterId::Remesh:
+      break;
+  }
+  return remesh_layer(filter_with_number(static_cast<int>(filter)).parameters, values, layers,
+                      execution);
+}
+
+std::string sentence_of_current_exception() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "There is not enough memory for this mesh; simplify it or ask for fewer nodes.";
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "The filter failed for a reason it does not know.";
+  }
+}
+
+}  // namespace wscvt::filter

@@ -1,0 +1,9 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Links those of MeshLab's own plugins whose libraries are installed into another folder.
+#   link_plugins.sh MESHLAB_LIBRARY_FOLDER FOLDER
+set -eu
+export LD_LIBRARY_PATH="$1"
+for plugin in "$1"/plugins/*.so; do
+  ldd "$plugin" | grep -q 'not found' || ln -s "$plugin" "$2"
+done

@@ -1,0 +1,76 @@
+# What CMake must know about a MeshLab, found out from its sources and its library. Imported targets
+# are seen in one folder only, so each folder that builds against MeshLab includes this.
+find_package(Qt5 REQUIRED COMPONENTS Core Widgets OpenGL Svg Xml XmlPatterns)
+find_package(GLEW REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+
+# The folders with the interface of each family of versions. Plugins load only into the version they
+# were built for.
+set(WSCVT_VERSIONS_OF_host_2020_09 2020.09)
+set(WSCVT_VERSIONS_OF_host_2021_10 2021.10 2022.02 2023.12 2025.07)
+
+# Version of the sources in a folder, and which of our folders fits it.
+function(wscvt_read_meshlab_source folder version_variable host_variable)
+  if(NOT EXISTS ${folder}/ML_VERSION)
+    message(FATAL_ERROR "${folder} holds no ML_VERSION. Give the unpacked source of MeshLab "
+      "(filter_wscvt/get_meshlab_source.sh fetches it).")
+  endif()
+  file(STRINGS ${folder}/ML_VERSION version LIMIT_COUNT 1)
+  set(known)
+  foreach(host host_2020_09 host_2021_10)
+    if(version IN_LIST WSCVT_VERSIONS_OF_${host})
+      set(${version_variable} ${version} PARENT_SCOPE)
+      set(${host_variable} ${host} PARENT_SCOPE)
+      return()
+    endif()
+    list(APPEND known ${WSCVT_VERSIONS_OF_${host}})
+  endforeach()
+  list(JOIN known ", " known)
+  message(FATAL_ERROR "${folder} is MeshLab ${version}; the plugin knows ${known}. "
+    "Plugins load only into the version they were built for.")
+endfunction()
+
+# Version and scalar type with which a libmeshlab-common was built. A plugin for the other type would
+# crash the host: it reads coordinates of another size. The type stands in the symbol of a function
+# that every version has and that takes a matrix; the version stands in the library as a text.
+function(wscvt_read_meshlab_library library version_variable scalar_variable)
+  file(STRINGS ${library} matrices REGEX "setSceneTransformationMatrixERKN3vcg8Matrix44I[fd]EE")
+  file(STRINGS ${library} versions REGEX "^20[0-9][0-9]\\.[0-9][0-9]d?$")
+  if(matrices MATCHES "Matrix44IfEE")
+    set(${scalar_variable} float PARENT_SCOPE)
+  elseif(matrices MATCHES "Matrix44IdEE")
+    set(${scalar_variable} double PARENT_SCOPE)
+  else()
+    message(FATAL_ERROR "${library} does not tell whether it was built for float or for double; "
+      "give MeshLab's own library as MESHLAB_COMMON_LIBRARY.")
+  endif()
+  string(REGEX MATCH "20[0-9][0-9]\\.[0-9][0-9]" version "${versions}")
+  set(${version_variable} "${version}" PARENT_SCOPE)
+endfunction()
+
+# An interface target with the headers of a MeshLab, for its plugin and for tests that play it.
+function(wscvt_add_meshlab target folder version scalar library)
+  add_library(${target} INTERFACE)
+  # vcglib stood beside src until 2020.09.
+  target_include_directories(${target} SYSTEM INTERFACE
+    ${folder}/src ${folder}/vcglib ${folder}/src/vcglib)
+  target_compile_definitions(${target} INTERFACE
+    MESHLAB_SCALAR=${scalar} MESHLAB_VERSION=${version})
+  if(EXISTS ${folder}/src/common/parameters/rich_parameters.h)
+    target_compile_definitions(${target} INTERFACE WSCVT_MESHLAB_NAMES_FILES_FIRST)
+  endif()
+  target_link_libraries(${target} INTERFACE ${library}
+    Qt5::Core Qt5::Widgets Qt5::OpenGL Qt5::Xml Qt5::XmlPatterns GLEW::GLEW Eigen3::Eigen)
+endfunction()
+
+# The plugin for a MeshLab.
+function(wscvt_add_plugin target host meshlab)
+  add_library(${target} MODULE
+    ${PROJECT_SOURCE_DIR}/filter_wscvt/${host}/filter_wscvt.cpp
+    ${PROJECT_SOURCE_DIR}/filter_wscvt/${host}/filter_wscvt.h)
+  set_target_properties(${target} PROPERTIES AUTOMOC ON CXX_VISIBILITY_PRESET hidden
+    LINKER_LANGUAGE CXX)
+  target_link_libraries(${target} PRIVATE wscvt_filter ${meshlab} wscvt_warnings)
+  # Nothing of the library is to be seen by, or mixed up with, what other plugins carry.
+  target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)
+endfunction()

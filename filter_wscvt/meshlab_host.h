@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <common/GLLogStream.h>
+#include <wrap/callback.h>
+
+#include <string>
+
+#include "filters.h"
+#include "log_text.h"
+#include "wscvt/base/execution.h"
+
+namespace wscvt::filter {
+
+// What is the same in every version of MeshLab.
+
+/// The host's callback as the library's; it may be null.
+inline ProgressCallback progress_to(vcg::CallBackPos* callback) {
+  if (callback == nullptr) return {};
+  return [callback](double fraction, const std::string& stage) {
+    return callback(static_cast<int>(100.0 * fraction), stage.c_str());
+  };
+}
+
+/// The level of a line of the log: shown_line marks up warnings for a window.
+inline GLLogStream::Levels log_level(const LogLine& line) {
+  return line.warning && !host_has_window() ? GLLogStream::WARNING : GLLogStream::FILTER;
+}
+
+/// What the current layer must have for a filter, as the host's mask.
+template <class Model>
+int needed_parts(const Filter& filter) {
+  if (!filter.needs_faces) return Model::MM_NONE;
+  return Model::MM_FACENUMBER;
+}
+
+/// What a filter changes, as the host's mask: a new or changed mesh with its quality and, when
+/// asked for, its colour.
+template <class Model>
+int changed_parts(const Filter& filter) {
+  if (!filter.makes_layers) return Model::MM_NONE;
+  return Model::MM_VERTCOORD | Model::MM_VERTNORMAL | Model::MM_VERTNUMBER | Model::MM_VERTQUALITY |
+         Model::MM_VERTCOLOR | Model::MM_FACEVERT | Model::MM_FACENORMAL | Model::MM_FACENUMBER;
+}
+
+}  // namespace wscvt::filter

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vcg/complex/algorithms/update/color.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "layers.h"
+#include "mesh_conversion.h"
+#include "wscvt/base/error.h"
+
+namespace wscvt::filter {
+
+/// The layers of a MeshLab document, in any version. What versions call differently is in `Api`,
+/// beside each version's adapter: the types Document and Model, and
+///   std::vector<Model*> all(Document&), void remove(Document&, Model&),
+///   void update_box_and_normals(Model&).
+template <class Api>
+class MeshlabLayers final : public Layers {
+ public:
+  using Document = typename Api::Document;
+  using Model = typename Api::Model;
+
+  explicit MeshlabLayers(Document& document) : document_(document) {}
+
+  std::vector<Layer> list() const override {
+    std::vector<Layer> layers;
+    for (const Model* model : Api::all(document_)) layers.push_back(layer_of(*model));
+    return layers;
+  }
+
+  std::optional<Layer> current() const override {
+    const Model* model = document_.mm();
+    if (model == nullptr) return std::nullopt;
+    return layer_of(*model);
+  }
+
+  IndexedMesh mesh(int number) const override { return to_indexed_mesh(model(number).cm); }
+
+  Eigen::Matrix4d transform(int number) const override {
+    const auto& transform = model(number).cm.Tr;
+    Eigen::Matrix4d matrix;
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        matrix(row, column) = transform.ElementAt(row, column);
+      }
+    }
+    return matrix;
+  }
+
+  int add(const std::string& label, const LayerContent& content,
+          const Eigen::Matrix4d& transform) override {
+    const std::optional<Layer> before = current();
+    Model& model = *document_.addNewMesh(QString(), QString::fromStdString(label), true);
+    try {
+      for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+          model.cm.Tr.ElementAt(row, column) = static_cast<Scalar>(transform(row, column));
+        }
+      }
+      fill(model, content);
+    } catch (...) {
+      Api::remove(document_, model);
+      if (before) document_.setCurrentMesh(before->number);
+      throw;
+    }
+    return static_cast<int>(model.id());
+  }
+
+  void replace(int number, const LayerContent& content) override { fill(model(number), content); }
+
+  void rename(int number, const std::string& label) override {
+    model(number).setLabel(QString::fromStdString(label));
+  }
+
+  void hide(int number) override {
+    document_.setVisible(static_cast<int>(model(number).id()), false);
+  }
+
+  std::string note(const std::string& key) const override {
+    return document_.property(key.c_str()).toString().toStdString();
+  }
+
+  void set_note(const std::string& key, const std::string& text) override {
+    document_.setProperty(key.c_str(), QString::fromStdString(text));
+  }
+
+ private:
+  using Mesh = decltype(Model::cm);
+  using Scalar = typename Mesh::ScalarType;
+
+  static Layer layer_of(const Model& model) {
+    return {static_cast<int>(model.id()), model.label().toStdString(),
+            model.fullName().toStdString()};
+  }
+
+  Model& model(int number) const {
+    for (Model* model : Api::all(document_)) {
+      if (static_cast<int>(model->id()) == number) return *model;
+    }
+    throw Error(ErrorCode::InvalidInput,
+                "The layer with number " + std::to_string(number) +
+                    " is not there any more; choose another one. Nothing was changed.");
+  }
+
+  /// Puts content into a layer, which keeps its transform.
+  static void fill(Model& model, const LayerContent& content) {
+    // Adjacency, colours, texture coordinates and the like belong to the elements that go.
+    const int kept = Model::MM_VERTCOORD | Model::MM_VERTNORMAL | Model::MM_VERTFLAG |
+                     Model::MM_FACEVERT | Model::MM_FACENORMAL | Model::MM_FACEFLAG |
+                     Model::MM_TRANSFMATRIX;
+    model.clearDataMask(~kept);
+    assign(model.cm, content.mesh, content.quality);
+    model.cm.svn = 0;
+    model.cm.sfn = 0;
+    // The part of a result that MeshLab does not hold by default.
+    model.updateDataMask(Model::MM_VERTQUALITY);
+    if (content.coloured) {
+      model.updateDataMask(Model::MM_VERTCOLOR);
+      // Left to find the range itself, the ramp adds an attribute to the mesh that is never freed.
+      const auto [low, high] = std::minmax_element(content.quality.begin(), content.quality.end());
+      const auto red = static_cast<Scalar>(*low);
+      const auto blue = std::max(static_cast<Scalar>(*high),
+                                 std::nextafter(red, std::numeric_limits<Scalar>::max()));
+      vcg::tri::UpdateColor<Mesh>::PerVertexQualityRamp(model.cm, red, blue);
+    }
+    Api::update_box_and_normals(model);
+  }
+
+  Document& document_;
+};
+
+}  // namespace wscvt::filter

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QStringList>
+#include <optional>
+#include <string>
+
+#include "log_text.h"
+#include "parameters.h"
+#include "wscvt/base/error.h"
+
+namespace wscvt::filter {
+
+// Parameters of a filter as MeshLab's, in any version. What versions call differently is in `Api`,
+// beside each version's adapter: the types List, Value, Scalar, Integer, Real, Choice, Flag, Text,
+// InputFile and OutputFile, and
+//   void add<Rich>(List&, const FilterParameter&, arguments...),
+//   std::optional<QString> text(const Value&).
+
+/// What a file dialog offers: "Report (*.html *.json)".
+inline QString file_dialog_filter(const FilterParameter& parameter) {
+  QStringList patterns;
+  for (const std::string& extension : parameter.extensions) {
+    patterns << "*" + QString::fromStdString(extension);
+  }
+  return QString::fromStdString(parameter.label) + " (" + patterns.join(' ') + ")";
+}
+
+/// A tooltip as the host shows it. MeshLab's Help reserves room for the text as if its column were
+/// wide, and cuts off what does not fit; in a table of its own width it gets the room it needs. The
+/// dialog itself never takes more than two thirds of the screen.
+inline QString shown_tooltip(const FilterParameter& parameter) {
+  const QString text = QString::fromStdString(parameter.tooltip);
+  if (!host_has_window()) return text;
+  return QStringLiteral("<table width=\"350\"><tr><td>") + text.toHtmlEscaped() +
+         QStringLiteral("</td></tr></table>");
+}
+
+template <class Api>
+typename Api::List meshlab_parameters(const ParameterList& parameters) {
+  typename Api::List list;
+  for (const FilterParameter& parameter : parameters) {
+    switch (parameter.kind) {
+      case ParameterKind::Integer:
+        Api::template add<typename Api::Integer>(list, parameter,
+                                                 static_cast<int>(parameter.default_value));
+        break;
+      case ParameterKind::Real:
+        Api::template add<typename Api::Real>(
+            list, parameter, static_cast<typename Api::Scalar>(parameter.default_value));
+        break;
+      case ParameterKind::Choice: {
+        QStringList choices;
+        for (const std::string& choice : parameter.choices) {
+          choices << QString::fromStdString(choice);
+        }
+        Api::template add<typename Api::Choice>(list, parameter,
+                                                static_cast<int>(parameter.default_value), choices);
+        break;
+      }
+      case ParameterKind::Flag:
+        Api::template add<typename Api::Flag>(list, parameter, parameter.default_value != 0.0);
+        break;
+      case ParameterKind::Text:
+        Api::template add<typename Api::Text>(list, parameter, QString());
+        break;
+      case ParameterKind::InputFile:
+        Api::template add<typename Api::InputFile>(list, parameter, QString(),
+                                                   QStringList(file_dialog_filter(parameter)));
+        break;
+      case ParameterKind::OutputFile:
+        Api::template add<typename Api::OutputFile>(list, parameter, QString(),
+                                                    file_dialog_filter(parameter));
+        break;
+    }
+  }
+  return list;
+}
+
+/// Value of a parameter. The host's getters end the program when a script gave the parameter
+/// another type, so the type is checked first.
+template <class Api>
+ParameterValue value_of(const FilterParameter& parameter, const typename Api::Value& value) {
+  switch (parameter.kind) {
+    case ParameterKind::Integer:
+    case ParameterKind::Choice:
+      if (value.isInt()) return static_cast<double>(value.getInt());
+      break;
+    case ParameterKind::Real:
+      if (value.isFloat()) return typed_value(value.getFloat());
+      if (value.isInt()) return static_cast<double>(value.getInt());
+      break;
+    case ParameterKind::Flag:
+      if (value.isBool()) return value.getBool() ? 1.0 : 0.0;
+      break;
+    case ParameterKind::Text:
+    case ParameterKind::InputFile:
+    case ParameterKind::OutputFile:
+      // Older scripts give files as texts.
+      if (const std::optional<QString> text = Api::text(value)) {
+        return text->trimmed().toStdString();
+      }
+  }
+  throw Error(ErrorCode::InvalidInput,
+              "Parameter " + parameter.name + " has the type " + value.typeName().toStdString() +
+                  ", which does not fit; take the types from the filter's own scripts.");
+}
+
+/// The values of those parameters that a list holds.
+template <class Api>
+ParameterValues values_of(const ParameterList& known, const typename Api::List& list) {
+  ParameterValues values;
+  for (const FilterParameter& parameter : known) {
+    const QString name = QString::fromStdString(parameter.name);
+    if (!list.hasParameter(name)) continue;
+    values[parameter.name] = value_of<Api>(parameter, list.getParameterByName(name).value());
+  }
+  return values;
+}
+
+}  // namespace wscvt::filter
