@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the plugin and remeshes a sample with it through meshlabserver, from nothing but a bare
-# Debian 12; the log is what meshlabserver prints.
-#   filter_wscvt/demo.sh [MESH [SCRIPT [OUTPUT]]]
+# Builds the plugin and remeshes a sample with it, from nothing but a bare Debian 12 or 13. On 12
+# through meshlabserver, whose log is printed; on 13, whose MeshLab has none, the program remeshes and
+# MeshLab's window shows the filter, in pictures beside the mesh.
+#   filter_wscvt/demo.sh [MESH [SCRIPT [OUTPUT]]]     (SCRIPT: for meshlabserver)
 set -eu
 mesh=$(realpath "${1:-$(dirname "$0")/../meshes/sand_7228.ply}")
 script=$(realpath "${2:-$(dirname "$0")/wscvt_d.mlx}")
@@ -16,7 +17,11 @@ flock 9
 tests/install_packages.sh
 filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source"
 cmake --preset release -DMESHLAB_SOURCE_DIR="$PWD/build/meshlab-source"
-cmake --build --preset release --target wscvt_stage
+stage=$PWD/build/release/filter_wscvt/stage
+targets=wscvt_stage
+command -v meshlabserver > /dev/null || targets="$targets wscvt_program"
+# shellcheck disable=SC2086
+cmake --build --preset release --target $targets
 
 # The file appears under its name when it is whole; what was there until then stays. The folder
 # beside it has one name, so that what a killed run left is found.
@@ -29,12 +34,23 @@ trap 'rm -rf "$work"' EXIT
 rm -rf "$work"
 mkdir "$work"
 made=$work/$(basename "$output")
-# meshlabserver ends with 0 even when it could not save, and xvfb-run has codes of its own.
-xvfb-run -a build/release/filter_wscvt/stage/bin/meshlabserver \
-  -i "$mesh" -s "$script" -o "$made" -m vq vc 2>/dev/null || true
-test -s "$made" || {
-  echo "meshlabserver wrote no mesh; the reason stands above." >&2
-  exit 1
-}
+if command -v meshlabserver > /dev/null; then
+  # meshlabserver ends with 0 even when it could not save, and xvfb-run has codes of its own.
+  xvfb-run -a "$stage/bin/meshlabserver" \
+    -i "$mesh" -s "$script" -o "$made" -m vq vc 2>/dev/null || true
+  test -s "$made" || {
+    echo "meshlabserver wrote no mesh; the reason stands above." >&2
+    exit 1
+  }
+else
+  build/release/lib/wscvt "$mesh" "$made" -n 1000
+  pictures=${output%.*}
+  library=$(dirname "$(readlink -f "$stage"/lib/*/meshlab/libmeshlab-common.so)")
+  LD_LIBRARY_PATH=$library xvfb-run -a -s "-screen 0 1280x1000x24" filter_wscvt/show_filter.sh \
+    "$stage/bin/meshlab" "$mesh" "$work/filter.png" "$work/result.png"
+  mv -T "$work/filter.png" "$pictures-filter.png"
+  mv -T "$work/result.png" "$pictures-result.png"
+  echo "The filter's dialog and its result are in $pictures-filter.png and $pictures-result.png."
+fi
 mv -T "$made" "$output"
 echo "The mesh is in $output."

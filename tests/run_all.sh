@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test: all tests in release with warnings as errors, most of
 # them again under the address and undefined-behaviour sanitizers, and formatting.
-#   tests/run_all.sh [install] [release] [sanitizers] [format] [tidy]
-# Without arguments: all but tidy, in this order; the static analysis takes half as long as all the
-# rest. The sanitized build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a
-# hundred times slower; those of Eigen and OpenMesh stay.
+#   tests/run_all.sh [install] [release] [sanitizers] [format] [tidy] [hosts] [debian13] [sid]
+# Without arguments: the first four; the static analysis takes half as long as they do, and the last
+# three build for other versions of MeshLab, debian13 and sid in a tree of that Debian, as root. The
+# sanitized build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred
+# times slower; those of Eigen and OpenMesh stay.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
@@ -39,6 +40,19 @@ for step in "$@"; do
       # After release, whose compile commands it reads.
       sources lib filter_wscvt | grep '\.cpp$' |
         xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/release ;;
+    hosts)
+      # The plugin for versions of MeshLab that are not installed, with the tests that need no
+      # program of theirs. A step of its own: parts of two MeshLabs are compiled.
+      filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source-trixie" trixie
+      filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source-sid" sid
+      cmake --preset release -DWSCVT_WARNINGS_AS_ERRORS=ON -DMESHLAB_SOURCE_DIR="$meshlab_source" \
+        "-DMESHLAB_OTHER_SOURCE_DIRS=$PWD/build/meshlab-source-trixie;$PWD/build/meshlab-source-sid"
+      cmake --build --preset release -j "$jobs"
+      ctest --preset release -j "$jobs" -R '^host_20' ;;
+    debian13)
+      tests/debian_tree.sh trixie ;;
+    sid)
+      tests/debian_tree.sh sid ;;
     *)
       echo "Unknown step $step" >&2
       exit 2 ;;
