@@ -73,6 +73,13 @@ std::vector<std::string> remarks(const MeasuredMesh& mesh) {
                         std::to_string(mesh.checked.report.components) + " parts of '" + mesh.name +
                         "' was measured.");
   }
+  const MeshCheckReport& report = mesh.checked.report;
+  const double mended = report.flap_area_share + report.filled_area_share;
+  if (mended > 0.0) {
+    sentences.push_back("Holes and non-manifold edges of '" + mesh.name +
+                        "' were mended for the measurement, which changed " +
+                        format_number(100.0 * mended, 3) + " % of its area.");
+  }
   if (!mesh.descriptors.has_radius) {
     sentences.push_back("The volume centroid of '" + mesh.name +
                         "' lies outside it, so it has no roundness and no roughness.");
@@ -169,8 +176,10 @@ std::string descriptor_name() { return "Grain shape descriptors"; }
 std::string descriptor_help() {
   return "Measures the shape of the current layer, a closed mesh of a grain: size, axes, "
          "sphericity, convexity, roundness, roughness and orientation; against a second layer also "
-         "errors and distances. Layers are measured as they are shown and not changed. It refuses "
-         "what is open, not manifold or in parts. See: <i>Wadell</i>, 1932; <i>Krumbein</i>, 1941; "
+         "errors and distances. Layers are measured as they are shown and not changed. It mends "
+         "small "
+         "faults for that, and says so; it refuses what needs more, or is in parts. See: "
+         "<i>Wadell</i>, 1932; <i>Krumbein</i>, 1941; "
          "<i>Kong, Fonseca</i>, 2018";
 }
 

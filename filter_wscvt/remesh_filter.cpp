@@ -12,7 +12,7 @@ std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Vor
 std::string remesh_help() {
   return "Turns a closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
          "for</b>, by a weighted Voronoi tessellation of the sphere. It repairs small faults and "
-         "says so; it refuses, changing nothing, what is open, not manifold or folded too much. "
+         "says so; it refuses, changing nothing, what needs much mending or is folded too much. "
          "See: <i>Wu F., Huang L., Lai Z.</i>, Engineering Mechanics, 2022, doi "
          "10.6052/j.issn.1000-4750.2022.07.0614";
 }
@@ -66,6 +66,11 @@ ParameterList remesh_parameters() {
           "angle that all sheets beyond the first may fill together, in % of the whole sphere, 0 "
           "to "
           "99. Folds are bridged by their outermost sheet; above the limit the filter refuses."),
+      real_parameter(
+          "MendLimit", 100.0 * defaults.check.mended_area_limit, 0, 100, "Mend limit (%)",
+          "Holes are filled, and flaps and walls where more than two faces meet in an edge are "
+          "dropped. Largest share of the scan's area that this may change, in %, 0 to 100; above "
+          "it the filter refuses."),
       metric_parameter(),
       seed_start_parameter(),
       random_seed_parameter(),
@@ -107,6 +112,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.placement.kind = checked.choice<NodePlacement>("Placement");
   options.placement.refinement.rounds = checked.whole("RefinementRounds");
   options.surface.fold_limit = checked.real("FoldLimit") / 100.0;
+  options.check.mended_area_limit = checked.real("MendLimit") / 100.0;
   options.measures.distances = checked.flag("Distances");
   settings.new_layer = checked.flag("NewLayer");
   settings.result.quality = checked.choice<VertexQuality>("Quality");

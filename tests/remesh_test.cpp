@@ -463,7 +463,7 @@ TEST(Remesh, ASmallSecondPartIsLeftOutWithAWarning) {
       remesh(test::joined(test::lumpy(4), crumb), options_of(200, Weighting::Area), Execution(1));
   expect_promises(result, 200);
   EXPECT_EQ(result.input.components, 2U);
-  EXPECT_TRUE(warns_of(result, "2 separate parts"));
+  EXPECT_TRUE(warns_of(result, "2 separate bodies"));
   EXPECT_FALSE(warns_of(alone, "parts"));
   EXPECT_EQ(result.mesh.points, alone.mesh.points);
 }

@@ -104,6 +104,12 @@ int run(int argc, char** argv) {
   app.add_option("--fold-limit", options.surface.fold_limit,
                  "Largest solid angle of sheets beyond the first / 4 pi, 0 to 1")
       ->capture_default_str();
+  app.add_option("--weld-tolerance", options.check.weld_tolerance,
+                 "Points nearer than this share of the scan's size are one, 0 to 0.01")
+      ->capture_default_str();
+  app.add_option("--mend-limit", options.check.mended_area_limit,
+                 "Largest share of the scan's area that may be mended, 0 to 1")
+      ->capture_default_str();
   app.add_option("-t,--threads", threads, "Number of threads, 0 for all")->capture_default_str();
   app.add_option("-j,--json", json, "Write the report to this file as JSON");
   app.add_option("--coefficients", coefficients, "Write the fitted series to this file as JSON");

@@ -8,17 +8,12 @@
 namespace wscvt::host_test {
 
 std::vector<Call> refused_calls() {
-  const double infinity = std::numeric_limits<double>::infinity();
-  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   return {
       {"NoMesh", std::nullopt, {}, {"no mesh"}},
       {"EmptyMesh", IndexedMesh{}, {}, {"empty"}},
       {"ThreePoints", IndexedMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}}, {}, {"points"}},
       {"OpenMesh", without_a_patch(), {}, {"boundary"}},
-      {"TwoHalves", two_grains(), {}, {"parts"}},
-      {"NonManifoldEdge", with_non_manifold_edge(), {}, {"manifold"}},
-      {"NotANumber", with_coordinate(not_a_number), {}, {"finite"}},
-      {"Infinite", with_coordinate(infinity), {}, {"finite"}},
+      {"TwoHalves", two_grains(), {}, {"bodies"}},
       {"NoVolume", flat_grain(), {}, {"volume"}},
       {"CentreOutside", bent_grain(), {}, {"outside"}},
       {"TooFewNodes", grain(), {{"NodeCount", "3"}}, {"NodeCount", "4"}},
@@ -52,6 +47,8 @@ std::vector<Call> refused_calls() {
       {"QualityOutOfRange", grain(), {{"Quality", "4"}}, {"Quality"}},
       {"AlphaOutOfRange", grain(), {{"CurvatureAlpha", "3.1"}}, {"CurvatureAlpha", "3.1"}},
       {"AlphaNotANumber", grain(), {{"CurvatureAlpha", "nan"}}, {"CurvatureAlpha"}},
+      {"MendLimitNegative", grain(), {{"MendLimit", "-0.1"}}, {"MendLimit", "-0.1"}},
+      {"MendLimitTooLarge", grain(), {{"MendLimit", "101"}}, {"MendLimit", "100"}},
       {"FoldLimitNegative", grain(), {{"FoldLimit", "-0.1"}}, {"FoldLimit", "-0.1"}},
       {"FoldLimitAll", grain(), {{"FoldLimit", "100"}}, {"FoldLimit", "99"}},
       {"FoldLimitInfinite", grain(), {{"FoldLimit", "inf"}}, {"FoldLimit"}},
@@ -61,15 +58,12 @@ std::vector<Call> refused_calls() {
 }
 
 std::vector<Call> unmeasurable_calls() {
-  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   return {
       {"NoMesh", std::nullopt, {}, {"no mesh"}},
       {"EmptyMesh", IndexedMesh{}, {}, {"empty"}},
       {"PointsWithoutFaces", IndexedMesh{sphere().points, {}}, {}, {"faces"}},
       {"OpenMesh", without_a_patch(), {}, {"boundary"}},
-      {"TwoHalves", two_grains(), {}, {"parts"}},
-      {"NonManifoldEdge", with_non_manifold_edge(), {}, {"manifold"}},
-      {"NotANumber", with_coordinate(not_a_number), {}, {"finite"}},
+      {"TwoHalves", two_grains(), {}, {"bodies"}},
       {"NoVolume", flat_grain(), {}, {"volume"}},
       {"UnknownLayer", grain(), {{"ReferenceLayer", "ghost"}}, {"'ghost'"}},
       {"DegreeOutOfRange", grain(), {{"RoundnessDegree", "0"}}, {"RoundnessDegree", "60"}},
@@ -77,7 +71,13 @@ std::vector<Call> unmeasurable_calls() {
 }
 
 std::vector<Call> extreme_calls() {
+  // These are mended.
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   return {
+      {"NonManifoldEdge", with_non_manifold_edge(), {}, {}},
+      {"NotANumber", with_coordinate(not_a_number), {}, {}},
+      {"Infinite", with_coordinate(infinity), {}, {}},
       {"CurvatureOnASphere", sphere(), {{"Weighting", "2"}, {"NodeCount", "300"}}, {}},
       {"AMillionUnitsAway",
        moved(scaled(grain(), 100.0), Vector3(1e6, -1e6, 1e6)),

@@ -52,7 +52,7 @@ IndexedMesh sphere() {
 
 IndexedMesh without_a_patch() {
   IndexedMesh mesh = grain();
-  mesh.triangles.resize(mesh.triangles.size() - 200);
+  mesh.triangles.resize(mesh.triangles.size() - 1200);
   return mesh;
 }
 

@@ -17,7 +17,7 @@ IndexedMesh mapped_sphere(int rings, int segments,
 IndexedMesh grain();
 
 IndexedMesh sphere();                   ///< radius 1, about 2,000 vertices
-IndexedMesh without_a_patch();          ///< grain() with a hole
+IndexedMesh without_a_patch();          ///< grain() with a third of it missing
 IndexedMesh two_grains();               ///< two equal bodies side by side
 IndexedMesh with_non_manifold_edge();   ///< grain() and a small body that share one edge
 IndexedMesh with_coordinate(double x);  ///< grain() with one coordinate set to x

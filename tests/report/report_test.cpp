@@ -91,7 +91,21 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   RemeshResult result = example();
   result.input.welded_vertices = 1;
   result.input.degenerate_faces = 4;
-  result.input.components = 3;
+  result.input.weld_tolerance = 2.5e-12;
+  result.input.duplicate_faces = 3;
+  result.input.duplicate_area_share = 0.015;
+  result.input.folded_faces = 2;
+  result.input.folded_area_share = 0.001;
+  result.input.non_manifold_edges = 7;
+  result.input.flap_faces = 5;
+  result.input.flap_area_share = 0.002;
+  result.input.filled_holes = 6;
+  result.input.filling_faces = 20;
+  result.input.filled_area_share = 0.003;
+  result.input.lost_faces = 8;
+  result.input.components = 6;
+  result.input.inner_components = 3;
+  result.input.inner_volume_share = 0.25;
   result.input.dropped_faces = 100;
   result.input.dropped_volume_share = 0.0123;
   result.folded_share = 0.0005;
@@ -104,8 +118,13 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.warnings = {"First warning.", "Second warning."};
   const std::string text = text_of(result);
   for (const char* part :
-       {"1 equal vertex merged", "4 degenerate faces dropped",
-        "2 smaller components dropped (100 faces, 1.23 % of the volume)",
+       {"1 equal vertex merged (within 2.5e-12)", "4 degenerate faces dropped",
+        "3 duplicate faces dropped (1.5 % of the area)",
+        "2 folded faces dropped (0.1 % of the area)", "7 non-manifold edges taken apart",
+        "5 faces of flaps and walls dropped there (0.2 % of the area)", "6 holes filled",
+        "20 faces put into them (0.3 % of the area)", "8 faces without a finite position dropped",
+        "3 inner surfaces dropped (25 % of the volume)",
+        "2 smaller bodies dropped (1.23 % of the volume)", "100 faces dropped with them",
         "2 vertices added where the surface touched itself", "1 face of no area kept",
         "0.05 % of the solid angle", "degree 9 (lowered from 20: 230 points carry no more)",
         "not converged: stopped at the limit of 2 iterations", "First warning.",

@@ -159,21 +159,38 @@ std::string line(const std::string& topic, const std::string& text) {
 std::vector<std::string> repairs(const MeshCheckReport& input) {
   std::vector<std::string> parts;
   const auto add = [&parts](std::size_t count, const char* one, const char* many,
-                            const char* what) {
+                            const std::string& what) {
     if (count > 0) parts.push_back(counted(count, one, many) + " " + what);
   };
-  add(input.welded_vertices, "equal vertex", "equal vertices", "merged");
+  const auto with_area = [](const char* what, double share) {
+    return std::string(what) + " (" + format_percent(share) + " of the area)";
+  };
+  add(input.lost_faces, "face", "faces", "without a finite position dropped");
+  add(input.welded_vertices, "equal vertex", "equal vertices",
+      "merged (within " + format_number(input.weld_tolerance, 3) + ")");
   add(input.unreferenced_vertices, "unused vertex", "unused vertices", "dropped");
   add(input.degenerate_faces, "degenerate face", "degenerate faces", "dropped");
-  add(input.duplicate_faces, "duplicate face", "duplicate faces", "dropped");
+  add(input.duplicate_faces, "duplicate face", "duplicate faces",
+      with_area("dropped", input.duplicate_area_share));
+  add(input.folded_faces, "folded face", "folded faces",
+      with_area("dropped", input.folded_area_share));
+  add(input.non_manifold_edges, "non-manifold edge", "non-manifold edges", "taken apart");
+  add(input.flap_faces, "face", "faces",
+      with_area("of flaps and walls dropped there", input.flap_area_share));
+  add(input.filled_holes, "hole", "holes", "filled");
+  add(input.filling_faces, "face", "faces", with_area("put into them", input.filled_area_share));
   add(input.reoriented_faces, "face", "faces", "turned outward");
   add(input.split_vertices, "vertex", "vertices", "added where the surface touched itself");
   add(input.sliver_faces, "face", "faces", "of no area kept");
   if (input.input_faces == 0) parts.emplace_back("points triangulated");
-  if (input.components > 1) {
-    parts.push_back(counted(input.components - 1, "smaller component", "smaller components") +
-                    " dropped (" + counted(input.dropped_faces, "face", "faces") + ", " +
-                    format_number(100.0 * input.dropped_volume_share, 3) + " % of the volume)");
+  const std::size_t inner = input.inner_components;
+  const std::size_t outer = input.components > inner ? input.components - inner - 1 : 0;
+  add(inner, "inner surface", "inner surfaces",
+      "dropped (" + format_percent(input.inner_volume_share) + " of the volume)");
+  add(outer, "smaller body", "smaller bodies",
+      "dropped (" + format_percent(input.dropped_volume_share) + " of the volume)");
+  if (inner + outer > 0) {
+    parts.push_back(counted(input.dropped_faces, "face", "faces") + " dropped with them");
   }
   return parts;
 }
@@ -403,20 +420,36 @@ Json json_of(const RemeshOptions& o) {
             {"middle_tolerance", o.levels.middle_tolerance}}},
           {"distances", o.measures.distances},
           {"distance_samples", o.measures.distance_sampling.samples},
-          {"check", {{"dropped_volume_limit", o.check.dropped_volume_limit}}}};
+          {"check",
+           {{"weld_tolerance", o.check.weld_tolerance},
+            {"mended_area_limit", o.check.mended_area_limit},
+            {"dropped_volume_limit", o.check.dropped_volume_limit}}}};
 }
 
 Json json_of(const MeshCheckReport& i) {
   return {{"vertices", i.input_vertices},
           {"faces", i.input_faces},
+          {"lost_faces", i.lost_faces},
           {"welded_vertices", i.welded_vertices},
+          {"weld_tolerance", i.weld_tolerance},
           {"unreferenced_vertices", i.unreferenced_vertices},
           {"degenerate_faces", i.degenerate_faces},
           {"sliver_faces", i.sliver_faces},
           {"duplicate_faces", i.duplicate_faces},
+          {"duplicate_area_share", i.duplicate_area_share},
+          {"folded_faces", i.folded_faces},
+          {"folded_area_share", i.folded_area_share},
+          {"non_manifold_edges", i.non_manifold_edges},
+          {"flap_faces", i.flap_faces},
+          {"flap_area_share", i.flap_area_share},
+          {"filled_holes", i.filled_holes},
+          {"filling_faces", i.filling_faces},
+          {"filled_area_share", i.filled_area_share},
           {"reoriented_faces", i.reoriented_faces},
           {"split_vertices", i.split_vertices},
           {"components", i.components},
+          {"inner_components", i.inner_components},
+          {"inner_volume_share", i.inner_volume_share},
           {"dropped_faces", i.dropped_faces},
           {"dropped_volume_share", i.dropped_volume_share},
           {"used_vertices", i.vertices},
@@ -603,14 +636,27 @@ std::string report_csv(const RemeshResult& result) {
   record.add("random_seed", std::to_string(options.seeding.random_seed));
   record.add_count("input_vertices", result.input.input_vertices);
   record.add_count("input_faces", result.input.input_faces);
+  record.add_count("lost_faces", result.input.lost_faces);
   record.add_count("welded_vertices", result.input.welded_vertices);
+  record.add("weld_tolerance", result.input.weld_tolerance);
   record.add_count("unreferenced_vertices", result.input.unreferenced_vertices);
   record.add_count("degenerate_faces", result.input.degenerate_faces);
   record.add_count("sliver_faces", result.input.sliver_faces);
   record.add_count("duplicate_faces", result.input.duplicate_faces);
+  record.add("duplicate_area_share", result.input.duplicate_area_share);
+  record.add_count("folded_faces", result.input.folded_faces);
+  record.add("folded_area_share", result.input.folded_area_share);
+  record.add_count("non_manifold_edges", result.input.non_manifold_edges);
+  record.add_count("flap_faces", result.input.flap_faces);
+  record.add("flap_area_share", result.input.flap_area_share);
+  record.add_count("filled_holes", result.input.filled_holes);
+  record.add_count("filling_faces", result.input.filling_faces);
+  record.add("filled_area_share", result.input.filled_area_share);
   record.add_count("reoriented_faces", result.input.reoriented_faces);
   record.add_count("split_vertices", result.input.split_vertices);
   record.add_count("components", result.input.components);
+  record.add_count("inner_components", result.input.inner_components);
+  record.add("inner_volume_share", result.input.inner_volume_share);
   record.add_count("dropped_faces", result.input.dropped_faces);
   record.add("dropped_volume_share", result.input.dropped_volume_share);
   record.add_count("used_vertices", result.input.vertices);

@@ -38,7 +38,8 @@ Components find_components(const IndexedMesh& mesh, const std::vector<std::int32
         const bool manifold = rings[index(other)] == h;
         // Faces that look the same way run along their edge in opposite ways.
         const bool same_way = triangles[f][k] == triangles[g][corner_of(other)];
-        const bool turn = same_way != (result.turned[f] != 0);
+        // Where more meet, which of them belong together is not known; they keep their listing.
+        const bool turn = (manifold && same_way) != (result.turned[f] != 0);
         if (result.of_face[g] < 0) {
           result.of_face[g] = number;
           result.turned[g] = static_cast<char>(turn);
@@ -69,8 +70,16 @@ Components find_components(const IndexedMesh& mesh, const std::vector<std::int32
   return result;
 }
 
-KeptComponent keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept) {
-  KeptComponent result;
+void keep_faces(IndexedMesh& mesh, const Components& components, std::size_t kept) {
+  std::size_t faces = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (index(components.of_face[f]) == kept) mesh.triangles[faces++] = mesh.triangles[f];
+  }
+  mesh.triangles.resize(faces);
+}
+
+std::size_t keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept) {
+  std::size_t turned = 0;
   const bool inside_out = components.list[kept].volume < 0.0;
   // For every vertex its number afterwards; -1 when no face that stays names it.
   std::vector<std::int32_t> number(mesh.points.size(), -1);
@@ -80,12 +89,11 @@ KeptComponent keep_component(IndexedMesh& mesh, const Components& components, st
     Triangle t = mesh.triangles[f];
     if ((components.turned[f] != 0) != inside_out) {
       std::swap(t[1], t[2]);
-      ++result.reoriented_faces;
+      ++turned;
     }
     for (const std::int32_t v : t) number[index(v)] = 0;
     mesh.triangles[faces++] = t;
   }
-  result.dropped_faces = mesh.triangles.size() - faces;
   mesh.triangles.resize(faces);
   std::size_t vertices = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
@@ -93,12 +101,12 @@ KeptComponent keep_component(IndexedMesh& mesh, const Components& components, st
     number[v] = static_cast<std::int32_t>(vertices);
     mesh.points[vertices++] = mesh.points[v];
   }
-  if (vertices == mesh.points.size()) return result;
+  if (vertices == mesh.points.size()) return turned;
   mesh.points.resize(vertices);
   for (Triangle& t : mesh.triangles) {
     for (std::int32_t& v : t) v = number[index(v)];
   }
-  return result;
+  return turned;
 }
 
 }  // namespace wscvt

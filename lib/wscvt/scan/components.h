@@ -29,14 +29,11 @@ struct Components {
 /// Finds the parts and a consistent orientation of each. `rings` as edge_rings makes them.
 Components find_components(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings);
 
-/// What was left out and turned round.
-struct KeptComponent {
-  std::size_t dropped_faces = 0;
-  std::size_t reoriented_faces = 0;  ///< of those kept
-};
+/// Keeps the faces of one component, as they are; all points stay.
+void keep_faces(IndexedMesh& mesh, const Components& components, std::size_t kept);
 
 /// Keeps the faces of one component, turned outward, and the vertices they use, both in their
-/// order.
-KeptComponent keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept);
+/// order. Returns how many were turned.
+std::size_t keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept);
 
 }  // namespace wscvt

@@ -32,7 +32,7 @@ DegenerateFaces drop_degenerate_faces(IndexedMesh& mesh, const std::vector<std::
   return result;
 }
 
-std::size_t drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& rings) {
+DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& rings) {
   using Edge = std::pair<std::int32_t, std::int32_t>;
   struct Candidate {
     Triangle key;  // the vertices in ascending order
@@ -53,7 +53,7 @@ std::size_t drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::int32
       break;
     }
   }
-  if (candidates.empty()) return 0;
+  if (candidates.empty()) return {};
   std::sort(candidates.begin(), candidates.end());
 
   // Every edge as often as different faces stand on it.
@@ -71,27 +71,32 @@ std::size_t drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::int32
     return (range.second - range.first) % 2 == 0;  // an odd number beside this face
   };
   std::vector<char> dropped(mesh.triangles.size(), 0);
-  std::size_t count = 0;
+  DuplicateFaces result;
   for (std::size_t first = 0; first < candidates.size();) {
     std::size_t last = first + 1;
     while (last < candidates.size() && candidates[last].key == candidates[first].key) ++last;
     if (last - first > 1) {
       const std::array<Edge, 3> sides = edges_of(candidates[first].key);
       const bool keep = std::any_of(sides.begin(), sides.end(), needs_face);
+      const Triangle& t = candidates[first].key;
+      const Vector3& a = mesh.points[index(t[0])];
+      const double area =
+          0.5 * (mesh.points[index(t[1])] - a).cross(mesh.points[index(t[2])] - a).norm();
       for (std::size_t i = first + (keep ? 1 : 0); i < last; ++i) {
         dropped[index(candidates[i].face)] = 1;
-        ++count;
+        ++(keep ? result.copies : result.folded);
+        (keep ? result.copied_area : result.folded_area) += area;
       }
     }
     first = last;
   }
-  if (count == 0) return 0;
+  if (result.copies + result.folded == 0) return result;
   std::size_t kept = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (!dropped[f]) mesh.triangles[kept++] = mesh.triangles[f];
   }
   mesh.triangles.resize(kept);
-  return count;
+  return result;
 }
 
 }  // namespace wscvt

@@ -20,10 +20,18 @@ struct DegenerateFaces {
 /// points stay where they are.
 DegenerateFaces drop_degenerate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& first);
 
+/// What was dropped of faces on the same three vertices; areas in length^2.
+struct DuplicateFaces {
+  std::size_t copies = 0;  ///< beside one that stayed
+  double copied_area = 0.0;
+  std::size_t folded = 0;  ///< none of which stayed
+  double folded_area = 0.0;
+};
+
 /// Drops faces on the same three vertices: all but one when the faces around need it to close
 /// (doubled faces), all when they close without it (a flap folded flat). Looks only at faces on
-/// edges where more than two meet (see edge_rings). Returns how many were dropped; if any, the
-/// rings are no longer those of the mesh.
-std::size_t drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& rings);
+/// edges where more than two meet (see edge_rings). If any were dropped, the rings are no longer
+/// those of the mesh.
+DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& rings);
 
 }  // namespace wscvt

@@ -14,7 +14,10 @@
 #include "wscvt/scan/components.h"
 #include "wscvt/scan/degenerate_faces.h"
 #include "wscvt/scan/edge_rings.h"
+#include "wscvt/scan/enclosure.h"
 #include "wscvt/scan/half_edges.h"
+#include "wscvt/scan/holes.h"
+#include "wscvt/scan/manifold_edges.h"
 #include "wscvt/scan/touching_vertices.h"
 #include "wscvt/scan/weld.h"
 
@@ -67,17 +70,6 @@ void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
            " faces, more than the " + std::to_string(limit) +
            " that can be numbered; reduce the scan first.");
   }
-  const std::size_t bad_point =
-      first_wrong(vertices, execution, [&](std::size_t i) { return !mesh.points[i].allFinite(); });
-  if (bad_point < vertices) {
-    const Vector3& p = mesh.points[bad_point];
-    const auto coordinate = [](double value) {
-      return std::isnan(value) ? "nan" : format_number(value);
-    };
-    refuse("Vertex " + std::to_string(bad_point) + " is at (" + coordinate(p.x()) + ", " +
-           coordinate(p.y()) + ", " + coordinate(p.z()) +
-           "), which is not a finite position; remove such vertices and close the holes first.");
-  }
   const std::size_t bad_face = first_wrong(faces, execution, [&](std::size_t f) {
     const Triangle& t = mesh.triangles[f];
     return std::any_of(t.begin(), t.end(), [&](std::int32_t v) {
@@ -92,49 +84,137 @@ void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
   }
 }
 
-void refuse_unclosed(const Component& main, std::size_t components) {
-  const std::string subject = components > 1 ? "The largest part of the mesh" : "The mesh";
-  if (main.non_manifold_edges > 0) {
-    refuse(subject + " has " + count_of(main.non_manifold_edges, "non-manifold edge") +
-           ", shared by more than two faces, so inside and outside cannot be told apart; repair it "
-           "first, e.g. Filters > Cleaning and Repairing > Repair non Manifold Edges by removing "
-           "faces, then Filters > Remeshing, Simplification and Reconstruction > Close Holes.");
-  }
-  if (main.boundary_edges > 0) {
-    refuse(subject + " has " + count_of(main.boundary_edges, "boundary edge") +
-           ", so it encloses no volume; close it first, e.g. Filters > Remeshing, Simplification "
-           "and Reconstruction > Close Holes.");
-  }
-  if (!main.orientable) {
-    refuse(subject +
-           " is not orientable: its faces cannot all be turned to face outward; reconstruct the "
-           "surface first, e.g. by Screened Poisson reconstruction.");
+/// Drops the faces with a corner at no finite position.
+void drop_lost_faces(IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
+  const std::size_t vertices = mesh.points.size();
+  const std::size_t first =
+      first_wrong(vertices, execution, [&](std::size_t i) { return !mesh.points[i].allFinite(); });
+  if (first == vertices) return;
+  const auto lost = [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::int32_t v) { return !mesh.points[index(v)].allFinite(); });
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), lost),
+                       mesh.triangles.end());
+  report.lost_faces = report.input_faces - mesh.triangles.size();
+  if (mesh.triangles.empty()) {
+    const Vector3& p = mesh.points[first];
+    const auto coordinate = [](double value) {
+      return std::isnan(value) ? "nan" : format_number(value);
+    };
+    refuse("All faces of the mesh have a corner that is not at a finite position, e.g. vertex " +
+           std::to_string(first) + " at (" + coordinate(p.x()) + ", " + coordinate(p.y()) + ", " +
+           coordinate(p.z()) + "); the file or the program that made it is at fault.");
   }
 }
 
-/// The component that stays: the one of largest absolute volume.
-std::size_t choose_main(const Components& components, const MeshCheckOptions& options,
-                        MeshCheckReport& report) {
-  const std::vector<Component>& list = components.list;
+/// Volumes (length^3) and fifth powers of length occur; these keep both among the numbers.
+constexpr double smallest_size = 1e-60;
+constexpr double largest_size = 1e60;
+
+void refuse_size(const Box& box) {
+  const double size = (box.high - box.low).norm();
+  if (size == 0.0 || (size > smallest_size && size < largest_size)) return;
+  refuse("The mesh is " + format_number(size, 3) + " across; that is too " +
+         (size < 1.0 ? "small" : "large") + " to compute with: scale it to between " +
+         format_number(smallest_size) + " and " + format_number(largest_size) + ".");
+}
+
+/// A component that is not kept.
+struct OtherComponent {
+  std::size_t faces = 0;
+  double volume = 0.0;
+  Vector3 point = Vector3::Zero();  // on it, and not on the one kept if that can be
+};
+
+/// The component of largest absolute volume.
+std::size_t largest_of(const Components& components) {
   std::size_t main = 0;
-  double total = 0.0;
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    if (std::abs(list[c].volume) > std::abs(list[main].volume)) main = c;
-    total += std::abs(list[c].volume);
-  }
-  report.components = list.size();
-  refuse_unclosed(list[main], list.size());
-  if (total > 0.0) report.dropped_volume_share = 1.0 - std::abs(list[main].volume) / total;
-  if (list.size() == 1) report.dropped_volume_share = 0.0;
-  if (report.dropped_volume_share > options.dropped_volume_limit) {
-    refuse("The mesh falls into " + std::to_string(list.size()) +
-           " separate parts and the largest holds only " +
-           format_percent(1.0 - report.dropped_volume_share) +
-           " of their volume, so there is no main body; keep one part, e.g. Filters > Cleaning and "
-           "Repairing > Remove Isolated pieces (wrt Face Num.), or split the mesh into its "
-           "connected components, and remesh each on its own.");
+  for (std::size_t c = 1; c < components.list.size(); ++c) {
+    if (std::abs(components.list[c].volume) > std::abs(components.list[main].volume)) main = c;
   }
   return main;
+}
+
+/// Appends all components but one, before they are dropped.
+void append_others(const IndexedMesh& mesh, const Components& components, std::size_t main,
+                   std::vector<OtherComponent>& others) {
+  if (components.list.size() == 1) return;
+  std::vector<char> on_main(mesh.points.size(), 0);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (index(components.of_face[f]) != main) continue;
+    for (const std::int32_t v : mesh.triangles[f]) on_main[index(v)] = 1;
+  }
+  // Parts may touch in a vertex, or in an edge before the sheets were taken apart: there neither
+  // inside nor outside can be told. The centre of a face will do where all vertices are shared.
+  std::vector<OtherComponent> list(components.list.size());
+  std::vector<char> found(list.size(), 0);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const std::size_t c = index(components.of_face[f]);
+    if (c == main || found[c] != 0) continue;
+    const Triangle& t = mesh.triangles[f];
+    list[c].point =
+        (mesh.points[index(t[0])] + mesh.points[index(t[1])] + mesh.points[index(t[2])]) / 3.0;
+    for (const std::int32_t v : t) {
+      if (found[c] != 0 || on_main[index(v)] != 0) continue;
+      list[c].point = mesh.points[index(v)];
+      found[c] = 1;
+    }
+  }
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    if (c == main) continue;
+    list[c].faces = components.list[c].faces;
+    list[c].volume = std::abs(components.list[c].volume);
+    others.push_back(list[c]);
+  }
+}
+
+/// Says what the others are, and refuses when those outside are too large.
+void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& others,
+                  const MeshCheckOptions& options, const Execution& execution,
+                  MeshCheckReport& report) {
+  report.components = others.size() + 1;
+  if (others.empty()) return;
+  std::vector<Vector3> points;
+  points.reserve(others.size());
+  for (const OtherComponent& other : others) points.push_back(other.point);
+  const std::vector<char> inside = are_inside(kept, points, execution);
+  double outer_volume = 0.0;
+  double inner_volume = 0.0;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    report.dropped_faces += others[i].faces;
+    if (inside[i] != 0) ++report.inner_components;
+    (inside[i] != 0 ? inner_volume : outer_volume) += others[i].volume;
+  }
+  report.inner_volume_share = inner_volume / report.volume;
+  report.dropped_volume_share = outer_volume / (outer_volume + report.volume);
+  if (report.dropped_volume_share > options.dropped_volume_limit) {
+    refuse("The mesh falls into " + std::to_string(report.components - report.inner_components) +
+           " separate bodies and the largest holds only " +
+           format_percent(1.0 - report.dropped_volume_share) +
+           " of their volume, so there is no main body; split the mesh, e.g. Filters > Mesh Layer "
+           "> Split in Connected Components, and remesh each body on its own.");
+  }
+}
+
+/// Refuses when more area was mended than allowed.
+void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
+                   const MeshCheckReport& report) {
+  const double mended = report.flap_area_share + report.filled_area_share;
+  if (!(mended > options.mended_area_limit)) return;
+  std::string found;
+  if (report.non_manifold_edges > 0) {
+    found = count_of(report.non_manifold_edges, "non-manifold edge") +
+            ", shared by more than two faces";
+  }
+  if (report.filled_holes > 0) {
+    found += (found.empty() ? "" : ", and ") + count_of(boundary_edges, "boundary edge") +
+             " around " + count_of(report.filled_holes, "hole");
+  }
+  refuse("The mesh has " + found + ". Mending that would change " + format_percent(mended) +
+         " of its area, above the limit of " + format_percent(options.mended_area_limit) +
+         "; raise the limit of the area that may be mended above " + format_percent(mended) +
+         " and check the result against the scan, or scan the grain again.");
 }
 
 void measure(const IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
@@ -178,10 +258,9 @@ void measure(const IndexedMesh& mesh, const Execution& execution, MeshCheckRepor
 
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution) {
-  if (!(options.dropped_volume_limit > 0.0 && options.dropped_volume_limit < 1.0)) {
-    refuse("The largest share of volume to drop is " + format_number(options.dropped_volume_limit) +
-           "; give a number between 0 and 1.");
-  }
+  require_in_range(options.weld_tolerance, weld_tolerance_option);
+  require_in_range(options.mended_area_limit, mended_area_limit_option);
+  require_in_range(options.dropped_volume_limit, dropped_volume_limit_option);
   const std::string stage = "Checking the mesh";
   CheckedMesh result;
   MeshCheckReport& report = result.report;
@@ -189,8 +268,12 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.input_faces = mesh.triangles.size();
   execution.report(0.0, stage);
   refuse_unusable(mesh, execution);
+  drop_lost_faces(mesh, execution, report);
   {
-    const Weld weld = find_equal_points(mesh.points, execution);
+    const Box box = box_of_faces(mesh, execution);
+    refuse_size(box);
+    report.weld_tolerance = options.weld_tolerance * (box.high - box.low).norm();
+    const Weld weld = find_equal_points(mesh.points, box, report.weld_tolerance, execution);
     const DegenerateFaces degenerate = drop_degenerate_faces(mesh, weld.first);
     report.welded_vertices = weld.welded;
     report.degenerate_faces = degenerate.faces;
@@ -203,23 +286,70 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   }
   execution.report(0.25, stage);
   std::vector<std::int32_t> rings = edge_rings(mesh, execution);
-  report.duplicate_faces = drop_duplicate_faces(mesh, rings);
+  const DuplicateFaces duplicates = drop_duplicate_faces(mesh, rings);
+  report.duplicate_faces = duplicates.copies;
+  report.folded_faces = duplicates.folded;
   if (mesh.triangles.empty()) {
     refuse(
         "The faces of the mesh lie on each other in pairs, so it encloses no volume; load the "
         "closed surface of a grain.");
   }
-  if (report.duplicate_faces > 0) rings = edge_rings(mesh, execution);
+  if (duplicates.copies + duplicates.folded > 0) rings = edge_rings(mesh, execution);
   execution.report(0.5, stage);
-  const Components components = find_components(mesh, rings);
-  const std::size_t main = choose_main(components, options, report);
+
+  std::vector<OtherComponent> others;
+  Components components = find_components(mesh, rings);
+  std::size_t main = largest_of(components);
+  append_others(mesh, components, main, others);
+  // The repairs below are of the part that stays; what they cost a clean scan is looking at counts.
+  const auto look_again = [&] {
+    rings = edge_rings(mesh, execution);
+    components = find_components(mesh, rings);
+    main = largest_of(components);
+    append_others(mesh, components, main, others);
+  };
+  double flap_area = 0.0;
+  if (components.list[main].non_manifold_edges > 0) {
+    keep_faces(mesh, components, main);
+    rings = edge_rings(mesh, execution);
+    const ManifoldRepair repair = separate_sheets(mesh, rings);
+    report.non_manifold_edges = repair.edges;
+    report.flap_faces = repair.dropped_faces;
+    report.split_vertices = repair.added_vertices;
+    flap_area = repair.dropped_area;
+    look_again();
+  }
+  if (!components.list[main].orientable) {
+    refuse(std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
+           " is not orientable: its faces cannot all be turned to face outward, so they enclose "
+           "nothing; reconstruct the surface first, e.g. Filters > Remeshing, Simplification and "
+           "Reconstruction > Surface Reconstruction: Screened Poisson.");
+  }
+  FilledHoles filled;
+  const std::size_t boundary_edges = components.list[main].boundary_edges;
+  if (boundary_edges > 0) {
+    report.reoriented_faces = keep_component(mesh, components, main);
+    const std::size_t faces = mesh.triangles.size();
+    filled = fill_holes(mesh, edge_rings(mesh, execution));
+    report.filled_holes = filled.holes;
+    report.filling_faces = filled.faces;
+    look_again();
+    // The side on which an open surface has its volume is a guess.
+    if (components.list[main].volume < 0.0)
+      report.reoriented_faces = faces - report.reoriented_faces;
+  }
   execution.report(0.75, stage);
-  report.split_vertices = split_touching_vertices(mesh, rings, components.of_face,
-                                                  static_cast<std::int32_t>(main), execution);
-  const KeptComponent kept = keep_component(mesh, components, main);
-  report.dropped_faces = kept.dropped_faces;
-  report.reoriented_faces = kept.reoriented_faces;
+  report.split_vertices += split_touching_vertices(mesh, rings, components.of_face,
+                                                   static_cast<std::int32_t>(main), execution);
+  const std::size_t turned = keep_component(mesh, components, main);
+  if (boundary_edges == 0) report.reoriented_faces = turned;
   measure(mesh, execution, report);
+  report.duplicate_area_share = duplicates.copied_area / report.area;
+  report.folded_area_share = duplicates.folded_area / report.area;
+  report.flap_area_share = flap_area / report.area;
+  report.filled_area_share = filled.area / report.area;
+  judge_mending(options, boundary_edges, report);
+  judge_others(mesh, others, options, execution, report);
   result.mesh = std::move(mesh);
   execution.report(1.0, stage);
   return result;

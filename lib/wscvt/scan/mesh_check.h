@@ -5,33 +5,62 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt {
 
 struct MeshCheckOptions {
-  /// Largest share in (0, 1) of the total volume that may be dropped with secondary components;
-  /// above it there is no main body and the mesh is refused.
+  /// Points nearer to each other than this share of the diagonal of the mesh's box, in each
+  /// coordinate, are welded; in [0, 0.01]. 0: exact copies only. The poles of published asteroids
+  /// lie 1e-17 apart; the default is far above what writing and reading numbers does, and far below
+  /// the accuracy of any scan.
+  double weld_tolerance = 1e-12;
+  /// Largest share in [0, 1] of the area that may be mended: of the faces dropped where more than
+  /// two met in an edge and of those put into holes. Above it the mesh is refused.
+  double mended_area_limit = 0.05;
+  /// Largest share in (0, 1) of the total volume that may be dropped with other bodies; above it
+  /// there is no main body and the mesh is refused.
   double dropped_volume_limit = 0.25;
 };
 
-/// What was found and what was mended.
+inline constexpr NumberOption<double> weld_tolerance_option = {
+    "weldTolerance", "tolerance of welding / size", 0.0, 0.01};
+inline constexpr NumberOption<double> mended_area_limit_option = {
+    "mendLimit", "largest share of the area to mend", 0.0, 1.0};
+inline constexpr NumberOption<double> dropped_volume_limit_option = {
+    "dropLimit", "largest share of the volume to drop", 0.0, 1.0, Ends::Neither};
+
+/// What was found and what was mended. Shares of area are of the area of the mesh kept.
 struct MeshCheckReport {
   std::size_t input_vertices = 0;
   std::size_t input_faces = 0;
-  std::size_t welded_vertices = 0;        ///< vertices merged into an equal one
+  std::size_t lost_faces = 0;       ///< faces with a vertex that has no finite position, dropped
+  std::size_t welded_vertices = 0;  ///< vertices merged into an equal one
+  double weld_tolerance = 0.0;      ///< within which vertices were equal, length
   std::size_t unreferenced_vertices = 0;  ///< vertices of no face, dropped
   std::size_t degenerate_faces = 0;       ///< faces with two equal corners after welding, dropped
   std::size_t sliver_faces = 0;  ///< faces of no area with three corners: kept, else a hole opens
-  std::size_t duplicate_faces = 0;     ///< faces on the same three vertices, dropped
+  std::size_t duplicate_faces = 0;     ///< copies of a face kept, dropped
+  double duplicate_area_share = 0.0;   ///< their share of area
+  std::size_t folded_faces = 0;        ///< faces folded flat onto each other, dropped
+  double folded_area_share = 0.0;      ///< their share of area
+  std::size_t non_manifold_edges = 0;  ///< of the main part, on which more than two faces met
+  std::size_t flap_faces = 0;          ///< faces of flaps and inner walls on them, dropped
+  double flap_area_share = 0.0;        ///< their share of area
+  std::size_t filled_holes = 0;        ///< of the mesh kept
+  std::size_t filling_faces = 0;       ///< put into them
+  double filled_area_share = 0.0;      ///< their share of area
   std::size_t reoriented_faces = 0;    ///< faces kept that were turned round to face outward
-  std::size_t split_vertices = 0;      ///< vertices added where the surface touched itself in one
-  std::size_t components = 0;          ///< parts connected through edges, after welding
+  std::size_t split_vertices = 0;      ///< vertices added where the surface touched itself
+  std::size_t components = 0;          ///< parts after the repairs, the one kept included
+  std::size_t inner_components = 0;    ///< of them inside the one kept: pores, inclusions
+  double inner_volume_share = 0.0;     ///< sum of what each encloses / volume of the mesh kept
   std::size_t dropped_faces = 0;       ///< faces of the components not kept
-  double dropped_volume_share = 0.0;   ///< their absolute volume / total absolute volume
+  double dropped_volume_share = 0.0;   ///< of those outside / of those and the one kept
   std::size_t vertices = 0;            ///< of the mesh kept
   std::size_t faces = 0;               ///< of the mesh kept
   int genus = 0;                       ///< of the mesh kept
-  double volume = 0.0;                 ///< length^3, > 0
+  double volume = 0.0;                 ///< of its outer surface, length^3, > 0
   double area = 0.0;                   ///< length^2
   Vector3 centroid = Vector3::Zero();  ///< of the volume, in the input's coordinates
   double equivalent_radius = 0.0;      ///< (3 V / 4 pi)^(1/3), length
@@ -43,16 +72,21 @@ struct CheckedMesh {
   MeshCheckReport report;
 };
 
-/// Welds equal points, drops degenerate and duplicate faces, orients outward, keeps the component
-/// of largest volume. Where fans of faces touch in one vertex only, each gets a vertex of its own.
-/// Of faces on the same three vertices one is kept when the faces around need it to close (doubled
-/// faces), none when they close without it (a flap folded flat). Only the component kept has to be
-/// closed: an open crumb beside a grain is dropped with the rest.
+/// Makes one closed outer surface of a scan, by these repairs, each counted in the report:
+/// - faces without a finite position are dropped, equal points are welded (see weld.h), degenerate,
+///   doubled and folded faces are dropped (see degenerate_faces.h);
+/// - of the parts connected through edges the one of largest volume is kept. Of the others those
+///   inside it are pores or inclusions, those outside are other bodies;
+/// - where more than two faces meet in an edge, flaps and walls are dropped and sheets taken apart
+///   (see manifold_edges.h); of what comes apart the largest is kept again;
+/// - faces are turned outward and holes are filled (see holes.h);
+/// - where fans of faces touch in one vertex only, each gets a vertex of its own.
+/// A clean scan goes through unchanged.
 ///
-/// Throws Error(InvalidInput) with what to do about it when the mesh is empty, has coordinates that
-/// are not finite, indices out of range, boundary or non-manifold edges, is not orientable,
-/// encloses no volume, or falls into parts of comparable volume, and when the option is out of
-/// range.
+/// Throws Error(InvalidInput) with what to do about it when the mesh is empty, has indices out of
+/// range, is too large or too small to compute with, is not orientable, encloses no volume, falls
+/// into parts of comparable volume, or would need more of its area mended than the limit; and when
+/// an option is out of range.
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution);
 

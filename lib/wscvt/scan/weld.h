@@ -10,14 +10,28 @@
 
 namespace wscvt {
 
+/// Box with sides along the axes.
+struct Box {
+  Vector3 low = Vector3::Zero();
+  Vector3 high = Vector3::Zero();
+};
+
+/// Box of all corners of the faces. A vertex of no face does not count: it may lie anywhere.
+Box box_of_faces(const IndexedMesh& mesh, const Execution& execution);
+
 /// Which points are the same.
 struct Weld {
-  /// For every vertex the first one at the same position; empty when all positions differ.
+  /// For every vertex the one that takes its place, itself or an earlier one; empty when all stay.
   std::vector<std::int32_t> first;
   std::size_t welded = 0;  ///< vertices merged into another
 };
 
-/// Finds the points that equal an earlier one. -0 equals 0. All coordinates must be finite.
-Weld find_equal_points(const std::vector<Vector3>& points, const Execution& execution);
+/// Merges points that differ by at most `tolerance` (length, >= 0; 0: exact copies, where -0 equals
+/// 0) in each coordinate. In their order, each point is merged into the earliest one kept that is
+/// so near, or is kept: no two kept points are within the tolerance of each other, and none is
+/// moved by more than it. Points outside of `box` (see box_of_faces) are no corners of faces and
+/// are left alone. All coordinates must be finite.
+Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, double tolerance,
+                       const Execution& execution);
 
 }  // namespace wscvt

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/holes.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "wscvt/scan/half_edges.h"
+
+namespace wscvt {
+
+using namespace half_edges;
+
+namespace {
+
+using Rim = std::vector<std::int32_t>;  // vertices, with the hole's faces counter-clockwise
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+Edge edge_of(std::int32_t a, std::int32_t b) { return std::minmax(a, b); }
+
+/// Cuts a closed walk that passes vertices more than once into walks that do not.
+void append_simple(const Rim& walk, std::vector<Rim>& rims) {
+  Rim open;
+  std::map<std::int32_t, std::size_t> place;  // of the vertices in `open`
+  for (const std::int32_t v : walk) {
+    const auto at = place.find(v);
+    if (at != place.end()) {
+      const auto first = open.begin() + static_cast<std::ptrdiff_t>(at->second);
+      rims.emplace_back(first, open.end());
+      for (auto i = first; i != open.end(); ++i) place.erase(*i);
+      open.erase(first, open.end());
+    }
+    place[v] = open.size();
+    open.push_back(v);
+  }
+  rims.push_back(std::move(open));
+}
+
+std::vector<Rim> find_rims(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings) {
+  std::vector<Rim> rims;
+  std::vector<char> seen(rings.size(), 0);
+  for (std::size_t start = 0; start < rings.size(); ++start) {
+    if (index(rings[start]) != start || seen[start]) continue;
+    Rim walk;
+    for (std::size_t h = start; !seen[h];) {
+      seen[h] = 1;
+      walk.push_back(mesh.triangles[h / 3][h % 3]);
+      // The next boundary edge is found by turning about the end of this one, within its fan of
+      // faces: where several fans meet in a vertex each keeps its own rim.
+      h = h - h % 3 + following(h % 3);
+      while (index(rings[h]) != h) {
+        const std::size_t other = index(rings[h]);
+        h = other - other % 3 + following(other % 3);
+      }
+    }
+    std::reverse(walk.begin(), walk.end());  // the hole's faces run the other way
+    append_simple(walk, rims);
+  }
+  return rims;
+}
+
+/// Triangles between the rim's vertices, as places in it; empty when there are none that fit.
+std::vector<Triangle> triangulate(const IndexedMesh& mesh, const Rim& rim,
+                                  const std::set<Edge>& taken) {
+  if (rim.size() == 3) return {{0, 1, 2}};
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  std::vector<Kernel::Point_3> points;
+  for (const std::int32_t v : rim) {
+    const Vector3& p = mesh.points[index(v)];
+    points.emplace_back(p.x(), p.y(), p.z());
+  }
+  std::vector<CGAL::Triple<int, int, int>> found;
+  // Without the candidates of a Delaunay triangulation the time grows with the cube of the rim.
+  CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
+      points, std::back_inserter(found),
+      CGAL::parameters::use_delaunay_triangulation(true).do_not_use_cubic_algorithm(true));
+  if (found.size() + 2 != rim.size()) return {};
+  std::vector<Triangle> triangles;
+  for (const auto& [a, b, c] : found) {
+    Triangle t = {a, b, c};
+    std::sort(t.begin(), t.end());  // counter-clockwise like the rim, whatever order CGAL gave
+    triangles.push_back(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t i = t[k];
+      const std::int32_t j = t[following(k)];
+      const bool on_rim =
+          std::abs(i - j) == 1 || std::abs(i - j) + 1 == static_cast<int>(rim.size());
+      if (!on_rim && taken.count(edge_of(rim[index(i)], rim[index(j)])) > 0) return {};
+    }
+  }
+  return triangles;
+}
+
+/// The edges between any two vertices of rims.
+std::set<Edge> edges_between(const IndexedMesh& mesh, const std::vector<Rim>& rims) {
+  std::vector<char> on_rim(mesh.points.size(), 0);
+  for (const Rim& rim : rims) {
+    for (const std::int32_t v : rim) on_rim[index(v)] = 1;
+  }
+  std::set<Edge> edges;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = t[k];
+      const std::int32_t b = t[following(k)];
+      if (on_rim[index(a)] && on_rim[index(b)]) edges.insert(edge_of(a, b));
+    }
+  }
+  return edges;
+}
+
+}  // namespace
+
+FilledHoles fill_holes(IndexedMesh& mesh, const std::vector<std::int32_t>& rings) {
+  FilledHoles result;
+  const std::vector<Rim> rims = find_rims(mesh, rings);
+  result.holes = rims.size();
+  std::set<Edge> taken = edges_between(mesh, rims);
+  const std::size_t first = mesh.triangles.size();
+  for (const Rim& rim : rims) {
+    std::vector<Triangle> places = triangulate(mesh, rim, taken);
+    if (places.empty()) {
+      Vector3 centroid = Vector3::Zero();
+      for (const std::int32_t v : rim)
+        centroid += mesh.points[index(v)] - mesh.points[index(rim[0])];
+      centroid = mesh.points[index(rim[0])] + centroid / static_cast<double>(rim.size());
+      const auto middle = static_cast<std::int32_t>(mesh.points.size());
+      mesh.points.push_back(centroid);
+      ++result.vertices;
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        mesh.triangles.push_back({rim[i], rim[i + 1 < rim.size() ? i + 1 : 0], middle});
+      }
+      continue;
+    }
+    for (const Triangle& t : places) {
+      const Triangle face = {rim[index(t[0])], rim[index(t[1])], rim[index(t[2])]};
+      mesh.triangles.push_back(face);
+      for (std::size_t k = 0; k < 3; ++k) taken.insert(edge_of(face[k], face[following(k)]));
+    }
+  }
+  result.faces = mesh.triangles.size() - first;
+  for (std::size_t f = first; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    const Vector3& a = mesh.points[index(t[0])];
+    result.area += 0.5 * (mesh.points[index(t[1])] - a).cross(mesh.points[index(t[2])] - a).norm();
+  }
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/weld.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/seeds.h"
+
+namespace wscvt {
+namespace {
+
+TEST(Weld, FindsWhatABruteSearchFinds) {
+  // Clusters around points on a lattice whose spacing is that of the grid inside, so that many lie
+  // on the sides and corners of its cells; tolerances from none to one that merges clusters.
+  std::mt19937_64 engine(test::announced(11));
+  for (const double tolerance : {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 0.01}) {
+    for (int round = 0; round < 20; ++round) {
+      SCOPED_TRACE(tolerance);
+      std::vector<Vector3> points;
+      std::uniform_real_distribution<double> off(-2.0, 2.0);
+      for (int i = 0; i < 400; ++i) {
+        Vector3 p;
+        for (int k = 0; k < 3; ++k) {
+          const double lattice = round % 2 == 0 ? 64.0 * tolerance : 0.05;
+          p[k] = std::min(1.0, lattice * static_cast<double>(engine() % 20) +
+                                   (round % 3 == 0 ? 0.0 : 0.6 * tolerance * off(engine)));
+        }
+        points.push_back(p);
+      }
+      points.emplace_back(0, 0, 0);
+      points.emplace_back(-0.0, 0, -0.0);
+      points.emplace_back(1, 1, 1);
+      Box box{points[0], points[0]};
+      for (const Vector3& p : points) {
+        box.low = box.low.cwiseMin(p);
+        box.high = box.high.cwiseMax(p);
+      }
+      const Weld weld = find_equal_points(points, box, tolerance, Execution(2));
+      std::size_t welded = 0;
+      std::vector<std::int32_t> kept;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        auto expected = static_cast<std::int32_t>(i);
+        for (const std::int32_t other : kept) {
+          if ((points[static_cast<std::size_t>(other)] - points[i]).cwiseAbs().maxCoeff() <=
+              tolerance) {
+            expected = other;
+            break;
+          }
+        }
+        if (expected == static_cast<std::int32_t>(i)) {
+          kept.push_back(expected);
+        } else {
+          ++welded;
+        }
+        if (!weld.first.empty()) {
+          ASSERT_EQ(weld.first[i], expected) << i;
+        }
+      }
+      EXPECT_EQ(weld.welded, welded);
+      EXPECT_GT(welded, 0U);  // the two zeros at least
+    }
+  }
+}
+
+TEST(Weld, LeavesPointsOutsideOfTheBoxAlone) {
+  const std::vector<Vector3> points = {
+      {0, 0, 0}, {1e300, 0, 0}, {1e300, 0, 0}, {1, 1, 1}, {0, 0, 0}};
+  const Weld weld = find_equal_points(points, {{0, 0, 0}, {1, 1, 1}}, 1e-12, Execution(1));
+  EXPECT_EQ(weld.first, (std::vector<std::int32_t>{0, 1, 2, 3, 0}));
+}
+
+}  // namespace
+}  // namespace wscvt
