@@ -1,13 +1,4 @@
-# What CMake must know about a MeshLab, found out from its sources and its library. Imported targets
-# are seen in one folder only, so each folder that builds against MeshLab includes this.
-find_package(Qt5 REQUIRED COMPONENTS Core Widgets OpenGL Svg Xml XmlPatterns)
-find_package(GLEW REQUIRED)
-find_package(Eigen3 REQUIRED NO_MODULE)
-
-# The folders with the interface of each family of versions. Plugins load only into the version they
-# were built for.
-set(WSCVT_VERSIONS_OF_host_2020_09 2020.09)
-set(WSCVT_VERSIONS_OF_host_2021_10 2021.10 2022.02 2023.12 2025.07)
+# What CMake must know about a MeshLab, found out from its sources and its library.
 
 # Version of the sources in a folder, and which of our folders fits it.
 function(wscvt_read_meshlab_source folder version_variable host_variable)
@@ -16,14 +7,17 @@ function(wscvt_read_meshlab_source folder version_variable host_variable)
       "(filter_wscvt/get_meshlab_source.sh fetches it).")
   endif()
   file(STRINGS ${folder}/ML_VERSION version LIMIT_COUNT 1)
+  # The versions that share an interface, by the folder with the adapter to it.
+  set(versions_of_host_2020_09 2020.09)
+  set(versions_of_host_2021_10 2021.10 2022.02 2023.12 2025.07)
   set(known)
   foreach(host host_2020_09 host_2021_10)
-    if(version IN_LIST WSCVT_VERSIONS_OF_${host})
+    if(version IN_LIST versions_of_${host})
       set(${version_variable} ${version} PARENT_SCOPE)
       set(${host_variable} ${host} PARENT_SCOPE)
       return()
     endif()
-    list(APPEND known ${WSCVT_VERSIONS_OF_${host}})
+    list(APPEND known ${versions_of_${host}})
   endforeach()
   list(JOIN known ", " known)
   message(FATAL_ERROR "${folder} is MeshLab ${version}; the plugin knows ${known}. "
@@ -50,6 +44,10 @@ endfunction()
 
 # An interface target with the headers of a MeshLab, for its plugin and for tests that play it.
 function(wscvt_add_meshlab target folder version scalar library)
+  # Imported targets are seen in the calling folder only.
+  find_package(Qt5 REQUIRED COMPONENTS Core Widgets OpenGL Xml XmlPatterns)
+  find_package(GLEW REQUIRED)
+  find_package(Eigen3 REQUIRED NO_MODULE)
   add_library(${target} INTERFACE)
   # vcglib stood beside src until 2020.09.
   target_include_directories(${target} SYSTEM INTERFACE

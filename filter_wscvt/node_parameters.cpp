@@ -36,7 +36,8 @@ FilterParameter weighting_parameter() {
 
 FilterParameter curvature_alpha_parameter() {
   return real_parameter(
-      "CurvatureAlpha", RemeshOptions().weighting.curvature_alpha, -3, 3, "Curvature strength alpha",
+      "CurvatureAlpha", RemeshOptions().weighting.curvature_alpha, -3, 3,
+      "Curvature strength alpha",
       "Strength of the curvature weighting (WSCVT-C only), -3 to 3, no unit. 0 ignores "
       "curvature, larger gathers more nodes at edges and corners, negative keeps them away.");
 }
