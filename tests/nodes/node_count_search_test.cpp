@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wscvt/base/error.h"
+#include "support/expect_error.h"
 
 namespace wscvt {
 namespace {
@@ -63,9 +63,13 @@ TEST(NodeCountSearch, GoesDownToTheSmallestCount) {
 
 TEST(NodeCountSearch, RefusesTargetsAndLimitsThatMakeNoSense) {
   const auto error = [](int n) { return 1.0 / n; };
-  EXPECT_THROW(smallest_node_count(0.0, 10, 4, 20, error), Error);
-  EXPECT_THROW(smallest_node_count(NAN, 10, 4, 20, error), Error);
-  EXPECT_THROW(smallest_node_count(1.0, 10, 20, 4, error), Error);
+  for (const double target : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    SCOPED_TRACE(target);
+    test::expect_error(ErrorCode::InvalidInput,
+                       [&] { smallest_node_count(target, 10, 4, 20, error); });
+  }
+  test::expect_error(ErrorCode::InvalidInput, [&] { smallest_node_count(1.0, 10, 20, 4, error); });
+  test::expect_error(ErrorCode::InvalidInput, [&] { smallest_node_count(1.0, 10, 0, 4, error); });
 }
 
 }  // namespace

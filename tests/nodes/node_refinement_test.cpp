@@ -6,10 +6,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
-#include "wscvt/base/error.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
@@ -141,6 +142,86 @@ TEST(NodeRefinement, SlidesNodesOnToTheEdgesOfABox) {
   EXPECT_GT(relocations, 0);
 }
 
+TEST(NodeRefinement, FlipsTheEdgesThatCrossTheFacesOfABody) {
+  // The body's own vertices with every fifth edge that allows it turned the wrong way: no move of
+  // nodes leads back, only the same flips do.
+  const IndexedMesh body = test::lumpy(1);
+  std::vector<Vector3> directions = body.points;
+  for (Vector3& p : directions) p.normalize();
+  Case start{body.points, SphereTriangulation(directions, body.triangles),
+             MeshSurface(body, Vector3::Zero(), 1.0, Execution(1))};
+  int flipped = 0;
+  for (std::int32_t h = 0; h < 240; h += 5) {
+    if (h < start.triangulation.opposite()[h] && start.triangulation.is_flippable(h, directions)) {
+      start.triangulation.flip(h);
+      ++flipped;
+    }
+  }
+  ASSERT_GT(flipped, 10);
+  RefinementOptions options = rounds(40);
+  options.smallest_angle = 0.0;  // else bad angles are mended by flips
+  const RefinedNodes refined = refine(start, options);
+  EXPECT_LT(refined.report.history.back().distance, 0.01 * refined.report.start_distance);
+}
+
+/// Unit sphere with a cone on its pole.
+IndexedMesh sphere_with_cone(double height, double angle) {
+  IndexedMesh mesh = test::sphere(5);
+  for (Vector3& p : mesh.points) {
+    p *= 1.0 + height * std::max(0.0, 1.0 - std::acos(std::min(p.z(), 1.0)) / angle);
+  }
+  return mesh;
+}
+
+TEST(NodeRefinement, DoesNotGiveUpACone) {
+  // The rms distance of 200 nodes is 0.003, and three samples in a thousand lie on the cone: by
+  // squares alone it loses 0.030 to 0.056 of its height of 0.1. Measured are 0.011 to 0.013, which
+  // is what triangles of that size leave on a sphere.
+  for (const double angle : {0.08, 0.1, 0.15}) {
+    SCOPED_TRACE(angle);
+    const IndexedMesh body = sphere_with_cone(0.1, angle);
+    const RefinedNodes refined = refine(on_surface(body, 200), rounds(30));
+    EXPECT_LT(
+        measure_distances(mesh_of(refined), body, {30000}, Execution(1)).from_reference.maximum,
+        0.025);
+  }
+}
+
+TEST(NodeRefinement, NoNodeSticksOutOfATip) {
+  // The triangles at a tip hold few samples, and the planes through those meet high above it: 0.4
+  // above without the nodes' own distances, 0.01 to 0.02 with them.
+  for (const auto& [height, angle] : {std::pair{0.2, 0.08}, std::pair{0.3, 0.15}}) {
+    SCOPED_TRACE(angle);
+    const IndexedMesh body = sphere_with_cone(height, angle);
+    const RefinedNodes refined = refine(on_surface(body, 200), rounds(30));
+    const MeshDistance distance(body);
+    for (const Vector3& p : refined.positions) ASSERT_LT(distance.distance(p), 0.3 * height);
+  }
+}
+
+TEST(NodeRefinement, TakesNodesToWhereTheyAreMissing) {
+  // Ten times as many nodes on one half of a sphere as on the other end nearly as near to it as the
+  // same number spread evenly: 1.11 times as far. Nodes that only move leave 1.4 times.
+  std::vector<Vector3> uneven;
+  for (const Vector3& u : fibonacci_lattice(800)) {
+    if (u.z() > 0.0) uneven.push_back(u);
+  }
+  for (const Vector3& u : fibonacci_lattice(80)) {
+    if (u.z() < 0.0) uneven.push_back(u);
+  }
+  const IndexedMesh body = test::sphere(5);
+  const auto distance = [&](Case start) {
+    RefinementOptions options = rounds(60);
+    options.tolerance = 1e-3;
+    return refine(start, options).report.history.back().distance;
+  };
+  Case start = on_surface(body, static_cast<int>(uneven.size()));
+  const double even = distance(start);
+  start.triangulation = SphereTriangulation(uneven);
+  start.positions = uneven;
+  EXPECT_LT(distance(std::move(start)), 1.25 * even);
+}
+
 TEST(NodeRefinement, ASphereStaysASphere) {
   const RefinedNodes refined = refine(on_surface(test::sphere(5), 300), rounds(20));
   expect_promises(refined, 300);
@@ -217,13 +298,22 @@ TEST(NodeRefinement, StopsWhenThereIsNothingToGain) {
 TEST(NodeRefinement, RefusesOptionsOutOfRange) {
   const Case start = on_surface(test::lumpy(2), 50);
   RefinementOptions options = rounds(-1);
-  EXPECT_THROW(refine(start, options), Error);
-  options = rounds(1);
-  options.smallest_angle = 50.0;
-  EXPECT_THROW(refine(start, options), Error);
-  options = rounds(1);
-  options.tolerance = 1.0;
-  EXPECT_THROW(refine(start, options), Error);
+  const auto expect_refused = [&] {
+    test::expect_error(ErrorCode::InvalidInput, [&] { refine(start, options); });
+  };
+  expect_refused();
+  options = rounds(1001);
+  expect_refused();
+  for (const double angle : {-1.0, 40.5, std::nan("")}) {
+    options = rounds(1);
+    options.smallest_angle = angle;
+    expect_refused();
+  }
+  for (const double tolerance : {-1e-3, 1.0, std::nan("")}) {
+    options = rounds(1);
+    options.tolerance = tolerance;
+    expect_refused();
+  }
 }
 
 TEST(NodeRefinement, CanBeCancelledWithinARound) {
@@ -233,21 +323,18 @@ TEST(NodeRefinement, CanBeCancelledWithinARound) {
     EXPECT_LT(fraction, 1.0);
     return ++reports < 3;
   });
-  EXPECT_THROW(
-      refine_nodes(start.positions, start.triangulation, start.original, rounds(1), execution),
-      Error);
+  test::expect_error(ErrorCode::Cancelled, [&] {
+    refine_nodes(start.positions, start.triangulation, start.original, rounds(1), execution);
+  });
   EXPECT_EQ(reports, 3);
 }
 
 TEST(NodeRefinement, CanBeCancelled) {
   const Case start = on_surface(test::lumpy(2), 50);
   const Execution execution(1, [](double, const std::string&) { return false; });
-  try {
+  test::expect_error(ErrorCode::Cancelled, [&] {
     refine_nodes(start.positions, start.triangulation, start.original, rounds(3), execution);
-    FAIL() << "not cancelled";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::Cancelled);
-  }
+  });
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "wscvt/base/error.h"
+#include "support/expect_error.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
@@ -92,8 +92,11 @@ TEST(MultilevelRelaxation, SameBytesOnAnyNumberOfThreads) {
 
 TEST(MultilevelRelaxation, RefusesAStartThatDoesNotFit) {
   const SurfaceSeedModel model = model_of(Weighting::Area, 1000);
-  EXPECT_THROW(relax_multilevel(fibonacci_lattice(300), 1000, model, {}, {}, Execution(1)), Error);
-  EXPECT_THROW(level_sizes(3, 20), Error);
+  test::expect_error(ErrorCode::InvalidInput, [&] {
+    relax_multilevel(fibonacci_lattice(300), 1000, model, {}, {}, Execution(1));
+  });
+  test::expect_error(ErrorCode::InvalidInput, [] { level_sizes(3, 20); });
+  test::expect_error(ErrorCode::InvalidInput, [] { level_sizes(100, 3); });
 }
 
 TEST(MultilevelRelaxation, RefusesLevelsOutOfRange) {
@@ -101,10 +104,14 @@ TEST(MultilevelRelaxation, RefusesLevelsOutOfRange) {
   for (const double tolerance : {0.0, -1e-4, std::numeric_limits<double>::quiet_NaN()}) {
     MultilevelOptions coarsest;
     coarsest.coarsest_tolerance = tolerance;
-    EXPECT_THROW(relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, coarsest), Error);
+    test::expect_error(ErrorCode::InvalidInput, [&] {
+      relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, coarsest);
+    });
     MultilevelOptions middle;
     middle.middle_tolerance = tolerance;
-    EXPECT_THROW(relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, middle), Error);
+    test::expect_error(ErrorCode::InvalidInput, [&] {
+      relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, middle);
+    });
   }
 }
 

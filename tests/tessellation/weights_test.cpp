@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "wscvt/base/error.h"
+#include "support/expect_error.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
 
@@ -89,6 +89,46 @@ TEST(Weights, CurvatureGivesSharpPlacesSmallerWeights) {
   for (std::size_t i = 0; i < seeds.size(); ++i) EXPECT_NEAR(reversed[i], -weights[i], 1e-18);
 }
 
+TEST(Weights, CurvatureNeverWantsACellOfNothing) {
+  // On an even lattice C is the mean cell: 3.118 w + C stays above 0 however large alpha is.
+  for (const double alpha : {1.0, 3.0, -3.0}) {
+    SCOPED_TRACE(alpha);
+    const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Curvature, 1000, alpha);
+    for (const double w : weights_of(model, fibonacci_lattice(1000))) {
+      ASSERT_LT(cell_area_per_weight * std::abs(w), 4.0 * pi / 1000.0);
+    }
+  }
+}
+
+TEST(Weights, NoCellIsWantedSmallerThanATwentiethOfTheMean) {
+  // At the ends of a needle eq. 10 wants less than nothing.
+  const Ellipsoid needle(Vector3(6.0, 1.0, 1.0));
+  const SurfaceSeedModel model = model_of(needle, Weighting::RadialDistance);
+  const SphereQuadrature quadrature = gauss_legendre_sphere(100);
+  const double mean = 1000.0 / (4.0 * pi);
+  double count = 0.0;
+  const std::vector<double> densities = model.number_densities(quadrature.directions, Execution(1));
+  for (std::size_t i = 0; i < densities.size(); ++i) {
+    ASSERT_LE(densities[i], 20.0 * mean * (1.0 + 1e-12));
+    count += quadrature.weights[i] * densities[i];
+  }
+  EXPECT_NEAR(model.number_densities({Vector3::UnitX()}, Execution(1)).front(), 20.0 * mean,
+              1e-9 * mean);
+  // The kink where the bound sets in costs the two quadratures a per cent.
+  EXPECT_NEAR(count, 1000.0, 10.0);
+}
+
+TEST(Weights, ErrorAdaptiveLeavesNodesOnFlatFaces) {
+  // A box with rounded edges, its faces a hundred times flatter than its median. Their nodes stay
+  // within 0.3^(2/3) = 0.45 of the density at the median curvature.
+  const Superellipsoid box(Vector3(1.0, 0.9, 0.8), 0.3, 0.3);
+  const SurfaceSeedModel model = model_of(box, Weighting::ErrorAdaptive);
+  std::vector<double> densities;
+  model.surface_densities(fibonacci_lattice(1000), Execution(1), densities);
+  std::sort(densities.begin(), densities.end());
+  EXPECT_GT(densities.front(), 0.4 * densities[500]);
+}
+
 TEST(Weights, CurvatureOnASphereLeavesAllSeedsEqual) {
   const Ellipsoid sphere(Vector3(2.0, 2.0, 2.0));
   const std::vector<Vector3> seeds = fibonacci_lattice(100);
@@ -148,11 +188,19 @@ TEST(Weights, SamplesReplaceTheSurfacesCurvature) {
 }
 
 TEST(Weights, RefusesOptionsOutOfRange) {
-  EXPECT_THROW(model_of(ellipsoid(), Weighting::Area, 3), Error);
-  EXPECT_THROW(model_of(ellipsoid(), Weighting::Curvature, 100, 3.5), Error);
-  EXPECT_THROW(
-      model_of(ellipsoid(), Weighting::Curvature, 100, std::numeric_limits<double>::quiet_NaN()),
-      Error);
+  const auto expect_refused = [](int nodes, double alpha, double exponent) {
+    WeightingOptions options;
+    options.node_count = nodes;
+    options.curvature_alpha = alpha;
+    options.adaptive_exponent = exponent;
+    test::expect_error(ErrorCode::InvalidInput, [&] { check_weighting_options(options); });
+    test::expect_error(ErrorCode::InvalidInput,
+                       [&] { SurfaceSeedModel(ellipsoid(), options, nullptr, Execution(1)); });
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(3, 1.0, 0.5);
+  for (const double alpha : {3.5, -3.5, nan}) expect_refused(100, alpha, 0.5);
+  for (const double exponent : {-0.1, 1.6, nan}) expect_refused(100, 1.0, exponent);
 }
 
 }  // namespace

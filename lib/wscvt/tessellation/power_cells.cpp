@@ -20,7 +20,8 @@ Vector3 radical_centre(const Vector3& a, const Vector3& b, const Vector3& c, dou
   const double ac_ac = ac.squaredNorm();
   const double ab_ac = ab.dot(ac);
   const double determinant = ab_ab * ac_ac - ab_ac * ab_ac;
-  // A needle has no centre worth the name; its middle keeps the neighbours' cells sane.
+  // The determinant is 4 area^2: below 1e-24 of its terms, an angle of 1e-12, it is rounding. Such
+  // a needle has no centre worth the name; its middle keeps the neighbours' cells sane.
   if (!(determinant > 1e-24 * ab_ab * ac_ac)) return (a + b + c) / 3.0;
   const double along_ab = 0.5 * (ab_ab + lower_ab);
   const double along_ac = 0.5 * (ac_ac + lower_ac);
@@ -64,66 +65,61 @@ void compute_power_cells(const SphereTriangulation& triangulation,
 
   cells.centroids.resize(count);
   cells.areas.resize(count);
-  cells.energy =
-      execution.parallel_sum(count, block_size, 0.0, [&](std::size_t begin, std::size_t end) {
-        double energy = 0.0;
-        for (std::size_t i = begin; i < end; ++i) {
-          const Vector3& site = sites[i];
-          const std::int32_t first = triangulation.first_half_edge()[i];
-          Vector3 normal = site;
-          if (!on_sphere) {
-            normal.setZero();
-            std::int32_t h = first;
-            do {
-              const Triangle& t = triangles[h / 3];
-              normal += (sites[t[1]] - sites[t[0]]).cross(sites[t[2]] - sites[t[0]]);
-              h = opposite[SphereTriangulation::previous(h)];
-            } while (h != first);
-            normal.normalize();
-          }
-          double area = 0.0;
-          double mass = 0.0;
-          double moment = 0.0;
-          Vector3 sum = Vector3::Zero();
-          // Vectors from the site to this and the next cell vertex, counter-clockwise.
-          std::int32_t h = first;
-          Vector3 a = cells.vertices[h / 3] - site;
-          double density_a = 1.0;
-          const auto density_at = [&](std::int32_t triangle) {
-            const Triangle& t = triangles[triangle];
-            return (densities[t[0]] + densities[t[1]] + densities[t[2]]) / 3.0;
-          };
-          if (dense) density_a = density_at(h / 3);
-          do {
-            h = opposite[SphereTriangulation::previous(h)];
-            const Vector3 b = cells.vertices[h / 3] - site;
-            const double fan = 0.5 * a.cross(b).dot(normal);
-            area += fan;
-            const double second_moment = fan / 6.0 * (a.squaredNorm() + b.squaredNorm() + a.dot(b));
-            if (dense) {
-              // A density linear over the fan's corners weighs corner k by (total + its own) / 12.
-              const double density_b = density_at(h / 3);
-              const double total = densities[i] + density_a + density_b;
-              mass += fan * total / 3.0;
-              sum += fan / 12.0 * ((total + density_a) * a + (total + density_b) * b);
-              moment += second_moment * total / 3.0;
-              density_a = density_b;
-            } else {
-              mass += fan;
-              sum += fan / 3.0 * (a + b);
-              moment += second_moment;
-            }
-            a = b;
-          } while (h != first);
-          cells.areas[i] = area;
-          // A cell turned inside out by a coarse start has no centroid: the seed stays.
-          Vector3 shift = mass > 0.0 ? Vector3(sum / mass) : Vector3(Vector3::Zero());
-          shift -= shift.dot(normal) * normal;
-          cells.centroids[i] = site + shift;
-          energy += moment - (weighted ? weights[i] * mass : 0.0);
+  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vector3& site = sites[i];
+      const std::int32_t first = triangulation.first_half_edge()[i];
+      Vector3 normal = site;
+      if (!on_sphere) {
+        normal.setZero();
+        std::int32_t h = first;
+        do {
+          const Triangle& t = triangles[h / 3];
+          normal += (sites[t[1]] - sites[t[0]]).cross(sites[t[2]] - sites[t[0]]);
+          h = opposite[SphereTriangulation::previous(h)];
+        } while (h != first);
+        normal.normalize();
+      }
+      double area = 0.0;
+      double mass = 0.0;
+      Vector3 sum = Vector3::Zero();
+      // Vectors from the site to this and the next cell vertex, counter-clockwise. All is
+      // added up about the site, so that far from the origin no digits are lost.
+      std::int32_t h = first;
+      Vector3 a = cells.vertices[h / 3] - site;
+      double density_a = 1.0;
+      const auto density_at = [&](std::int32_t triangle) {
+        const Triangle& t = triangles[triangle];
+        return (densities[t[0]] + densities[t[1]] + densities[t[2]]) / 3.0;
+      };
+      if (dense) density_a = density_at(h / 3);
+      do {
+        h = opposite[SphereTriangulation::previous(h)];
+        const Vector3 b = cells.vertices[h / 3] - site;
+        const double fan = 0.5 * a.cross(b).dot(normal);
+        area += fan;
+        if (dense) {
+          // A density linear over the fan's corners weighs corner k by (total + its own) / 12.
+          const double density_b = density_at(h / 3);
+          const double total = densities[i] + density_a + density_b;
+          mass += fan * total / 3.0;
+          sum += fan / 12.0 * ((total + density_a) * a + (total + density_b) * b);
+          density_a = density_b;
+        } else {
+          mass += fan;
+          sum += fan / 3.0 * (a + b);
         }
-        return energy;
-      });
+        a = b;
+      } while (h != first);
+      cells.areas[i] = area;
+      // A cell turned inside out by a coarse start has no centroid: the seed stays. Otherwise
+      // the shift is taken in the tangent plane, since the site comes back to the surface along
+      // its ray, and height above it would only shorten the step.
+      Vector3 shift = mass > 0.0 ? Vector3(sum / mass) : Vector3(Vector3::Zero());
+      shift -= shift.dot(normal) * normal;
+      cells.centroids[i] = site + shift;
+    }
+  });
 }
 
 }  // namespace wscvt

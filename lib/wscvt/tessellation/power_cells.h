@@ -20,7 +20,6 @@ struct PowerCells {
   std::vector<Vector3> vertices;   ///< per triangle: the radical centre of its sites
   std::vector<Vector3> centroids;  ///< per site: of its cell, moved to the site's tangent plane
   std::vector<double> areas;       ///< per site: signed area (solid angle on the unit sphere)
-  double energy = 0.0;             ///< sum over cells of integral density (|x - site|^2 - w) dA
 };
 
 /// Computes the cells of `sites` under `triangulation` (the paper, eqs. 6 to 9).

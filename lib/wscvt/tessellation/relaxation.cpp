@@ -138,8 +138,7 @@ class Evaluation {
     const auto target = [&](std::size_t i) {
       if (shares.empty()) return mean_area;
       if (surface) return mean_area / (shares[i] * mean_share);
-      // Below a twentieth of the mean the law "area = 3.118 w + C" no longer holds.
-      return std::max(0.05 * mean_area,
+      return std::max(smallest_cell_share * mean_area,
                       mean_area + cell_area_per_weight * (shares[i] - mean_share));
     };
     const Sums ratios =

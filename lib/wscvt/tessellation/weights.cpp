@@ -15,9 +15,9 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t block_size = 1024;
-/// Smallest cell, as a share of the mean one, that the law "area = 3.118 w + C" is trusted with.
-constexpr double smallest_cell_share = 0.05;
-/// Largest alpha x of eq. 11; beyond it seeds lose their cells (measured above alpha 1.25).
+/// Largest alpha x of eq. 11, whose weight is then 3.6 / N: 3.118 times that is 0.89 of the mean
+/// cell, so that no cell is wanted smaller than nothing. Beyond it seeds lose their cells (measured
+/// above alpha 1.25).
 constexpr double curvature_clip = 0.9;
 /// Curvatures below these are taken as these: a flat face has no scale of its own.
 constexpr double flat_curvature = 0.01;       // in 1 / equivalent radius, for the logarithm

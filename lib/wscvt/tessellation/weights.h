@@ -18,12 +18,18 @@ enum class Weighting {
   RadialDistance,  ///< WSCVT-D, eq. 10 as printed: w = S / (N pi r^2)
   Curvature,       ///< WSCVT-C, eqs. 11 to 14: more nodes where curvature is high
   Area,            ///< equal surface areas: w = S / (3.118 N g), g = dA/dOmega
-  ErrorAdaptive,   ///< nodes where flat triangles err most: node density g k^(2/3)
+  /// Nodes where flat triangles err most: node density g k^(2/3). Curvatures below 0.3 of their
+  /// median count as that, so that flat faces keep nodes enough to be seen as flat.
+  ErrorAdaptive,
 };
 
 /// A relaxed cell's solid angle is this times its seed's weight, plus a constant that is the same
 /// for all seeds: 2 / (5 / (9 sqrt 3)) from the second moment of the regular hexagon.
 inline constexpr double cell_area_per_weight = 3.118;
+
+/// Smallest cell, as a share of the mean one, that this law is trusted with: none is wanted
+/// smaller.
+inline constexpr double smallest_cell_share = 0.05;
 
 /// What the relaxation asks about seeds wherever they stand. One value a seed, in their order.
 class SeedModel {
@@ -84,7 +90,8 @@ class SurfaceSeedModel : public SeedModel {
   void surface_densities(const std::vector<Vector3>& seeds, const Execution& execution,
                          std::vector<double>& result) const override;
 
-  /// Wanted number of seeds per steradian, for the start; its integral over the sphere is N.
+  /// Wanted number of seeds per steradian, for the start; its integral over the sphere is N. At
+  /// most 1 / smallest_cell_share of the mean.
   std::vector<double> number_densities(const std::vector<Vector3>& directions,
                                        const Execution& execution) const;
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt::test {
+
+/// Fails unless `action` throws an Error with this code.
+template <class Action>
+void expect_error(ErrorCode code, const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    return;
+  }
+  ADD_FAILURE() << "No error was thrown.";
+}
+
+}  // namespace wscvt::test
