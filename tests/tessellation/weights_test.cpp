@@ -190,12 +190,11 @@ TEST(Weights, SamplesReplaceTheSurfacesCurvature) {
 TEST(Weights, RefusesOptionsOutOfRange) {
   const auto expect_refused = [](int nodes, double alpha, double exponent) {
     WeightingOptions options;
-    options.node_count = nodes;
     options.curvature_alpha = alpha;
     options.adaptive_exponent = exponent;
-    test::expect_error(ErrorCode::InvalidInput, [&] { check_weighting_options(options); });
-    test::expect_error(ErrorCode::InvalidInput,
-                       [&] { SurfaceSeedModel(ellipsoid(), options, nullptr, Execution(1)); });
+    test::expect_error(ErrorCode::InvalidInput, [&] {
+      SurfaceSeedModel(ellipsoid(), options, nodes, nullptr, Execution(1));
+    });
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused(3, 1.0, 0.5);
