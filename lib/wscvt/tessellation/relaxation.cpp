@@ -274,6 +274,9 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
           }
           return part;
         });
+    // `uphill` compares the last step's direction with where the cells now pull: the gradient test
+    // of O'Donoghue and Candes, which needs no energy. Momentum that is never dropped swings about
+    // the end and takes more than twice the steps.
     double carry = 0.0;
     if (options.acceleration && !plain) {
       if (uphill > 0.0) momentum = 1.0;

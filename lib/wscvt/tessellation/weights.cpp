@@ -23,7 +23,8 @@ constexpr double curvature_clip = 0.9;
 constexpr double flat_curvature = 0.01;       // in 1 / equivalent radius, for the logarithm
 constexpr double flat_share_of_median = 0.3;  // of the median curvature, for the adaptive density
 
-/// Rows so that the grid resolves both the surface and the cells.
+/// Rows so that the grid resolves both the surface and the cells: 128 rows are 1.4 degrees, a third
+/// of a cell of 2000 and an eighth of a period of degree 30.
 int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
 
 /// One number a grid node, with the node's share of the sphere.
@@ -210,6 +211,7 @@ double solve_offset(const GridField& cells, double count, double smallest) {
     });
     (excess > 0.0 ? low : high) = offset;
     double next = offset - excess / slope;
+    // Where all cells are at the smallest the slope is 0 and Newton's step no number: then halving.
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (std::abs(next - offset) < 1e-9 * mean_cell) return next;
     offset = next;
@@ -385,9 +387,9 @@ std::vector<double> SurfaceSeedModel::number_densities(const std::vector<Vector3
   std::vector<double> result;
   look_up_field(directions, execution, result);
   for (double& value : result) {
-    value = 1.0 / std::max(smallest_cell_share * mean_cell,
-                           cell_area_per_weight * weight_from(value, node_count_, wanted_) +
-                               offset_);
+    value =
+        1.0 / std::max(smallest_cell_share * mean_cell,
+                       cell_area_per_weight * weight_from(value, node_count_, wanted_) + offset_);
   }
   return result;
 }
