@@ -197,6 +197,17 @@ TEST(Relaxation, StoppingAtTheLimitIsAFieldNotAnError) {
   EXPECT_EQ(result.seeds, fibonacci_lattice(50));
 }
 
+TEST(Relaxation, SettlesWhereTheAreasCannotBeWhatIsAskedFor) {
+  // No tessellation has cells equal to nine digits.
+  RelaxationOptions options;
+  options.area_tolerance = 1e-9;
+  const RelaxationResult result =
+      relax(fibonacci_lattice(50), model_of(Weighting::Area, 50), options, Execution(1));
+  EXPECT_EQ(result.report.outcome, RelaxationOutcome::Settled);
+  EXPECT_LT(result.report.history.back().displacement, 0.01 * options.displacement_tolerance);
+  EXPECT_GT(result.report.history.back().area_spread, options.area_tolerance);
+}
+
 TEST(Relaxation, SameBytesOnAnyNumberOfThreads) {
   RelaxationOptions options;
   options.maximum_iterations = 8;
