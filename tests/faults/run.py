@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts faults into the library, one at a time, and looks whether the tests notice.
 
-  tests/faults/run.py [--check] [--build DIRECTORY] [WORD ...]
+  tests/faults/run.py [--check] [--build DIRECTORY] [--jobs NUMBER] [WORD ...]
 
 faults.txt lists the faults; WORDs keep those whose room, title or file holds one of them. Each is
 put into a copy of the sources under DIRECTORY (build/faults), the tests of its own subject are
@@ -11,14 +11,17 @@ was also after an interruption. A fault is killed when a test fails, crashes, or
 long as without it. --check only tells whether every fault still finds its place; after a change of
 the library that is to be mended in faults.txt.
 
-Exit code 0: every fault is killed, or survives for the reason that faults.txt gives. All of them
-take about half an hour on two cores, less with ccache, which is used where it is installed.
+Exit code 0: every fault is killed, or survives for the reason that faults.txt gives. A run takes as
+long as a build and half a minute a fault. With --jobs there are several copies, each of which is
+built: only worth it with ccache, which is used where it is installed.
 """
 
 import argparse
+import concurrent.futures
 import filecmp
 import os
 import pathlib
+import queue
 import re
 import shutil
 import subprocess
@@ -36,6 +39,14 @@ class Fault:
         self.file = self.find = self.tests = None
         self.replace = ""
         self.survives = None
+
+    @property
+    def target(self):
+        return self.tests.partition(" ")[0]
+
+    @property
+    def names(self):
+        return self.tests.partition(" ")[2] or "*"
 
     def place(self, root):
         """The one file that the text to find stands in, once; a sentence where there is none."""
@@ -99,14 +110,12 @@ class Build:
         return subprocess.run(command, env=self.environment, cwd=self.source, timeout=seconds,
                               text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
-    def make(self, targets):
-        return self.run(["cmake", "--build", str(self.binaries), "--target"] + sorted(targets),
-                        3600)
+    def make(self, target):
+        return self.run(["cmake", "--build", str(self.binaries), "--target", target], 3600)
 
-    def test(self, tests, seconds):
+    def test(self, target, names, seconds):
         """Whether the tests pass, how many ran, and the first that failed."""
-        target, _, names = tests.partition(" ")
-        command = [str(self.binaries / "tests" / target), "--gtest_filter=" + (names or "*")]
+        command = [str(self.binaries / "tests" / target), "--gtest_filter=" + names]
         try:
             done = self.run(command, seconds)
         except subprocess.TimeoutExpired:
@@ -117,11 +126,44 @@ class Build:
         return done.returncode == 0, int(ran.group(1)) if ran else 0, what
 
 
+def try_faults(build, faults):
+    """Yields each fault, what came of it, and whether that is as it should be."""
+    target = faults[0].target
+    made = build.make(target)
+    if made.returncode:
+        sys.exit(made.stdout + "\nThe library does not build without any fault.")
+    seconds = {}
+    for names in sorted({fault.names for fault in faults}):
+        start = time.monotonic()
+        passed, ran, what = build.test(target, names, 1200)
+        seconds[names] = time.monotonic() - start
+        if not passed or not ran:
+            sys.exit("Without any fault: %s %s: %s" % (target, names, what or "no such test"))
+    for fault in faults:
+        path, _ = fault.place(build.source)
+        text = path.read_text()
+        path.write_text(text.replace(fault.find, fault.replace))
+        try:
+            made = build.make(target)
+            if made.returncode:
+                error = re.search(r"error: .*", made.stdout)
+                yield fault, "does not compile: " + (error.group(0) if error else ""), False
+                continue
+            passed, _, what = build.test(target, fault.names, 60 + 10 * seconds[fault.names])
+        finally:
+            path.write_text(text)
+        verdict = "SURVIVES" if passed else "killed by " + what
+        if fault.survives is not None:
+            verdict += " (expected to survive: %s)" % fault.survives
+        yield fault, verdict, passed == (fault.survives is not None)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "faults")
+    parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("words", nargs="*")
     arguments = parser.parse_args()
 
@@ -138,41 +180,33 @@ def main():
         print("%d of %d faults find their place" % (len(faults) - lost, len(faults)))
         return 1 if lost else 0
 
-    build = Build(arguments.build.resolve())
-    made = build.make({fault.tests.partition(" ")[0] for fault in faults})
-    if made.returncode:
-        sys.exit(made.stdout + "\nThe library does not build without any fault.")
-    seconds = {}
-    for tests in sorted({fault.tests for fault in faults}):
-        start = time.monotonic()
-        passed, ran, what = build.test(tests, 600)
-        seconds[tests] = time.monotonic() - start
-        if not passed or not ran:
-            sys.exit("Without any fault: %s: %s" % (tests, what or "no such test"))
-
-    wrong = killed = surviving = 0
+    # Test program by test program, so that each is built by one worker only.
+    groups = {}
     for fault in faults:
-        path, _ = fault.place(build.source)
-        text = path.read_text()
-        path.write_text(text.replace(fault.find, fault.replace))
-        try:
-            made = build.make({fault.tests.partition(" ")[0]})
-            if made.returncode:
-                error = re.search(r"error: .*", made.stdout)
-                verdict, bad = "does not compile: " + (error.group(0) if error else ""), True
-            else:
-                passed, _, what = build.test(fault.tests, 30 + 10 * seconds[fault.tests])
-                killed += not passed
-                surviving += passed
-                verdict = "SURVIVES" if passed else "killed by " + what
-                bad = passed != (fault.survives is not None)
-                if fault.survives is not None:
-                    verdict += " (expected to survive: %s)" % fault.survives
-        finally:
-            path.write_text(text)
-        wrong += bad
-        print("%s %-12s %-70s %s" % ("!" if bad else " ", fault.room, fault.title, verdict),
-              flush=True)
+        groups.setdefault(fault.target, []).append(fault)
+    waiting = queue.Queue()
+    for group in groups.values():
+        waiting.put(group)
+    verdicts = []
+
+    def work(number):
+        build = Build(arguments.build.resolve() / str(number))
+        while True:
+            try:
+                group = waiting.get_nowait()
+            except queue.Empty:
+                return
+            for fault, verdict, good in try_faults(build, group):
+                verdicts.append((verdict, good))
+                print("%s %-12s %-72s %s" % (" " if good else "!", fault.room, fault.title, verdict),
+                      flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as workers:
+        for done in [workers.submit(work, number) for number in range(arguments.jobs)]:
+            done.result()
+    killed = sum(verdict.startswith("killed") for verdict, _ in verdicts)
+    surviving = sum(verdict.startswith("SURVIVES") for verdict, _ in verdicts)
+    wrong = sum(not good for _, good in verdicts)
     print("%d faults: %d killed, %d surviving, %d not as they should be"
           % (len(faults), killed, surviving, wrong))
     return 1 if wrong else 0
