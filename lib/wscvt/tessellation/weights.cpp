@@ -8,6 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/tessellation/cap_sums.h"
 
 namespace wscvt {
 
@@ -26,76 +27,6 @@ constexpr double flat_share_of_median = 0.3;  // of the median curvature, for th
 /// Rows so that the grid resolves both the surface and the cells: 128 rows are 1.4 degrees, a third
 /// of a cell of 2000 and an eighth of a period of degree 30.
 int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
-
-/// One number a grid node, with the node's share of the sphere.
-struct GridField {
-  int rows = 0;
-  std::vector<double> sines;   ///< of the rows' polar angles
-  std::vector<double> values;  ///< row by row
-
-  explicit GridField(int rows_in)
-      : rows(rows_in),
-        sines(SphereGrid::row_sines(rows_in)),
-        values(2 * static_cast<std::size_t>(rows_in) * rows_in, 0.0) {}
-  std::size_t columns() const { return 2 * static_cast<std::size_t>(rows); }
-
-  /// Integral over the sphere of f(value).
-  template <class Function>
-  double integral(const Function& f) const {
-    double sum = 0.0;
-    double measure = 0.0;
-    for (int j = 0; j < rows; ++j) {
-      double row = 0.0;
-      for (std::size_t k = 0; k < columns(); ++k) row += f(values[j * columns() + k]);
-      sum += sines[j] * row;
-      measure += sines[j] * static_cast<double>(columns());
-    }
-    return 4.0 * pi * sum / measure;
-  }
-};
-
-/// Adds up `field` over caps of chord `radius` with weights exp(-2 (d / radius)^2).
-std::vector<double> sum_over_caps(const GridField& field, double radius,
-                                  const Execution& execution) {
-  const int rows = field.rows;
-  const auto columns = static_cast<std::ptrdiff_t>(field.columns());
-  const double spacing = pi / rows;
-  const int reach = static_cast<int>(radius / spacing);
-  const std::vector<double> cosines = SphereGrid::row_cosines(rows);
-  std::vector<double> result(field.values.size(), 0.0);
-  execution.parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> kernel;
-    for (std::size_t j = begin; j < end; ++j) {
-      const int row = static_cast<int>(j);
-      double* target = result.data() + j * columns;
-      for (int other = std::max(0, row - reach); other <= std::min(rows - 1, row + reach);
-           ++other) {
-        kernel.clear();
-        for (std::ptrdiff_t shift = 0; shift <= columns / 2; ++shift) {
-          const double chord_square =
-              2.0 - 2.0 * (cosines[row] * cosines[other] +
-                           field.sines[row] * field.sines[other] *
-                               std::cos(spacing * static_cast<double>(shift)));
-          if (shift > 0 && chord_square > radius * radius) break;
-          kernel.push_back(std::exp(-2.0 * chord_square / (radius * radius)));
-        }
-        const double* source = field.values.data() + other * columns;
-        const auto width = static_cast<std::ptrdiff_t>(kernel.size()) - 1;
-        for (std::ptrdiff_t k = 0; k < columns; ++k) {
-          double sum = kernel[0] * source[k];
-          for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
-            const std::ptrdiff_t right = k + shift < columns ? k + shift : k + shift - columns;
-            const std::ptrdiff_t left = k >= shift ? k - shift : k - shift + columns;
-            sum += kernel[shift] *
-                   (shift == columns / 2 ? source[right] : source[right] + source[left]);
-          }
-          target[k] += sum;
-        }
-      }
-    }
-  });
-  return result;
-}
 
 /// How a pair of principal curvatures is made one number whose square is averaged.
 using CurvatureSquare = double (*)(const PrincipalCurvatures&);
@@ -141,8 +72,8 @@ GridField smoothed_curvature(const RadialSurface& surface, const CurvatureSample
   std::vector<char> known(result.values.size(), 0);
   // Samples may leave caps empty: those are looked for again in caps of twice the size.
   for (bool complete = false; !complete; radius *= 2.0) {
-    const std::vector<double> moments = sum_over_caps(moment, radius, execution);
-    const std::vector<double> measures = sum_over_caps(measure, radius, execution);
+    const std::vector<double> moments = sum_over_caps(moment, radius, execution).sums;
+    const std::vector<double> measures = sum_over_caps(measure, radius, execution).sums;
     complete = true;
     for (std::size_t i = 0; i < result.values.size(); ++i) {
       if (known[i] != 0) continue;

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/cap_sums.h"
+
+#include <algorithm>
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+}  // namespace
+
+CapSums sum_over_caps(const GridField& field, double radius, const Execution& execution) {
+  const int rows = field.rows;
+  const auto columns = static_cast<std::ptrdiff_t>(field.columns());
+  const double spacing = pi / rows;
+  const int reach = static_cast<int>(radius / spacing);
+  const std::vector<double> cosines = SphereGrid::row_cosines(rows);
+  // The columns that are not zero, row by row. Where they are few, each is spread over the caps it
+  // lies in; where they are many, each cap is gathered, which reads memory in order. A scan of a
+  // dozen points fills a dozen of 32,768 nodes, and its caps have to grow to the whole sphere.
+  std::vector<std::vector<std::ptrdiff_t>> filled(static_cast<std::size_t>(rows));
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    if (field.values[i] != 0.0) {
+      filled[i / field.columns()].push_back(static_cast<std::ptrdiff_t>(i % field.columns()));
+    }
+  }
+  CapSums result;
+  std::vector<std::size_t> terms(static_cast<std::size_t>(rows), 0);  // of every row
+  result.sums.assign(field.values.size(), 0.0);
+  execution.parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> kernel;
+    for (std::size_t j = begin; j < end; ++j) {
+      const int row = static_cast<int>(j);
+      double* target = result.sums.data() + j * columns;
+      for (int other = std::max(0, row - reach); other <= std::min(rows - 1, row + reach);
+           ++other) {
+        const std::vector<std::ptrdiff_t>& sources = filled[static_cast<std::size_t>(other)];
+        if (sources.empty()) continue;
+        kernel.clear();
+        for (std::ptrdiff_t shift = 0; shift <= columns / 2; ++shift) {
+          const double chord_square =
+              2.0 - 2.0 * (cosines[row] * cosines[other] +
+                           field.sines[row] * field.sines[other] *
+                               std::cos(spacing * static_cast<double>(shift)));
+          if (shift > 0 && chord_square > radius * radius) break;
+          kernel.push_back(std::exp(-2.0 * chord_square / (radius * radius)));
+        }
+        const double* source = field.values.data() + other * columns;
+        const auto width = static_cast<std::ptrdiff_t>(kernel.size()) - 1;
+        if (8 * static_cast<std::ptrdiff_t>(sources.size()) < columns) {
+          terms[j] += sources.size() * kernel.size();
+          for (const std::ptrdiff_t k : sources) {
+            target[k] += kernel[0] * source[k];
+            for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
+              const double value = kernel[shift] * source[k];
+              target[k + shift < columns ? k + shift : k + shift - columns] += value;
+              if (shift == columns / 2) continue;  // both ways round to the same node
+              target[k >= shift ? k - shift : k - shift + columns] += value;
+            }
+          }
+          continue;
+        }
+        terms[j] += static_cast<std::size_t>(columns) * kernel.size();
+        for (std::ptrdiff_t k = 0; k < columns; ++k) {
+          double sum = kernel[0] * source[k];
+          for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
+            const std::ptrdiff_t right = k + shift < columns ? k + shift : k + shift - columns;
+            const std::ptrdiff_t left = k >= shift ? k - shift : k - shift + columns;
+            sum += kernel[shift] *
+                   (shift == columns / 2 ? source[right] : source[right] + source[left]);
+          }
+          target[k] += sum;
+        }
+      }
+    }
+  });
+  for (const std::size_t row : terms) result.terms += row;
+  return result;
+}
+
+}  // namespace wscvt

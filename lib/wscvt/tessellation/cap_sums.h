@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/sphere/sphere_grid.h"
+
+namespace wscvt {
+
+/// One number a grid node, with the node's share of the sphere.
+struct GridField {
+  int rows = 0;
+  std::vector<double> sines;   ///< of the rows' polar angles
+  std::vector<double> values;  ///< row by row
+
+  explicit GridField(int rows_in)
+      : rows(rows_in),
+        sines(SphereGrid::row_sines(rows_in)),
+        values(2 * static_cast<std::size_t>(rows_in) * rows_in, 0.0) {}
+  std::size_t columns() const { return 2 * static_cast<std::size_t>(rows); }
+
+  /// Integral over the sphere of f(value).
+  template <class Function>
+  double integral(const Function& f) const {
+    double sum = 0.0;
+    double measure = 0.0;
+    for (int j = 0; j < rows; ++j) {
+      double row = 0.0;
+      for (std::size_t k = 0; k < columns(); ++k) row += f(values[j * columns() + k]);
+      sum += sines[j] * row;
+      measure += sines[j] * static_cast<double>(columns());
+    }
+    return 4.0 * 3.14159265358979323846 * sum / measure;
+  }
+};
+
+/// What sum_over_caps came to.
+struct CapSums {
+  std::vector<double> sums;  ///< of every grid node
+  std::size_t terms = 0;     ///< products added up, which is what it costs
+};
+
+/// Adds up `field` over caps of chord `radius` about every grid node with weights
+/// exp(-2 (d / radius)^2). Rows of the grid that are mostly zero, as where a coarse scan was
+/// sampled, cost what is not zero in them.
+CapSums sum_over_caps(const GridField& field, double radius, const Execution& execution);
+
+}  // namespace wscvt
