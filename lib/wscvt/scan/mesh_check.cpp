@@ -60,9 +60,10 @@ void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t faces = mesh.triangles.size();
   if (vertices == 0) refuse("The mesh is empty: it has no vertices; load the scan of a grain.");
   if (faces == 0) {
-    refuse("The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
-           " but no faces, so it encloses no volume; reconstruct a closed surface from the points "
-           "first, e.g. by Screened Poisson reconstruction.");
+    refuse(
+        "The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
+        " but no faces, so it encloses no volume; remesh it as a point cloud first, which makes a "
+        "closed surface of the points.");
   }
   constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
   if (faces > limit || vertices > limit) {
@@ -322,8 +323,9 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   if (!components.list[main].orientable) {
     refuse(std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
            " is not orientable: its faces cannot all be turned to face outward, so they enclose "
-           "nothing; reconstruct the surface first, e.g. Filters > Remeshing, Simplification and "
-           "Reconstruction > Surface Reconstruction: Screened Poisson.");
+           "nothing; make a surface of two sides of it first, e.g. Filters > Remeshing, "
+           "Simplification and Reconstruction > Uniform Mesh Resampling with Absolute Distance "
+           "checked and an Offset above 0.");
   }
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;
