@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "property/choices.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/remesh.h"
+#include "wscvt/report/report.h"
+#include "wscvt/scan/mesh_check.h"
+
+/// What the library promises for every input, as checks that name what is broken; an empty sentence
+/// means that all is kept. The property tests and the fuzz targets share them.
+namespace wscvt::test {
+
+/// Closed, oriented, connected, one fan of faces at each vertex, every vertex used.
+inline std::string broken_surface(const IndexedMesh& mesh) {
+  const auto count = static_cast<std::int32_t>(mesh.points.size());
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> face_of;  // by directed edge
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (t[k] < 0 || t[k] >= count) return "an index out of range";
+      if (t[k] == t[(k + 1) % 3]) return "a face with two equal corners";
+      if (!face_of.emplace(std::make_pair(t[k], t[(k + 1) % 3]), f).second) {
+        return "an edge that two faces run along in the same way";
+      }
+    }
+  }
+  for (const auto& [edge, face] : face_of) {
+    if (face_of.count({edge.second, edge.first}) == 0) return "an open edge";
+  }
+  std::vector<std::size_t> corners(mesh.points.size(), 0);
+  std::vector<std::pair<std::int32_t, std::int32_t>> start(mesh.points.size());
+  for (const auto& [edge, face] : face_of) {
+    ++corners[static_cast<std::size_t>(edge.first)];
+    start[static_cast<std::size_t>(edge.first)] = edge;
+  }
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (corners[v] == 0) return "an unused vertex";
+    std::size_t met = 0;
+    auto edge = start[v];
+    do {  // to the third vertex of the face on the left
+      const Triangle& t = mesh.triangles[face_of.at(edge)];
+      std::size_t k = 0;
+      while (t[k] != edge.first) ++k;
+      edge.second = t[(k + 2) % 3];
+      ++met;
+    } while (edge != start[v] && met <= corners[v]);
+    if (met != corners[v]) return "a vertex with several fans";
+  }
+  std::vector<char> seen(mesh.triangles.size(), 0);
+  std::vector<std::size_t> stack = {0};
+  std::size_t reached = 0;
+  seen[0] = 1;
+  while (!stack.empty()) {
+    const Triangle t = mesh.triangles[stack.back()];
+    stack.pop_back();
+    ++reached;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = face_of.at({t[(k + 1) % 3], t[k]});
+      if (seen[next] == 0) stack.push_back(next);
+      seen[next] = 1;
+    }
+  }
+  return reached == seen.size() ? "" : "several parts";
+}
+
+inline bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// A refusal has a code that fits and a sentence.
+inline std::string broken_refusal(const Error& error) {
+  const std::string sentence = error.what();
+  if (error.code() == ErrorCode::InputOutput || error.code() == ErrorCode::Cancelled) {
+    return "a refusal with the wrong code: " + sentence;
+  }
+  if (sentence.size() < 30 || sentence.back() != '.' ||
+      std::isupper(static_cast<unsigned char>(sentence.front())) == 0) {
+    return "a refusal without a sentence: " + sentence;
+  }
+  return "";
+}
+
+inline std::string broken_check(const IndexedMesh& input, const MeshCheckOptions& options) {
+  try {
+    const CheckedMesh checked = check_mesh(input, options, Execution(1));
+    const std::string broken = broken_surface(checked.mesh);
+    if (!broken.empty()) return "checked mesh: " + broken;
+    const MeshCheckReport& report = checked.report;
+    for (const Vector3& p : checked.mesh.points) {
+      if (!p.allFinite()) return "checked mesh: a coordinate that is not finite";
+    }
+    if (!all_finite({report.volume, report.area, report.equivalent_radius, report.centroid.x(),
+                     report.centroid.y(), report.centroid.z(), report.duplicate_area_share,
+                     report.folded_area_share, report.flap_area_share, report.filled_area_share,
+                     report.inner_volume_share, report.dropped_volume_share}) ||
+        !(report.volume > 0.0 && report.area > 0.0) || report.genus < 0) {
+      return "a measure in the report of the check";
+    }
+    if (report.vertices != checked.mesh.points.size() ||
+        report.faces != checked.mesh.triangles.size() ||
+        report.faces + report.lost_faces + report.degenerate_faces + report.duplicate_faces +
+                report.folded_faces + report.flap_faces + report.dropped_faces <
+            report.input_faces) {
+      return "the counts in the report of the check";
+    }
+    if (report.flap_area_share + report.filled_area_share > options.mended_area_limit) {
+      return "more mended than the limit";
+    }
+    const CheckedMesh two = check_mesh(input, options, Execution(2));
+    if (two.mesh.points != checked.mesh.points || two.mesh.triangles != checked.mesh.triangles) {
+      return "two threads check differently from one";
+    }
+  } catch (const Error& error) {
+    return broken_refusal(error);
+  }
+  return "";
+}
+
+/// Any options within their ranges.
+inline RemeshOptions random_options(Choices& choices) {
+  RemeshOptions o;
+  o.node_count = choices.one_in(4) ? choices.whole(4, 14) : choices.whole(4, 300);
+  o.seeding.sampling =
+      choices.one_in(4) ? static_cast<Sampling>(choices.whole(0, 3)) : Sampling::Weighted;
+  o.seeding.start = static_cast<SeedStart>(choices.whole(0, 2));
+  o.seeding.random_seed = choices.word();
+  o.weighting.kind = static_cast<Weighting>(choices.whole(0, 4));
+  o.weighting.curvature_alpha = choices.one_in(2) ? 1.0 : choices.real(-3.0, 3.0);
+  o.weighting.adaptive_exponent = choices.one_in(2) ? 2.0 / 3.0 : choices.real(0.0, 1.5);
+  o.weighting.curvature_source = static_cast<CurvatureSource>(choices.whole(0, 1));
+  o.surface.degree = choices.whole(1, 30);
+  o.surface.fold_limit = choices.one_in(2) ? 0.05 : choices.real(0.0, 0.99);
+  o.placement.kind = static_cast<NodePlacement>(choices.whole(0, 2));
+  if (o.placement.kind == NodePlacement::LeastSquares && choices.one_in(2)) {
+    o.placement.refinement.rounds = choices.whole(1, 12);
+    o.placement.refinement.smallest_angle = choices.one_in(2) ? 15.5 : choices.real(0.0, 40.0);
+    o.placement.refinement.tolerance = choices.one_in(2) ? 2e-3 : choices.real(0.0, 0.99);
+  }
+  o.relaxation.metric = static_cast<RelaxationMetric>(choices.whole(0, 1));
+  o.relaxation.maximum_iterations = choices.one_in(2) ? choices.whole(0, 60) : 200;
+  o.relaxation.acceleration = !choices.one_in(4);
+  o.relaxation.over_relaxation = choices.one_in(4) ? choices.real(0.01, 1.33) : 1.2;
+  o.levels.coarsest_seeds = choices.one_in(2) ? 250 : choices.whole(4, 60);
+  o.measures.distances = choices.one_in(4);
+  o.measures.distance_sampling.samples = static_cast<std::size_t>(choices.whole(1, 3000));
+  o.measures.node_curvatures = choices.one_in(2);
+  o.check.mended_area_limit = choices.one_in(2) ? 0.05 : choices.real(0.0, 1.0);
+  o.check.weld_tolerance = choices.one_in(4) ? std::pow(10.0, choices.real(-16.0, -2.0)) : 1e-12;
+  o.check.dropped_volume_limit = choices.one_in(2) ? 0.25 : choices.real(0.01, 0.99);
+  if (choices.one_in(16) && o.seeding.sampling != Sampling::EqualAngle &&
+      o.seeding.sampling != Sampling::Icosahedron) {
+    o.target.percent = std::pow(10.0, choices.real(-1.0, 2.0));
+    o.target.measure = static_cast<ErrorMeasure>(choices.whole(0, 4));
+    o.target.largest_node_count = choices.whole(4, 200);
+    o.relaxation.maximum_iterations = choices.whole(0, 30);
+  }
+  return o;
+}
+
+/// The reports hold no "nan" or "inf" where a number belongs, and can be parsed.
+inline std::string broken_report(const RemeshResult& result) {
+  for (const std::string& line : report_lines(result)) {
+    for (const char* word : {"nan", "inf"}) {
+      for (std::size_t at = 0; (at = line.find(word, at)) != std::string::npos; ++at) {
+        const auto letter = [&](std::size_t i) {
+          return i < line.size() && std::isalpha(static_cast<unsigned char>(line[i])) != 0;
+        };
+        if (!(at > 0 && letter(at - 1)) && !letter(at + 3)) return "the log: " + line;
+      }
+    }
+  }
+  if (nlohmann::json::parse(report_json(result), nullptr, false).is_discarded()) return "the JSON";
+  const std::string csv = report_csv(result);
+  std::vector<std::size_t> fields = {1};
+  bool quoted = false;
+  for (const char c : csv) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == ',') ++fields.back();
+    if (c == '\n') fields.push_back(1);
+  }
+  return fields.size() == 3 && fields[0] == fields[1] ? "" : "the rows of the CSV";
+}
+
+inline std::string broken_result(const RemeshResult& result, const RemeshOptions& options) {
+  const IndexedMesh& mesh = result.mesh;
+  const std::size_t nodes = mesh.points.size();
+  const bool any_count = options.seeding.sampling == Sampling::Weighted ||
+                         options.seeding.sampling == Sampling::Fibonacci;
+  if (any_count && options.target.percent == 0.0 &&
+      nodes != static_cast<std::size_t>(options.node_count)) {
+    return "the number of nodes, " + std::to_string(nodes);
+  }
+  if (mesh.triangles.size() != 2 * nodes - 4) return "the number of faces";
+  const std::string broken = broken_surface(mesh);
+  if (!broken.empty()) return "remesh: " + broken;
+  for (const Vector3& p : mesh.points) {
+    if (!p.allFinite()) return "a coordinate that is not finite";
+  }
+  for (const std::vector<double>* values : {&result.radial_distances, &result.cell_areas,
+                                            &result.curvatures, &result.vertex_distances}) {
+    if (!all_finite(*values)) return "a value of a node that is not finite";
+    if (!values->empty() && values->size() != nodes) return "the number of values of the nodes";
+  }
+  // A million radii away the positions of the nodes have ten digits left; faces among 300 nodes
+  // are larger than that. Farther out rounding may turn a thin face over.
+  if (result.centre.norm() < 1e6 * result.input.equivalent_radius) {
+    for (const Triangle& t : mesh.triangles) {
+      const Vector3 a = mesh.points[static_cast<std::size_t>(t[0])] - result.centre;
+      const Vector3 b = mesh.points[static_cast<std::size_t>(t[1])] - result.centre;
+      const Vector3 c = mesh.points[static_cast<std::size_t>(t[2])] - result.centre;
+      if (!(a.normalized().dot(b.normalized().cross(c.normalized())) > 0.0)) {
+        return "a face inverted or flat seen from the centre, " +
+               format_number(a.normalized().dot(b.normalized().cross(c.normalized())));
+      }
+    }
+    if (options.placement.kind == NodePlacement::LeastSquares) {
+      const double off = std::abs(result.remesh.volume / result.original.volume - 1.0);
+      if (!(off < 1e-9)) return "the volume by least squares, off by " + format_number(off);
+    }
+  }
+  if (options.target.percent > 0.0) {
+    if (!result.search) return "no record of the search";
+    if (result.search->met &&
+        !(error_percent(result, options.target.measure) <= options.target.percent)) {
+      return "a target said to be met that is not";
+    }
+  }
+  return broken_report(result);
+}
+
+/// Remeshes and looks at every promise; with `twice` on two threads as well.
+inline std::string broken_remesh(const IndexedMesh& scan, const RemeshOptions& options,
+                                 bool twice) {
+  double last = 0.0;
+  bool monotone = true;
+  const Execution execution(1, [&](double fraction, const std::string&) {
+    monotone = monotone && fraction >= last && fraction <= 1.0;
+    last = fraction;
+    return true;
+  });
+  try {
+    const RemeshResult result = remesh(scan, options, execution);
+    if (!monotone || last != 1.0) return "the progress";
+    const std::string broken = broken_result(result, options);
+    if (!broken.empty() || !twice) return broken;
+    const RemeshResult two = remesh(scan, options, Execution(2));
+    if (two.mesh.points != result.mesh.points || two.mesh.triangles != result.mesh.triangles) {
+      return "two threads remesh differently from one";
+    }
+  } catch (const Error& error) {
+    return broken_refusal(error);
+  }
+  return "";
+}
+
+}  // namespace wscvt::test
