@@ -12,21 +12,24 @@ namespace wscvt::filter {
 
 namespace {
 
-constexpr int highest_degree = 200;
+/// What floats, which a host's meshes are made of, hold with room for areas and volumes.
+constexpr NumberOption<double> semi_axis_option = {"semi-axis", "semi-axis", 1e-6, 1e6};
+/// -1 keeps all.
+constexpr NumberOption<int> coefficient_degree_option = {
+    "coefficient-degree", "degree at which the series is cut", -1, maximum_harmonic_degree};
 
 FilterParameter semi_axis(const std::string& name, double default_value, const std::string& axis) {
-  return real_parameter(name, default_value, 1e-6, 1e6, "Semi-axis along " + axis,
-                        "Half the extent of the ellipsoid or superellipsoid along " + axis +
-                            ", in units of the mesh, 0.000001 to 1000000, and up to about 20 "
-                            "times another (5 times with exponents above 1). Harmonics have a "
-                            "size of their own.");
+  return option_parameter(name, default_value, semi_axis_option, "Semi-axis along " + axis,
+                          "Half the extent of the ellipsoid or superellipsoid along " + axis +
+                              ", in units of the mesh; up to about 20 times another (5 times with "
+                              "exponents above 1). Harmonics have a size of their own.");
 }
 
-FilterParameter exponent(const std::string& name, const std::string& label,
-                         const std::string& where) {
-  return real_parameter(name, 1.0, 0.1, 2.0, label,
-                        "Superellipsoid only, 0.1 to 2, no unit: how square it is " + where +
-                            ". 0.1 nearly a box, 1 round as the ellipsoid, 2 a bevelled edge.");
+FilterParameter exponent(const std::string& name, const NumberOption<double>& option,
+                         const std::string& label, const std::string& where) {
+  return option_parameter(name, 1.0, option, label,
+                          "Superellipsoid only, no unit: how square it is " + where +
+                              ". 0.1 nearly a box, 1 round as the ellipsoid, 2 a bevelled edge.");
 }
 
 bool is_json(const std::string& path) {
@@ -47,23 +50,23 @@ std::string creation_help() {
 
 ParameterList creation_parameters() {
   return {
-      choice_parameter("Surface", 0, {"Ellipsoid", "Superellipsoid", "Harmonics from a file"},
-                       "Surface",
-                       "Ellipsoid: of the three semi-axes. Superellipsoid: of the semi-axes and "
-                       "the two exponents. Harmonics: of the coefficients in a file."),
+      table_parameter("Surface", CreationSettings().surface, "Surface",
+                      "What is made into a mesh."),
       semi_axis("SemiAxisX", 1.0, "x"),
       semi_axis("SemiAxisY", 1.0, "y"),
       semi_axis("SemiAxisZ", 1.0, "z"),
-      exponent("PolarExponent", "Polar exponent", "seen from the side"),
-      exponent("AzimuthalExponent", "Azimuthal exponent", "seen along z"),
+      exponent("PolarExponent", polar_exponent_option, "Polar exponent", "seen from the side"),
+      exponent("AzimuthalExponent", azimuthal_exponent_option, "Azimuthal exponent",
+               "seen along z"),
       input_file_parameter(
           "CoefficientsFile", {".dat", ".json"}, "Coefficients file",
           "Harmonics only: the file that holds the coefficients, .dat (text of the NIST/VCCTL "
           "particle shape sets) or .json (as the remesher saves it)."),
-      integer_parameter("CoefficientDegree", -1, -1, highest_degree, "Cut the series at degree",
-                        "Harmonics from a .dat file only: the series is cut at this degree, 0 to "
-                        "200; -1 keeps all. The tables beside the particle shape sets are those "
-                        "of cut series."),
+      option_parameter("CoefficientDegree", -1, coefficient_degree_option,
+                       "Cut the series at degree",
+                       "Harmonics from a .dat file only: the series is cut at this degree; -1 "
+                       "keeps all. The tables beside the particle shape sets are those "
+                       "of cut series."),
       node_count_parameter(),
       sampling_parameter(),
       weighting_parameter(),
@@ -76,11 +79,8 @@ ParameterList creation_parameters() {
       seed_start_parameter(),
       random_seed_parameter(),
       maximum_iterations_parameter(),
-      choice_parameter("Quality", 0, quality_names(), "Vertex quality",
-                       "What the vertex quality of the result holds. Radial distance: from the "
-                       "origin, in units of the mesh. Curvature: the largest absolute principal "
-                       "curvature, 1/unit. Cell area: surface area of the node's cell, unit^2. "
-                       "Distance to the original: from each node to the surface."),
+      table_parameter("Quality", CreationSettings().result.quality, "Vertex quality",
+                      "What the vertex quality of the result holds."),
       colour_by_quality_parameter(),
       report_file_parameter(),
   };
@@ -106,7 +106,7 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   }
   settings.options = read_node_options(checked);
   settings.options.placement.kind =
-      checked.whole("Placement") == 0 ? NodePlacement::FittedSurface : NodePlacement::LeastSquares;
+      checked.whole("Placement") == 0 ? NodePlacement::Series : NodePlacement::LeastSquares;
   settings.result.quality = checked.choice<VertexQuality>("Quality");
   request_quality(settings.options, settings.result.quality);
   settings.result.colour_by_quality = checked.flag("ColorByQuality");

@@ -21,6 +21,23 @@ ParameterList creation_parameters();
 /// Which surface is made into a mesh.
 enum class GrainSurface { Ellipsoid, Superellipsoid, Harmonics };
 
+}  // namespace wscvt::filter
+
+template <>
+struct wscvt::EnumerationTable<wscvt::filter::GrainSurface> {
+  using Surface = wscvt::filter::GrainSurface;
+  static constexpr std::string_view key = "surface";
+  static constexpr std::string_view subject = "surface";
+  static constexpr Enumerator<Surface> rows[] = {
+      {Surface::Ellipsoid, "ellipsoid", "ellipsoid", "of the three semi-axes"},
+      {Surface::Superellipsoid, "superellipsoid", "superellipsoid",
+       "of the semi-axes and the two exponents"},
+      {Surface::Harmonics, "harmonics", "harmonics from a file", "of the coefficients in it"},
+  };
+};
+
+namespace wscvt::filter {
+
 struct CreationSettings {
   GrainSurface surface = GrainSurface::Ellipsoid;
   Vector3 semi_axes = Vector3::Ones();  ///< length

@@ -53,8 +53,7 @@ void add_file_line(std::vector<LogLine>& log, const std::string& title, const st
 }
 
 LayerContent content_of(const RemeshResult& result, const ResultSettings& settings) {
-  return {result.mesh, quality_values(result, settings.quality),
-          settings.colour_by_quality};
+  return {result.mesh, quality_values(result, settings.quality), settings.colour_by_quality};
 }
 
 /// Errors and values of a remesh, under the names of the reports.
@@ -156,13 +155,12 @@ FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
     const Layer layer = layer_named(layers, settings.reference_layer, "ReferenceLayer");
     reference = NamedMesh{layer.label, shown_mesh(layers, layer.number)};
   }
-  const DescriptorResult result =
-      measure_grains({current.label, shown_mesh(layers, current.number)}, std::move(reference),
-                     settings.options, execution);
+  const GrainMeasures result = measure_grain({current.label, shown_mesh(layers, current.number)},
+                                             std::move(reference), settings.options, execution);
   write_report(result, settings.report_file);
 
   FilterOutcome outcome;
-  outcome.log = descriptor_lines(result, stopwatch.seconds());
+  outcome.log = log_lines(result, stopwatch.seconds());
   add_file_line(outcome.log, "Report in ", settings.report_file);
   for (const DescriptorValue& row : list_descriptors(result.mesh.descriptors)) {
     outcome.values[row.key] = row.value;

@@ -6,71 +6,61 @@
 namespace wscvt::filter {
 
 FilterParameter node_count_parameter() {
-  return integer_parameter(
-      "NodeCount", RemeshOptions().node_count, 4, maximum_node_count, "Number of nodes",
-      "Vertices of the result, 4 to 1000000. The result has exactly this many, and twice as "
-      "many faces less four. The chords lose about 660/N % of the volume, unless the nodes are "
-      "fitted by least squares.");
+  return option_parameter(
+      "NodeCount", RemeshOptions().node_count, node_count_option, "Number of nodes",
+      "Vertices of the result. It has exactly this many, and twice as many faces less four. The "
+      "chords lose about 660/N % of the volume, unless the nodes are placed by least squares.");
 }
 
 FilterParameter sampling_parameter() {
-  return choice_parameter(
-      "Sampling", static_cast<int>(RemeshOptions().seeding.sampling),
-      {"Weighted Voronoi", "Fibonacci lattice", "Equal-angle grid", "Icosahedron"}, "Sampling",
-      "Where the directions of the nodes come from. Weighted Voronoi: the method, with the "
-      "weighting below. The others are there to be compared with and ignore it: a Fibonacci "
-      "lattice, a grid of equal angles and a subdivided icosahedron, the last two with the number "
-      "of nodes nearest to the one asked for.");
+  return table_parameter(
+      "Sampling", RemeshOptions().seeding.sampling, "Sampling",
+      "Where the directions of the nodes come from. All but the first are there to be compared "
+      "with and ignore the weighting.");
 }
 
 FilterParameter weighting_parameter() {
-  return choice_parameter(
-      "Weighting", static_cast<int>(RemeshOptions().weighting.kind),
-      {"Constant", "WSCVT-D (radial distance)", "WSCVT-C (curvature)", "Area", "Error-adaptive"},
-      "Weighting",
-      "What decides how large the cell of a node is. Constant: equal solid angles. WSCVT-D: "
-      "smaller solid angles far from the centroid, so even triangles. WSCVT-C: more nodes "
-      "where the surface bends. Area: equal surface areas. Error-adaptive: nodes where flat "
-      "triangles err most.");
+  return table_parameter("Weighting", RemeshOptions().weighting.kind, "Weighting",
+                         "What decides how large the cell of a node is.");
 }
 
 FilterParameter curvature_alpha_parameter() {
-  return real_parameter(
-      "CurvatureAlpha", RemeshOptions().weighting.curvature_alpha, -3, 3,
+  return option_parameter(
+      "CurvatureAlpha", RemeshOptions().weighting.curvature_alpha, curvature_alpha_option,
       "Curvature strength alpha",
-      "Strength of the curvature weighting (WSCVT-C only), -3 to 3, no unit. 0 ignores "
-      "curvature, larger gathers more nodes at edges and corners, negative keeps them away.");
+      "Strength of the curvature weighting (WSCVT-C only), no unit. 0 ignores curvature, larger "
+      "gathers more nodes at edges and corners, negative keeps them away.");
 }
 
 FilterParameter metric_parameter() {
-  return choice_parameter(
-      "Metric", static_cast<int>(RemeshOptions().relaxation.metric), {"Sphere", "Surface"},
-      "Metric",
-      "Sphere: cells are centroidal on the unit sphere, the published method. Surface: on "
-      "the grain's surface itself, which gives the most even triangles in about the same time.");
+  return table_parameter("Metric", RemeshOptions().relaxation.metric, "Metric",
+                         "Where the cells are made centroidal.");
 }
 
 FilterParameter seed_start_parameter() {
-  return choice_parameter(
-      "SeedStart", static_cast<int>(RemeshOptions().seeding.start),
-      {"Multilevel", "Warped lattice", "Random"}, "Start from",
-      "Multilevel: a few hundred nodes are relaxed, subdivided and relaxed again; fastest "
-      "and most even. Warped lattice: all nodes in a Fibonacci lattice adapted to the "
-      "weighting. Random: directions drawn with the random seed; needs many iterations.");
+  return table_parameter("SeedStart", RemeshOptions().seeding.start, "Start from",
+                         "Where the nodes stand before they are relaxed.");
 }
 
 FilterParameter random_seed_parameter() {
-  return integer_parameter("RandomSeed", static_cast<int>(RemeshOptions().seeding.random_seed), 0,
-                           std::numeric_limits<int>::max(), "Random seed",
-                           "Start of the random directions, 0 to 2147483647; has no effect unless "
-                           "the start is random. The same seed gives the same mesh.");
+  // Hosts know no larger whole numbers.
+  const NumberOption<int> option = {random_seed_option.key,
+                                    random_seed_option.subject,
+                                    static_cast<int>(random_seed_option.minimum),
+                                    std::numeric_limits<int>::max(),
+                                    Ends::Both,
+                                    random_seed_option.meaning};
+  return option_parameter("RandomSeed", static_cast<int>(RemeshOptions().seeding.random_seed),
+                          option, "Random seed",
+                          "Start of the random directions; has no effect unless the start is "
+                          "random. The same seed gives the same mesh.");
 }
 
 FilterParameter maximum_iterations_parameter() {
-  return integer_parameter(
-      "MaxIterations", RemeshOptions().relaxation.maximum_iterations, 0, 100000,
-      "Largest number of iterations",
-      "Relaxation stops here if it has not converged before, 0 to 100000; the log says which.");
+  return option_parameter("MaxIterations", RemeshOptions().relaxation.maximum_iterations,
+                          maximum_iterations_option, "Largest number of iterations",
+                          "Relaxation stops here if it has not converged before; the log says "
+                          "which.");
 }
 
 FilterParameter colour_by_quality_parameter() {
@@ -90,10 +80,6 @@ RemeshOptions read_node_options(const CheckedValues& values) {
   options.seeding.random_seed = static_cast<std::uint64_t>(values.whole("RandomSeed"));
   options.relaxation.maximum_iterations = values.whole("MaxIterations");
   return options;
-}
-
-std::vector<std::string> quality_names() {
-  return {"Radial distance", "Curvature", "Cell area", "Distance to the original"};
 }
 
 void request_quality(RemeshOptions& options, VertexQuality quality) {
@@ -116,46 +102,17 @@ const std::vector<double>& quality_values(const RemeshResult& result, VertexQual
 }
 
 std::string nodes_name(const RemeshOptions& options) {
-  switch (options.seeding.sampling) {
-    case Sampling::Fibonacci:
-      return "Fibonacci";
-    case Sampling::EqualAngle:
-      return "equal-angle";
-    case Sampling::Icosahedron:
-      return "icosahedron";
-    case Sampling::Weighted:
-      break;
-  }
-  switch (options.weighting.kind) {
-    case Weighting::Constant:
-      return "Constant";
-    case Weighting::RadialDistance:
-      return "WSCVT-D";
-    case Weighting::Curvature:
-      return "WSCVT-C";
-    case Weighting::Area:
-      return "Area";
-    case Weighting::ErrorAdaptive:
-      return "Error-adaptive";
-  }
-  return "unknown weighting";
+  return options.seeding.sampling == Sampling::Weighted
+             ? short_label(label_of(options.weighting.kind))
+             : short_label(label_of(options.seeding.sampling));
 }
 
 std::vector<std::string> all_nodes_names() {
   std::vector<std::string> names;
-  RemeshOptions options;
-  for (const Sampling sampling :
-       {Sampling::Fibonacci, Sampling::EqualAngle, Sampling::Icosahedron}) {
-    options.seeding.sampling = sampling;
-    names.push_back(nodes_name(options));
+  for (const auto& row : enumerators<Sampling>()) {
+    if (row.value != Sampling::Weighted) names.push_back(short_label(row.label));
   }
-  options.seeding.sampling = Sampling::Weighted;
-  for (const Weighting weighting :
-       {Weighting::Constant, Weighting::RadialDistance, Weighting::Curvature, Weighting::Area,
-        Weighting::ErrorAdaptive}) {
-    options.weighting.kind = weighting;
-    names.push_back(nodes_name(options));
-  }
+  for (const auto& row : enumerators<Weighting>()) names.push_back(short_label(row.label));
   return names;
 }
 

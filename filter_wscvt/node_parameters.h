@@ -32,8 +32,25 @@ enum class VertexQuality {
   OriginalDistance,  ///< from the node to the original, length
 };
 
-/// Names of the vertex qualities in the order of the enumeration.
-std::vector<std::string> quality_names();
+}  // namespace wscvt::filter
+
+template <>
+struct wscvt::EnumerationTable<wscvt::filter::VertexQuality> {
+  using Quality = wscvt::filter::VertexQuality;
+  static constexpr std::string_view key = "quality";
+  static constexpr std::string_view subject = "vertex quality";
+  static constexpr Enumerator<Quality> rows[] = {
+      {Quality::RadialDistance, "radial-distance", "radial distance",
+       "from the centroid, in units of the mesh"},
+      {Quality::Curvature, "curvature", "curvature",
+       "the largest absolute principal curvature, 1/unit"},
+      {Quality::CellArea, "cell-area", "cell area", "surface area of the node's cell, unit^2"},
+      {Quality::OriginalDistance, "original-distance", "distance to the original",
+       "from each node to the surface it was made from, in units of the mesh"},
+  };
+};
+
+namespace wscvt::filter {
 
 /// Asks for what a vertex quality needs.
 void request_quality(RemeshOptions& options, VertexQuality quality);
@@ -41,7 +58,7 @@ void request_quality(RemeshOptions& options, VertexQuality quality);
 /// Values of the chosen quality, one a vertex of the result.
 const std::vector<double>& quality_values(const RemeshResult& result, VertexQuality quality);
 
-/// How the nodes were chosen, short, for labels: Constant, WSCVT-D, Fibonacci, ...
+/// How the nodes were chosen, short, for labels: Constant, WSCVT-D, Fibonacci lattice, ...
 std::string nodes_name(const RemeshOptions& options);
 
 /// All that nodes_name gives.

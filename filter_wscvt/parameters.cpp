@@ -25,25 +25,12 @@ FilterParameter number(std::string name, ParameterKind kind, double default_valu
   return parameter;
 }
 
-/// Shortest text that reads back as the same number.
-std::string as_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
-}
-
-/// As `as_text`, but limits are written out: 1000000, not 1e+06.
-std::string limit_as_text(double limit) {
-  return limit == std::floor(limit) ? std::to_string(static_cast<long long>(limit))
-                                    : as_text(limit);
-}
-
 double checked_value(const FilterParameter& parameter, double value) {
   const bool whole = parameter.kind == ParameterKind::Real || value == std::floor(value);
   if (value >= parameter.minimum && value <= parameter.maximum && whole) return value;
 
-  std::string sentence =
-      "Parameter " + parameter.name + " (" + parameter.label + ") is " + as_text(value) + "; give ";
+  std::string sentence = "Parameter " + parameter.name + " (" + parameter.label + ") is " +
+                         typed_text(value) + "; give ";
   if (parameter.kind == ParameterKind::Choice) {
     for (std::size_t k = 0; k < parameter.choices.size(); ++k) {
       if (k > 0) sentence += k + 1 < parameter.choices.size() ? ", " : " or ";
@@ -51,7 +38,7 @@ double checked_value(const FilterParameter& parameter, double value) {
     }
   } else {
     sentence += parameter.kind == ParameterKind::Real ? "a number from " : "a whole number from ";
-    sentence += limit_as_text(parameter.minimum) + " to " + limit_as_text(parameter.maximum);
+    sentence += typed_text(parameter.minimum) + " to " + typed_text(parameter.maximum);
   }
   throw Error(ErrorCode::InvalidInput, sentence + ". Nothing was changed.");
 }
@@ -108,6 +95,24 @@ FilterParameter choice_parameter(std::string name, int default_index,
              static_cast<double>(choices.size()) - 1, std::move(label), std::move(tooltip));
   parameter.choices = std::move(choices);
   return parameter;
+}
+
+FilterParameter option_parameter(std::string name, int default_value,
+                                 const NumberOption<int>& option, std::string label,
+                                 const std::string& tooltip) {
+  return integer_parameter(std::move(name), default_value, option.minimum, option.maximum,
+                           std::move(label), tooltip + " " + capitalised(range_text(option)) + ".");
+}
+
+FilterParameter option_parameter(std::string name, double default_value,
+                                 const NumberOption<double>& option, std::string label,
+                                 const std::string& tooltip) {
+  return real_parameter(std::move(name), default_value, option.minimum, option.maximum,
+                        std::move(label), tooltip + " " + capitalised(range_text(option)) + ".");
+}
+
+std::string short_label(std::string_view label) {
+  return capitalised(label.substr(0, label.find(" (")));
 }
 
 FilterParameter flag_parameter(std::string name, bool default_value, std::string label,

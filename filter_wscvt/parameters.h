@@ -3,8 +3,12 @@
 
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
+
+#include "wscvt/base/option.h"
 
 namespace wscvt::filter {
 
@@ -42,6 +46,9 @@ struct FilterParameter {
 /// Parameters in the order in which a dialog shows them.
 using ParameterList = std::vector<FilterParameter>;
 
+/// A label without what stands in brackets behind it: "WSCVT-D", for names that are to be short.
+std::string short_label(std::string_view label);
+
 FilterParameter integer_parameter(std::string name, int default_value, int minimum, int maximum,
                                   std::string label, std::string tooltip);
 FilterParameter real_parameter(std::string name, double default_value, double minimum,
@@ -49,6 +56,35 @@ FilterParameter real_parameter(std::string name, double default_value, double mi
 FilterParameter choice_parameter(std::string name, int default_index,
                                  std::vector<std::string> choices, std::string label,
                                  std::string tooltip);
+
+/// A parameter for an option of the library: its range, which the tooltip then tells as well.
+FilterParameter option_parameter(std::string name, int default_value,
+                                 const NumberOption<int>& option, std::string label,
+                                 const std::string& tooltip);
+FilterParameter option_parameter(std::string name, double default_value,
+                                 const NumberOption<double>& option, std::string label,
+                                 const std::string& tooltip);
+
+/// The labels of an enumeration as a dialog shows them, in the order of its values.
+template <class Enumeration>
+std::vector<std::string> choices_of() {
+  std::vector<std::string> choices;
+  for (const auto& row : enumerators<Enumeration>()) choices.push_back(capitalised(row.label));
+  return choices;
+}
+
+/// A parameter for an enumeration of the library. The tooltip tells what each choice does.
+template <class Enumeration>
+FilterParameter table_parameter(std::string name, Enumeration default_value, std::string label,
+                                std::string tooltip) {
+  for (const auto& row : enumerators<Enumeration>()) {
+    if (row.meaning.empty()) continue;
+    tooltip.append(" ").append(short_label(row.label)).append(": ").append(row.meaning).append(".");
+  }
+  return choice_parameter(std::move(name), static_cast<int>(default_value),
+                          choices_of<Enumeration>(), std::move(label), std::move(tooltip));
+}
+
 FilterParameter flag_parameter(std::string name, bool default_value, std::string label,
                                std::string tooltip);
 FilterParameter text_parameter(std::string name, std::string label, std::string tooltip);

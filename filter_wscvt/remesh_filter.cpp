@@ -21,56 +21,44 @@ ParameterList remesh_parameters() {
   const RemeshOptions defaults;
   return {
       node_count_parameter(),
-      real_parameter(
-          "ErrorTarget", defaults.target.percent, 0, 100, "Error target (%)",
-          "0: the number of nodes counts. Above, up to 100: the smallest number of "
-          "nodes whose error is at most this many % is looked for, from the number of "
-          "nodes given and up to 20000, or that number if it is larger; the log says what "
-          "each number tried cost. Takes about ten times as long."),
-      choice_parameter("TargetMeasure", static_cast<int>(defaults.target.measure),
-                       {"Volume", "Area", "Sphericity", "Inertia", "RMS distance"},
-                       "Error target is of the",
-                       "Which error the target limits, each in % of the original's own: volume, "
-                       "area, Wadell's sphericity, the inertia tensor, or the two-sided rms "
-                       "distance, which is in % of the equivalent radius."),
+      option_parameter(
+          "ErrorTarget", defaults.target.percent, error_target_option, "Error target (%)",
+          "0: the number of nodes counts. Above: the smallest number of nodes whose error is at "
+          "most this many % is looked for, from the number of nodes given and up to " +
+              typed_text(defaults.target.largest_node_count) +
+              ", or that number if it is larger; the log says what each number tried cost. Takes "
+              "about ten times as long."),
+      table_parameter("TargetMeasure", defaults.target.measure, "Error target is of the",
+                      "Which error the target limits, each in % of the original's own."),
       sampling_parameter(),
       weighting_parameter(),
-      integer_parameter(
-          "HarmonicDegree", defaults.surface.degree, 1, 60, "Harmonic degree",
-          "Degree of the spherical-harmonic series fitted to the surface, 1 to 60. 20 suits "
-          "most grains, 30 rough ones; lower smooths. Lowered, with a line in the log, when the "
-          "mesh has too few points to carry it."),
+      option_parameter(
+          "HarmonicDegree", defaults.surface.degree, harmonic_degree_option, "Harmonic degree",
+          "Degree of the spherical-harmonic series fitted to the surface. 20 suits most grains, 30 "
+          "rough ones; lower smooths. Lowered, with a line in the log, when the mesh has too few "
+          "points to carry it."),
       curvature_alpha_parameter(),
-      choice_parameter(
-          "CurvatureSource", static_cast<int>(defaults.weighting.curvature_source),
-          {"Harmonic series", "Quadrics on the scan"}, "Curvature from",
-          "Where WSCVT-C takes the curvature from. Harmonic series: exact derivatives "
-          "of the fitted surface. Quadrics on the scan: a quadric fitted around each "
-          "vertex of the scan over two rings, as in the paper; follows its noise too."),
-      choice_parameter(
-          "Placement", static_cast<int>(defaults.placement.kind),
-          {"Fitted surface", "Original mesh", "Least squares (volume exact)"}, "Place nodes",
-          "Fitted surface: on the harmonic series, which is free of scanning noise. Original "
-          "mesh: on the scan itself, with its noise, where rays from the centroid leave it. Least "
-          "squares: off the surface, so that the triangles fit the scan best and enclose exactly "
-          "its volume."),
-      integer_parameter("RefinementRounds", defaults.placement.refinement.rounds, 0, 1000,
-                        "Rounds of refinement",
-                        "After a least-squares placement, 0 to 1000: at most so many rounds of "
-                        "moving nodes, flipping edges and taking nodes to where they help most, "
-                        "all towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
-      real_parameter(
-          "FoldLimit", 100.0 * defaults.surface.fold_limit, 0, 99, "Fold limit (%)",
+      table_parameter("CurvatureSource", defaults.weighting.curvature_source, "Curvature from",
+                      "Where WSCVT-C takes the curvature from."),
+      table_parameter("Placement", defaults.placement.kind, "Place nodes",
+                      "Where the nodes are put along their directions."),
+      option_parameter("RefinementRounds", defaults.placement.refinement.rounds,
+                       refinement_rounds_option, "Rounds of refinement",
+                       "After a placement by least squares: at most so many rounds of moving "
+                       "nodes, flipping edges and taking nodes to where they help most, all "
+                       "towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
+      option_parameter(
+          "FoldLimit", defaults.surface.fold_limit_percent, fold_limit_option, "Fold limit (%)",
           "Where the surface folds, a ray from the centroid meets more than one sheet. Largest "
-          "solid "
-          "angle that all sheets beyond the first may fill together, in % of the whole sphere, 0 "
-          "to "
-          "99. Folds are bridged by their outermost sheet; above the limit the filter refuses."),
-      real_parameter(
-          "MendLimit", 100.0 * defaults.check.mended_area_limit, 0, 100, "Mend limit (%)",
+          "solid angle that all sheets beyond the first may fill together, in % of the whole "
+          "sphere. Folds are bridged by their outermost sheet; above the limit the filter "
+          "refuses."),
+      option_parameter(
+          "MendLimit", defaults.check.mended_area_limit_percent, mended_area_limit_option,
+          "Mend limit (%)",
           "Holes are filled, and flaps and walls where more than two faces meet in an edge are "
-          "dropped. Largest share of the scan's area that this may change, in %, 0 to 100; above "
-          "it the filter refuses."),
+          "dropped. Largest share of the scan's area that this may change, in %; above it the "
+          "filter refuses."),
       metric_parameter(),
       seed_start_parameter(),
       random_seed_parameter(),
@@ -82,12 +70,8 @@ ParameterList remesh_parameters() {
       flag_parameter("Distances", defaults.measures.distances, "Measure distances",
                      "Measures the one- and two-sided Hausdorff, rms and mean distance between "
                      "result and original, for the log and the report; takes about a second."),
-      choice_parameter(
-          "Quality", 0, quality_names(), "Vertex quality",
-          "What the vertex quality of the result holds. Radial distance: from the centroid, in "
-          "units of the mesh. Curvature: the largest absolute principal curvature, 1/unit. Cell "
-          "area: surface area of the node's cell, unit^2. Distance to the original: from each node "
-          "to the scan, in units of the mesh."),
+      table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
+                      "What the vertex quality of the result holds."),
       colour_by_quality_parameter(),
       report_file_parameter(),
       output_file_parameter(
@@ -111,8 +95,8 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.weighting.curvature_source = checked.choice<CurvatureSource>("CurvatureSource");
   options.placement.kind = checked.choice<NodePlacement>("Placement");
   options.placement.refinement.rounds = checked.whole("RefinementRounds");
-  options.surface.fold_limit = checked.real("FoldLimit") / 100.0;
-  options.check.mended_area_limit = checked.real("MendLimit") / 100.0;
+  options.surface.fold_limit_percent = checked.real("FoldLimit");
+  options.check.mended_area_limit_percent = checked.real("MendLimit");
   options.measures.distances = checked.flag("Distances");
   settings.new_layer = checked.flag("NewLayer");
   settings.result.quality = checked.choice<VertexQuality>("Quality");

@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Remesh, EveryCountAndWeighting,
 
 TEST(Remesh, EveryStartAndPlacementKeepsThePromises) {
   for (const auto start : {SeedStart::Multilevel, SeedStart::WarpedLattice, SeedStart::Random}) {
-    for (const auto placement : {NodePlacement::FittedSurface, NodePlacement::OriginalMesh}) {
+    for (const auto placement : {NodePlacement::Series, NodePlacement::Scan}) {
       for (const int nodes : {4, 5, 300}) {
         RemeshOptions options = options_of(nodes, Weighting::Area);
         options.seeding.start = start;
@@ -106,7 +106,7 @@ TEST(Remesh, EveryStartAndPlacementKeepsThePromises) {
 
 TEST(Remesh, NodesOnTheOriginalMeshLieOnIt) {
   RemeshOptions options = options_of(200, Weighting::Area);
-  options.placement.kind = NodePlacement::OriginalMesh;
+  options.placement.kind = NodePlacement::Scan;
   const RemeshResult result = remesh(sand(), options, Execution(1));
   const IndexedMesh& mesh = result.mesh;
   for (const Vector3& p : mesh.points) {
@@ -205,7 +205,7 @@ void expect_same_bytes_on_two_threads(int nodes, Weighting weighting, Relaxation
   SCOPED_TRACE(testing::Message() << nodes << " nodes, weighting " << static_cast<int>(weighting)
                                   << ", metric " << static_cast<int>(metric));
   RemeshOptions options = options_of(nodes, weighting, metric);
-  options.placement.kind = NodePlacement::OriginalMesh;
+  options.placement.kind = NodePlacement::Scan;
   options.measures.node_curvatures = true;
   const RemeshResult one = remesh(sand(), options, Execution(1));
   const RemeshResult two = remesh(sand(), options, Execution(2));
@@ -378,17 +378,17 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
     expect_refused(sand(), options, ErrorCode::InvalidInput, sentence);
   };
   refused([](RemeshOptions& o) { o.node_count = 3; }, "from 4 to");
-  refused([](RemeshOptions& o) { o.node_count = maximum_node_count + 1; }, "from 4 to");
+  refused([](RemeshOptions& o) { o.node_count = node_count_option.maximum + 1; }, "from 4 to");
   refused([](RemeshOptions& o) { o.surface.degree = 0; }, "from 1 to 60");
   refused([](RemeshOptions& o) { o.surface.degree = 61; }, "from 1 to 60");
-  refused([](RemeshOptions& o) { o.surface.fold_limit = 1.0; }, "less than 100 %");
-  refused([](RemeshOptions& o) { o.surface.fold_limit = std::nan(""); }, "less than 100 %");
+  refused([](RemeshOptions& o) { o.surface.fold_limit_percent = 100.0; }, "from 0 to 99");
+  refused([](RemeshOptions& o) { o.surface.fold_limit_percent = std::nan(""); }, "from 0 to 99");
   refused([](RemeshOptions& o) { o.weighting.curvature_alpha = 4.0; }, "from -3 to 3");
   refused([](RemeshOptions& o) { o.weighting.adaptive_exponent = 2.0; }, "from 0 to 1.5");
   refused([](RemeshOptions& o) { o.weighting.kind = static_cast<Weighting>(17); }, "weighting");
   refused([](RemeshOptions& o) { o.seeding.start = static_cast<SeedStart>(-1); }, "start");
   refused([](RemeshOptions& o) { o.placement.kind = static_cast<NodePlacement>(9); }, "placement");
-  refused([](RemeshOptions& o) { o.levels.coarsest_seeds = 1; }, "coarsest level");
+  refused([](RemeshOptions& o) { o.levels.coarsest_seeds = 1; }, "seeds of a level");
   refused([](RemeshOptions& o) { o.measures.distance_sampling.samples = 0; }, "distance samples");
   refused(
       [](RemeshOptions& o) {
@@ -396,7 +396,7 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
         o.target.percent = 1.0;
       },
       "any number of nodes");
-  refused([](RemeshOptions& o) { o.levels.middle_tolerance = 0.0; }, "tolerances");
+  refused([](RemeshOptions& o) { o.levels.middle_tolerance = 0.0; }, "levels between");
   refused([](RemeshOptions& o) { o.relaxation.maximum_iterations = -1; }, "iterations");
 }
 
@@ -431,7 +431,7 @@ TEST(Remesh, RefusesAFoldAboveTheLimit) {
 
 TEST(Remesh, AFoldUnderTheLimitIsRemeshedWithAWarning) {
   RemeshOptions options = options_of(200, Weighting::Area);
-  options.surface.fold_limit = 0.6;
+  options.surface.fold_limit_percent = 60.0;
   const RemeshResult bowl = remesh(mushroom(), options, Execution(1));
   expect_promises(bowl, 200);
   EXPECT_GT(bowl.folded_share, fold_warning_limit);
@@ -442,7 +442,7 @@ TEST(Remesh, AFoldUnderTheLimitIsRemeshedWithAWarning) {
   const RemeshResult bent = remesh(bent_rod(), options_of(200, Weighting::Area), Execution(1));
   expect_promises(bent, 200);
   EXPECT_GT(bent.folded_share, fold_warning_limit);
-  EXPECT_LT(bent.folded_share, RemeshOptions().surface.fold_limit);
+  EXPECT_LT(bent.folded_share, 0.01 * RemeshOptions().surface.fold_limit_percent);
   EXPECT_TRUE(warns_of(bent, "folds over itself"));
   EXPECT_FALSE(warns_of(remesh(sand(), options_of(200, Weighting::Area), Execution(1)), "fold"));
 }
@@ -619,7 +619,7 @@ TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
   for (const int nodes : {4, 8, 10, 12, 60, 400}) {
     SCOPED_TRACE(nodes);
     RemeshOptions on_surface = fitted_options(nodes);
-    on_surface.placement.kind = NodePlacement::OriginalMesh;
+    on_surface.placement.kind = NodePlacement::Scan;
     const RemeshResult on = remesh(sand(), on_surface, Execution(1));
     const RemeshResult fitted = remesh(sand(), fitted_options(nodes), Execution(1));
     const RemeshResult refined = remesh(sand(), fitted_options(nodes, 20), Execution(1));
@@ -692,7 +692,7 @@ TEST(RemeshLeastSquares, SameBytesOnAnyNumberOfThreads) {
 
 TEST(RemeshLeastSquares, RefinementNeedsIt) {
   RemeshOptions options = options_of(100, Weighting::RadialDistance);
-  options.placement.kind = NodePlacement::FittedSurface;
+  options.placement.kind = NodePlacement::Series;
   options.placement.refinement.rounds = 1;
   EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
 }
@@ -737,7 +737,7 @@ TEST(RemeshErrorTarget, EveryMeasureCanBeATarget) {
                              ErrorMeasure::Inertia}) {
     SCOPED_TRACE(static_cast<int>(measure));
     RemeshOptions options = options_of(100, Weighting::RadialDistance);
-    options.placement.kind = NodePlacement::FittedSurface;
+    options.placement.kind = NodePlacement::Series;
     options.target.measure = measure;
     options.target.percent = 5.0;
     options.target.largest_node_count = 3000;

@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int no_limit = std::numeric_limits<int>::max();
 
 template <class Number>
-std::string refusal(Number value, const NumberOption<Number>& option) {
+std::string refused(Number value, const NumberOption<Number>& option) {
   try {
     require_in_range(value, option);
   } catch (const Error& error) {
@@ -26,33 +26,33 @@ std::string refusal(Number value, const NumberOption<Number>& option) {
 
 TEST(Option, HoldsItsEndsUnlessItSaysOtherwise) {
   const NumberOption<int> nodes = {"nodes", "number of nodes", 4, 1000000};
-  EXPECT_EQ(refusal(4, nodes), "");
-  EXPECT_EQ(refusal(1000000, nodes), "");
-  EXPECT_EQ(refusal(3, nodes), "The number of nodes is 3; give a whole number, 4 to 1000000.");
-  EXPECT_EQ(refusal(1000001, nodes),
-            "The number of nodes is 1000001; give a whole number, 4 to 1000000.");
+  EXPECT_EQ(refused(4, nodes), "");
+  EXPECT_EQ(refused(1000000, nodes), "");
+  EXPECT_EQ(refused(3, nodes), "The number of nodes is 3; give a whole number from 4 to 1000000.");
+  EXPECT_EQ(refused(1000001, nodes),
+            "The number of nodes is 1000001; give a whole number from 4 to 1000000.");
 
   const double above_zero = std::numeric_limits<double>::denorm_min();
   const double below_one = std::nextafter(1.0, 0.0);
   const NumberOption<double> open = {"share", "share", 0.0, 1.0, Ends::Neither};
-  EXPECT_EQ(refusal(above_zero, open), "");
-  EXPECT_EQ(refusal(below_one, open), "");
-  EXPECT_EQ(refusal(0.0, open), "The share is 0; give a number, above 0 to below 1.");
-  EXPECT_EQ(refusal(1.0, open), "The share is 1; give a number, above 0 to below 1.");
+  EXPECT_EQ(refused(above_zero, open), "");
+  EXPECT_EQ(refused(below_one, open), "");
+  EXPECT_EQ(refused(0.0, open), "The share is 0; give a number above 0 and below 1.");
+  EXPECT_EQ(refused(1.0, open), "The share is 1; give a number above 0 and below 1.");
   const NumberOption<double> half_open = {"share", "share", 0.0, 1.0, Ends::NotMaximum};
-  EXPECT_EQ(refusal(0.0, half_open), "");
-  EXPECT_NE(refusal(1.0, half_open), "");
+  EXPECT_EQ(refused(0.0, half_open), "");
+  EXPECT_EQ(refused(1.0, half_open), "The share is 1; give a number from 0 to below 1.");
 }
 
 TEST(Option, NeverHoldsWhatIsNoFiniteNumber) {
   const NumberOption<double> any = {"length", "length", -infinity, infinity};
   const NumberOption<double> positive = {"length", "length", 0.0, infinity, Ends::NotMinimum};
-  EXPECT_EQ(refusal(1e300, positive), "");
+  EXPECT_EQ(refused(1e300, positive), "");
   for (const double value : {std::nan(""), infinity}) {
-    EXPECT_NE(refusal(value, any), "");
-    EXPECT_NE(refusal(value, positive), "");
+    EXPECT_NE(refused(value, any), "");
+    EXPECT_NE(refused(value, positive), "");
   }
-  EXPECT_EQ(refusal(infinity, positive), "The length is inf; give a number, above 0.");
+  EXPECT_EQ(refused(infinity, positive), "The length is inf; give a number above 0.");
 }
 
 TEST(Option, TextsSayNothingOfALimitThatThereIsNot) {
@@ -62,7 +62,46 @@ TEST(Option, TextsSayNothingOfALimitThatThereIsNot) {
   const NumberOption<std::uint64_t> seed = {"seed", "seed", 0,
                                             std::numeric_limits<std::uint64_t>::max()};
   EXPECT_EQ(range_text(seed), "0 or more");
-  EXPECT_EQ(refusal(std::numeric_limits<std::uint64_t>::max(), seed), "");
+  EXPECT_EQ(refused(-1, NumberOption<int>{"n", "n", 0, no_limit}),
+            "The n is -1; give a whole number of 0 or more.");
+  EXPECT_EQ(refused(std::numeric_limits<std::uint64_t>::max(), seed), "");
+}
+
+template <class Number>
+std::string text_refused(const std::string& text, const NumberOption<Number>& option) {
+  try {
+    from_typed(text, option);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Option, ReadsWhatOneTypesAndNothingElse) {
+  const NumberOption<int> nodes = {"nodes", "number of nodes", 4, 1000000};
+  const NumberOption<double> alpha = {"alpha", "alpha", -3.0, 3.0};
+  EXPECT_EQ(from_typed("1000000", nodes), 1000000);
+  EXPECT_EQ(from_typed("-2.5e-1", alpha), -0.25);
+  EXPECT_EQ(from_typed("18446744073709551615",
+                       NumberOption<std::uint64_t>{"seed", "seed", 0,
+                                                   std::numeric_limits<std::uint64_t>::max()}),
+            std::numeric_limits<std::uint64_t>::max());
+  for (const std::string text : {"", "many", "4.5", "12 ", " 12", "12nodes", "3", "99999999999"}) {
+    EXPECT_EQ(text_refused(text, nodes),
+              "The number of nodes is \"" + text + "\"; give a whole number from 4 to 1000000.");
+  }
+  for (const std::string text : {"nan", "inf", "0,5", "3.0000001", "0x1"}) {
+    EXPECT_EQ(text_refused(text, alpha),
+              "The alpha is \"" + text + "\"; give a number from -3 to 3.");
+  }
+}
+
+TEST(Option, TypedNumbersComeBackToTheLastBit) {
+  const NumberOption<double> any = {"any", "any", -infinity, infinity};
+  for (const double value : {2.0 / 3.0, 0.07, 1e-300, -123456.789, 1e15}) {
+    EXPECT_EQ(from_typed(typed_text(value), any), value);
+  }
 }
 
 }  // namespace

@@ -50,15 +50,22 @@ TEST(TextFormat, TypedNumbersAreWrittenOutAndReadBack) {
   EXPECT_EQ(format_typed(0.001), "0.001");
   EXPECT_EQ(format_typed(2.0 / 3.0), "0.6666666666666666");
   EXPECT_EQ(format_typed(0.0), "0");
-  EXPECT_EQ(format_typed(1e-4), "0.0001");
-  EXPECT_EQ(format_typed(1e-6), "1e-06");
+  EXPECT_EQ(format_typed(1e-6), "0.000001");
+  EXPECT_EQ(format_typed(1e-7), "1e-07");
   EXPECT_EQ(format_typed(std::numeric_limits<double>::max()), "1.7976931348623157e+308");
   EXPECT_EQ(format_typed(not_a_number), "nan");
   EXPECT_EQ(format_typed(-infinity), "-inf");
   // The longest there are without an exponent.
-  for (const double value : {-1.2345678901234567e-4, -999999999999999.9}) {
+  for (const double value : {-1.2345678901234567e-6, -999999999999999.9}) {
     EXPECT_EQ(std::stod(format_typed(value)), value);
   }
+}
+
+TEST(TextFormat, CapitalisesTheFirstLetterOnly) {
+  EXPECT_EQ(capitalised("one Two"), "One Two");
+  EXPECT_EQ(capitalised("WSCVT-D"), "WSCVT-D");
+  EXPECT_EQ(capitalised("4 nodes"), "4 nodes");
+  EXPECT_EQ(capitalised(""), "");
 }
 
 TEST(TextFormat, DoesNotDependOnTheLocale) {

@@ -116,7 +116,7 @@ std::vector<Method> methods() {
     };
   };
   return {
-      {"WSCVT-D, on the surface", ours(Weighting::RadialDistance, NodePlacement::FittedSurface, 0)},
+      {"WSCVT-D, on the surface", ours(Weighting::RadialDistance, NodePlacement::Series, 0)},
       {"WSCVT-D, least squares", ours(Weighting::RadialDistance, NodePlacement::LeastSquares, 0)},
       {"error-adaptive, least squares",
        ours(Weighting::ErrorAdaptive, NodePlacement::LeastSquares, 0)},

@@ -323,7 +323,7 @@ TEST(Filter, ChoicesAreFrozen) {
                                                "WSCVT-C (curvature)", "Area", "Error-adaptive"}));
   EXPECT_EQ(choices("Metric"), QStringList({"Sphere", "Surface"}));
   EXPECT_EQ(choices("Placement"),
-            QStringList({"Fitted surface", "Original mesh", "Least squares (volume exact)"}));
+            QStringList({"Harmonic series", "Scan", "Least squares (volume exact)"}));
   EXPECT_EQ(choices("Sampling"), QStringList({"Weighted Voronoi", "Fibonacci lattice",
                                               "Equal-angle grid", "Icosahedron"}));
   EXPECT_EQ(choices("TargetMeasure"),
@@ -931,7 +931,7 @@ TEST(FilterParameters, DefaultsAreTheLibrarysAndLieInTheirRanges) {
   EXPECT_EQ(options.placement.kind, defaults.placement.kind);
   EXPECT_EQ(options.placement.refinement.rounds, defaults.placement.refinement.rounds);
   EXPECT_EQ(options.measures.distances, defaults.measures.distances);
-  EXPECT_EQ(options.surface.fold_limit, defaults.surface.fold_limit);
+  EXPECT_EQ(options.surface.fold_limit_percent, defaults.surface.fold_limit_percent);
   EXPECT_EQ(options.relaxation.metric, defaults.relaxation.metric);
   EXPECT_EQ(options.seeding.start, defaults.seeding.start);
   EXPECT_EQ(options.seeding.random_seed, defaults.seeding.random_seed);

@@ -147,8 +147,8 @@ TEST(ServerDescribes, ALayer) {
   ASSERT_TRUE(report.open(QIODevice::ReadOnly));
   const QList<QByteArray> lines = report.readAll().split('\n');
   ASSERT_GE(lines.size(), 2);
-  EXPECT_TRUE(lines[0].startsWith("layer,reference,volume,area,"));
-  EXPECT_TRUE(lines[1].startsWith("ball.ply,,4."));
+  EXPECT_TRUE(lines[0].startsWith("format,version,grain,descriptors.volume,descriptors.area,"));
+  EXPECT_TRUE(lines[1].startsWith("wscvt-descriptors,2,ball.ply,4."));
 }
 
 TEST(ServerDescribes, TheErrorsAgainstASecondLayer) {
@@ -162,7 +162,7 @@ TEST(ServerDescribes, TheErrorsAgainstASecondLayer) {
   ASSERT_TRUE(outcome.ended);
   ASSERT_FALSE(outcome.crashed);
   const nlohmann::json report = read_json(folder.filePath("report.json"));
-  EXPECT_EQ(report["layer"], "larger.ply");
+  EXPECT_EQ(report["grain"], "larger.ply");
   EXPECT_EQ(report["reference"], "ball.ply");
   const auto error = [&](const char* key) {
     return report["descriptors"][key]["error_percent"].get<double>();

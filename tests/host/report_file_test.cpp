@@ -59,8 +59,8 @@ TEST(ReportFile, HoldsTheLibrarysReportOrAPageWithTwoFigures) {
 TEST(ReportFile, OfDescriptorsNamesTheLayersInItsFigures) {
   // Measured is nothing here: the figures show the meshes.
   const CheckedMesh checked = check_mesh(grain(), MeshCheckOptions(), Execution());
-  filter::DescriptorResult result;
-  result.mesh = {"remeshed.ply", checked, DetailedDescriptors()};
+  GrainMeasures result;
+  result.grain = {"remeshed.ply", checked, DetailedDescriptors()};
   QTemporaryDir folder;
   const QString path = folder.filePath("shape.html");
   for (const bool compared : {false, true}) {

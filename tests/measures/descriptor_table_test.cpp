@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "support/test_shapes.h"
@@ -91,16 +90,6 @@ TEST(DescriptorTable, LinesNameTheColumns) {
   EXPECT_NE(lines[1].find("+100.000"), std::string::npos);
   EXPECT_EQ(lines[2].back(), '-');
   EXPECT_EQ(table_lines({{"one", "first", "", 1.5}}).back(), "  first       1.5");
-}
-
-TEST(DescriptorTable, JsonHoldsTheNumbers) {
-  const auto json = nlohmann::ordered_json::parse(table_json(two_rows(), ComparisonNames()));
-  EXPECT_EQ(json.begin().key(), "volume");
-  EXPECT_EQ(json.at("ssk").at("original").get<double>(), 1.0 / 3.0);
-  EXPECT_TRUE(json.at("ssk").at("remesh").is_null());
-  const auto single = nlohmann::json::parse(table_json({{"one", "first", "length", 0.1}}));
-  EXPECT_EQ(single.at("one").at("value").get<double>(), 0.1);
-  EXPECT_EQ(single.at("one").at("unit"), "length");
 }
 
 }  // namespace

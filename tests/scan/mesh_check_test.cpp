@@ -390,8 +390,8 @@ TEST(MeshCheck, RefusesLargeHolesUntilToldToFillThem) {
   const std::string sentence = refusal(mesh);
   expect_mentions(sentence, {"boundary edges around", "limit of 5 %", "raise the limit"});
   MeshCheckOptions options;
-  options.mended_area_limit = advised_limit(sentence);
-  EXPECT_LT(options.mended_area_limit, 0.36);
+  options.mended_area_limit_percent = 100.0 * advised_limit(sentence);
+  EXPECT_LT(options.mended_area_limit_percent, 36.0);
   const CheckedMesh checked = check_mesh(mesh, options, Execution(1));
   EXPECT_EQ(bad_edges(checked.mesh), 0U);
   EXPECT_EQ(checked.report.genus, 0);
@@ -413,7 +413,7 @@ TEST(MeshCheck, ClosesAnySurfaceWithFacesMissing) {
       if (seed % 3 == 0 && engine() % 2 == 0) std::swap(t[0], t[1]);
     }
     MeshCheckOptions options;
-    options.mended_area_limit = 1.0;
+    options.mended_area_limit_percent = 100.0;
     options.dropped_volume_limit = 0.999;
     const CheckedMesh checked = check_mesh(mesh, options, Execution(1));
     EXPECT_EQ(bad_edges(checked.mesh), 0U);
@@ -572,7 +572,7 @@ TEST(MeshCheck, DropsFlapsAndWalls) {
   const std::string sentence = refusal(fin);
   expect_mentions(sentence, {"1 non-manifold edge,", "raise the limit"});
   MeshCheckOptions options;
-  options.mended_area_limit = 1.0;
+  options.mended_area_limit_percent = 100.0;
   checked = check_mesh(fin, options, Execution(1));
   EXPECT_EQ(bad_edges(checked.mesh), 0U);
   EXPECT_NEAR(checked.report.volume, 8.0, 1e-14);
@@ -659,8 +659,8 @@ TEST(MeshCheck, RefusesALimitOutOfRange) {
 TEST(MeshCheck, RefusesOtherOptionsOutOfRange) {
   for (const double limit : {-0.01, 1.01, std::nan("")}) {
     MeshCheckOptions options;
-    options.mended_area_limit = limit;
-    expect_mentions(refusal(box(1, 1, 1), options), {"area to mend", "0 to 1"});
+    options.mended_area_limit_percent = 100.0 * limit;
+    expect_mentions(refusal(box(1, 1, 1), options), {"area to mend", "0 to 100"});
     options = MeshCheckOptions();
     options.weld_tolerance = limit;
     expect_mentions(refusal(box(1, 1, 1), options), {"tolerance of welding", "0 to 0.01"});

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <charconv>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 
 #include "wscvt/base/enumeration.h"
@@ -25,6 +27,7 @@ struct NumberOption {
   Number minimum;
   Number maximum;
   Ends ends = Ends::Both;
+  std::string_view meaning = {};  ///< what it does, for help texts; may be empty
 
   /// False for what is not a number.
   constexpr bool contains(Number value) const {
@@ -45,6 +48,7 @@ struct NumberOption {
 struct FlagOption {
   std::string_view key;
   std::string_view subject;
+  std::string_view meaning;
 };
 
 /// A number as one types it: every digit it needs, none that it does not, and no exponent where a
@@ -58,25 +62,46 @@ std::string typed_text(Number value) {
   }
 }
 
-/// The range to follow "from": "4 to 1000000", "above 0", "0 or more", "0 to below 1".
+/// The range: "4 to 1000000", "above 0", "0 or more", "0 to below 1", "above 0 and below 2".
 template <class Number>
 std::string range_text(const NumberOption<Number>& option) {
   const std::string minimum = typed_text(option.minimum);
   if (!option.has_maximum()) {
     return option.excludes_minimum() ? "above " + minimum : minimum + " or more";
   }
-  return (option.excludes_minimum() ? "above " : "") + minimum + " to " +
+  return (option.excludes_minimum() ? "above " + minimum + " and " : minimum + " to ") +
          (option.excludes_maximum() ? "below " : "") + typed_text(option.maximum);
+}
+
+/// The sentence that refuses a value.
+template <class Number>
+std::string refusal(std::string_view value, const NumberOption<Number>& option) {
+  const std::string before = option.excludes_minimum() ? ""
+                             : option.has_maximum()    ? "from "
+                                                       : "of ";
+  return "The " + std::string(option.subject) + " is " + std::string(value) + "; give " +
+         (std::is_integral_v<Number> ? "a whole number " : "a number ") + before +
+         range_text(option) + ".";
 }
 
 /// Throws Error(InvalidInput), with the range, for a value outside of it or not a number.
 template <class Number>
 void require_in_range(Number value, const NumberOption<Number>& option) {
   if (option.contains(value)) return;
-  throw Error(ErrorCode::InvalidInput,
-              "The " + std::string(option.subject) + " is " + typed_text(value) + "; give " +
-                  (std::is_integral_v<Number> ? "a whole number, " : "a number, ") +
-                  range_text(option) + ".");
+  throw Error(ErrorCode::InvalidInput, refusal(typed_text(value), option));
+}
+
+/// The value of a text, the way back from typed_text; the decimal sign is a point in every locale.
+/// Throws Error(InvalidInput), with the range, for any other text and for values outside of it.
+template <class Number>
+Number from_typed(std::string_view text, const NumberOption<Number>& option) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || !option.contains(value)) {
+    throw Error(ErrorCode::InvalidInput, refusal("\"" + std::string(text) + "\"", option));
+  }
+  return value;
 }
 
 }  // namespace wscvt

@@ -22,7 +22,7 @@ std::string format_number(double value, int significant) {
 
 std::string format_typed(double value) {
   const double size = std::abs(value);
-  const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e15);
+  const bool plain = size == 0.0 || (size >= 1e-6 && size < 1e15);
   std::array<char, 32> text{};
   const auto end =
       plain ? std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed)
@@ -51,6 +51,15 @@ std::string format_exact(double value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
   return {text.data(), end.ptr};
+}
+
+std::string capitalised(std::string_view text) {
+  std::string result(text);
+  // Not std::toupper, which asks the locale.
+  if (!result.empty() && result[0] >= 'a' && result[0] <= 'z') {
+    result[0] = static_cast<char>(result[0] - 'a' + 'A');
+  }
+  return result;
 }
 
 std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows) {

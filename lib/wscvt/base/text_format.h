@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wscvt {
@@ -12,7 +13,7 @@ namespace wscvt {
 std::string format_number(double value, int significant = 6);
 
 /// The shortest decimal text that reads back as the same number, written as a person types it:
-/// 1000000 and not 1e+06, 0.001 and not 1e-03. Below 1e-4 and from 1e15 on with an exponent; "nan"
+/// 1000000 and not 1e+06, 0.001 and not 1e-03. Below 1e-6 and from 1e15 on with an exponent; "nan"
 /// and "inf" for what is not a number and not finite.
 std::string format_typed(double value);
 
@@ -26,6 +27,9 @@ std::string format_error(double percent);
 /// A number for another program: the shortest text that reads back to the same bits; empty for one
 /// that is not finite.
 std::string format_exact(double value);
+
+/// A text with its first letter as at the beginning of a sentence.
+std::string capitalised(std::string_view text);
 
 /// Rows of cells as lines: the first column flush left, the others flush right, two spaces apart.
 std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows);

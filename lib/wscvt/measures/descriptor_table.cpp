@@ -2,7 +2,6 @@
 #include "wscvt/measures/descriptor_table.h"
 
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
@@ -10,8 +9,6 @@
 namespace wscvt {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -124,27 +121,6 @@ std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& ro
                      format_error(row.error_percent)});
   }
   return aligned_lines(cells);
-}
-
-std::string table_json(const std::vector<DescriptorValue>& values) {
-  Json table = Json::object();
-  for (const DescriptorValue& row : values) {
-    table[row.key] = {{"label", row.label}, {"unit", row.unit}, {"value", row.value}};
-  }
-  return table.dump(2) + "\n";
-}
-
-std::string table_json(const std::vector<DescriptorComparison>& rows,
-                       const ComparisonNames& names) {
-  Json table = Json::object();
-  for (const DescriptorComparison& row : rows) {
-    table[row.key] = {{"label", row.label},
-                      {"unit", row.unit},
-                      {names.reference, row.reference},
-                      {names.value, row.value},
-                      {"error_percent", row.error_percent}};
-  }
-  return table.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace wscvt

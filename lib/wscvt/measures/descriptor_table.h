@@ -36,7 +36,7 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& descrip
 std::vector<DescriptorComparison> compare_descriptors(const std::vector<DescriptorValue>& reference,
                                                       const std::vector<DescriptorValue>& values);
 
-// What the columns of two meshes are called, in text and in files.
+/// What the columns of two meshes are called, in text and in files.
 struct ComparisonNames {
   std::string reference = "original";
   std::string value = "remesh";
@@ -46,10 +46,5 @@ struct ComparisonNames {
 std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values);
 std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& rows,
                                      const ComparisonNames& names);
-
-/// A JSON object with one member a descriptor, in order, under its key: label, unit, and the value
-/// or the two values and error_percent. Numbers that are not finite become null.
-std::string table_json(const std::vector<DescriptorValue>& values);
-std::string table_json(const std::vector<DescriptorComparison>& rows, const ComparisonNames& names);
 
 }  // namespace wscvt

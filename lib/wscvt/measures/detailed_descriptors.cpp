@@ -20,18 +20,16 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 void check_options(const DetailedOptions& options) {
-  const auto require = [](bool holds, const char* name, int value, const char* range) {
-    if (holds) return;
-    throw Error(ErrorCode::InvalidInput, std::string("The ") + name + " is " +
-                                             std::to_string(value) + "; give " + range + ".");
-  };
-  require(options.roundness_degree >= 1 && options.roundness_degree <= 60, "degree for roundness",
-          options.roundness_degree, "1 to 60");
-  require(options.roughness_degree >= 0 && options.roughness_degree <= 60, "degree for roughness",
-          options.roughness_degree, "0 to 60");
+  require_in_range(options.roundness_degree, roundness_degree_option);
+  require_in_range(options.roughness_degree, roughness_degree_option);
+  require_in_range(options.polar_nodes, polar_nodes_option);
   const int largest = std::max(options.roundness_degree, options.roughness_degree);
-  require(options.polar_nodes >= 16 && options.polar_nodes <= 1024 && options.polar_nodes > largest,
-          "number of polar nodes", options.polar_nodes, "16 to 1024, and more than the degrees");
+  if (options.polar_nodes <= largest) {
+    throw Error(ErrorCode::InvalidInput, "The number of polar nodes is " +
+                                             std::to_string(options.polar_nodes) +
+                                             "; give more than the degrees, of which one is " +
+                                             std::to_string(largest) + ".");
+  }
 }
 
 /// What is read off r(u), in units of `unit`.

@@ -3,24 +3,43 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 #include "wscvt/measures/form_axes.h"
 #include "wscvt/measures/inscribed_sphere.h"
 #include "wscvt/measures/orientation_tensor.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"
 #include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 
 struct DetailedOptions {
-  /// Degree of the harmonic series whose curvature roundness reads, in [1, 60].
+  /// Degree of the harmonic series whose curvature roundness reads.
   int roundness_degree = 15;
-  /// Degree of the low-degree shape that roughness is measured from, in [0, 60].
+  /// Degree of the low-degree shape that roughness is measured from.
   int roughness_degree = 8;
-  /// Gauss-Legendre nodes in cos(theta) of the rays cast, times twice as many azimuths, in [16,
-  /// 1024] and above both degrees.
+  /// Gauss-Legendre nodes in cos(theta) of the rays cast, times twice as many azimuths; above both
+  /// degrees.
   int polar_nodes = 128;
 };
+
+inline constexpr NumberOption<int> roundness_degree_option = {
+    "roundness-degree",
+    "degree for roundness",
+    1,
+    fit_degree_option.maximum,
+    Ends::Both,
+    "of the series whose corners roundness reads"};
+inline constexpr NumberOption<int> roughness_degree_option = {
+    "roughness-degree",
+    "degree for roughness",
+    0,
+    fit_degree_option.maximum,
+    Ends::Both,
+    "of the smooth shape that roughness is measured from"};
+inline constexpr NumberOption<int> polar_nodes_option = {"polar-nodes", "number of polar nodes", 16,
+                                                         1024};
 
 /// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
 /// that computes it: shape_descriptors.h, form_axes.h, inscribed_sphere.h, orientation_tensor.h,

@@ -20,7 +20,6 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t block_size = 256;
-constexpr std::size_t maximum_samples = 100000000;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Faces = std::vector<Kernel::Triangle_3>;
@@ -187,11 +186,7 @@ OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std:
 }  // namespace
 
 void check_distance_options(const DistanceOptions& options) {
-  if (options.samples < 1 || options.samples > maximum_samples) {
-    throw Error(ErrorCode::InvalidInput, "The number of distance samples is " +
-                                             std::to_string(options.samples) +
-                                             "; give 1 to 100000000 (100000 is usual).");
-  }
+  require_in_range(options.samples, distance_samples_option);
 }
 
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,

@@ -7,6 +7,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt {
 
@@ -41,10 +42,18 @@ class MeshDistance {
 };
 
 struct DistanceOptions {
-  /// Points spread evenly by area over each of the two surfaces, in [1, 100 million]. See
-  /// measure_distances for what they decide.
+  /// Points spread evenly by area over each of the two surfaces. See measure_distances for what
+  /// they decide.
   std::size_t samples = 100000;
 };
+
+inline constexpr NumberOption<std::size_t> distance_samples_option = {
+    "distance-samples",
+    "number of distance samples",
+    1,
+    100000000,
+    Ends::Both,
+    "points on each surface at which distances are taken"};
 
 /// Throws Error(InvalidInput), with the range, for options out of range.
 void check_distance_options(const DistanceOptions& options);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
+#include "wscvt/base/option.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/shape_descriptors.h"
 
@@ -15,6 +17,20 @@ enum class ErrorMeasure {
   Sphericity,  ///< of Wadell's sphericity
   Inertia,     ///< inertia_error_percent
   Distance,    ///< two-sided rms distance, in % of the equivalent radius
+};
+
+template <>
+struct EnumerationTable<ErrorMeasure> {
+  static constexpr std::string_view key = "target-measure";
+  static constexpr std::string_view subject = "measure of the error target";
+  static constexpr Enumerator<ErrorMeasure> rows[] = {
+      {ErrorMeasure::Volume, "volume", "volume"},
+      {ErrorMeasure::Area, "area", "area"},
+      {ErrorMeasure::Sphericity, "sphericity", "sphericity", "Wadell's"},
+      {ErrorMeasure::Inertia, "inertia", "inertia", "the inertia tensor"},
+      {ErrorMeasure::Distance, "distance", "RMS distance",
+       "two-sided, in % of the equivalent radius"},
+  };
 };
 
 /// A remesh's error against the original by a measure, in %, >= 0. `distances` between the two are

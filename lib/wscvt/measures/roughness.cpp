@@ -23,11 +23,11 @@ constexpr double smallest_roughness = 1e-12;
 
 Roughness radial_roughness(const RadialSurface& surface, int degree, int polar_nodes,
                            const Execution& execution) {
-  if (degree < 0 || degree > 60 || degree >= polar_nodes) {
+  require_in_range(degree, fit_degree_option);
+  if (degree >= polar_nodes) {
     throw Error(ErrorCode::InvalidInput,
                 "The degree of the low-degree shape is " + std::to_string(degree) + " with " +
-                    std::to_string(polar_nodes) +
-                    " polar nodes; give 0 to 60, and more nodes than the degree.");
+                    std::to_string(polar_nodes) + " polar nodes; give more nodes than the degree.");
   }
   const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
   const std::vector<Vector3>& u = quadrature.directions;

@@ -4,16 +4,29 @@
 #include <functional>
 #include <vector>
 
+#include "wscvt/base/option.h"
 #include "wscvt/measures/error_measure.h"
+#include "wscvt/tessellation/seeding.h"
 
 namespace wscvt {
 
 /// Node count by error: the smallest N that meets it is looked for (see smallest_node_count).
 struct ErrorTarget {
   ErrorMeasure measure = ErrorMeasure::Distance;
-  double percent = 0.0;            ///< 0: none, N is the options' node_count; else > 0
-  int largest_node_count = 20000;  ///< the search goes no further, in [4, maximum_node_count]
+  double percent = 0.0;            ///< 0: none, N is the options' node_count
+  int largest_node_count = 20000;  ///< the search goes no further
 };
+
+inline constexpr NumberOption<double> error_target_option = {
+    "target",   "error target in %",
+    0.0,        100.0,
+    Ends::Both, "the smallest number of nodes with at most this error is looked for; 0: none"};
+inline constexpr NumberOption<int> largest_node_count_option = {"largest",
+                                                                "largest number of nodes to try",
+                                                                node_count_option.minimum,
+                                                                node_count_option.maximum,
+                                                                Ends::Both,
+                                                                "with an error target"};
 
 struct NodeCountTrial {
   int node_count = 0;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/nodes/refinement_angles.h"
 #include "wscvt/nodes/refinement_flips.h"
 #include "wscvt/nodes/refinement_moves.h"
@@ -23,21 +22,9 @@ constexpr int rounds_without_relocations = 2;
 }  // namespace
 
 void check_refinement_options(const RefinementOptions& options) {
-  if (options.rounds < 0 || options.rounds > 1000) {
-    throw Error(ErrorCode::InvalidInput, "The number of refinement rounds is " +
-                                             std::to_string(options.rounds) +
-                                             "; give 0 (none) to 1000.");
-  }
-  if (!(options.smallest_angle >= 0.0 && options.smallest_angle <= 40.0)) {
-    throw Error(ErrorCode::InvalidInput, "The smallest angle the refinement may make is " +
-                                             format_number(options.smallest_angle) +
-                                             " degrees; give 0 to 40.");
-  }
-  if (!(options.tolerance >= 0.0 && options.tolerance < 1.0)) {
-    throw Error(ErrorCode::InvalidInput, "The tolerance of the refinement is " +
-                                             format_number(options.tolerance) +
-                                             "; give a share of at least 0 and less than 1.");
-  }
+  require_in_range(options.rounds, refinement_rounds_option);
+  require_in_range(options.smallest_angle, refinement_angle_option);
+  require_in_range(options.tolerance, refinement_tolerance_option);
 }
 
 RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation triangulation,

@@ -5,16 +5,30 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/mesh.h"
+#include "wscvt/base/option.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
 
 struct RefinementOptions {
-  int rounds = 0;                ///< at most so many, in [0, 1000]; 0: nothing is done
-  double smallest_angle = 15.5;  ///< no triangle is given a smaller one; degrees, in [0, 40]
-  double tolerance = 2e-3;       ///< stop when a round gains less than this share; in [0, 1)
+  int rounds = 0;                ///< at most so many; 0: nothing is done
+  double smallest_angle = 15.5;  ///< no triangle is given a smaller one; degrees
+  double tolerance = 2e-3;       ///< stop when a round gains less than this share
 };
+
+inline constexpr NumberOption<int> refinement_rounds_option = {
+    "refine",
+    "number of refinement rounds",
+    0,
+    1000,
+    Ends::Both,
+    "moving nodes and flipping edges towards the scan; 0 for none; needs least squares"};
+inline constexpr NumberOption<double> refinement_angle_option = {
+    "refine-angle", "smallest angle that the refinement makes, in degrees", 0.0, 40.0};
+inline constexpr NumberOption<double> refinement_tolerance_option = {
+    "refine-tolerance", "share below which the gain of a refinement round is the last", 0.0, 1.0,
+    Ends::NotMaximum};
 
 /// One line of the refinement's history.
 struct RefinementStep {

@@ -66,7 +66,7 @@ void check_placement_options(const PlacementOptions& options) {
 
 bool needs_rays(const PlacementOptions& options, bool is_scan) {
   return options.kind == NodePlacement::LeastSquares ||
-         (options.kind == NodePlacement::OriginalMesh && is_scan);
+         (options.kind == NodePlacement::Scan && is_scan);
 }
 
 PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, RelaxationMetric metric,
@@ -89,7 +89,7 @@ PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, Relaxation
     nodes.radii[i] = jets[i].radius;
     if (metric == RelaxationMetric::Sphere) nodes.cell_areas[i] *= area_element(jets[i]);
   }
-  if (options.kind == NodePlacement::OriginalMesh && grain.is_scan) {
+  if (options.kind == NodePlacement::Scan && grain.is_scan) {
     nodes.radii = grain.rays->radii(nodes.directions, execution);
   }
   put_on_radii(nodes);

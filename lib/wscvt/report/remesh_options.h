@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "wscvt/base/option.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_count_search.h"
 #include "wscvt/nodes/placed_nodes.h"
@@ -13,9 +14,6 @@
 
 namespace wscvt {
 
-/// Largest node count accepted.
-inline constexpr int maximum_node_count = 1000000;
-
 /// What is measured beyond descriptors and quality.
 struct MeasureOptions {
   bool distances = false;  ///< fill RemeshResult::distances and vertex_distances
@@ -25,7 +23,7 @@ struct MeasureOptions {
 
 /// Everything a caller may choose, stage by stage; the defaults work.
 struct RemeshOptions {
-  int node_count = 1000;  ///< N, in [4, maximum_node_count]; with an error target the first N tried
+  int node_count = 1000;  ///< N; with an error target the first N tried
   ErrorTarget target;
   MeshCheckOptions check;
   SurfaceOptions surface;
@@ -36,6 +34,47 @@ struct RemeshOptions {
   PlacementOptions placement;
   MeasureOptions measures;
 };
+
+inline constexpr FlagOption distances_option = {"distances", "distances to the scan",
+                                                "measured and reported"};
+
+/// Calls `visitor` for every option of a remesh that its result or its report follows: with a
+/// number and its NumberOption, with a flag and its FlagOption, or with an enumeration, which has
+/// its table. `options` are RemeshOptions, const or not. Reports and the program go through here.
+template <class Options, class Visitor>
+void for_each_option(Options& options, Visitor& visitor) {
+  visitor(options.node_count, node_count_option);
+  visitor(options.target.percent, error_target_option);
+  visitor(options.target.measure);
+  visitor(options.target.largest_node_count, largest_node_count_option);
+  visitor(options.seeding.sampling);
+  visitor(options.weighting.kind);
+  visitor(options.weighting.curvature_alpha, curvature_alpha_option);
+  visitor(options.weighting.curvature_source);
+  visitor(options.weighting.adaptive_exponent, adaptive_exponent_option);
+  visitor(options.surface.degree, harmonic_degree_option);
+  visitor(options.surface.fold_limit_percent, fold_limit_option);
+  visitor(options.relaxation.metric);
+  visitor(options.placement.kind);
+  visitor(options.placement.refinement.rounds, refinement_rounds_option);
+  visitor(options.placement.refinement.smallest_angle, refinement_angle_option);
+  visitor(options.placement.refinement.tolerance, refinement_tolerance_option);
+  visitor(options.seeding.start);
+  visitor(options.seeding.random_seed, random_seed_option);
+  visitor(options.relaxation.maximum_iterations, maximum_iterations_option);
+  visitor(options.relaxation.displacement_tolerance, displacement_tolerance_option);
+  visitor(options.relaxation.area_tolerance, area_tolerance_option);
+  visitor(options.relaxation.acceleration, acceleration_option);
+  visitor(options.relaxation.over_relaxation, over_relaxation_option);
+  visitor(options.levels.coarsest_seeds, coarsest_seeds_option);
+  visitor(options.levels.coarsest_tolerance, coarsest_tolerance_option);
+  visitor(options.levels.middle_tolerance, middle_tolerance_option);
+  visitor(options.measures.distances, distances_option);
+  visitor(options.measures.distance_sampling.samples, distance_samples_option);
+  visitor(options.check.weld_tolerance, weld_tolerance_option);
+  visitor(options.check.mended_area_limit_percent, mended_area_limit_option);
+  visitor(options.check.dropped_volume_limit, dropped_volume_limit_option);
+}
 
 /// Throws Error(InvalidInput), with the range, for options out of range or at odds with each other.
 void check_options(const RemeshOptions& options);

@@ -18,7 +18,7 @@ struct HandleOptions {
 };
 
 inline constexpr NumberOption<double> handle_length_option{
-    "handleLength", "longest loop along which a handle is cut", 0.0,
+    "handle-length", "longest loop along which a handle is cut", 0.0,
     std::numeric_limits<double>::infinity()};
 
 /// A handle that was cut.

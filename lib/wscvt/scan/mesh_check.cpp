@@ -202,7 +202,8 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
 void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
                    const MeshCheckReport& report) {
   const double mended = report.flap_area_share + report.filled_area_share;
-  if (!(mended > options.mended_area_limit)) return;
+  const double limit = 0.01 * options.mended_area_limit_percent;
+  if (!(mended > limit)) return;
   std::string found;
   if (report.non_manifold_edges > 0) {
     found = count_of(report.non_manifold_edges, "non-manifold edge") +
@@ -213,7 +214,7 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
              " around " + count_of(report.filled_holes, "hole");
   }
   refuse("The mesh has " + found + ". Mending that would change " + format_percent(mended) +
-         " of its area, above the limit of " + format_percent(options.mended_area_limit) +
+         " of its area, above the limit of " + format_percent(limit) +
          "; raise the limit of the area that may be mended above " + format_percent(mended) +
          " and check the result against the scan, or scan the grain again.");
 }
@@ -260,7 +261,7 @@ void measure(const IndexedMesh& mesh, const Execution& execution, MeshCheckRepor
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution) {
   require_in_range(options.weld_tolerance, weld_tolerance_option);
-  require_in_range(options.mended_area_limit, mended_area_limit_option);
+  require_in_range(options.mended_area_limit_percent, mended_area_limit_option);
   require_in_range(options.dropped_volume_limit, dropped_volume_limit_option);
   const std::string stage = "Checking the mesh";
   CheckedMesh result;

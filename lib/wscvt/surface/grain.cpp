@@ -59,16 +59,8 @@ void refuse_folds(double folded_share, double limit) {
 }  // namespace
 
 void check_surface_options(const SurfaceOptions& options) {
-  if (options.degree < 1 || options.degree > 60) {
-    throw Error(ErrorCode::InvalidInput, "The harmonic degree is " +
-                                             std::to_string(options.degree) +
-                                             "; give a whole number from 1 to 60.");
-  }
-  if (!(options.fold_limit >= 0.0 && options.fold_limit < 1.0)) {
-    throw Error(ErrorCode::InvalidInput, "The largest folded share of the solid angle is " +
-                                             format_percent(options.fold_limit) +
-                                             "; give at least 0 % and less than 100 %.");
-  }
+  require_in_range(options.degree, harmonic_degree_option);
+  require_in_range(options.fold_limit_percent, fold_limit_option);
 }
 
 Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, const Execution& execution) {
@@ -85,7 +77,7 @@ Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, const Execu
   execution.report(0.0, "Looking for folds");
   const RadialSamples samples = radial_samples(grain.mesh, execution.part(0.0, 0.25));
   grain.folded_share = samples.folded_share;
-  refuse_folds(grain.folded_share, options.fold_limit);
+  refuse_folds(grain.folded_share, 0.01 * options.fold_limit_percent);
   execution.report(0.25, "Fitting harmonics");
   HarmonicFit fit = fit_harmonics(samples.directions, samples.radii, samples.weights,
                                   options.degree, execution.part(0.25, 1.0));

@@ -17,9 +17,14 @@ namespace wscvt {
 
 /// How a scan becomes a surface over the sphere.
 struct SurfaceOptions {
-  int degree = 20;           ///< of the harmonic series, in [1, 60]
-  double fold_limit = 0.05;  ///< refuse above this folded_solid_angle, in [0, 1)
+  int degree = 20;                  ///< of the harmonic series, see harmonic_degree_option
+  double fold_limit_percent = 5.0;  ///< refuse above this folded_solid_angle
 };
+
+inline constexpr NumberOption<double> fold_limit_option = {
+    "fold-limit", "fold limit in %",
+    0.0,          99.0,
+    Ends::Both,   "the scan is refused when sheets beyond the first fill more of the solid angle"};
 
 /// Throws Error(InvalidInput), with the range, for options out of range.
 void check_surface_options(const SurfaceOptions& options);

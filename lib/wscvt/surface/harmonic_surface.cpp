@@ -19,7 +19,6 @@ namespace wscvt {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int maximum_fit_degree = 60;
 
 /// Up to this many points the basis is stored; above, the points are spread to a grid.
 constexpr std::size_t maximum_stored_points = 2000;
@@ -261,11 +260,7 @@ Vector probe(Eigen::Index size) {
 
 Samples check_samples(const std::vector<Vector3>& directions, const std::vector<double>& radii,
                       const std::vector<double>& weights, int degree) {
-  if (degree < 0 || degree > maximum_fit_degree) {
-    throw Error(ErrorCode::InvalidInput, "The degree of the fit is " + std::to_string(degree) +
-                                             "; give one from 0 to " +
-                                             std::to_string(maximum_fit_degree) + ".");
-  }
+  require_in_range(degree, fit_degree_option);
   if (directions.empty()) {
     throw Error(ErrorCode::InvalidInput, "There are no points to fit a series to; give a mesh.");
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string_view>
 #include <vector>
 
+#include "wscvt/base/option.h"
 #include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/spherical_harmonics.h"
 
@@ -33,12 +35,32 @@ class HarmonicSurface : public RadialSurface {
 /// length; a surface that is not positive everywhere is not star-shaped about the origin.
 double smallest_radius(const HarmonicSurface& surface, const Execution& execution);
 
+/// Degree of a series to be fitted; 0 is a sphere.
+inline constexpr NumberOption<int> fit_degree_option = {"degree", "degree of the fit", 0, 60};
+/// Of one that stands for a grain.
+inline constexpr NumberOption<int> harmonic_degree_option = {
+    "degree",   "harmonic degree",
+    1,          fit_degree_option.maximum,
+    Ends::Both, "of the series fitted to the scan; lowered when the scan cannot carry it"};
+
 /// Why a series has a lower degree than was asked for.
 enum class DegreeLimit {
   None,       ///< it has the degree asked for
   Points,     ///< fewer than two points a coefficient
   Condition,  ///< the points are spread too unevenly to tell the coefficients apart
   Radius,  ///< of higher degree the series is not positive everywhere: a long, flat or sharp body
+};
+
+template <>
+struct EnumerationTable<DegreeLimit> {
+  static constexpr std::string_view key = "degree-limit";
+  static constexpr std::string_view subject = "limit of the degree";
+  static constexpr Enumerator<DegreeLimit> rows[] = {
+      {DegreeLimit::None, "none", "as asked for"},
+      {DegreeLimit::Points, "points", "the points carry no more"},
+      {DegreeLimit::Condition, "condition", "the points are spread too unevenly for more"},
+      {DegreeLimit::Radius, "radius", "above it the series is not positive everywhere"},
+  };
 };
 
 /// How the fit went.
@@ -65,8 +87,8 @@ struct HarmonicFit {
 /// about two thousand points on, the equations are formed from moments gathered on a grid, in time
 /// linear in the points; the result is that of the plain sums to well within 1e-3 of the residual.
 ///
-/// Throws Error(InvalidInput) for arrays of different lengths, degree < 0 or > 60, no points, or a
-/// point that is not as above; Error(NumericalFailure) when the series is not positive everywhere
+/// Throws Error(InvalidInput) for arrays of different lengths, a degree out of range, no points, or
+/// a point that is not as above; Error(NumericalFailure) when the series is not positive everywhere
 /// at any degree.
 HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vector<double>& radii,
                           const std::vector<double>& weights, int degree,

@@ -22,14 +22,6 @@ void check_semi_axes(const Vector3& semi_axes) {
   }
 }
 
-void check_exponent(const char* name, double exponent) {
-  if (!(exponent >= 0.1 && exponent <= 2.0)) {
-    throw Error(ErrorCode::InvalidInput, std::string("The ") + name +
-                                             " exponent of the superellipsoid is " +
-                                             format_number(exponent) + "; give 0.1 to 2.");
-  }
-}
-
 /// base^exponent for base >= 0; negative powers stop growing at a millionth.
 double bounded_power(double base, double exponent) {
   return std::pow(exponent < 0.0 ? std::max(base, 1e-6) : base, exponent);
@@ -107,8 +99,8 @@ Superellipsoid::Superellipsoid(const Vector3& semi_axes, double polar_exponent,
       polar_exponent_(polar_exponent),
       azimuthal_exponent_(azimuthal_exponent) {
   check_semi_axes(semi_axes);
-  check_exponent("polar", polar_exponent);
-  check_exponent("azimuthal", azimuthal_exponent);
+  require_in_range(polar_exponent, polar_exponent_option);
+  require_in_range(azimuthal_exponent, azimuthal_exponent_option);
 }
 
 void Superellipsoid::evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,

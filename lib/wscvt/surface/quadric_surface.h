@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "wscvt/base/option.h"
 #include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
@@ -18,6 +19,12 @@ class Ellipsoid : public RadialSurface {
   Vector3 semi_axes_;
 };
 
+inline constexpr NumberOption<double> polar_exponent_option = {
+    "polar-exponent", "polar exponent of the superellipsoid", 0.1, 2.0};
+inline constexpr NumberOption<double> azimuthal_exponent_option = {
+    "azimuthal-exponent", "azimuthal exponent of the superellipsoid", polar_exponent_option.minimum,
+    polar_exponent_option.maximum};
+
 /// Superellipsoid (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981), with
 /// e1 = `polar_exponent`, e2 = `azimuthal_exponent`; both 1 give the ellipsoid, towards 0 a box.
 /// Derivatives are analytic. Second ones do not exist on the coordinate planes when an exponent
@@ -25,7 +32,7 @@ class Ellipsoid : public RadialSurface {
 /// stay finite, and mean nothing.
 class Superellipsoid : public RadialSurface {
  public:
-  /// Semi-axes > 0, exponents in [0.1, 2], else Error(InvalidInput).
+  /// Semi-axes > 0, exponents in their ranges, else Error(InvalidInput).
   Superellipsoid(const Vector3& semi_axes, double polar_exponent, double azimuthal_exponent);
 
   void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,

@@ -26,14 +26,14 @@ struct SphereMapOptions {
   double tolerance = 2e-4;
 };
 
-inline constexpr NumberOption<double> level_growth_option{"levelGrowth",
+inline constexpr NumberOption<double> level_growth_option{"level-growth",
                                                           "growth of the map's levels", 1.1, 10.0};
 inline constexpr NumberOption<int> coarse_sweeps_option{
-    "coarseSweeps", "number of sweeps on the map's coarse levels", 0, 1000};
+    "coarse-sweeps", "number of sweeps on the map's coarse levels", 0, 1000};
 inline constexpr NumberOption<int> fine_sweeps_option{
-    "fineSweeps", "number of sweeps on the map's fine levels", 0, 1000};
+    "fine-sweeps", "number of sweeps on the map's fine levels", 0, 1000};
 inline constexpr NumberOption<double> map_tolerance_option{
-    "mapTolerance", "tolerance of the map's levels", 0.0, std::numeric_limits<double>::infinity()};
+    "map-tolerance", "tolerance of the map's levels", 0.0, std::numeric_limits<double>::infinity()};
 
 /// How the map came out. Distortions are those of the triangles of the mesh whose area is not zero.
 struct SphereMapReport {

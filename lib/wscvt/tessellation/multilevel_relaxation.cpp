@@ -93,14 +93,9 @@ std::vector<int> level_sizes(int count, int coarsest_seeds) {
 }
 
 void check_multilevel_options(const MultilevelOptions& options) {
-  if (options.coarsest_seeds < 4) {
-    throw Error(ErrorCode::InvalidInput, "The size of the coarsest level is " +
-                                             std::to_string(options.coarsest_seeds) +
-                                             "; give 4 or more.");
-  }
-  if (!(options.coarsest_tolerance > 0.0) || !(options.middle_tolerance > 0.0)) {
-    throw Error(ErrorCode::InvalidInput, "The levels' displacement tolerances must be above 0.");
-  }
+  require_in_range(options.coarsest_seeds, coarsest_seeds_option);
+  require_in_range(options.coarsest_tolerance, coarsest_tolerance_option);
+  require_in_range(options.middle_tolerance, middle_tolerance_option);
 }
 
 RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const SeedModel& model,

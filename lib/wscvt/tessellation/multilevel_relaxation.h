@@ -9,16 +9,33 @@
 namespace wscvt {
 
 struct MultilevelOptions {
-  /// Smallest number of seeds of a level, >= 4. A tessellation of fewer than four times as many has
+  /// Smallest number of seeds of a level. A tessellation of fewer than four times as many has
   /// one level.
   int coarsest_seeds = 250;
-  /// Displacement tolerances of the coarsest and of the levels between, > 0, if smaller than that
-  /// of the relaxation's own: an iteration there costs little and its evenness is inherited. The
+  /// Displacement tolerances of the coarsest and of the levels between, if smaller than that of the
+  /// relaxation's own: an iteration there costs little and its evenness is inherited. The
   /// spread of the cells' areas is asked for on the last level only, since fewer seeds may be
   /// unable to reach it.
   double coarsest_tolerance = 1e-4;
   double middle_tolerance = 3e-4;
 };
+
+inline constexpr NumberOption<int> coarsest_seeds_option = {
+    "coarsest-seeds", "smallest number of seeds of a level", 4, std::numeric_limits<int>::max()};
+inline constexpr NumberOption<double> coarsest_tolerance_option = {
+    "coarsest-tolerance",
+    "tolerance of the rms displacement on the coarsest level",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::NotMinimum,
+    "in cell sizes"};
+inline constexpr NumberOption<double> middle_tolerance_option = {
+    "middle-tolerance",
+    "tolerance of the rms displacement on the levels between",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::NotMinimum,
+    "in cell sizes"};
 
 /// How many seeds each level has, from the coarsest to `count`: cutting each edge in two turns V
 /// seeds into 4 V - 6, and up to three are added on a level so that the last has exactly `count`.

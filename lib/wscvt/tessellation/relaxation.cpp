@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/tessellation/power_cells.h"
 
 namespace wscvt {
@@ -304,22 +303,13 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
 }  // namespace
 
 void check_relaxation_options(const RelaxationOptions& options) {
-  const auto refuse = [](const std::string& sentence) {
-    throw Error(ErrorCode::InvalidInput, sentence);
-  };
-  if (options.maximum_iterations < 0) {
-    refuse("The largest number of iterations is " + std::to_string(options.maximum_iterations) +
-           "; give 0 or more.");
-  }
-  if (!(options.displacement_tolerance > 0.0) || !(options.area_tolerance > 0.0)) {
-    refuse("The tolerances for displacement and cell area must be above 0.");
-  }
-  const double limit = options.acceleration ? 4.0 / 3.0 : 2.0;
-  if (!(options.over_relaxation > 0.0) || !(options.over_relaxation < limit)) {
-    refuse("The over-relaxation factor is " + format_number(options.over_relaxation) +
-           "; give a number above 0 and below " +
-           (options.acceleration ? "4/3, such as 1.2." : "2, such as 1.8."));
-  }
+  require_valid(options.metric);
+  require_in_range(options.maximum_iterations, maximum_iterations_option);
+  require_in_range(options.displacement_tolerance, displacement_tolerance_option);
+  require_in_range(options.area_tolerance, area_tolerance_option);
+  require_in_range(options.over_relaxation, options.acceleration
+                                                ? accelerated_over_relaxation_option
+                                                : over_relaxation_option);
 }
 
 RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,

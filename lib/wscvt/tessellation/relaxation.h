@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
+#include <string_view>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/tessellation/weights.h"
 
@@ -16,11 +19,23 @@ enum class RelaxationMetric {
   Surface,  ///< Voronoi cells on the surface itself: the most even triangles
 };
 
+template <>
+struct EnumerationTable<RelaxationMetric> {
+  static constexpr std::string_view key = "metric";
+  static constexpr std::string_view subject = "metric of the relaxation";
+  static constexpr Enumerator<RelaxationMetric> rows[] = {
+      {RelaxationMetric::Sphere, "sphere", "sphere",
+       "cells are centroidal on the unit sphere, the published method"},
+      {RelaxationMetric::Surface, "surface", "surface",
+       "on the grain's surface itself, which gives the most even triangles"},
+  };
+};
+
 struct RelaxationOptions {
   RelaxationMetric metric = RelaxationMetric::Sphere;
-  int maximum_iterations = 1000;         ///< >= 0
-  double displacement_tolerance = 1e-3;  ///< rms displacement / h; > 0
-  double area_tolerance = 0.07;          ///< spread of cell area / target; > 0
+  int maximum_iterations = 1000;
+  double displacement_tolerance = 1e-3;  ///< rms displacement / h
+  double area_tolerance = 0.07;          ///< spread of cell area / target
   bool acceleration = true;              ///< momentum with restarts on top of the over-relaxed step
   /// Step factor towards the centroid: in (0, 2) without acceleration, where 1.8 does well, and in
   /// (0, 4/3) with it. Those are the limits of stability of the sphere metric, whose step goes down
@@ -29,6 +44,32 @@ struct RelaxationOptions {
   /// nor is momentum; see relax() for what is done then.
   double over_relaxation = 1.2;
 };
+
+inline constexpr NumberOption<int> maximum_iterations_option = {
+    "iterations", "largest number of iterations", 0, 100000, Ends::Both, "of the relaxation"};
+inline constexpr NumberOption<double> displacement_tolerance_option = {
+    "tolerance",
+    "tolerance of the rms displacement",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::NotMinimum,
+    "the relaxation ends below this, in cell sizes, and the next"};
+inline constexpr NumberOption<double> area_tolerance_option = {
+    "area-tolerance", "tolerance of the spread of cell area / target", 0.0,
+    std::numeric_limits<double>::infinity(), Ends::NotMinimum};
+inline constexpr FlagOption acceleration_option = {"acceleration", "acceleration of the relaxation",
+                                                   "by momentum"};
+inline constexpr NumberOption<double> over_relaxation_option = {
+    "over-relaxation",
+    "step of the relaxation",
+    0.0,
+    2.0,
+    Ends::Neither,
+    "1 is from seed to centroid; below 4/3 with acceleration"};
+/// The same with acceleration.
+inline constexpr NumberOption<double> accelerated_over_relaxation_option = {
+    over_relaxation_option.key, "step of the relaxation with acceleration", 0.0, 4.0 / 3.0,
+    Ends::Neither};
 
 /// One line of the iteration's history.
 struct RelaxationStep {
@@ -46,6 +87,19 @@ enum class RelaxationOutcome {
   Settled,
   Stuck,           ///< even a short step further could not be triangulated
   IterationLimit,  ///< none of these within the iterations allowed
+};
+
+template <>
+struct EnumerationTable<RelaxationOutcome> {
+  static constexpr std::string_view key = "outcome";
+  static constexpr std::string_view subject = "outcome of the relaxation";
+  static constexpr Enumerator<RelaxationOutcome> rows[] = {
+      {RelaxationOutcome::Converged, "converged", "converged after"},
+      {RelaxationOutcome::Settled, "settled", "settled after"},
+      {RelaxationOutcome::Stuck, "stuck", "stuck after"},
+      {RelaxationOutcome::IterationLimit, "iteration-limit",
+       "not converged: stopped at the limit of"},
+  };
 };
 
 /// A coarser tessellation that was relaxed first (see multilevel_relaxation.h).

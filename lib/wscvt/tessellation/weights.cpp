@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "wscvt/base/error.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/tessellation/cap_sums.h"
 
 namespace wscvt {
@@ -153,16 +151,10 @@ double solve_offset(const GridField& cells, double count, double smallest) {
 }  // namespace
 
 void check_weighting_options(const WeightingOptions& options) {
-  const auto refuse = [](const std::string& what, double value, const std::string& range) {
-    throw Error(ErrorCode::InvalidInput,
-                what + " is " + format_number(value) + "; give a number from " + range + ".");
-  };
-  if (!(std::abs(options.curvature_alpha) <= 3.0)) {
-    refuse("The curvature exponent alpha", options.curvature_alpha, "-3 to 3");
-  }
-  if (!(options.adaptive_exponent >= 0.0 && options.adaptive_exponent <= 1.5)) {
-    refuse("The exponent of the error-adaptive weighting", options.adaptive_exponent, "0 to 1.5");
-  }
+  require_valid(options.kind);
+  require_valid(options.curvature_source);
+  require_in_range(options.curvature_alpha, curvature_alpha_option);
+  require_in_range(options.adaptive_exponent, adaptive_exponent_option);
 }
 
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,

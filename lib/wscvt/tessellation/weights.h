@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/radial_surface.h"
@@ -21,6 +23,22 @@ enum class Weighting {
   /// Nodes where flat triangles err most: node density g k^(2/3). Curvatures below 0.3 of their
   /// median count as that, so that flat faces keep nodes enough to be seen as flat.
   ErrorAdaptive,
+};
+
+template <>
+struct EnumerationTable<Weighting> {
+  static constexpr std::string_view key = "weighting";
+  static constexpr std::string_view subject = "weighting";
+  static constexpr Enumerator<Weighting> rows[] = {
+      {Weighting::Constant, "constant", "constant", "equal solid angles"},
+      {Weighting::RadialDistance, "radial-distance", "WSCVT-D (radial distance)",
+       "smaller solid angles far from the centroid, so even triangles"},
+      {Weighting::Curvature, "curvature", "WSCVT-C (curvature)",
+       "more nodes where the surface bends"},
+      {Weighting::Area, "area", "area", "equal surface areas"},
+      {Weighting::ErrorAdaptive, "error-adaptive", "error-adaptive",
+       "nodes where flat triangles err most"},
+  };
 };
 
 /// A relaxed cell's solid angle is this times its seed's weight, plus a constant that is the same
@@ -55,12 +73,36 @@ enum class CurvatureSource {
   QuadricFit,  ///< the paper's local quadric fit on the scan (2-ring)
 };
 
+template <>
+struct EnumerationTable<CurvatureSource> {
+  static constexpr std::string_view key = "curvature-source";
+  static constexpr std::string_view subject = "source of the curvature";
+  static constexpr Enumerator<CurvatureSource> rows[] = {
+      {CurvatureSource::Series, "series", "harmonic series",
+       "exact derivatives of the fitted surface"},
+      {CurvatureSource::QuadricFit, "quadrics", "quadrics on the scan",
+       "a quadric fitted around each vertex of the scan over two rings, as in the paper"},
+  };
+};
+
 struct WeightingOptions {
   Weighting kind = Weighting::RadialDistance;
-  double curvature_alpha = 1.0;          ///< alpha of eq. 11, in [-3, 3]
-  double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, in [0, 1.5]
+  double curvature_alpha = 1.0;          ///< alpha of eq. 11
+  double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive
   CurvatureSource curvature_source = CurvatureSource::Series;  ///< a formula has its own only
 };
+
+inline constexpr NumberOption<double> curvature_alpha_option = {
+    "alpha",    "strength alpha of the curvature weighting",
+    -3.0,       3.0,
+    Ends::Both, "0 ignores curvature, larger gathers more nodes where the surface bends"};
+inline constexpr NumberOption<double> adaptive_exponent_option = {
+    "adaptive-exponent",
+    "exponent of the curvature in the error-adaptive weighting",
+    0.0,
+    1.5,
+    Ends::Both,
+    "0 gives equal areas"};
 
 /// Throws Error(InvalidInput), with the range, for options out of range.
 void check_weighting_options(const WeightingOptions& options);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "wscvt/report/remesh_options.h"
+
+namespace wscvt::program {
+
+/// Gives `app` an argument for every option of a remesh, under the option's key: what a report
+/// prints as an option is what one types here. Reading a call changes `options`, which must outlive
+/// `app`. Help texts are made of the options' tables and ranges.
+void add_remesh_arguments(CLI::App& app, RemeshOptions& options);
+
+}  // namespace wscvt::program

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report/descriptor_report.h"
+
+#include <utility>
+
+#include "wscvt/base/text_format.h"
+#include "wscvt/report/json.h"
+
+namespace wscvt {
+
+namespace {
+
+Json report_of(const GrainMeasures& measures) {
+  Json report = {{"format", "wscvt-descriptors"}, {"version", 2}, {"grain", measures.grain.name}};
+  const std::vector<DescriptorValue> values = list_descriptors(measures.grain.descriptors);
+  if (measures.reference) {
+    report["reference"] = measures.reference->name;
+    report["descriptors"] = json_of(compare_descriptors(measures), {"reference", "value"});
+    Json& distances = report["distances"] = Json::object();
+    for (const DistanceRow& row : list_distances(measures)) distances[row.key] = row.value;
+  } else {
+    report["descriptors"] = json_of(values);
+  }
+  report["descriptor_names"] = json_names_of(values);
+  report["remarks"] = remarks(measures);
+  return report;
+}
+
+}  // namespace
+
+std::vector<DistanceRow> list_distances(const GrainMeasures& measures) {
+  if (!measures.distances) return {};
+  const OneSidedDistance& to = measures.distances->to_reference;
+  const OneSidedDistance& from = measures.distances->from_reference;
+  return {
+      {"hausdorff_distance", "largest (Hausdorff), two-sided", measures.distances->hausdorff},
+      {"hausdorff_to_reference", "largest, to the reference", to.maximum},
+      {"hausdorff_from_reference", "largest, from the reference", from.maximum},
+      {"rms_distance", "root mean square, two-sided", measures.distances->root_mean_square},
+      {"rms_to_reference", "root mean square, to the reference", to.root_mean_square},
+      {"rms_from_reference", "root mean square, from the reference", from.root_mean_square},
+      {"mean_to_reference", "mean, to the reference", to.mean},
+      {"mean_from_reference", "mean, from the reference", from.mean},
+  };
+}
+
+std::string grain_line(const MeasuredGrain& grain) {
+  return grain.name + ": " + std::to_string(grain.checked.report.vertices) + " vertices, " +
+         std::to_string(grain.checked.report.faces) + " faces, genus " +
+         std::to_string(grain.checked.report.genus);
+}
+
+std::vector<std::string> distance_lines(const GrainMeasures& measures) {
+  if (!measures.distances) return {};
+  const double radius = measures.reference->checked.report.equivalent_radius;
+  std::vector<std::vector<std::string>> cells = {{"Distance", "length", "% of equivalent radius"}};
+  for (const DistanceRow& row : list_distances(measures)) {
+    cells.push_back({"  " + row.label, format_number(row.value, 4),
+                     format_number(100.0 * row.value / radius, 4)});
+  }
+  return aligned_lines(cells);
+}
+
+std::vector<std::string> descriptor_lines(const GrainMeasures& measures) {
+  std::vector<std::string> lines = {"Grain       " + grain_line(measures.grain)};
+  const auto append = [&](std::vector<std::string> more) {
+    for (std::string& line : more) lines.push_back(std::move(line));
+  };
+  if (measures.reference) {
+    lines.push_back("Reference   " + grain_line(*measures.reference));
+    append(table_lines(compare_descriptors(measures),
+                       {measures.reference->name, measures.grain.name}));
+    append(distance_lines(measures));
+  } else {
+    append(table_lines(list_descriptors(measures.grain.descriptors)));
+  }
+  return lines;
+}
+
+std::string descriptor_json(const GrainMeasures& measures) {
+  return json_document(report_of(measures));
+}
+
+std::string descriptor_csv(const GrainMeasures& measures) { return csv_of(report_of(measures)); }
+
+}  // namespace wscvt

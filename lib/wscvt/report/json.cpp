@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report/json.h"
+
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+struct Columns {
+  std::vector<std::string> names;
+  std::vector<std::string> fields;
+
+  void add(const std::string& name, std::string field) {
+    names.push_back(name);
+    fields.push_back(std::move(field));
+  }
+};
+
+bool holds_sentences(const Json& list, const std::string& name) {
+  // An empty list has no type to tell by, and a column must not come and go with what it holds.
+  if (list.empty()) return name == "warnings" || name == "remarks";
+  return list.front().is_string();
+}
+
+std::string joined(const Json& sentences) {
+  std::string text;
+  for (const Json& sentence : sentences) {
+    text += (text.empty() ? "" : " ") + sentence.get<std::string>();
+  }
+  return text;
+}
+
+std::string field_of(const Json& value) {
+  if (value.is_null()) return "";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return format_exact(value.get<double>());
+  return value.dump();  // whole numbers, true and false
+}
+
+void flatten(const Json& value, const std::string& path, Columns& columns) {
+  if (value.is_object()) {
+    for (const auto& [name, member] : value.items()) {
+      flatten(member, path.empty() ? name : path + "." + name, columns);
+    }
+  } else if (!value.is_array()) {
+    columns.add(path, field_of(value));
+  } else if (holds_sentences(value, path)) {
+    columns.add(path, joined(value));
+  }
+}
+
+}  // namespace
+
+Json json_of(const Vector3& vector) {
+  return {{"x", vector.x()}, {"y", vector.y()}, {"z", vector.z()}};
+}
+
+Json json_of(const Statistics& statistics) {
+  return {{"mean", statistics.mean},
+          {"standard_deviation", statistics.standard_deviation},
+          {"minimum", statistics.minimum},
+          {"maximum", statistics.maximum}};
+}
+
+Json json_of(const MeshQuality& quality) {
+  return {{"edge_length", json_of(quality.edge_length)},
+          {"edge_variation", quality.edge_variation},
+          {"edge_ratio", json_of(quality.edge_ratio)},
+          {"smallest_angle_degrees", quality.smallest_angle},
+          {"mean_smallest_angle_degrees", quality.mean_smallest_angle},
+          {"valence_six_share", quality.valence_six_share}};
+}
+
+Json json_of(const OneSidedDistance& distance) {
+  return {{"maximum", distance.maximum},
+          {"root_mean_square", distance.root_mean_square},
+          {"mean", distance.mean}};
+}
+
+Json json_of(const std::vector<DescriptorValue>& values) {
+  Json table = Json::object();
+  for (const DescriptorValue& row : values) table[row.key] = row.value;
+  return table;
+}
+
+Json json_of(const std::vector<DescriptorComparison>& comparison, const ComparisonNames& names) {
+  Json table = Json::object();
+  for (const DescriptorComparison& row : comparison) {
+    table[row.key] = {{names.reference, row.reference},
+                      {names.value, row.value},
+                      {"error_percent", row.error_percent}};
+  }
+  return table;
+}
+
+std::string json_document(const Json& report) {
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string csv_of(const Json& report) {
+  Columns columns;
+  flatten(report, "", columns);
+  return csv_record(columns.names) + csv_record(columns.fields);
+}
+
+}  // namespace wscvt

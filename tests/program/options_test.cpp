@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every option of the program: it reaches the remesh, refuses what it must, and takes back what a
+// report prints.
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "program_run.h"
+#include "support/test_shapes.h"
+#include "wscvt/report/remesh_options.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An option of a remesh: a value other than the default, and one that is refused with words in the
+/// sentence. What else the value needs to be accepted stands in `with`.
+struct OptionCase {
+  std::string key;
+  Json value;
+  std::string refused;
+  std::string words;
+  std::string with = {};
+};
+
+const std::vector<OptionCase>& option_cases() {
+  static const std::vector<OptionCase> cases = {
+      {"nodes", 61, "3", "from 4 to 1000000"},
+      {"target", 30.0, "-1", "from 0 to 100"},
+      {"target-measure", "area", "4", "inertia"},
+      {"largest", 500, "3", "from 4 to"},
+      {"sampling", "fibonacci", "Fibonacci", "equal-angle"},
+      {"weighting", "constant", "1", "radial-distance"},
+      {"alpha", -0.5, "3.5", "from -3 to 3"},
+      {"curvature-source", "quadrics", "scan", "series or quadrics"},
+      {"adaptive-exponent", 0.25, "1.6", "from 0 to 1.5"},
+      {"degree", 4, "61", "from 1 to 60"},
+      {"fold-limit", 1.5, "100", "from 0 to 99"},
+      {"metric", "surface", "plane", "sphere or surface"},
+      {"placement", "scan", "fitted", "series, scan or least-squares"},
+      {"refine", 1, "1001", "from 0 to 1000", "--placement=least-squares"},
+      {"refine-angle", 20.0, "41", "from 0 to 40"},
+      {"refine-tolerance", 0.01, "1", "from 0 to below 1"},
+      {"seed-start", "random", "2", "warped-lattice"},
+      {"seed", 18446744073709551615U, "-1", "0 or more"},
+      {"iterations", 3, "-1", "from 0 to 100000"},
+      {"tolerance", 0.01, "0", "above 0"},
+      {"area-tolerance", 0.5, "nan", "above 0"},
+      {"acceleration", false, "perhaps", "acceleration"},
+      {"over-relaxation", 1.1, "2", "above 0 and below 2"},
+      {"coarsest-seeds", 30, "3", "4 or more"},
+      {"coarsest-tolerance", 0.001, "0", "above 0"},
+      {"middle-tolerance", 0.002, "-1", "above 0"},
+      {"distances", true, "perhaps", "distances"},
+      {"distance-samples", 500, "0", "from 1 to 100000000"},
+      {"dropped-volume", 0.5, "1", "above 0 and below 1"},
+  };
+  return cases;
+}
+
+class ProgramOptions : public test::ProgramRun {
+ protected:
+  void SetUp() override {
+    ProgramRun::SetUp();
+    write_mesh(test::transformed(test::sphere(3), Vector3(1.0, 0.8, 0.7).asDiagonal()),
+               path("scan.ply"));
+  }
+
+  static std::string typed(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  Json report_of(const std::string& arguments) const {
+    const Outcome outcome =
+        run("scan.ply remesh.ply -q -n 60 -d 6 --json report.json " + arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return outcome.exit_code == 0 ? Json::parse(content("report.json")) : Json();
+  }
+};
+
+TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
+  std::set<std::string> tested = {"help",         "version", "threads",        "json",
+                                  "coefficients", "quiet",   "no-acceleration"};
+  for (const OptionCase& one : option_cases()) tested.insert(one.key);
+  const Outcome help = run("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  std::set<std::string> in_help;
+  std::istringstream lines(help.output);
+  const std::regex name("--([a-z-]+)");
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("  -", 0) != 0) continue;
+    const std::string names = line.substr(0, line.find(' ', 2));
+    for (std::sregex_iterator found(names.begin(), names.end(), name), end; found != end; ++found) {
+      in_help.insert((*found)[1]);
+    }
+  }
+  EXPECT_EQ(in_help, tested);
+}
+
+TEST_F(ProgramOptions, ReachTheRemeshUnderTheirNames) {
+  const Json defaults = report_of("").at("options");
+  ASSERT_EQ(defaults.size(), option_cases().size());
+  for (const OptionCase& one : option_cases()) {
+    SCOPED_TRACE(one.key);
+    ASSERT_NE(defaults.at(one.key), one.value) << "is the default already";
+    const Json report = report_of(one.with + " --" + one.key + "=" + typed(one.value));
+    // Numbers of nodes and degrees were given before: the later one counts.
+    ASSERT_TRUE(report.contains("options"));
+    const Json& options = report.at("options");
+    EXPECT_EQ(options.at(one.key), one.value);
+    for (const auto& [key, value] : defaults.items()) {
+      if (key == one.key || one.with.find(key) != std::string::npos) continue;
+      // A search for an error target ends with a number of nodes of its own, and needs distances.
+      if (one.key == "target" && (key == "nodes" || key == "distances")) continue;
+      EXPECT_EQ(options.at(key), value) << key;
+    }
+  }
+}
+
+TEST_F(ProgramOptions, RefuseWhatIsNotTheirsWithTheChoicesAndBeginNothing) {
+  for (const OptionCase& one : option_cases()) {
+    SCOPED_TRACE(one.key);
+    const Outcome outcome = run("scan.ply remesh.ply --" + one.key + "=" + one.refused);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find(one.words), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_FALSE(exists("remesh.ply"));
+  }
+}
+
+TEST_F(ProgramOptions, TakeBackWhatAReportPrints) {
+  std::string unusual;
+  for (const OptionCase& one : option_cases()) {
+    // Those of a search, and of a placement that goes with no refinement.
+    if (one.key == "target" || one.key == "placement" || one.key == "sampling") continue;
+    unusual += " " + one.with + " --" + one.key + "=" + typed(one.value);
+  }
+  const Json first = report_of(unusual);
+  const std::string mesh = content("remesh.ply");
+  const std::string text = content("report.json");
+  ASSERT_FALSE(mesh.empty());
+  std::string arguments;
+  for (const auto& [key, value] : first.at("options").items()) {
+    arguments += " --" + key + "=" + typed(value);
+  }
+  const Outcome again = run("scan.ply again.ply -q --json again.json" + arguments);
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(content("again.ply"), mesh);
+  EXPECT_EQ(content("again.json"), text);
+}
+
+TEST_F(ProgramOptions, HelpHasNoNumbersOfEnumerators) {
+  const std::string help = run("--help").output;
+  EXPECT_EQ(help.find("->"), std::string::npos);
+  const auto names_all = [&](const auto& rows) {
+    for (const auto& row : rows) {
+      EXPECT_NE(help.find("\n                              " + std::string(row.key) + ": "),
+                std::string::npos)
+          << row.key;
+    }
+  };
+  names_all(enumerators<Weighting>());
+  names_all(enumerators<NodePlacement>());
+  names_all(enumerators<SeedStart>());
+}
+
+TEST_F(ProgramOptions, LettersStandForNames) {
+  const Json report = report_of("-n 62 -w area -m surface -p least-squares -r 1 -d 5 -a 0.5 -i 7");
+  const Json& options = report.at("options");
+  EXPECT_EQ(options.at("nodes"), 62);
+  EXPECT_EQ(options.at("weighting"), "area");
+  EXPECT_EQ(options.at("metric"), "surface");
+  EXPECT_EQ(options.at("placement"), "least-squares");
+  EXPECT_EQ(options.at("refine"), 1);
+  EXPECT_EQ(options.at("degree"), 5);
+  EXPECT_EQ(options.at("alpha"), 0.5);
+  EXPECT_EQ(options.at("iterations"), 7);
+  EXPECT_EQ(report_of("-s icosahedron").at("options").at("sampling"), "icosahedron");
+  EXPECT_EQ(report_of("--no-acceleration").at("options").at("acceleration"), false);
+}
+
+TEST_F(ProgramOptions, QuietThreadsAndCoefficientsDoAsTheySay) {
+  const Outcome loud = run("scan.ply loud.ply -n 60 -t 1");
+  EXPECT_EQ(loud.exit_code, 0) << loud.errors;
+  EXPECT_NE(loud.output.find("60 nodes"), std::string::npos);
+  const Outcome quiet = run("scan.ply quiet.ply -n 60 --quiet --threads=2 --coefficients=c.json");
+  EXPECT_EQ(quiet.exit_code, 0) << quiet.errors;
+  EXPECT_EQ(quiet.output, "");
+  EXPECT_EQ(content("quiet.ply"), content("loud.ply"));
+  EXPECT_EQ(Json::parse(content("c.json")).at("coefficients").size(), 21U * 21U);
+  EXPECT_EQ(run("scan.ply bad.ply -t many").exit_code, 2);
+  EXPECT_EQ(run("scan.ply bad.ply -t -1").exit_code, 2);
+  EXPECT_FALSE(exists("bad.ply"));
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report/descriptor_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/flat_json.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+namespace {
+
+GrainMeasures one() {
+  return measure_grain({"ball, \"one\"", test::sphere(3)}, std::nullopt, DetailedOptions(),
+                       Execution(1));
+}
+
+GrainMeasures two() {
+  return measure_grain(
+      {"ball", test::sphere(3)},
+      NamedMesh{"larger", test::transformed(test::sphere(3), 1.1 * Eigen::Matrix3d::Identity())},
+      DetailedOptions(), Execution(1));
+}
+
+TEST(DescriptorReport, JsonHoldsTheNumbersToTheLastBit) {
+  const GrainMeasures alone = one();
+  const auto report = nlohmann::json::parse(descriptor_json(alone));
+  EXPECT_EQ(report.at("grain"), "ball, \"one\"");
+  EXPECT_EQ(report.at("descriptors").at("volume").get<double>(),
+            alone.grain.descriptors.basic.volume);
+  EXPECT_TRUE(report.at("remarks").empty());
+  // Every key is explained once.
+  ASSERT_EQ(report.at("descriptor_names").size(), report.at("descriptors").size());
+  for (const auto& name : report.at("descriptor_names")) {
+    EXPECT_TRUE(report.at("descriptors").contains(name.at("key"))) << name;
+  }
+
+  const GrainMeasures pair = two();
+  const auto compared = nlohmann::json::parse(descriptor_json(pair));
+  EXPECT_EQ(compared.at("reference"), "larger");
+  const auto& volume = compared.at("descriptors").at("volume");
+  EXPECT_EQ(volume.at("value").get<double>(), pair.grain.descriptors.basic.volume);
+  EXPECT_EQ(volume.at("reference").get<double>(), pair.reference->descriptors.basic.volume);
+  EXPECT_NEAR(volume.at("error_percent").get<double>(), 100.0 * (std::pow(1.1, -3) - 1.0), 1e-9);
+  EXPECT_EQ(compared.at("distances").at("hausdorff_distance").get<double>(),
+            pair.distances->hausdorff);
+}
+
+TEST(DescriptorReport, CsvIsTheJsonWithoutItsLists) {
+  for (const GrainMeasures& measures : {one(), two()}) {
+    test::expect_csv_is_flat_json(descriptor_csv(measures), descriptor_json(measures));
+  }
+}
+
+TEST(DescriptorReport, TextHasARowForEveryDescriptorAndDistance) {
+  const GrainMeasures pair = two();
+  std::string text;
+  for (const std::string& line : descriptor_lines(pair)) text += line + "\n";
+  for (const DescriptorValue& row : list_descriptors(pair.grain.descriptors)) {
+    EXPECT_NE(text.find("  " + row.label + " "), std::string::npos) << row.label;
+  }
+  for (const DistanceRow& row : list_distances(pair)) {
+    EXPECT_NE(text.find("  " + row.label + " "), std::string::npos) << row.label;
+  }
+  EXPECT_TRUE(distance_lines(one()).empty());
+}
+
+}  // namespace
+}  // namespace wscvt

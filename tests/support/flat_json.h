@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace wscvt::test {
+
+/// The records of a text after RFC 4180.
+inline std::vector<std::vector<std::string>> csv_records(const std::string& text) {
+  std::vector<std::vector<std::string>> records;
+  std::vector<std::string> record(1);
+  bool quoted = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (quoted) {
+      if (c != '"') {
+        record.back() += c;
+      } else if (k + 1 < text.size() && text[k + 1] == '"') {
+        record.back() += text[++k];
+      } else {
+        quoted = false;
+      }
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',') {
+      record.emplace_back();
+    } else if (c == '\r' && k + 1 < text.size() && text[k + 1] == '\n') {
+      ++k;
+      records.push_back(std::move(record));
+      record.assign(1, "");
+    } else {
+      record.back() += c;
+    }
+  }
+  EXPECT_EQ(record, std::vector<std::string>(1)) << "the text does not end with a record";
+  return records;
+}
+
+/// Every member that is not in a list by its path; of lists, those of sentences.
+inline void flatten(const nlohmann::ordered_json& value, const std::string& path,
+                    std::map<std::string, nlohmann::ordered_json>& members) {
+  if (value.is_object()) {
+    for (const auto& [name, member] : value.items()) {
+      flatten(member, path.empty() ? name : path + "." + name, members);
+    }
+  } else if (!value.is_array() || path == "warnings" || path == "remarks") {
+    members[path] = value;
+  }
+}
+
+/// Checks that a report's CSV holds what its JSON holds, but for the lists: the same columns and,
+/// to the last bit, the same values.
+inline void expect_csv_is_flat_json(const std::string& csv, const std::string& json) {
+  const auto records = csv_records(csv);
+  ASSERT_EQ(records.size(), 2U);
+  ASSERT_EQ(records[0].size(), records[1].size());
+  std::map<std::string, nlohmann::ordered_json> members;
+  flatten(nlohmann::ordered_json::parse(json), "", members);
+  EXPECT_EQ(records[0].size(), members.size());
+  for (std::size_t k = 0; k < records[0].size(); ++k) {
+    const std::string& field = records[1][k];
+    SCOPED_TRACE(records[0][k] + " is " + field);
+    ASSERT_EQ(members.count(records[0][k]), 1U);
+    const nlohmann::ordered_json& value = members[records[0][k]];
+    if (value.is_null()) {
+      EXPECT_EQ(field, "");
+    } else if (value.is_string()) {
+      EXPECT_EQ(field, value.get<std::string>());
+    } else if (value.is_boolean()) {
+      EXPECT_EQ(field, value.get<bool>() ? "true" : "false");
+    } else if (value.is_number()) {
+      EXPECT_EQ(std::strtod(field.c_str(), nullptr), value.get<double>());
+    } else {
+      for (const auto& sentence : value) {
+        EXPECT_NE(field.find(sentence.get<std::string>()), std::string::npos);
+      }
+    }
+  }
+}
+
+}  // namespace wscvt::test
