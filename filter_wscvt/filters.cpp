@@ -162,7 +162,7 @@ FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
   FilterOutcome outcome;
   outcome.log = log_lines(result, stopwatch.seconds());
   add_file_line(outcome.log, "Report in ", settings.report_file);
-  for (const DescriptorValue& row : list_descriptors(result.mesh.descriptors)) {
+  for (const DescriptorValue& row : list_descriptors(result.grain.descriptors)) {
     outcome.values[row.key] = row.value;
   }
   return outcome;

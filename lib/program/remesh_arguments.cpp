@@ -86,6 +86,7 @@ class AddArgument {
                                             }
                                           })
         ->type_name(type)
+        ->take_last()  // so that one can be added behind those of a report
         ->group(group_of(key));
   }
 

@@ -114,7 +114,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
       const double tolerance = level == 0 ? levels.coarsest_tolerance : levels.middle_tolerance;
       result.displacement_tolerance = std::min(options.displacement_tolerance, tolerance);
       // Few seeds on a rough grain never spread as little as the last level's may.
-      result.area_tolerance = std::numeric_limits<double>::infinity();
+      result.area_tolerance = std::numeric_limits<double>::max();
     }
     return result;
   };
