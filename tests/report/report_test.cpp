@@ -137,6 +137,19 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   }
 }
 
+TEST(Report, SaysHowTheRelaxationEnded) {
+  RemeshResult result = example();
+  const std::map<RelaxationOutcome, std::string> texts = {
+      {RelaxationOutcome::Converged, " converged after 2 iterations"},
+      {RelaxationOutcome::Settled, " settled after 2 iterations"},
+      {RelaxationOutcome::Stuck, " stuck after 2 iterations"},
+      {RelaxationOutcome::IterationLimit, " not converged: stopped at the limit of 2 iterations"}};
+  for (const auto& [outcome, text] : texts) {
+    result.relaxation.outcome = outcome;
+    EXPECT_TRUE(contains(text_of(result), text)) << text_of(result);
+  }
+}
+
 TEST(Report, TextNamesSeedAndExponentsOnlyWhereTheyMatter) {
   RemeshResult result = example();
   EXPECT_FALSE(contains(text_of(result), "alpha"));
