@@ -243,7 +243,7 @@ void measure_to_scan(benchmark::State& state) {
 
 void whole(benchmark::State& state) {
   RemeshOptions options;
-  options.kind = Weighting::Area;
+  options.weighting.kind = Weighting::Area;
   options.node_count = static_cast<int>(state.range(1));
   const Execution execution(static_cast<int>(state.range(2)));
   const IndexedMesh& scan = scan_of(state.range(0));

@@ -97,7 +97,7 @@ TEST(GrainMeasures, TellOfPartsLeftOutAndCentroidsOutside) {
 
 TEST(GrainMeasures, RefuseAnOpenMeshByItsName) {
   IndexedMesh open = test::sphere(2);
-  open.triangles.pop_back();
+  open.triangles.resize(open.triangles.size() / 2);  // more than is mended
   try {
     measure_grain({"whole", test::sphere(2)}, NamedMesh{"torn", open}, DetailedOptions(),
                   Execution(1));

@@ -57,6 +57,8 @@ const std::vector<OptionCase>& option_cases() {
       {"middle-tolerance", 0.002, "-1", "above 0"},
       {"distances", true, "perhaps", "distances"},
       {"distance-samples", 500, "0", "from 1 to 100000000"},
+      {"weld-tolerance", 1e-9, "0.02", "from 0 to 0.01"},
+      {"mend-limit", 12.5, "101", "from 0 to 100"},
       {"dropped-volume", 0.5, "1", "above 0 and below 1"},
   };
   return cases;

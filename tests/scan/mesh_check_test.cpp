@@ -652,7 +652,7 @@ TEST(MeshCheck, RefusesALimitOutOfRange) {
   for (const double limit : {0.0, 1.0, -0.5, std::nan("")}) {
     MeshCheckOptions options;
     options.dropped_volume_limit = limit;
-    expect_mentions(refusal(box(1, 1, 1), options), {"volume to drop", "above 0 to below 1"});
+    expect_mentions(refusal(box(1, 1, 1), options), {"volume to drop", "above 0 and below 1"});
   }
 }
 

@@ -37,19 +37,6 @@ std::string file_name(const std::string& figure, const std::string& name, std::s
   return figure + "_" + name + "_" + std::to_string(nodes) + ".dat";
 }
 
-std::vector<double> largest_curvatures(const RadialSurface& surface,
-                                       const std::vector<Vector3>& directions,
-                                       const Execution& execution) {
-  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::Second, execution);
-  std::vector<double> result;
-  result.reserve(jets.size());
-  for (std::size_t i = 0; i < jets.size(); ++i) {
-    const PrincipalCurvatures k = principal_curvatures(jets[i], directions[i]);
-    result.push_back(std::max(std::abs(k.maximum), std::abs(k.minimum)));
-  }
-  return result;
-}
-
 std::vector<std::string> quality_row(const std::string& name, std::size_t nodes,
                                      const MeshQuality& quality) {
   return {name,
