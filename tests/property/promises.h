@@ -116,7 +116,8 @@ inline std::string broken_check(const IndexedMesh& input, const MeshCheckOptions
             report.input_faces) {
       return "the counts in the report of the check";
     }
-    if (report.flap_area_share + report.filled_area_share > options.mended_area_limit) {
+    if (report.flap_area_share + report.filled_area_share >
+        0.01 * options.mended_area_limit_percent) {
       return "more mended than the limit";
     }
     const CheckedMesh two = check_mesh(input, options, Execution(2));
@@ -142,7 +143,7 @@ inline RemeshOptions random_options(Choices& choices) {
   o.weighting.adaptive_exponent = choices.one_in(2) ? 2.0 / 3.0 : choices.real(0.0, 1.5);
   o.weighting.curvature_source = static_cast<CurvatureSource>(choices.whole(0, 1));
   o.surface.degree = choices.whole(1, 30);
-  o.surface.fold_limit = choices.one_in(2) ? 0.05 : choices.real(0.0, 0.99);
+  o.surface.fold_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 99.0);
   o.placement.kind = static_cast<NodePlacement>(choices.whole(0, 2));
   if (o.placement.kind == NodePlacement::LeastSquares && choices.one_in(2)) {
     o.placement.refinement.rounds = choices.whole(1, 12);
@@ -157,7 +158,7 @@ inline RemeshOptions random_options(Choices& choices) {
   o.measures.distances = choices.one_in(4);
   o.measures.distance_sampling.samples = static_cast<std::size_t>(choices.whole(1, 3000));
   o.measures.node_curvatures = choices.one_in(2);
-  o.check.mended_area_limit = choices.one_in(2) ? 0.05 : choices.real(0.0, 1.0);
+  o.check.mended_area_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 100.0);
   o.check.weld_tolerance = choices.one_in(4) ? std::pow(10.0, choices.real(-16.0, -2.0)) : 1e-12;
   o.check.dropped_volume_limit = choices.one_in(2) ? 0.25 : choices.real(0.01, 0.99);
   if (choices.one_in(16) && o.seeding.sampling != Sampling::EqualAngle &&

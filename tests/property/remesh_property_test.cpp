@@ -58,7 +58,7 @@ TEST_P(Promises, AreKeptByTheCheckOfDamagedBodiesAndSoups) {
   for_each_seed(5000, [&](std::uint64_t seed) {
     test::Choices choices(seed + 1000000007U);
     MeshCheckOptions options;
-    options.mended_area_limit = choices.one_in(2) ? 1.0 : choices.real(0.0, 1.0);
+    options.mended_area_limit_percent = choices.one_in(2) ? 100.0 : choices.real(0.0, 100.0);
     options.weld_tolerance = choices.one_in(2) ? 1e-12 : choices.real(0.0, 0.01);
     options.dropped_volume_limit = 0.99;
     test::RandomBody body;
