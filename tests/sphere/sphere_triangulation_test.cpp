@@ -152,6 +152,27 @@ TEST(SphereTriangulation, SurfaceFlipsMakeOppositeAnglesSumToAtMostPi) {
   }
 }
 
+TEST(SphereTriangulation, SurfaceFlipsLeaveNoTriangleFlat) {
+  // Great circles run through rows of seeds of a subdivided icosahedron; on long bodies the flips
+  // used to make triangles of three seeds in one row, whose determinant was that of rounding.
+  for (const int frequency : {2, 4, 8}) {
+    const std::vector<Vector3> seeds = subdivided_icosahedron(frequency);
+    for (const Vector3& axes : {Vector3(0.3, 2.3, 0.5), Vector3(5, 1, 1), Vector3(1, 1, 0.1),
+                                Vector3(1, 12, 0.4), Vector3(0.1, 0.5, 8)}) {
+      SCOPED_TRACE(axes.transpose());
+      std::vector<Vector3> positions;
+      for (const Vector3& u : seeds) positions.push_back(u / u.cwiseQuotient(axes).norm());
+      SphereTriangulation triangulation(seeds);
+      triangulation.restore_surface_delaunay(seeds, positions, Execution(1));
+      expect_closed_sphere(triangulation, seeds);
+      for (const Triangle& t : triangulation.triangles()) {
+        // Height over longest side above 1e-6, times a longest side of at least 0.1, squared.
+        EXPECT_GT(seeds[t[0]].dot(seeds[t[1]].cross(seeds[t[2]])), 1e-8);
+      }
+    }
+  }
+}
+
 TEST(SphereTriangulation, ReportsTrianglesTurnedOver) {
   std::vector<Vector3> seeds = fibonacci_lattice(100);
   SphereTriangulation triangulation(seeds);

@@ -40,6 +40,13 @@ bool can_be_lifted(const std::vector<double>& weights) {
                      [](double weight) { return std::abs(weight) <= weight_limit; });
 }
 
+/// Whether the triangle's height, seen from the centre, is below a millionth of its longest side.
+bool is_nearly_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return !(a.dot(b.cross(c)) > 1e-6 * longest);
+}
+
 std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
   std::vector<Vector3> lifted(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) lifted[i] = seeds[i] * std::exp(0.5 * weights[i]);
@@ -382,7 +389,15 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         const double sine_d = (a - d).cross(b - d).norm();
         const double left = sine_c * cosine_d;
         const double right = cosine_c * sine_d;
-        return left + right < -1e-12 * (std::abs(left) + std::abs(right));
+        if (!(left + right < -1e-12 * (std::abs(left) + std::abs(right)))) return false;
+        // Three seeds of a lattice often lie on one great circle but for rounding, and the exact
+        // predicate then allows a triangle between them that the rounding of its corners' places
+        // makes flat.
+        const std::int32_t ends[] = {origin(h), origin(other)};
+        const Vector3& apex_c = seeds[origin(previous(h))];
+        const Vector3& apex_d = seeds[origin(previous(other))];
+        return !is_nearly_flat(apex_c, seeds[ends[0]], apex_d) &&
+               !is_nearly_flat(apex_d, seeds[ends[1]], apex_c);
       },
       execution);
 }
