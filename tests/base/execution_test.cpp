@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "wscvt/base/error.h"
 
@@ -64,6 +68,63 @@ TEST(Execution, ProgressIsScaledToThePartAndCancels) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::Cancelled);
   }
+}
+
+TEST(Execution, LoopsRepeatTheLastReportOnTheCallersThread) {
+  for (const int threads : {1, 2, 3}) {
+    SCOPED_TRACE(threads);
+    const std::thread::id caller = std::this_thread::get_id();
+    int calls = 0;
+    const Execution execution(threads, [&](double fraction, const std::string& stage) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      EXPECT_EQ(fraction, 0.25);
+      EXPECT_EQ(stage, "stage");
+      ++calls;
+      return true;
+    });
+    execution.report(0.25, "stage");
+    std::atomic<int> on_caller{0};
+    execution.part(0.5, 1.0).parallel_for(200, 2, [&](std::size_t, std::size_t) {
+      if (std::this_thread::get_id() == caller) ++on_caller;
+      // One loop in another's body must not call from a worker.
+      execution.parallel_for(4, 2, [](std::size_t, std::size_t) {});
+    });
+    // Once a block of the caller's own, of the outer loop and of the inner ones.
+    EXPECT_GE(calls, 1 + on_caller);
+    if (threads == 1) {
+      EXPECT_EQ(calls, 1 + 100 + 200);
+    }
+  }
+}
+
+TEST(Execution, ALoopIsCancelledBetweenItsBlocks) {
+  for (const int threads : {1, 2, 3}) {
+    int calls = 0;
+    std::atomic<int> blocks{0};
+    const Execution execution(threads, [&](double, const std::string&) { return ++calls < 3; });
+    EXPECT_THROW(execution.parallel_for(1000000, 1,
+                                        [&](std::size_t, std::size_t) {
+                                          ++blocks;
+                                          std::this_thread::yield();
+                                        }),
+                 Error);
+    EXPECT_EQ(calls, 3);
+    EXPECT_LT(blocks, 1000000);
+  }
+}
+
+TEST(Execution, ProgressNeverGoesBackWithinARun) {
+  std::vector<double> fractions;
+  const Execution whole(1, [&](double fraction, const std::string&) {
+    fractions.push_back(fraction);
+    return true;
+  });
+  whole.report(0.0, "first run");
+  whole.part(0.2, 0.6).report(1.0, "stage");
+  whole.part(0.2, 0.6).report(0.5, "a stage that runs again");
+  whole.report(1.0, "done");
+  whole.report(0.0, "second run");
+  EXPECT_EQ(fractions, (std::vector<double>{0.0, 0.6, 0.6, 1.0, 0.0}));
 }
 
 TEST(Execution, MoreThreadsThanTheMachineHasAreNoReasonToWrite) {

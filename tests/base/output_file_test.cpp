@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "wscvt/base/error.h"
 
@@ -103,8 +107,97 @@ TEST_F(OutputFile, WritesThroughALink) {
   EXPECT_EQ(read(path("report.txt")), "after");
 }
 
+TEST_F(OutputFile, WritesThroughALinkToAFileThatIsNotThereYet) {
+  fs::create_directory(path("folder"));
+  fs::create_symlink("folder/new.txt", path("first.txt"));
+  fs::create_symlink(path("first.txt"), path("second.txt"));
+  write_file(path("second.txt"), "after");
+  EXPECT_TRUE(fs::is_symlink(path("first.txt")));
+  EXPECT_TRUE(fs::is_symlink(path("second.txt")));
+  EXPECT_EQ(read(path("folder/new.txt")), "after");
+  fs::create_symlink(path("circle.txt"), path("circle.txt"));
+  EXPECT_THROW(write_file(path("circle.txt"), "after"), Error);
+  EXPECT_TRUE(fs::is_symlink(path("circle.txt")));
+}
+
+TEST_F(OutputFile, KeepsModeAndHardLinks) {
+  fs::permissions(path("report.txt"), fs::perms::owner_all);
+  write_file(path("report.txt"), "private");
+  EXPECT_EQ(fs::status(path("report.txt")).permissions(), fs::perms::owner_all);
+  fs::create_hard_link(path("report.txt"), path("other.txt"));
+  write_file(path("report.txt"), "after");
+  EXPECT_EQ(read(path("other.txt")), "after");
+  EXPECT_EQ(fs::hard_link_count(path("report.txt")), 2U);
+  EXPECT_FALSE(fs::exists(path("report.txt.part")));
+  write_file(path("other.txt"), "");
+  EXPECT_EQ(read(path("report.txt")), "");
+}
+
+TEST_F(OutputFile, KeepsTheOwner) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root gives files away";
+  ASSERT_EQ(chown(path("report.txt").c_str(), 12345, 23456), 0);
+  write_file(path("report.txt"), "after");
+  struct stat there {};
+  ASSERT_EQ(stat(path("report.txt").c_str(), &there), 0);
+  EXPECT_EQ(there.st_uid, 12345U);
+  EXPECT_EQ(there.st_gid, 23456U);
+  EXPECT_EQ(read(path("report.txt")), "after");
+}
+
+TEST_F(OutputFile, WritesIntoPipesAndDevicesWithoutReplacingThem) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  std::string received;
+  std::thread reader([&] { received = read(path("pipe")); });
+  write_file(path("pipe"), "through");
+  reader.join();
+  EXPECT_EQ(received, "through");
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+
+  fs::create_symlink("/dev/null", path("null"));
+  write_file(path("null"), "nothing");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_TRUE(fs::is_symlink(path("null")));
+  fs::create_symlink("/dev/full", path("full"));
+  EXPECT_THROW(write_file(path("full"), "nothing"), Error);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(OutputFile, WritesToTheStandardOutputWhereItStands) {
+  // The shell's file is open; a new file in its place would take what comes later away from it.
+  const int before = dup(1);
+  const int file = open(path("report.txt").c_str(), O_WRONLY | O_TRUNC);
+  ASSERT_EQ(write(file, "first ", 6), 6);
+  dup2(file, 1);
+  write_file("/dev/stdout", "second ");
+  check_writable("/dev/stdout");
+  const auto last = write(1, "third", 5);
+  dup2(before, 1);
+  close(before);
+  close(file);
+  EXPECT_EQ(last, 5);
+  expect_only("first second third");
+}
+
+TEST_F(OutputFile, TellsBeforehandWhatCannotBeWritten) {
+  check_writable(path("report.txt"));
+  check_writable(path("new.txt"));
+  check_writable("/dev/null");
+  expect_only("before");
+  EXPECT_THROW(check_writable(path("no folder/report.txt")), Error);
+  EXPECT_THROW(check_writable(fs::path(path("report.txt")).parent_path().string()), Error);
+  EXPECT_THROW(check_writable(path("report.txt/inside.txt")), Error);
+  expect_only("before");
+}
+
 TEST_F(OutputFile, KnowsOneFileByItsNames) {
   fs::create_symlink(path("report.txt"), path("link.txt"));
+  fs::create_hard_link(path("report.txt"), path("hard.txt"));
+  fs::create_symlink("not there", path("dangling"));
+  EXPECT_TRUE(same_file(path("report.txt"), path("hard.txt")));
+  EXPECT_TRUE(same_file(path("link.txt"), path("hard.txt")));
+  EXPECT_TRUE(same_file(path("dangling"), path("not there")));
+  EXPECT_FALSE(same_file("/dev/null", "/dev/null"));
+  EXPECT_FALSE(same_file("/dev/stdout", "/dev/stdout"));
   EXPECT_TRUE(same_file(path("report.txt"), path("./report.txt")));
   EXPECT_TRUE(same_file(path("report.txt"), path("link.txt")));
   EXPECT_TRUE(same_file(path("not there"), path("./not there")));

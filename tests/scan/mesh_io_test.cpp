@@ -99,6 +99,24 @@ TEST_F(MeshIo, WritesStlInSinglePrecision) {
   }
 }
 
+TEST_F(MeshIo, RefusesStlThatWouldMergeVertices) {
+  const auto at = [](double x) {
+    return test::transformed(test::lumpy(5), Eigen::Matrix3d::Identity(), Vector3(x, x, x));
+  };
+  write_mesh(at(10.0), path("a.stl"));
+  try {
+    write_mesh(at(1e8), path("a.stl"));
+    FAIL() << "vertices were merged in silence";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InputOutput);
+    EXPECT_NE(std::string(error.what()).find("write PLY"), std::string::npos) << error.what();
+  }
+  // The file there stays, and the advice works.
+  EXPECT_EQ(read_mesh(path("a.stl")).triangles.size(), at(0.0).triangles.size());
+  write_mesh(at(1e8), path("a.ply"));
+  EXPECT_EQ(read_mesh(path("a.ply")).points, at(1e8).points);
+}
+
 TEST_F(MeshIo, ReadsBinaryPlyWithOtherProperties) {
   // Float and double, other properties around, polygons, both names of the list.
   for (const bool doubles : {false, true}) {

@@ -225,6 +225,11 @@ TEST(PlyReader, NamesTheLineOrTheElement) {
        "(face 0) names vertex -1");
   says(binary + std::string(36, '\0') + std::string("\3\0\0\0\0\1\0\0\0\2", 10),
        "ends within face 0");
+  // Names are shown without what would cut the sentence or move the cursor.
+  says(std::string("ply\nformat ascii 1.0\nelement a\0b\x1b 5\nproperty int a\nelement vertex 0\n"
+                   "property int x\nproperty int y\nproperty int z\nend_header\n",
+                   124),
+       "\"a?b?\"");
   // The advice of them all is a file that the header fits.
   EXPECT_EQ(read(text + points + "3 0 1 2\n").triangles.size(), 1U);
 }

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
@@ -50,6 +53,23 @@ TEST(PointCloud, RefusesWhatIsNoBody) {
   std::vector<Vector3> bad = ellipsoid_points(50, Vector3::Zero());
   bad[7].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(mesh_of_points(bad), Error);
+  // Whose volume leaves the range of a double: they ended the program.
+  for (const double size : {1e-300, 1e-130, 1e80, 1e300}) {
+    std::vector<Vector3> points = ellipsoid_points(50, Vector3::Zero());
+    for (Vector3& p : points) p *= size;
+    EXPECT_THROW(mesh_of_points(points), Error) << size;
+  }
+}
+
+TEST(PointCloud, ReportsAndCanBeCancelled) {
+  std::vector<double> fractions;
+  mesh_of_points(ellipsoid_points(30000, Vector3::Zero()),
+                 Execution(1, [&](double fraction, const std::string&) {
+                   fractions.push_back(fraction);
+                   return true;
+                 }));
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.size(), 8U);  // every 8,192 of the points, in two rounds
 }
 
 }  // namespace

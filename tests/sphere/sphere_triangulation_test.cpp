@@ -12,6 +12,7 @@
 
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_delaunay.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
@@ -194,6 +195,25 @@ TEST(SphereTriangulation, RefusesWhatHasNoTriangulation) {
   weights[20] = -2.0;  // far below its neighbours' power: hidden
   EXPECT_THROW(SphereTriangulation(fibonacci_lattice(40), weights), Error);
   EXPECT_THROW(SphereTriangulation(fibonacci_lattice(40), std::vector<double>(39, 0.0)), Error);
+}
+
+TEST(SphereTriangulation, RefusesSeedsThatAreNotNumbers) {
+  // They ended the program in the numbers behind the exact predicates.
+  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    std::vector<Vector3> seeds = fibonacci_lattice(50);
+    const std::vector<Triangle> triangles = SphereTriangulation(seeds).triangles();
+    seeds[7].y() = wrong;
+    EXPECT_THROW(SphereTriangulation{seeds}, Error);
+    EXPECT_THROW(SphereTriangulation(seeds, triangles), Error);
+  }
+}
+
+TEST(SphereTriangulation, ReportsAndCanBeCancelled) {
+  const std::vector<Vector3> seeds = fibonacci_lattice(50000);
+  int calls = 0;
+  const Execution counting(1, [&](double, const std::string&) { return ++calls < 4; });
+  EXPECT_THROW(sphere_delaunay(seeds, counting), Error);
+  EXPECT_EQ(calls, 4);
 }
 
 TEST(SphereTriangulation, RefusesWeightsThatCannotBeLifted) {

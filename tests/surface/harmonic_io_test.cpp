@@ -119,6 +119,12 @@ TEST_F(HarmonicIo, MalformedJsonIsRefused) {
   EXPECT_NE(refusal(head + R"("degree": -1, "coefficients": []})", true), "");
   EXPECT_NE(refusal(head + R"("degree": 0, "coefficients": ["a"]})", true), "");
   EXPECT_NE(refusal(head + R"("degree": 0, "coefficients": [-1]})", true), "");
+  for (const std::string degree : {"0.7", "1e30", "true", "\"0\"", "null", "99999999999"}) {
+    EXPECT_NE(refusal(head + "\"degree\": " + degree + ", \"coefficients\": [1]}", true), "");
+  }
+  for (const std::string list : {"[true]", "1", "{\"a\": 1}", "[[1]]", "[null]"}) {
+    EXPECT_NE(refusal(head + "\"degree\": 0, \"coefficients\": " + list + "}", true), "");
+  }
   EXPECT_NE(refusal("[]", true), "");
   EXPECT_NE(refusal("", true), "");
 }

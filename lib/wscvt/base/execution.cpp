@@ -1,41 +1,151 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/execution.h"
 
-#include <tbb/blocked_range.h>
+#ifndef WSCVT_PLAIN_THREADS
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#endif
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "wscvt/base/error.h"
 
 namespace wscvt {
 
+namespace {
+
+#ifdef WSCVT_PLAIN_THREADS
+
+// ThreadSanitizer sees the locks of the standard library, but not what TBB does with atomics alone:
+// its build goes without TBB.
+class Workers {
+ public:
+  explicit Workers(int threads) : threads_(threads) {}
+
+  static int machine() {
+    return std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+
+  template <class Run>
+  void for_each(std::size_t count, const Run& run) {
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto work = [&] {
+      try {
+        for (std::size_t i = next++; i < count; i = next++) run(i);
+      } catch (...) {
+        next = count;
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!failure) failure = std::current_exception();
+      }
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads_; ++i) others.emplace_back(work);
+    work();
+    for (std::thread& other : others) other.join();
+    if (failure) std::rethrow_exception(failure);
+  }
+
+ private:
+  int threads_;
+};
+
+#else
+
+class Workers {
+ public:
+  explicit Workers(int threads) : arena_(threads) {}
+
+  static int machine() { return tbb::info::default_concurrency(); }
+
+  template <class Run>
+  void for_each(std::size_t count, const Run& run) {
+    arena_.execute([&] { tbb::parallel_for(std::size_t{0}, count, run); });
+  }
+
+ private:
+  tbb::task_arena arena_;
+};
+
+#endif
+
+}  // namespace
+
+/// What all copies and parts of an execution share: the threads and what was reported last.
 class Execution::Arena {
  public:
-  explicit Arena(int threads) : arena(threads) {}
-  tbb::task_arena arena;
+  explicit Arena(int threads) {
+    if (threads > 1) workers.emplace(threads);
+  }
+
+  std::optional<Workers> workers;  ///< none when the caller works alone
+  /// The thread whose loop runs now. It alone repeats the progress, between its own blocks: the
+  /// callback belongs to the thread that called the library.
+  std::atomic<std::thread::id> caller{};
+  std::mutex mutex;  ///< of the two below
+  double fraction = 0.0;
+  std::string stage;
 };
+
+namespace {
+
+/// Makes this thread the caller for as long as a loop lasts, unless the loop stands in another's
+/// body.
+class CallerOfLoop {
+ public:
+  explicit CallerOfLoop(std::atomic<std::thread::id>& caller) : caller_(caller) {
+    std::thread::id nobody;
+    is_outer_ = caller_.compare_exchange_strong(nobody, std::this_thread::get_id());
+  }
+  CallerOfLoop(const CallerOfLoop&) = delete;
+  CallerOfLoop& operator=(const CallerOfLoop&) = delete;
+  ~CallerOfLoop() {
+    if (is_outer_) caller_ = std::thread::id();
+  }
+
+ private:
+  std::atomic<std::thread::id>& caller_;
+  bool is_outer_ = false;
+};
+
+[[noreturn]] void cancel(const std::string& stage) {
+  throw Error(ErrorCode::Cancelled, "Cancelled during: " + stage + ". Nothing was changed.");
+}
+
+}  // namespace
 
 Execution::Execution(int threads, ProgressCallback progress) : progress_(std::move(progress)) {
   if (threads < 0) {
     throw Error(ErrorCode::InvalidInput, "The number of threads is " + std::to_string(threads) +
                                              "; give 0 for all of the machine's, or 1 and more.");
   }
-  const int machine = tbb::info::default_concurrency();
   // More than the machine has would gain nothing, and TBB writes a warning to stderr.
-  const int workers = threads > 0 ? std::min(threads, machine) : machine;
-  if (workers > 1) arena_ = std::make_shared<Arena>(workers);
+  const int machine = Workers::machine();
+  arena_ = std::make_shared<Arena>(threads > 0 ? std::min(threads, machine) : machine);
 }
 
 void Execution::report(double fraction, const std::string& stage) const {
   if (!progress_) return;
   const double inside = std::clamp(fraction, 0.0, 1.0);
-  if (!progress_(progress_begin_ + inside * (progress_end_ - progress_begin_), stage)) {
-    throw Error(ErrorCode::Cancelled, "Cancelled during: " + stage + ". Nothing was changed.");
+  double whole = progress_begin_ + inside * (progress_end_ - progress_begin_);
+  {
+    // How long a stage takes is an estimate, and stages that run again begin anew: what is shown
+    // never goes back, but for a new beginning.
+    const std::lock_guard<std::mutex> lock(arena_->mutex);
+    if (whole > 0.0) whole = std::max(whole, arena_->fraction);
+    arena_->fraction = whole;
+    arena_->stage = stage;
   }
+  if (!progress_(whole, stage)) cancel(stage);
 }
 
 Execution Execution::part(double begin, double end) const {
@@ -49,14 +159,27 @@ Execution Execution::part(double begin, double end) const {
 void Execution::parallel_for(std::size_t count, std::size_t block,
                              const std::function<void(std::size_t, std::size_t)>& body) const {
   const std::size_t blocks = (count + block - 1) / block;
+  std::optional<CallerOfLoop> caller;
+  if (progress_) caller.emplace(arena_->caller);
   const auto run = [&](std::size_t index) {
     body(index * block, std::min(count, (index + 1) * block));
+    // A loop over a million elements takes seconds: between its blocks the last report is repeated,
+    // so that a window stays alive and a cancel is heard.
+    if (!progress_ || arena_->caller != std::this_thread::get_id()) return;
+    double fraction = 0.0;
+    std::string stage;
+    {
+      const std::lock_guard<std::mutex> lock(arena_->mutex);
+      fraction = arena_->fraction;
+      stage = arena_->stage;
+    }
+    if (!progress_(fraction, stage)) cancel(stage);
   };
-  if (!arena_ || blocks <= 1) {
+  if (!arena_->workers || blocks <= 1) {
     for (std::size_t index = 0; index < blocks; ++index) run(index);
     return;
   }
-  arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, blocks, run); });
+  arena_->workers->for_each(blocks, run);
 }
 
 }  // namespace wscvt

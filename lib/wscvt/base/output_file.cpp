@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/output_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <locale>
+#include <optional>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -15,8 +23,55 @@ namespace wscvt {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
+}
+
+[[noreturn]] void fail_half_written(const std::string& path) {
+  fail(path,
+       "could not be written whole and was left as it was; check the space on the disk and that "
+       "no folder has this name.");
+}
+
+constexpr const char* check_the_folder =
+    "cannot be written; check that the folder is there and can be written to.";
+
+/// The descriptor that /dev/stdout and its like name; nothing for other paths.
+std::optional<int> descriptor_of(const fs::path& path) {
+  const std::string folder = path.parent_path().string();
+  const std::string name = path.filename().string();
+  if (folder != "/dev/fd" && folder != "/proc/self/fd") return {};
+  if (name.empty() || name.size() > 6 || name.find_first_not_of("0123456789") != std::string::npos)
+    return {};
+  return std::atoi(name.c_str());
+}
+
+/// Where a path leads.
+struct Target {
+  fs::path path;                  ///< the file itself, there or not yet
+  std::optional<int> descriptor;  ///< of this process, in the path's place
+  bool is_circle = false;         ///< the links lead nowhere
+};
+
+/// Follows the links of the last name, also those to a file that is not there, which
+/// std::filesystem does not.
+Target follow(const std::string& path) {
+  constexpr int most_links = 40;  // as many as the system follows
+  std::error_code error;
+  Target target;
+  target.path = fs::absolute(path, error).lexically_normal();
+  for (int links = 0; links < most_links; ++links) {
+    target.descriptor = descriptor_of(target.path);
+    if (target.descriptor || !fs::is_symlink(target.path, error)) return target;
+    const fs::path next = fs::read_symlink(target.path, error);
+    if (error) return target;
+    // Not normalised: "linked folder/.." is not the folder the link stands in.
+    target.path = next.is_absolute() ? next : target.path.parent_path() / next;
+  }
+  target.is_circle = true;
+  return target;
 }
 
 /// A new empty file beside the target; gone at the end of its scope, unless it was renamed.
@@ -38,41 +93,105 @@ class PartialFile {
   PartialFile& operator=(const PartialFile&) = delete;
   ~PartialFile() {
     std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+    if (!path_.empty()) fs::remove(path_, ignored);
   }
 
   /// Empty when none could be made.
   const std::string& path() const { return path_; }
 
+  /// Leaves the file to whoever is told of it.
+  void keep() { path_.clear(); }
+
  private:
   std::string path_;
 };
 
+/// Writes into what is open; false when it takes no more, or when a signal breaks the wait for it.
+bool write_all(int descriptor, const std::string& content) {
+  std::size_t written = 0;
+  while (written < content.size()) {
+    const ssize_t count = ::write(descriptor, content.data() + written, content.size() - written);
+    if (count <= 0) return false;
+    written += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+/// Pipes, devices and open descriptors: what cannot be renamed onto.
+void write_through(const std::string& path, const Target& target,
+                   const std::function<bool(std::ostream&)>& write) {
+  std::ostringstream content;
+  content.imbue(std::locale::classic());
+  const bool made = write(content);
+  const int descriptor = target.descriptor ? ::dup(*target.descriptor)
+                                           : ::open(target.path.c_str(), O_WRONLY | O_NOCTTY);
+  bool good = made && content && descriptor >= 0 && write_all(descriptor, content.str());
+  if (descriptor >= 0) good = ::close(descriptor) == 0 && good;
+  if (!good) fail(path, "did not take what was to be written to it; check what reads it.");
+}
+
+/// Gives the new file what the old one had; false when that is not allowed.
+bool take_over(const struct stat& old_file, const std::string& path) {
+  struct stat created {};
+  if (::stat(path.c_str(), &created) != 0) return false;
+  const bool owned = (created.st_uid == old_file.st_uid && created.st_gid == old_file.st_gid) ||
+                     ::chown(path.c_str(), old_file.st_uid, old_file.st_gid) == 0;
+  return owned && ::chmod(path.c_str(), old_file.st_mode & 07777U) == 0;
+}
+
+/// Copies a whole new file into an old one, which keeps all that is not its content.
+void copy_into(const std::string& path, const std::string& target, PartialFile& partial) {
+  std::ifstream from(partial.path(), std::ios::binary);
+  std::ofstream to(target, std::ios::binary | std::ios::trunc);
+  if (!from || !to) fail_half_written(path);
+  if (from.peek() != std::ifstream::traits_type::eof()) to << from.rdbuf();
+  to.close();
+  if (to) return;
+  const std::string kept = partial.path();
+  partial.keep();
+  fail(path, "could not be written whole; its new content is in \"" + kept + "\".");
+}
+
+/// Throws when the target cannot be written; gives what is there, if it is a file.
+std::optional<struct stat> check_target(const std::string& path, const Target& target) {
+  if (target.is_circle) {
+    fail(path, "is a link that leads nowhere; remove it or give another name.");
+  }
+  struct stat there {};
+  if (::stat(target.path.c_str(), &there) != 0) return {};
+  if (S_ISDIR(there.st_mode)) {
+    fail(path, "is a folder and cannot be written; check the name, and add that of a file.");
+  }
+  if (::access(target.path.c_str(), W_OK) != 0) {
+    fail(path, "cannot be written; check whose it is and that it is not protected.");
+  }
+  return there;
+}
+
+bool is_file(const struct stat& there) { return S_ISREG(there.st_mode); }
+
 }  // namespace
 
 void write_file(const std::string& path, const std::function<bool(std::ostream&)>& write) {
-  std::error_code error;
-  std::string target = path;
-  if (std::filesystem::is_symlink(path, error)) {
-    target = std::filesystem::weakly_canonical(path, error).string();
-    if (error) fail(path, "is a link that leads nowhere; remove it or give another name.");
-  }
-  const PartialFile partial(target);
+  const Target target = follow(path);
+  if (target.descriptor) return write_through(path, target, write);
+  const std::optional<struct stat> there = check_target(path, target);
+  if (there && !is_file(*there)) return write_through(path, target, write);
+
+  PartialFile partial(target.path.string());
   std::ofstream stream;
   if (!partial.path().empty()) stream.open(partial.path(), std::ios::binary | std::ios::trunc);
-  if (!stream.is_open()) {
-    fail(path, "cannot be written; check that the folder is there and can be written to.");
-  }
+  if (!stream.is_open()) fail(path, check_the_folder);
   stream.imbue(std::locale::classic());
   const bool written = write(stream);
   stream.close();
-  error.clear();
-  if (written && stream) std::filesystem::rename(partial.path(), target, error);
-  if (!written || !stream || error) {
-    fail(path,
-         "could not be written whole and was left as it was; check the space on the disk and that "
-         "no folder has this name.");
+  if (!written || !stream) fail_half_written(path);
+  if (there && (there->st_nlink > 1 || !take_over(*there, partial.path()))) {
+    return copy_into(path, target.path.string(), partial);
   }
+  std::error_code error;
+  fs::rename(partial.path(), target.path, error);
+  if (error) fail_half_written(path);
 }
 
 void write_file(const std::string& path, const std::string& content) {
@@ -82,16 +201,41 @@ void write_file(const std::string& path, const std::string& content) {
   });
 }
 
+void check_writable(const std::string& path) {
+  const Target target = follow(path);
+  if (target.descriptor) {
+    const int mode = ::fcntl(*target.descriptor, F_GETFL);
+    if (mode == -1 || (mode & O_ACCMODE) == O_RDONLY) {
+      fail(path, "is closed or only to be read; open it for writing.");
+    }
+    return;
+  }
+  const std::optional<struct stat> there = check_target(path, target);
+  if (there && !is_file(*there)) return;
+  // Made and removed again: rights, quotas and read-only disks have no other test.
+  const PartialFile partial(target.path.string());
+  if (partial.path().empty()) fail(path, check_the_folder);
+}
+
 bool same_file(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
-  // A relative name of no file stays relative in weakly_canonical.
-  const auto canonical = [](const std::string& path) {
+  const Target target_a = follow(a);
+  const Target target_b = follow(b);
+  if (target_a.descriptor || target_b.descriptor) return false;
+  struct stat there_a {};
+  struct stat there_b {};
+  const bool is_a = ::stat(target_a.path.c_str(), &there_a) == 0;
+  const bool is_b = ::stat(target_b.path.c_str(), &there_b) == 0;
+  if (is_a != is_b) return false;
+  if (is_a) {
+    return is_file(there_a) && there_a.st_dev == there_b.st_dev && there_a.st_ino == there_b.st_ino;
+  }
+  const auto canonical = [](const fs::path& path) {
     std::error_code error;
-    const std::filesystem::path absolute = std::filesystem::absolute(path, error);
-    const std::filesystem::path result = std::filesystem::weakly_canonical(absolute, error);
-    return error ? absolute : result;
+    const fs::path result = fs::weakly_canonical(path, error);
+    return error ? path : result;
   };
-  return canonical(a) == canonical(b);
+  return canonical(target_a.path) == canonical(target_b.path);
 }
 
 }  // namespace wscvt

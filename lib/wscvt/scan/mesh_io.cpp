@@ -97,6 +97,27 @@ IndexedMesh read_as(ByteReader& reader, Format format) {
   return read_off(reader);
 }
 
+/// Number of points that single precision puts where another, different one is.
+std::size_t fallen_together(const std::vector<Vector3>& points) {
+  struct Rounded {
+    std::array<float, 3> place;
+    const Vector3* point;
+  };
+  std::vector<Rounded> sorted;
+  sorted.reserve(points.size());
+  for (const Vector3& p : points) {
+    sorted.push_back(
+        {{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())}, &p});
+  }
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Rounded& a, const Rounded& b) { return a.place < b.place; });
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].place == sorted[i - 1].place && *sorted[i].point != *sorted[i - 1].point) ++count;
+  }
+  return count;
+}
+
 bool write_as(std::ostream& stream, Format format, const IndexedMesh& mesh,
               PlyCoordinates coordinates) {
   if (format == Format::Ply) {
@@ -147,8 +168,17 @@ IndexedMesh read_mesh(const std::string& path) {
   return read_as(reader, format);
 }
 
+void check_mesh_format(const std::string& path) { format_of(path); }
+
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format format = format_of(path);
+  const std::size_t lost = format == Format::Stl ? fallen_together(mesh.points) : 0;
+  if (lost > 0) {
+    fail(path, "cannot hold this mesh: STL keeps seven digits of a coordinate, in which " +
+                   std::to_string(lost) +
+                   " vertices fall together with others; write PLY, OBJ or OFF, or move the mesh "
+                   "to the origin first.");
+  }
   write_file(path,
              [&](std::ostream& stream) { return write_as(stream, format, mesh, coordinates); });
 }

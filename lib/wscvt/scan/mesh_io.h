@@ -19,14 +19,17 @@ namespace wscvt {
 /// extension is not known.
 IndexedMesh read_mesh(const std::string& path);
 
+/// Throws Error(InputOutput) when the extension of a path is that of none of the formats.
+void check_mesh_format(const std::string& path);
+
 /// How many digits a binary PLY file keeps of each coordinate.
 enum class PlyCoordinates { Double, Float };
 
 /// Writes a mesh in the format of the extension, whole or not at all (see write_file). PLY is
 /// binary, with double coordinates unless told otherwise, OBJ and OFF text with 17 digits, so these
 /// three lose nothing; STL is binary with the float coordinates of that format. Throws
-/// Error(InputOutput) when the file cannot be written or the extension is not known, and leaves an
-/// existing file as it was.
+/// Error(InputOutput) when the file cannot be written, the extension is not known or different
+/// vertices would fall together in the floats of STL, and leaves an existing file as it was.
 void write_mesh(const IndexedMesh& mesh, const std::string& path,
                 PlyCoordinates coordinates = PlyCoordinates::Double);
 

@@ -139,7 +139,7 @@ Header read_header(ByteReader& reader) {
       format_known = true;
     } else if (keyword == "element") {
       Element element;
-      element.name = lower_case(fields.next());
+      element.name = shown(lower_case(fields.next()));
       const std::string_view field = fields.next();
       const std::optional<std::int64_t> count = whole_number_in(field);
       if (!count || *count < 0) {

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/scan/coordinates.h"
+#include "wscvt/sphere/orientation.h"
+#include "wscvt/sphere/sphere_delaunay.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
@@ -27,9 +31,31 @@ Vector3 centroid(const IndexedMesh& mesh, const Vector3& origin) {
   return origin + moment / volume;
 }
 
+/// As SphereTriangulation, but with progress: a million points take seconds.
+std::vector<Triangle> triangulate(const std::vector<Vector3>& directions,
+                                  const Execution& execution) {
+  const bool finite = std::all_of(directions.begin(), directions.end(),
+                                  [](const Vector3& direction) { return direction.allFinite(); });
+  std::vector<Triangle> triangles;
+  if (finite) triangles = sphere_delaunay(directions, execution);
+  const bool covers =
+      triangles.size() == 2 * directions.size() - 4 &&
+      std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+        return counter_clockwise(directions[t[0]], directions[t[1]], directions[t[2]]);
+      });
+  if (!covers) return SphereTriangulation(directions).triangles();
+  SphereTriangulation triangulation(directions, std::move(triangles));
+  if (!triangulation.restore_regular(directions, {}, execution).complete()) {
+    return SphereTriangulation(directions).triangles();
+  }
+  // In the order that does not depend on CGAL's.
+  return SphereTriangulation(directions, triangulation.triangles()).triangles();
+}
+
 }  // namespace
 
-IndexedMesh mesh_of_points(std::vector<Vector3> points) {
+IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution) {
+  execution.report(0.0, "Making a surface of the points");
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
       throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
@@ -47,6 +73,7 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points) {
                                              " different points and no faces; a body needs at "
                                              "least 4.");
   }
+  check_scan_size(points);
   IndexedMesh mesh;
   mesh.points = std::move(points);
   Vector3 centre = Vector3::Zero();
@@ -57,7 +84,8 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points) {
     for (std::size_t i = 0; i < directions.size(); ++i) {
       directions[i] = (mesh.points[i] - centre).normalized();
     }
-    mesh.triangles = SphereTriangulation(directions).triangles();
+    const Execution part = execution.part(0.5 * round, 0.5 * (round + 1));
+    mesh.triangles = triangulate(directions, part);
     centre = centroid(mesh, centre);
   }
   return mesh;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -11,8 +12,12 @@ namespace wscvt {
 /// triangulation of their directions from the centre of what they enclose. This is how a scan given
 /// as points without faces enters (the paper's starting point). Equal points are merged.
 ///
-/// Throws Error(InvalidInput) for fewer than 4 different points or coordinates that are not finite,
-/// Error(NumericalFailure) when the points do not surround their centre or two lie on one ray.
-IndexedMesh mesh_of_points(std::vector<Vector3> points);
+/// The surface has no folds, whatever the body has: each direction from the centre has one radius.
+/// Its volume and area are its own, not the body's.
+///
+/// Throws Error(InvalidInput) for fewer than 4 different points, coordinates that are not finite or
+/// a size outside of the limits of check_scan_size, Error(NumericalFailure) when the points do not
+/// surround their centre or two lie on one ray, Error(Cancelled).
+IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution = Execution(1));
 
 }  // namespace wscvt

@@ -27,14 +27,16 @@ std::optional<std::int64_t> whole_number_in(std::string_view field) {
   return parse<std::int64_t>(field);
 }
 
-std::string quoted(std::string_view field) {
+std::string shown(std::string_view field) {
   constexpr std::size_t longest = 40;
-  std::string text = "\"";
+  std::string text;
   for (const char c : field.substr(0, longest)) {
     text += c >= ' ' && c <= '~' ? c : '?';
   }
-  return text + (field.size() > longest ? "...\"" : "\"");
+  return text + (field.size() > longest ? "..." : "");
 }
+
+std::string quoted(std::string_view field) { return "\"" + shown(field) + "\""; }
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);

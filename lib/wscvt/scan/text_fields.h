@@ -42,7 +42,10 @@ std::optional<double> number_in(std::string_view field);
 /// The same for whole numbers.
 std::optional<std::int64_t> whole_number_in(std::string_view field);
 
-/// A field as a sentence shows it: in quotes, cut when long, without control characters.
+/// A field as a sentence shows it: cut when long, without control characters.
+std::string shown(std::string_view field);
+
+/// The same in quotes.
 std::string quoted(std::string_view field);
 
 /// Lower-case letters in place of ASCII capitals.

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/sphere/sphere_triangulation.h"
 
-#include <CGAL/Delaunay_triangulation_on_sphere_2.h>
-#include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Triangulation_on_sphere_vertex_base_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/convex_hull_3.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +14,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/sphere/orientation.h"
+#include "wscvt/sphere/sphere_delaunay.h"
 
 namespace wscvt {
 
@@ -56,44 +50,6 @@ std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<d
 [[noreturn]] void fail(const std::string& what) {
   throw Error(ErrorCode::NumericalFailure,
               "The seeds cannot be triangulated on the sphere: " + what);
-}
-
-// Empty when the seeds' Delaunay triangulation does not cover the sphere or loses a seed.
-std::vector<Triangle> delaunay(const std::vector<Vector3>& seeds) {
-  using Traits = CGAL::Delaunay_triangulation_on_sphere_traits_2<Kernel>;
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<
-      std::int32_t, Traits, CGAL::Triangulation_on_sphere_vertex_base_2<Traits>>;
-  using FaceBase = CGAL::Triangulation_on_sphere_face_base_2<Traits>;
-  using Triangulation = CGAL::Delaunay_triangulation_on_sphere_2<
-      Traits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
-
-  std::vector<ExactPoint> points;
-  points.reserve(seeds.size());
-  for (const Vector3& seed : seeds) points.push_back(exact(seed));
-  std::vector<std::size_t> order(seeds.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  using Map = CGAL::Pointer_property_map<ExactPoint>::const_type;
-  CGAL::spatial_sort(order.begin(), order.end(),
-                     CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(
-                         CGAL::make_property_map(std::as_const(points))));
-
-  Triangulation triangulation(Traits(ExactPoint(0, 0, 0), 1));
-  Triangulation::Face_handle hint;
-  for (const std::size_t i : order) {
-    const auto vertex = triangulation.insert(points[i], hint);
-    if (vertex == nullptr || triangulation.number_of_vertices() == 0) return {};
-    vertex->info() = static_cast<std::int32_t>(i);
-    hint = vertex->face();
-  }
-  std::vector<Triangle> triangles;
-  if (triangulation.number_of_vertices() != seeds.size()) return triangles;
-  if (triangulation.number_of_ghost_faces() != 0) return triangles;
-  triangles.reserve(triangulation.number_of_faces());
-  for (const auto face : triangulation.all_face_handles()) {
-    triangles.push_back(
-        {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-  }
-  return triangles;
 }
 
 std::vector<Triangle> convex_hull(const std::vector<Vector3>& lifted) {
@@ -160,12 +116,18 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
                                              " weights for " + std::to_string(seeds.size()) +
                                              " seeds; give one each, or none.");
   }
+  // The exact numbers behind the predicates end the program at what is not a number.
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    if (seeds[i].allFinite()) continue;
+    throw Error(ErrorCode::InvalidInput,
+                "Seed " + std::to_string(i) + " is not a finite direction; give unit vectors.");
+  }
   if (!can_be_lifted(weights)) {
     return "a weight is not a number, or far larger than the sphere's own solid angle. Use more "
            "nodes, or another weighting.";
   }
   const Execution serial(1);
-  std::vector<Triangle> triangles = delaunay(seeds);
+  std::vector<Triangle> triangles = sphere_delaunay(seeds, serial);
   if (covers_sphere(triangles, seeds)) {
     set_triangles(std::move(triangles), seeds.size());
     // Also brings CGAL's choice among cocircular seeds under our own predicate.
@@ -186,7 +148,8 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
 SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
                                          std::vector<Triangle> triangles) {
   const auto count = static_cast<std::int32_t>(seeds.size());
-  bool usable = count >= 4;
+  bool usable = count >= 4 && std::all_of(seeds.begin(), seeds.end(),
+                                          [](const Vector3& seed) { return seed.allFinite(); });
   for (const Triangle& t : triangles) {
     for (const std::int32_t v : t) usable = usable && v >= 0 && v < count;
   }

@@ -142,8 +142,21 @@ HarmonicSurface read_harmonics(const std::string& path) {
     if (json.at("format").get<std::string>() != format_tag) {
       refuse(path, std::string("its \"format\" is not \"") + format_tag + "\".");
     }
-    degree = json.at("degree").get<int>();
-    coefficients = json.at("coefficients").get<std::vector<double>>();
+    // The library would cut 2.7 to 2, take 1e30 for any number and true for 1.
+    const nlohmann::json& given = json.at("degree");
+    if (!given.is_number_integer() || given < 0 || given > maximum_harmonic_degree) {
+      refuse(path, "its \"degree\" is no whole number from 0 to " +
+                       std::to_string(maximum_harmonic_degree) + ".");
+    }
+    degree = given.get<int>();
+    const nlohmann::json& list = json.at("coefficients");
+    if (!list.is_array()) refuse(path, "its \"coefficients\" are no list.");
+    for (const nlohmann::json& coefficient : list) {
+      if (!coefficient.is_number()) {
+        refuse(path, "coefficient " + std::to_string(coefficients.size()) + " is no number.");
+      }
+      coefficients.push_back(coefficient.get<double>());
+    }
   } catch (const nlohmann::json::exception& error) {
     // The parser's message holds the line and column.
     refuse(path, error.what());

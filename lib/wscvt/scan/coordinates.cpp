@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Steps above this part of the mean edge are coarse: rounding moves corners by up to half as much,
+/// which turns the edges of a face by about a degree.
+constexpr double coarse_step = 0.03;
+
+/// Mean edge length over faces spread evenly over the list; enough of them for two digits.
+double mean_edge(const IndexedMesh& mesh) {
+  constexpr std::size_t most = 10000;
+  const std::size_t stride = 1 + mesh.triangles.size() / most;
+  double sum = 0.0;
+  double edges = 0.0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); f += stride) {
+    const Triangle& t = mesh.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += (mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm();
+      edges += 1.0;
+    }
+  }
+  return edges > 0.0 ? sum / edges : 0.0;
+}
+
+std::size_t collapsed_faces(const IndexedMesh& mesh) {
+  return static_cast<std::size_t>(
+      std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        const Vector3& a = mesh.points[t[0]];
+        const Vector3& b = mesh.points[t[1]];
+        const Vector3& c = mesh.points[t[2]];
+        return a == b || b == c || c == a;
+      }));
+}
+
+template <class Fits>
+bool all_coordinates(const std::vector<Vector3>& points, const Fits& fits) {
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vector3& p) { return fits(p.x()) && fits(p.y()) && fits(p.z()); });
+}
+
+/// Whether a number was read from at most so many decimals.
+bool has_decimals(double value, double power_of_ten) {
+  const double scaled = value * power_of_ten;
+  // Reading and the product err by half an ulp each.
+  return std::abs(scaled - std::round(scaled)) <=
+         4.0 * std::numeric_limits<double>::epsilon() * std::abs(scaled);
+}
+
+}  // namespace
+
+void check_scan_size(const std::vector<Vector3>& points) {
+  if (points.empty()) return;
+  Vector3 low = points.front();
+  Vector3 high = points.front();
+  for (const Vector3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    if (!p.allFinite()) return;
+  }
+  const double size = (high - low).maxCoeff();
+  if (size == 0.0 || (size >= smallest_scan_size && size <= largest_scan_size)) return;
+  throw Error(
+      ErrorCode::InvalidInput,
+      "The scan is " + format_number(size) +
+          " units long, which is outside of what can be computed with; scale it to between " +
+          format_number(smallest_scan_size) + " and " + format_number(largest_scan_size) +
+          " units.");
+}
+
+std::string precision_warning(const IndexedMesh& mesh) {
+  const auto count = static_cast<std::int64_t>(mesh.points.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t) {
+      if (v < 0 || v >= count) return "";
+    }
+  }
+  double largest = 0.0;
+  for (const Vector3& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  const double edge = mean_edge(mesh);
+  if (!(edge > 0.0) || !std::isfinite(largest)) return "";
+
+  const auto lost = [&](std::size_t faces) {
+    return faces == 0 ? "" : "; " + std::to_string(faces) + " faces have two corners at one point";
+  };
+  // The step of floats as large as the largest coordinate, 24 binary digits below it.
+  const double float_step = std::ldexp(1.0, std::ilogb(largest) - 23);
+  if (float_step > coarse_step * edge && all_coordinates(mesh.points, [](double value) {
+        return static_cast<double>(static_cast<float>(value)) == value;
+      })) {
+    return "The scan lies so far from the origin that its coordinates, in single precision, come "
+           "in steps of " +
+           format_percent(float_step / edge) + " of the mean edge" + lost(collapsed_faces(mesh)) +
+           ". Move the scan to the origin before it is saved in single precision, or save it in "
+           "double.";
+  }
+  // Scans on a lattice, of voxels, come in coarse steps too, but lose no faces.
+  const double power_of_ten = std::pow(10.0, std::floor(-std::log10(coarse_step * edge)));
+  if (!std::isfinite(power_of_ten) || !all_coordinates(mesh.points, [&](double value) {
+        return has_decimals(value, power_of_ten);
+      })) {
+    return "";
+  }
+  const std::size_t collapsed = collapsed_faces(mesh);
+  if (collapsed == 0) return "";
+  return "The scan's coordinates come in steps of " + format_number(1.0 / power_of_ten) +
+         " or more, while its mean edge is " + format_number(edge, 3) + lost(collapsed) +
+         ". Save it with more digits.";
+}
+
+}  // namespace wscvt

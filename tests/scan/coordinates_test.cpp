@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/coordinates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/test_shapes.h"
+#include "wscvt/scan/mesh_check.h"
+
+namespace wscvt {
+namespace {
+
+IndexedMesh rounded(IndexedMesh mesh, const Vector3& offset, double step) {
+  for (Vector3& p : mesh.points) {
+    p += offset;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Volatile: optimised, GCC 12 leaves the rounding to single precision out.
+      volatile const auto single = static_cast<float>(p[axis]);
+      p[axis] = step > 0.0 ? std::round(p[axis] / step) * step : static_cast<double>(single);
+    }
+  }
+  return mesh;
+}
+
+TEST(Coordinates, SinglePrecisionFarAwayIsNoticed) {
+  const IndexedMesh mesh = test::lumpy(5);  // edges of about 0.05
+  EXPECT_EQ(precision_warning(mesh), "");
+  EXPECT_EQ(precision_warning(rounded(mesh, Vector3::Zero(), 0.0)), "");
+  EXPECT_EQ(precision_warning(rounded(mesh, Vector3(1000, 0, 0), 0.0)), "");
+  const std::string far = precision_warning(rounded(mesh, Vector3(0, -1e6, 0), 0.0));
+  EXPECT_NE(far.find("Move the scan to the origin"), std::string::npos) << far;
+  EXPECT_NE(far.find("at one point"), std::string::npos) << far;
+  // The advice: moved first, or kept in double.
+  IndexedMesh in_double = mesh;
+  for (Vector3& p : in_double.points) p += Vector3(0, -1e6, 0);
+  EXPECT_EQ(precision_warning(in_double), "");
+}
+
+TEST(Coordinates, TooFewDecimalsAreNoticed) {
+  const IndexedMesh mesh = test::lumpy(5);
+  EXPECT_EQ(precision_warning(rounded(mesh, Vector3::Zero(), 1e-4)), "");
+  const std::string coarse = precision_warning(rounded(mesh, Vector3::Zero(), 0.1));
+  EXPECT_NE(coarse.find("more digits"), std::string::npos) << coarse;
+}
+
+TEST(Coordinates, LatticesAreNotSuspected) {
+  // A body of unit cubes: coarse coordinates, no face lost.
+  EXPECT_EQ(precision_warning(test::box(1, 1, 1)), "");
+  EXPECT_EQ(precision_warning(IndexedMesh()), "");
+}
+
+}  // namespace
+}  // namespace wscvt
