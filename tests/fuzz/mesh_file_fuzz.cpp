@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files that claim to be meshes. The first byte names the reader: p PLY, s STL, o OBJ, any other OFF.
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "fuzz/promise.h"
+#include "wscvt/base/error.h"
+#include "wscvt/scan/byte_reader.h"
+#include "wscvt/scan/obj_reader.h"
+#include "wscvt/scan/off_reader.h"
+#include "wscvt/scan/ply_reader.h"
+#include "wscvt/scan/stl_reader.h"
+
+namespace {
+
+using namespace wscvt;
+
+IndexedMesh read(char format, ByteReader& reader) {
+  switch (format) {
+    case 'p':
+      return read_ply(reader);
+    case 's':
+      return read_stl(reader);
+    case 'o':
+      return read_obj(reader);
+    default:
+      return read_off(reader);
+  }
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string content(reinterpret_cast<const char*>(data) + 1, size - 1);
+  std::istringstream stream(content);
+  ByteReader reader(stream, content.size(), "file");
+  try {
+    const IndexedMesh mesh = read(static_cast<char>(data[0]), reader);
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::int32_t v : t) {
+        promise(v >= 0 && static_cast<std::size_t>(v) < mesh.points.size(), "an index does not fit");
+      }
+    }
+    // A byte holds a coordinate at most, a corner, or a digit of one.
+    promise(mesh.points.size() <= content.size(), "more points than bytes");
+    promise(mesh.triangles.size() <= content.size(), "more triangles than bytes");
+  } catch (const Error& error) {
+    promise(error.code() == ErrorCode::InputOutput, error.what());
+    promise(std::string(error.what()).size() > 20, "no sentence");
+  }
+  return 0;
+}
