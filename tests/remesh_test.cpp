@@ -268,8 +268,8 @@ TEST(Remesh, CoefficientsDescribeTheFittedSurface) {
   }
 }
 
-// The table of the design, section 6: errors of the remesh against the fitted surface in %, nodes
-// on that surface; and the evenness of its edges.
+// What prototypes reached on these grains: errors of the remesh against the fitted surface in %,
+// nodes on that surface; and the evenness of its edges.
 struct DesignLimits {
   int nodes;
   double volume, area, aspect_ratio;
@@ -549,7 +549,7 @@ TEST(Remesh, SurfacesFromFormulasAreDiscretisedAboutTheirOrigin) {
     }
     EXPECT_NEAR(result.original.volume / (4.0 / 3.0 * 3.14159265358979 * 13.0 * 9.0 * 7.0), 1.0,
                 1e-10);
-    // Chords lose 660 / N % of the volume (the design, section 5).
+    // Chords lose 660 / N % of the volume.
     EXPECT_NEAR(relative_error_percent(result.remesh.volume, result.original.volume), -0.66, 0.2);
     EXPECT_NEAR(result.original.inertia_semi_axes[2], 13.0, 0.005);
   }
@@ -637,7 +637,7 @@ TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
   }
 }
 
-// Section 6 of the design, fitted placement: rms distance in % of the equal-volume radius, on the
+// What prototypes reached, fitted placement: rms distance in % of the equal-volume radius, on the
 // grains themselves, whose meshes here (chords of 10,242 vertices) are the originals. Not refined,
 // error-adaptive nodes miss five of the sixteen limits (collapse_comparison --exact); three rounds
 // meet them all.

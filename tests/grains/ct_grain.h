@@ -36,7 +36,7 @@ Grain rough_grain(std::uint64_t seed);
 /// Crushed: a polyhedron of 13 faces with sharp edges, lightly roughened.
 Grain angular_grain(std::uint64_t seed);
 
-/// The four grains of the design: ellipsoid, superellipsoid, sand, rough.
+/// The four grains that limits are known for: ellipsoid, superellipsoid, sand, rough.
 std::vector<Grain> reference_grains();
 
 /// A scanner: share of each voxel inside (from `supersampling`^3 points), blurred by the point

@@ -88,7 +88,7 @@ TEST(Relaxation, PlainOverRelaxationReachesTheSameEvenness) {
   EXPECT_EQ(plain.report.outcome, RelaxationOutcome::Converged);
   const RelaxationResult fast = relax(fibonacci_lattice(400), model, {}, Execution(1));
   EXPECT_EQ(fast.report.outcome, RelaxationOutcome::Converged);
-  // The design measured 0.073 for this weighting and grain, plain; momentum goes further down.
+  // Prototypes reached 0.073 for this weighting and grain, plain; momentum goes further down.
   EXPECT_LT(edge_variation(plain), 0.085);
   EXPECT_LT(edge_variation(fast), edge_variation(plain) + 0.005);
 }

@@ -1,0 +1,45 @@
+# cmake -D source_dir=DIR -P check.cmake: what the project's texts say of its own files is so. README.md
+# keeps to one sitting, the files that texts name are there, and no comment leans on a document that
+# is not in the repository.
+cmake_minimum_required(VERSION 3.22)
+set(faults)
+
+file(STRINGS ${source_dir}/README.md lines)
+list(LENGTH lines count)
+if(count GREATER 120)
+  string(APPEND faults "  README.md has ${count} lines, more than 120\n")
+endif()
+
+set(texts README.md filter_wscvt/README.md lib/README.md meshes/README.md tests/README.md
+  tests/benchmarks/README.md tests/study/README.md)
+foreach(text ${texts})
+  get_filename_component(folder ${source_dir}/${text} DIRECTORY)
+  file(READ ${source_dir}/${text} content)
+  # Links within the project, and names in code that begin with one of its folders.
+  string(REGEX MATCHALL "\\]\\([^)#]+\\)" links "${content}")
+  string(REGEX MATCHALL
+    "(^|[` \n])(\\.\\./)*(lib|tests|filter_wscvt|meshes)/[A-Za-z0-9_./-]*[A-Za-z0-9_/]" names "${content}")
+  foreach(name ${links} ${names})
+    string(REGEX REPLACE "^\\]\\(|\\)$|^[` \n]" "" path "${name}")
+    if(path MATCHES "^https?:")
+      continue()
+    endif()
+    if(NOT EXISTS ${folder}/${path} AND NOT EXISTS ${source_dir}/${path})
+      string(APPEND faults "  ${text} names ${path}, which is not there\n")
+    endif()
+  endforeach()
+endforeach()
+
+file(GLOB_RECURSE sources RELATIVE ${source_dir} ${source_dir}/lib/*.h ${source_dir}/lib/*.cpp
+  ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp ${source_dir}/meshes/*.cpp
+  ${source_dir}/tests/*.h ${source_dir}/tests/*.cpp)
+foreach(source ${sources})
+  file(STRINGS ${source_dir}/${source} cited REGEX "(of|by|in|\\() ?the design|The design|design\\.md")
+  foreach(line ${cited})
+    string(APPEND faults "  ${source} cites a document that is not here:${line}\n")
+  endforeach()
+endforeach()
+
+if(faults)
+  message(FATAL_ERROR "\n${faults}")
+endif()
