@@ -3,6 +3,7 @@
 
 #include <QDir>
 #include <QFileInfo>
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <new>
@@ -14,6 +15,7 @@
 #include "everyday_filter.h"
 #include "remesh_filter.h"
 #include "remesh_report.h"
+#include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/remesh.h"
 #include "wscvt/surface/harmonic_io.h"
@@ -70,6 +72,33 @@ std::map<std::string, double> values_of(const RemeshResult& result) {
   return values;
 }
 
+bool is_there(const Layers& layers, int number) {
+  const std::vector<Layer> all = layers.list();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Layer& layer) { return layer.number == number; });
+}
+
+/// Says for its lifetime that a filter works on the document. While one runs the window takes
+/// clicks, and a second run would change the document under the first.
+class RunOnDocument {
+ public:
+  explicit RunOnDocument(Layers& layers) : layers_(layers) {
+    if (!layers_.note(key).empty()) {
+      throw Error(ErrorCode::InvalidInput,
+                  "A filter of this plugin is still running; wait until it is done and apply "
+                  "again. Nothing was changed.");
+    }
+    layers_.set_note(key, "running");
+  }
+  RunOnDocument(const RunOnDocument&) = delete;
+  RunOnDocument& operator=(const RunOnDocument&) = delete;
+  ~RunOnDocument() { layers_.set_note(key, ""); }
+
+ private:
+  static constexpr const char* key = "wscvt_running";
+  Layers& layers_;
+};
+
 FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValues& values,
                            Layers& layers, const Execution& execution) {
   const Stopwatch stopwatch;
@@ -93,10 +122,13 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   const LayerContent content = content_of(result, settings.result);
   if (settings.new_layer) {
     const int added = layers.add(label, content, transform);
-    set_source(layers, added, scan.number);
-    // The result is to be seen, and it lies in the scan.
-    layers.hide(scan.number);
-    if (origin) layers.hide(current.number);
+    // The scan may have been deleted while the filter ran.
+    if (is_there(layers, scan.number)) {
+      set_source(layers, added, scan.number);
+      // The result is to be seen, and it lies in the scan.
+      layers.hide(scan.number);
+    }
+    if (origin && is_there(layers, current.number)) layers.hide(current.number);
   } else {
     layers.replace(current.number, content);
     if (origin) {
@@ -192,6 +224,7 @@ Filter filter_with_number(int number) {
 
 FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers& layers,
                          const ProgressCallback& progress) {
+  const RunOnDocument run(layers);
   const Execution execution(0, progress);
   switch (filter) {
     case FilterId::Create:

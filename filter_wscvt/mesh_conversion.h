@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/error.h"
@@ -74,6 +75,27 @@ void assign(VcgMesh& target, const IndexedMesh& source, const std::vector<double
       target.face[f].V(k) = &target.vert[v];
     }
   }
+}
+
+/// Exchanges the vertices, edges and faces of two VCG meshes whose elements keep optional
+/// components in their containers; the attributes of `kept` grow or shrink to what it then holds.
+template <class VcgMesh>
+void exchange_elements(VcgMesh& kept, VcgMesh& other) {
+  std::swap(kept.vert, other.vert);
+  std::swap(kept.edge, other.edge);
+  std::swap(kept.face, other.face);
+  std::swap(kept.vn, other.vn);
+  std::swap(kept.en, other.en);
+  std::swap(kept.fn, other.fn);
+  std::swap(kept.imark, other.imark);
+  // Each element points to the container it lies in.
+  for (VcgMesh* mesh : {&kept, &other}) {
+    mesh->vert._updateOVP(mesh->vert.begin(), mesh->vert.end());
+    mesh->face._updateOVP(mesh->face.begin(), mesh->face.end());
+  }
+  for (const auto& attribute : kept.vert_attr) attribute._handle->Resize(kept.vert.size());
+  for (const auto& attribute : kept.edge_attr) attribute._handle->Resize(kept.edge.size());
+  for (const auto& attribute : kept.face_attr) attribute._handle->Resize(kept.face.size());
 }
 
 }  // namespace wscvt::filter

@@ -110,12 +110,15 @@ class MeshlabLayers final : public Layers {
 
   /// Puts content into a layer, which keeps its transform.
   static void fill(Model& model, const LayerContent& content) {
-    // Adjacency, colours, texture coordinates and the like belong to the elements that go.
+    // Made aside and exchanged: whatever fails leaves the layer as it was.
+    Mesh made;
+    assign(made, content.mesh, content.quality);
+    exchange_elements(model.cm, made);
+    // Adjacency, colours, texture coordinates and the like belong to the elements that went.
     const int kept = Model::MM_VERTCOORD | Model::MM_VERTNORMAL | Model::MM_VERTFLAG |
                      Model::MM_FACEVERT | Model::MM_FACENORMAL | Model::MM_FACEFLAG |
                      Model::MM_TRANSFMATRIX;
     model.clearDataMask(~kept);
-    assign(model.cm, content.mesh, content.quality);
     model.cm.svn = 0;
     model.cm.sfn = 0;
     // The part of a result that MeshLab does not hold by default.

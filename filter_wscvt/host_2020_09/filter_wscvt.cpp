@@ -2,6 +2,7 @@
 #include "filter_wscvt.h"
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "meshlab_host.h"
 #include "meshlab_layers.h"
 #include "meshlab_parameters.h"
+#include "wscvt/base/error.h"
 
 namespace {
 
@@ -51,6 +53,19 @@ struct Api {
     return std::nullopt;
   }
 };
+
+/// This version drops a parameter of a script whose value it cannot read ("abc", or 200.7 for a
+/// whole number) and puts the filter's default at the end of the list instead. Its own assertions
+/// end the program when that happens to any but the first parameter.
+void refuse_unreadable(const ParameterList& known, const RichParameterList& parameters) {
+  if (known.size() < 2 || parameters.size() != known.size()) return;
+  const std::string& first = known.front().name;
+  if (parameters.at(parameters.size() - 1).name().toStdString() != first) return;
+  throw wscvt::Error(wscvt::ErrorCode::InvalidInput,
+                     "Parameter " + first +
+                         " is missing from the script, or its value cannot be read; give a whole "
+                         "number, as the first parameter of the script. Nothing was changed.");
+}
 
 }  // namespace
 
@@ -107,6 +122,7 @@ bool FilterWscvt::applyFilter(QAction* action, MeshDocument& document,
   // An exception that leaves this function ends MeshLab.
   try {
     const Filter filter = filter_with_number(ID(action));
+    refuse_unreadable(filter.parameters, parameters);
     MeshlabLayers<Api> layers(document);
     const FilterOutcome outcome = run_filter(
         filter.id, values_of<Api>(filter.parameters, parameters), layers, progress_to(callback));

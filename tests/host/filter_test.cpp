@@ -9,7 +9,9 @@
 #include <QThread>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
+#include <utility>
 
 #include "calls.h"
 #include "creation_filter.h"
@@ -625,6 +627,63 @@ TEST(Filter, StopsWhenTheCallbackSaysSoAndChangesNothing) {
       EXPECT_TRUE(state_of(document) == before);
     }
   }
+}
+
+/// What a user does in the window while a filter runs: once, at the callback's first call.
+std::function<void()> deed_during_the_run;
+
+bool acting_callback(int /*position*/, const char* /*stage*/) {
+  if (deed_during_the_run) std::exchange(deed_during_the_run, nullptr)();
+  return true;
+}
+
+TEST(Filter, SurvivesTheScanBeingDeletedDuringTheRun) {
+  LoadedFilter loaded;
+  for (const bool new_layer : {true, false}) {
+    MeshDocument document;
+    add_layer(document, sphere());
+    MeshModel& scan = add_layer(document, grain());
+    scan.cm.Tr.SetTranslate(1.0F, 2.0F, 3.0F);
+    const auto transform = scan.cm.Tr;
+    RichParameterList parameters = loaded.parameters(document);
+    parameters.setValue("NodeCount", IntValue(60));
+    parameters.setValue("NewLayer", BoolValue(new_layer));
+    deed_during_the_run = [&] { remove_layer(document, scan); };
+    EXPECT_EQ(loaded.apply(document, parameters, acting_callback), new_layer) << loaded.message();
+    if (new_layer) {
+      ASSERT_EQ(document.size(), 2);
+      EXPECT_EQ(document.mm()->cm.vn, 60);
+      EXPECT_TRUE(document.mm()->cm.Tr == transform);
+    } else {
+      ASSERT_EQ(document.size(), 1);
+      EXPECT_EQ(document.mm()->cm.vn, static_cast<int>(sphere().points.size()));
+      EXPECT_NE(loaded.message().find("not there any more"), std::string::npos) << loaded.message();
+    }
+  }
+}
+
+TEST(Filter, RefusesToBeAppliedDuringARun) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(60));
+  bool second = true;
+  std::string message;
+  deed_during_the_run = [&] {
+    second = loaded.apply(document, parameters);
+    message = loaded.message();
+  };
+  EXPECT_TRUE(loaded.apply(document, parameters, acting_callback));
+  EXPECT_FALSE(second);
+  EXPECT_NE(message.find("still running"), std::string::npos) << message;
+  EXPECT_EQ(document.size(), 2);
+  // The advice: after the first one is done, also when it was refused or failed.
+  document.setCurrentMesh(scan.id());
+  EXPECT_TRUE(loaded.apply(document, parameters));
+  parameters.setValue("NodeCount", IntValue(2));
+  EXPECT_FALSE(loaded.apply(document, parameters));
+  EXPECT_EQ(loaded.message().find("still running"), std::string::npos);
 }
 
 TEST(Filter, ClearsTheMessageOfAnEarlierRun) {

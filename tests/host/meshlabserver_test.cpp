@@ -130,6 +130,21 @@ TEST_P(ServerRefuses, WithASentenceInTheLog) {
 INSTANTIATE_TEST_SUITE_P(, ServerRefuses, ::testing::ValuesIn(refused_calls()),
                          [](const auto& test) { return test.param.name; });
 
+TEST(Server, RefusesANodeCountThatCannotBeRead) {
+  for (const char* const value : {"abc", "200.7", "99999999999"}) {
+    SCOPED_TRACE(value);
+    QTemporaryDir folder;
+    const QString output = folder.filePath("remeshed.ply");
+    const Outcome outcome = run_call({"", grain(), {{"NodeCount", value}}, {}}, folder, output);
+    SCOPED_TRACE(outcome.output.toStdString());
+    ASSERT_TRUE(outcome.ended);
+    EXPECT_FALSE(outcome.crashed);
+    EXPECT_EQ(outcome.exit_code, refused);
+    EXPECT_FALSE(QFile::exists(output));
+    EXPECT_TRUE(outcome.output.contains("NodeCount is missing"));
+  }
+}
+
 class ServerCopesWith : public ::testing::TestWithParam<Call> {};
 
 TEST_P(ServerCopesWith, AnUnusualCall) {
