@@ -7,6 +7,7 @@
 #include "calls.h"
 #include "programs.h"
 #include "sample_meshes.h"
+#include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::host_test {
@@ -155,7 +156,9 @@ TEST_P(ServerCopesWith, AnUnusualCall) {
   SCOPED_TRACE(outcome.output.toStdString());
   ASSERT_TRUE(outcome.ended);
   ASSERT_FALSE(outcome.crashed);
-  const auto nodes = static_cast<std::size_t>(std::stoi(call.parameters.at("NodeCount")));
+  const auto asked = call.parameters.find("NodeCount");
+  const auto nodes = static_cast<std::size_t>(
+      asked == call.parameters.end() ? RemeshOptions().node_count : std::stoi(asked->second));
   const IndexedMesh mesh = read_mesh(output.toStdString());
   EXPECT_EQ(mesh.points.size(), nodes);
   EXPECT_EQ(mesh.triangles.size(), 2 * nodes - 4);
