@@ -4,7 +4,9 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <iostream>
 #include <limits>
+#include <stdexcept>
 
 #include "help_text.h"
 #include "remesh_arguments.h"
@@ -22,7 +24,9 @@ constexpr const char* footer =
     "What --json writes as an option is what one types here: \"weighting\": \"area\" is\n"
     "--weighting=area.\n"
     "Exit codes: 0 done; 1 the scan could not be remeshed or a file not be read or written;\n"
-    "2 the arguments are wrong. With 1 and 2 a sentence says what to do.";
+    "2 the arguments are wrong; 130 and 143 cancelled by SIGINT and SIGTERM. With 1 and 2 a "
+    "sentence\n"
+    "says what to do.";
 
 }  // namespace
 
@@ -50,12 +54,17 @@ Arguments read_arguments(int argc, char** argv, int& exit_code) {
   app.add_option("--coefficients", arguments.coefficients,
                  wrapped("Write the fitted series to this file as JSON"))
       ->type_name("FILE");
-  app.add_flag("-q,--quiet", arguments.quiet, wrapped("No report on the standard output"));
+  app.add_flag("--overwrite", arguments.overwrite, wrapped("Let an output replace the scan"));
+  app.add_flag("-q,--quiet", arguments.quiet,
+               wrapped("No report on the standard output, no progress; warnings stay"));
   exit_code = -1;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? Done : WrongArguments;
+    if (exit_code == Done && !std::cout.flush()) {
+      throw std::runtime_error("The help could not be written.");
+    }
   }
   return arguments;
 }

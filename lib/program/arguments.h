@@ -14,11 +14,13 @@ struct Arguments {
   std::string json;          ///< empty: none
   std::string coefficients;  ///< empty: none
   int threads = 0;           ///< 0: all
+  bool overwrite = false;    ///< an output may replace the scan
   bool quiet = false;
   RemeshOptions options;
 };
 
-/// What the program returns. A caller in a shell branches on it; the help names the codes.
+/// What the program returns, or 128 and the number of the signal that cancelled it. A caller in a
+/// shell branches on it; the help names the codes.
 enum ExitCode {
   Done = 0,
   Failed = 1,         ///< the work could not be done: a sentence says why

@@ -4,10 +4,12 @@
 #include <exception>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "arguments.h"
-#include "wscvt/base/error.h"
+#include "output_paths.h"
+#include "progress_line.h"
+#include "signals.h"
+#include "standard_streams.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
@@ -16,47 +18,58 @@
 
 namespace {
 
-using wscvt::program::Arguments;
+namespace program = wscvt::program;
 
 int run(int argc, char** argv) {
   int exit_code = -1;
-  const Arguments call = wscvt::program::read_arguments(argc, argv, exit_code);
+  const program::Arguments call = program::read_arguments(argc, argv, exit_code);
   if (exit_code >= 0) return exit_code;
 
-  const std::vector<std::pair<std::string, std::string>> files = {
-      {"the scan", call.input},
-      {"the remesh", call.output},
-      {"the report", call.json},
-      {"the coefficients", call.coefficients}};
-  for (std::size_t i = 2; i < files.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (!wscvt::same_file(files[i].second, files[k].second)) continue;
-      throw wscvt::Error(wscvt::ErrorCode::InvalidInput,
-                         "\"" + files[i].second + "\" is named for " + files[k].first +
-                             " and for " + files[i].first + "; give two names.");
-    }
-  }
+  program::check_output_paths({"the scan", call.input},
+                              {{"the remesh", call.output},
+                               {"the report", call.json},
+                               {"the coefficients", call.coefficients}},
+                              call.overwrite);
+  wscvt::check_mesh_format(call.output);
+  if (!call.quiet) wscvt::check_writable("/dev/stdout");
+  program::note_signals();
+  program::ProgressLine line(!call.quiet);
+  const wscvt::Execution execution(call.threads, [&](double fraction, const std::string& stage) {
+    line.show(fraction, stage);
+    return program::noted_signal() == 0;
+  });
+  execution.report(0.0, "Reading the scan");
+  wscvt::IndexedMesh scan = wscvt::read_mesh(call.input);
+  const wscvt::RemeshResult result = wscvt::remesh(std::move(scan), call.options, execution);
+  execution.report(1.0, "Writing");  // the last chance to cancel
+  line.clear();
 
-  const wscvt::RemeshResult result =
-      wscvt::remesh(wscvt::read_mesh(call.input), call.options, wscvt::Execution(call.threads));
   wscvt::write_mesh(result.mesh, call.output);
   if (!call.json.empty()) wscvt::write_file(call.json, wscvt::report_json(result));
   if (!call.coefficients.empty()) {
     wscvt::write_harmonics(call.coefficients, wscvt::HarmonicSurface(result.coefficients));
   }
-  if (!call.quiet) {
-    for (const std::string& line : wscvt::report_lines(result)) std::puts(line.c_str());
+  for (const std::string& warning : result.warnings) {
+    std::fprintf(stderr, "Warning: %s\n", warning.c_str());
   }
-  return wscvt::program::Done;
+  if (!call.quiet) {
+    std::string text;
+    for (const std::string& report_line : wscvt::report_lines(result)) text += report_line + "\n";
+    wscvt::write_file("/dev/stdout", text);
+  }
+  return program::Done;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  program::fill_closed_streams();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
-    return wscvt::program::Failed;
+    // As a shell gives it for a program that the signal ended.
+    const int signal = program::noted_signal();
+    return signal == 0 ? program::Failed : 128 + signal;
   }
 }

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program as a whole: files in and out, exit codes, sentences.
+// The program as a whole: files in and out, exit codes, signals, sentences.
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "program_run.h"
@@ -8,6 +16,8 @@
 
 namespace wscvt {
 namespace {
+
+namespace fs = std::filesystem;
 
 class CommandLine : public test::ProgramRun {
  protected:
@@ -51,6 +61,101 @@ TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
     EXPECT_EQ(outcome.output, "");
     EXPECT_FALSE(exists("remesh.ply"));
     EXPECT_FALSE(exists("report.json"));
+  }
+}
+
+TEST_F(CommandLine, ReplacesTheScanOnlyWhenTold) {
+  fs::copy_file(WSCVT_MESHES_DIR "/sand_7228.ply", folder_ / "scan.ply");
+  const std::string before = content("scan.ply");
+  fs::create_symlink("scan.ply", folder_ / "link.ply");
+  fs::create_hard_link(folder_ / "scan.ply", folder_ / "hard.ply");
+  for (const std::string output : {"./scan.ply", "link.ply", "hard.ply"}) {
+    const Outcome outcome = run("scan.ply " + output + " -n 100");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.errors.find("--overwrite"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(content("scan.ply"), before);
+  }
+  EXPECT_EQ(run("scan.ply remesh.ply -n 100 -j scan.ply").exit_code, 1);
+  EXPECT_EQ(content("scan.ply"), before);
+  EXPECT_EQ(run("scan.ply link.ply -n 100 --overwrite").exit_code, 0);  // the advice
+  EXPECT_EQ(read_mesh((folder_ / "hard.ply").string()).points.size(), 100U);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.ply"));
+}
+
+TEST_F(CommandLine, WritesWhereItsPathsLead) {
+  // A report through a dangling link must not overwrite the mesh it points to.
+  fs::create_symlink("remesh.ply", folder_ / "link.json");
+  const Outcome dangling = run(sand_ + " remesh.ply -n 100 -j link.json");
+  EXPECT_EQ(dangling.exit_code, 1);
+  EXPECT_NE(dangling.errors.find("two names"), std::string::npos) << dangling.errors;
+  const Outcome null = run(sand_ + " remesh.ply -n 100 -q -j /dev/null --coefficients /dev/null");
+  EXPECT_EQ(null.exit_code, 0) << null.errors;
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  const Outcome out = run(sand_ + " remesh.ply -n 100 -q -j /dev/stdout");
+  EXPECT_EQ(out.exit_code, 0) << out.errors;
+  EXPECT_EQ(out.output.front(), '{');
+  const Outcome both = run(sand_ + " remesh.ply -n 100 -j /dev/stdout");
+  EXPECT_EQ(both.exit_code, 0) << both.errors;
+  EXPECT_EQ(both.output.front(), '{');
+  EXPECT_NE(both.output.find("100 nodes, 196 faces"), std::string::npos);
+}
+
+TEST_F(CommandLine, ChecksItsPathsBeforeTheWork) {
+  // A million nodes would take long.
+  for (const std::string bad : {"remesh.vtk", "remesh.ply -j no/folder/report.json",
+                                "no/folder/remesh.ply", "remesh.ply -j ."}) {
+    SCOPED_TRACE(bad);
+    const Outcome outcome = run("missing.ply " + bad + " -n 1000000");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.errors.find("missing.ply"), std::string::npos) << outcome.errors;
+  }
+}
+
+TEST_F(CommandLine, AStandardOutputThatTakesNothingIsAnError) {
+  for (const std::string where : {" >/dev/full", " >&-"}) {
+    SCOPED_TRACE(where);
+    const Outcome outcome = run(sand_ + " remesh.ply -n 100" + where + " 2>errors.txt #");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(content("errors.txt").find("/dev/stdout"), std::string::npos);
+    EXPECT_EQ(run("--help" + where + " 2>errors.txt #").exit_code, 1);
+  }
+  // Closed streams do not take what is meant for a file.
+  EXPECT_EQ(run(sand_ + " remesh.ply -n 100 -q <&- >&- 2>&- #").exit_code, 0);
+  EXPECT_EQ(read_mesh((folder_ / "remesh.ply").string()).points.size(), 100U);
+}
+
+TEST_F(CommandLine, QuietHidesNoWarning) {
+  const Outcome outcome = run(sand_ + " remesh.ply -n 100 -q -i 1");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_NE(outcome.errors.find("Warning: "), std::string::npos);
+  EXPECT_EQ(outcome.errors.find('\r'), std::string::npos) << "progress went into a file";
+}
+
+TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
+  // The program waits for a scan from a pipe, gets the signal, then the scan, and cancels.
+  ASSERT_EQ(mkfifo((folder_ / "scan.ply").c_str(), 0600), 0);
+  for (const int number : {SIGINT, SIGTERM}) {
+    const pid_t child = fork();
+    ASSERT_NE(child, -1);
+    if (child == 0) {
+      // Not inherited: the shell that started the test may ignore it.
+      std::signal(SIGINT, SIG_DFL);
+      if (chdir(folder_.c_str()) != 0) _exit(99);
+      execl(WSCVT_PROGRAM, "wscvt", "scan.ply", "remesh.ply", "-n", "1000", "-q", nullptr);
+      _exit(98);
+    }
+    {
+      std::ofstream scan(folder_ / "scan.ply", std::ios::binary);  // opens when the program does
+      ASSERT_EQ(kill(child, number), 0);
+      scan << std::ifstream(WSCVT_MESHES_DIR "/sand_7228.ply", std::ios::binary).rdbuf();
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 128 + number);
+    fs::directory_iterator left(folder_);
+    EXPECT_EQ(std::distance(begin(left), end(left)), 1) << "something is left beside the scan";
   }
 }
 

@@ -85,8 +85,8 @@ class ProgramOptions : public test::ProgramRun {
 };
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
-  std::set<std::string> tested = {"help",         "version", "threads",        "json",
-                                  "coefficients", "quiet",   "no-acceleration"};
+  std::set<std::string> tested = {"help",         "version",   "threads", "json",
+                                  "coefficients", "overwrite", "quiet",   "no-acceleration"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("--help");
   EXPECT_EQ(help.exit_code, 0);

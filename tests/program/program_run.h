@@ -47,8 +47,7 @@ class ProgramRun : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
- private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_;  ///< the test's own
 };
 
 }  // namespace wscvt::test

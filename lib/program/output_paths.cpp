@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "output_paths.h"
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+
+namespace wscvt::program {
+
+void check_output_paths(const NamedFile& scan, const std::vector<NamedFile>& outputs,
+                        bool overwrite) {
+  const auto refuse = [](const std::string& sentence) {
+    throw wscvt::Error(wscvt::ErrorCode::InvalidInput, sentence);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const NamedFile& output = outputs[i];
+    if (output.path.empty()) continue;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!wscvt::same_file(output.path, outputs[k].path)) continue;
+      refuse("\"" + output.path + "\" is named for " + outputs[k].meaning + " and for " +
+             output.meaning + "; give two names.");
+    }
+    if (!overwrite && wscvt::same_file(output.path, scan.path)) {
+      refuse("\"" + output.path + "\", named for " + output.meaning + ", is " + scan.meaning +
+             " itself; give another name, or --overwrite to replace it.");
+    }
+    wscvt::check_writable(output.path);
+  }
+}
+
+}  // namespace wscvt::program
