@@ -38,7 +38,8 @@ std::string descriptor_name() { return "Grain shape descriptors"; }
 std::string descriptor_help() {
   return "Measures the shape of the current layer, a closed mesh of a grain: size, axes, "
          "sphericity, convexity, roundness, roughness and orientation; against a second layer also "
-         "errors and distances. Layers are measured as shown and not changed. It mends small faults "
+         "errors and distances. Layers are measured as shown and not changed. It mends small "
+         "faults "
          "for that, and says so; it refuses what needs more. See: "
          "<i>Wadell</i>, 1932; <i>Krumbein</i>, 1941; "
          "<i>Kong, Fonseca</i>, 2018";

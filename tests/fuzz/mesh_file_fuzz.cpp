@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that claim to be meshes. The first byte names the reader: p PLY, s STL, o OBJ, any other OFF.
+// Files that claim to be meshes. The first byte names the reader: p PLY, s STL, o OBJ, any other
+// OFF.
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
@@ -42,7 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const IndexedMesh mesh = read(static_cast<char>(data[0]), reader);
     for (const Triangle& t : mesh.triangles) {
       for (const std::int32_t v : t) {
-        promise(v >= 0 && static_cast<std::size_t>(v) < mesh.points.size(), "an index does not fit");
+        promise(v >= 0 && static_cast<std::size_t>(v) < mesh.points.size(),
+                "an index does not fit");
       }
     }
     // A byte holds a coordinate at most, a corner, or a digit of one.

@@ -85,9 +85,8 @@ Table write_pictures(const std::string& folder, const Scan& scan, const Executio
         for (Vector3& point : mesh.points) point = (point - result.centre) / unit;
         write_triangles(path, mesh, scaled);
       };
-      write(folder + "/" + file_name(figure, scan.name, result.directions.size()),
-            result.mesh, by_radius ? result.radial_distances : result.curvatures,
-            by_radius ? 1.0 / unit : unit);
+      write(folder + "/" + file_name(figure, scan.name, result.directions.size()), result.mesh,
+            by_radius ? result.radial_distances : result.curvatures, by_radius ? 1.0 / unit : unit);
       table.push_back(
           quality_row(scan.name + " " + method.name, result.directions.size(), result.quality));
       if (node_count != 500) continue;

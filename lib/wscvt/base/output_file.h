@@ -8,13 +8,14 @@
 namespace wscvt {
 
 /// Writes a file whole or not at all: beside the target, under a name that was free, then renamed
-/// onto it, with the mode and owner of the file that was there; through symbolic links onto the file
-/// they lead to, there or not yet. A file with several names (hard links) is written in place, so
-/// that they go on naming one file. Pipes, devices and /dev/stdout are written to, never replaced.
+/// onto it, with the mode and owner of the file that was there; through symbolic links onto the
+/// file they lead to, there or not yet. A file with several names (hard links) is written in place,
+/// so that they go on naming one file. Pipes, devices and /dev/stdout are written to, never
+/// replaced.
 ///
-/// `write` puts the content into a binary stream in the classic locale and returns whether that went
-/// well. Throws Error(InputOutput) when the file cannot be written, and whatever `write` throws; an
-/// existing file is then as it was, and nothing is left beside it.
+/// `write` puts the content into a binary stream in the classic locale and returns whether that
+/// went well. Throws Error(InputOutput) when the file cannot be written, and whatever `write`
+/// throws; an existing file is then as it was, and nothing is left beside it.
 void write_file(const std::string& path, const std::function<bool(std::ostream&)>& write);
 
 /// The same for content that is there already.

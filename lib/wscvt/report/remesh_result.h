@@ -21,7 +21,8 @@ namespace wscvt {
 
 /// A remesh and the reports of its stages, all in the input's units and coordinates.
 struct RemeshResult {
-  IndexedMesh mesh;  ///< exactly N points and 2 N - 4 triangles, closed, outward (to_mesh: OpenMesh)
+  IndexedMesh
+      mesh;  ///< exactly N points and 2 N - 4 triangles, closed, outward (to_mesh: OpenMesh)
   std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for

@@ -8,10 +8,10 @@
 namespace wscvt {
 
 /// Reads a triangle mesh into flat arrays; polygons are cut into fans. The format follows from the
-/// extension, in either case: PLY, STL, OBJ, OFF (see their readers for the forms). Coordinates keep
-/// the precision of the file. Nothing is repaired: an STL file comes back with the corners of each
-/// triangle as points of their own (see check_mesh). A file that holds no faces at all gives points
-/// alone (see mesh_of_points).
+/// extension, in either case: PLY, STL, OBJ, OFF (see their readers for the forms). Coordinates
+/// keep the precision of the file. Nothing is repaired: an STL file comes back with the corners of
+/// each triangle as points of their own (see check_mesh). A file that holds no faces at all gives
+/// points alone (see mesh_of_points).
 ///
 /// Takes memory for what is there, never for what a file claims. Throws Error(InputOutput), which
 /// names the line of a text or the element of a binary file, when the file cannot be read, is cut
