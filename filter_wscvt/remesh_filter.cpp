@@ -12,7 +12,7 @@ std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Vor
 std::string remesh_help() {
   return "Turns a closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
          "for</b>, by a weighted Voronoi tessellation of the sphere. It repairs small faults and "
-         "says so; it refuses, changing nothing, what needs much mending or is folded too much. "
+         "says so; it refuses, changing nothing, what needs much mending. "
          "See: <i>Wu F., Huang L., Lai Z.</i>, Engineering Mechanics, 2022, doi "
          "10.6052/j.issn.1000-4750.2022.07.0614";
 }
@@ -47,12 +47,14 @@ ParameterList remesh_parameters() {
                        "After a placement by least squares: at most so many rounds of moving "
                        "nodes, flipping edges and taking nodes to where they help most, all "
                        "towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
+      table_parameter("Parametrization", defaults.surface.parametrization, "Map to the sphere",
+                      "How the scan is laid over the sphere."),
       option_parameter(
           "FoldLimit", defaults.surface.fold_limit_percent, fold_limit_option, "Fold limit (%)",
           "Where the surface folds, a ray from the centroid meets more than one sheet. Largest "
           "solid angle that all sheets beyond the first may fill together, in % of the whole "
           "sphere. Folds are bridged by their outermost sheet; above the limit the filter "
-          "refuses."),
+          "refuses. The spherical map has no such limit."),
       option_parameter(
           "MendLimit", defaults.check.mended_area_limit_percent, mended_area_limit_option,
           "Mend limit (%)",
@@ -95,6 +97,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.weighting.curvature_source = checked.choice<CurvatureSource>("CurvatureSource");
   options.placement.kind = checked.choice<NodePlacement>("Placement");
   options.placement.refinement.rounds = checked.whole("RefinementRounds");
+  options.surface.parametrization = checked.choice<Parametrization>("Parametrization");
   options.surface.fold_limit_percent = checked.real("FoldLimit");
   options.check.mended_area_limit_percent = checked.real("MendLimit");
   options.measures.distances = checked.flag("Distances");

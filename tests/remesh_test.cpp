@@ -41,18 +41,14 @@ RemeshOptions options_of(int nodes, Weighting weighting,
   return options;
 }
 
-// Closed, oriented outward, 2-manifold, star-shaped about the centre, of genus 0.
-void expect_promises(const RemeshResult& result, int nodes) {
+// Closed, consistently oriented, 2-manifold, of genus 0.
+void expect_closed(const RemeshResult& result, int nodes) {
   const IndexedMesh& mesh = result.mesh;
   ASSERT_EQ(mesh.points.size(), static_cast<std::size_t>(nodes));
   ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(2 * nodes - 4));
   std::map<std::pair<std::int32_t, std::int32_t>, int> directed;
   std::vector<int> triangles_at(mesh.points.size(), 0);
   for (const Triangle& t : mesh.triangles) {
-    const Vector3 a = mesh.points[t[0]] - result.centre;
-    const Vector3 b = mesh.points[t[1]] - result.centre;
-    const Vector3 c = mesh.points[t[2]] - result.centre;
-    ASSERT_GT(a.dot(b.cross(c)), 0.0);
     for (std::size_t k = 0; k < 3; ++k) {
       ASSERT_EQ(++directed[std::make_pair(t[k], t[(k + 1) % 3])], 1);
       ++triangles_at[t[k]];
@@ -68,6 +64,17 @@ void expect_promises(const RemeshResult& result, int nodes) {
     const Vector3 expected = result.centre + result.radial_distances[i] * result.directions[i];
     ASSERT_NEAR((mesh.points[i] - expected).norm(), 0.0,
                 1e-12 * result.radial_distances[i] + 1e-15);
+  }
+}
+
+// The same, and star-shaped about the centre.
+void expect_promises(const RemeshResult& result, int nodes) {
+  expect_closed(result, nodes);
+  for (const Triangle& t : result.mesh.triangles) {
+    const Vector3 a = result.mesh.points[t[0]] - result.centre;
+    const Vector3 b = result.mesh.points[t[1]] - result.centre;
+    const Vector3 c = result.mesh.points[t[2]] - result.centre;
+    ASSERT_GT(a.dot(b.cross(c)), 0.0);
   }
 }
 
@@ -426,11 +433,19 @@ IndexedMesh bent_rod() {
 }
 
 TEST(Remesh, RefusesAFoldAboveTheLimit) {
-  expect_refused(mushroom(), RemeshOptions(), ErrorCode::NotStarShaped, "folds over itself");
+  RemeshOptions options = options_of(200, Weighting::Area);
+  options.surface.parametrization = Parametrization::Radial;
+  expect_refused(mushroom(), options, ErrorCode::NotStarShaped, "take the spherical");
+  // The advice works.
+  options.surface.parametrization = Parametrization::Spherical;
+  const RemeshResult result = remesh(mushroom(), options, Execution(1));
+  expect_closed(result, 200);
+  EXPECT_EQ(result.parametrization, Parametrization::Spherical);
 }
 
 TEST(Remesh, AFoldUnderTheLimitIsRemeshedWithAWarning) {
   RemeshOptions options = options_of(200, Weighting::Area);
+  options.surface.parametrization = Parametrization::Radial;
   options.surface.fold_limit_percent = 60.0;
   const RemeshResult bowl = remesh(mushroom(), options, Execution(1));
   expect_promises(bowl, 200);
@@ -439,7 +454,8 @@ TEST(Remesh, AFoldUnderTheLimitIsRemeshedWithAWarning) {
   EXPECT_TRUE(warns_of(bowl, "folds over itself"));
 
   // Within the limit as it is.
-  const RemeshResult bent = remesh(bent_rod(), options_of(200, Weighting::Area), Execution(1));
+  options.surface.fold_limit_percent = RemeshOptions().surface.fold_limit_percent;
+  const RemeshResult bent = remesh(bent_rod(), options, Execution(1));
   expect_promises(bent, 200);
   EXPECT_GT(bent.folded_share, fold_warning_limit);
   EXPECT_LT(bent.folded_share, 0.01 * RemeshOptions().surface.fold_limit_percent);
@@ -448,10 +464,12 @@ TEST(Remesh, AFoldUnderTheLimitIsRemeshedWithAWarning) {
 }
 
 TEST(Remesh, WarningsDoNotFollowTheLocale) {
-  const RemeshResult plain = remesh(bent_rod(), options_of(200, Weighting::Area), Execution(1));
+  RemeshOptions options = options_of(200, Weighting::Area);
+  options.surface.parametrization = Parametrization::Radial;
+  const RemeshResult plain = remesh(bent_rod(), options, Execution(1));
   ASSERT_TRUE(warns_of(plain, " % of the solid angle"));
   const test::GermanNumbers german;
-  const RemeshResult result = remesh(bent_rod(), options_of(200, Weighting::Area), Execution(1));
+  const RemeshResult result = remesh(bent_rod(), options, Execution(1));
   EXPECT_EQ(result.warnings, plain.warnings);
 }
 

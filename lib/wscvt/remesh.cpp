@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_warnings.h"
+#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/scan/point_cloud.h"
 #include "wscvt/tessellation/seeding.h"
 
@@ -39,11 +41,12 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   execution.report(0.0, "Measuring the scan");
   prepared.original = describe_shape(grain.mesh, execution.part(0.0, 0.5));
   prepared.original_quality = measure_quality(grain.mesh, execution);
-  if (grain.is_scan && options.weighting.kind == Weighting::Curvature &&
+  const bool radial = grain.parametrization == Parametrization::Radial;
+  if (radial && grain.is_scan && options.weighting.kind == Weighting::Curvature &&
       options.weighting.curvature_source == CurvatureSource::QuadricFit) {
     grain.curvatures = scan_curvatures(grain.mesh, execution);
   }
-  if (needs_rays(options.placement, grain.is_scan)) {
+  if (radial && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
   if (measures_distances(options)) prepared.distance.emplace(grain.mesh);
@@ -62,7 +65,15 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
     prepared.input.input_faces = 0;
     prepared.input.welded_vertices = points - different;
   }
-  prepared.grain = grain_of_scan(std::move(checked), options.surface, execution.part(0.5, 0.9));
+  SurfaceOptions surface = options.surface;
+  // Refinement works on the radial map, so a grain that has one keeps it.
+  if (options.placement.refinement.rounds > 0 && surface.parametrization == Parametrization::Auto &&
+      folded_solid_angle(checked.mesh, checked.report.centroid, execution) <=
+          0.01 * surface.fold_limit_percent) {
+    surface.parametrization = Parametrization::Radial;
+  }
+  prepared.grain =
+      grain_of_scan(std::move(checked), surface, options.node_count, execution.part(0.5, 0.9));
   make_ready(prepared, options, execution.part(0.9, 1.0));
   return prepared;
 }
@@ -118,6 +129,7 @@ void to_input_units(const Grain& grain, RemeshResult& result) {
   scale(result.original_quality, unit);
   scale(result.quality, unit);
   scale(result.refinement, unit);
+  result.space.fit.offset *= unit;
   if (result.distances) scale(*result.distances, unit);
   for (Vector3& point : result.mesh.points) point = grain.centre + unit * point;
   for (double& radius : result.radial_distances) radius *= unit;
@@ -135,17 +147,30 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   RelaxationMetric& metric = result.options.relaxation.metric;
   if (options.seeding.sampling != Sampling::Weighted) metric = RelaxationMetric::Sphere;
 
-  RelaxationResult relaxed = tessellate(grain, result.options, execution.part(0.0, 0.7));
-  result.relaxation = std::move(relaxed.report);
-  PlacedNodes nodes = place_nodes(grain, std::move(relaxed), metric, prepared.original.volume,
-                                  options.placement, execution.part(0.7, 0.9));
+  PlacedNodes nodes;
+  if (grain.parametrization == Parametrization::Spherical) {
+    metric = RelaxationMetric::Surface;
+    SpaceNodes in_space = place_in_space(
+        grain, options.node_count, options.seeding, options.weighting, options.relaxation,
+        options.levels, options.placement, prepared.original.volume, execution.part(0.0, 0.9));
+    result.relaxation = std::move(in_space.relaxation);
+    result.space = in_space.report;
+    nodes = std::move(in_space.placed);
+  } else {
+    RelaxationResult relaxed = tessellate(grain, result.options, execution.part(0.0, 0.7));
+    result.relaxation = std::move(relaxed.report);
+    nodes = place_nodes(grain, std::move(relaxed), metric, prepared.original.volume,
+                        options.placement, execution.part(0.7, 0.9));
+  }
   result.mesh = std::move(nodes.mesh);
   result.directions = std::move(nodes.directions);
   result.radial_distances = std::move(nodes.radii);
   result.cell_areas = std::move(nodes.cell_areas);
   result.refinement = std::move(nodes.refinement);
   if (options.measures.node_curvatures) {
-    result.curvatures = largest_curvatures(*grain.surface, result.directions, execution);
+    result.curvatures = grain.surface
+                            ? largest_curvatures(*grain.surface, result.directions, execution)
+                            : largest_curvatures(result.mesh, execution);
   }
 
   execution.report(0.9, "Measuring the remesh");
@@ -162,6 +187,9 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   result.centre = grain.centre;
   result.input = prepared.input;
   result.folded_share = grain.folded_share;
+  result.parametrization = grain.parametrization;
+  result.steep_share = grain.steep_share;
+  if (grain.parametrization == Parametrization::Spherical) result.map = grain.map.report;
   result.fit = grain.fit;
   result.coefficients = grain.coefficients;
   result.original = prepared.original;

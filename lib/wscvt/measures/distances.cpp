@@ -94,7 +94,7 @@ std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
   return result;
 }
 
-std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count) {
+std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count) {
   std::vector<double> accumulated;
   accumulated.reserve(mesh.triangles.size());
   double area = 0.0;
@@ -112,8 +112,8 @@ std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t c
   // Steps of the additive recurrence with the plastic number (Roberts 2018), 1/p and 1/p^2.
   constexpr double first_step = 0.75487766624669276;
   constexpr double second_step = 0.56984029099805327;
-  std::vector<Vector3> samples;
-  samples.reserve(count);
+  std::vector<MeshPlace> places;
+  places.reserve(count);
   std::size_t face = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const auto index = static_cast<double>(i);
@@ -125,9 +125,19 @@ std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t c
       u = 1.0 - u;
       v = 1.0 - v;
     }
-    const Triangle& t = mesh.triangles[face];
+    places.push_back({static_cast<std::int32_t>(face), {1.0 - u - v, u, v}});
+  }
+  return places;
+}
+
+std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count) {
+  std::vector<Vector3> samples;
+  samples.reserve(count);
+  for (const MeshPlace& place : area_uniform_places(mesh, count)) {
+    const Triangle& t = mesh.triangles[place.triangle];
     const Vector3& a = mesh.points[t[0]];
-    samples.push_back(a + u * (mesh.points[t[1]] - a) + v * (mesh.points[t[2]] - a));
+    samples.push_back(a + place.weights[1] * (mesh.points[t[1]] - a) +
+                      place.weights[2] * (mesh.points[t[2]] - a));
   }
   return samples;
 }

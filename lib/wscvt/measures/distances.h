@@ -8,6 +8,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
+#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
 
@@ -92,8 +93,11 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
                                 const MeshDistance& to_reference, const DistanceOptions& options,
                                 const Execution& execution);
 
-/// The `count` points that measure_distances spreads over a surface. Throws Error(InvalidInput) if
+/// The `count` places that measure_distances spreads over a surface. Throws Error(InvalidInput) if
 /// the mesh has no faces or no area.
+std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count);
+
+/// The points of these places. Throws the same.
 std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count);
 
 /// Distances measured in lengths of `unit`, in plain lengths.

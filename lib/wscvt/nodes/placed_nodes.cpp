@@ -115,4 +115,14 @@ std::vector<double> largest_curvatures(const RadialSurface& surface,
   return result;
 }
 
+std::vector<double> largest_curvatures(const IndexedMesh& mesh, const Execution& execution) {
+  constexpr int rings = 2;
+  std::vector<double> result;
+  result.reserve(mesh.points.size());
+  for (const PrincipalCurvatures& k : quadric_fit_curvatures(mesh, rings, execution)) {
+    result.push_back(std::max(std::abs(k.maximum), std::abs(k.minimum)));
+  }
+  return result;
+}
+
 }  // namespace wscvt

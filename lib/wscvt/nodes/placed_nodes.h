@@ -36,8 +36,14 @@ struct EnumerationTable<NodePlacement> {
 
 struct PlacementOptions {
   NodePlacement kind = NodePlacement::Series;
-  RefinementOptions refinement;  ///< of the nodes towards the scan; needs LeastSquares
+  RefinementOptions refinement;  ///< of the nodes towards the scan; needs LeastSquares, and Radial
+  /// Refuse a result in which triangles meet, which a radial one never has.
+  bool refuse_self_intersections = false;
 };
+
+inline constexpr FlagOption refuse_self_intersections_option = {
+    "refuse-self-intersections", "refusal of self-intersections",
+    "refuse a remesh in which triangles meet, instead of warning"};
 
 /// Throws Error(InvalidInput) for options out of range, and for a refinement of nodes that are to
 /// stay on a surface.
@@ -68,5 +74,9 @@ PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, Relaxation
 std::vector<double> largest_curvatures(const RadialSurface& surface,
                                        const std::vector<Vector3>& directions,
                                        const Execution& execution);
+
+/// The same at the vertices of a closed mesh by quadrics over two rings, where there is no surface
+/// over the sphere to ask.
+std::vector<double> largest_curvatures(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

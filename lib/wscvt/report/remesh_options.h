@@ -53,9 +53,11 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.weighting.curvature_source);
   visitor(options.weighting.adaptive_exponent, adaptive_exponent_option);
   visitor(options.surface.degree, harmonic_degree_option);
+  visitor(options.surface.parametrization);
   visitor(options.surface.fold_limit_percent, fold_limit_option);
   visitor(options.relaxation.metric);
   visitor(options.placement.kind);
+  visitor(options.placement.refuse_self_intersections, refuse_self_intersections_option);
   visitor(options.placement.refinement.rounds, refinement_rounds_option);
   visitor(options.placement.refinement.smallest_angle, refinement_angle_option);
   visitor(options.placement.refinement.tolerance, refinement_tolerance_option);

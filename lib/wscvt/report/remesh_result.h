@@ -12,6 +12,7 @@
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/nodes/node_count_search.h"
 #include "wscvt/nodes/node_refinement.h"
+#include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/surface/harmonic_surface.h"
@@ -32,9 +33,14 @@ struct RemeshResult {
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
   Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
   MeshCheckReport input;
-  double folded_share = 0.0;         ///< see folded_solid_angle
-  HarmonicFitReport fit;             ///< of the series
-  std::vector<double> coefficients;  ///< of the fitted series about `centre`, length
+  double folded_share = 0.0;                                  ///< see folded_solid_angle
+  Parametrization parametrization = Parametrization::Radial;  ///< the one taken: not Auto
+  double steep_share = 0.0;  ///< of the scan, by which Auto decides; see steep_share
+  SphereMapReport map;       ///< of a Spherical one
+  SpaceNodesReport space;    ///< of a Spherical one
+  HarmonicFitReport fit;     ///< of the series; of a Radial one
+  std::vector<double>
+      coefficients;  ///< of the fitted series about `centre`, length; of a Radial one
   RelaxationReport relaxation;
   RefinementReport refinement;
   std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for

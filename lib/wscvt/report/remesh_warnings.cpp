@@ -10,7 +10,8 @@ namespace {
 using Sentences = std::vector<std::string>;
 
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
-  if (result.folded_share > fold_warning_limit) {
+  const bool radial = result.parametrization == Parametrization::Radial;
+  if (radial && result.folded_share > fold_warning_limit) {
     warnings.push_back(
         "The scan folds over itself: sheets beyond the first fill " +
         format_percent(result.folded_share) +
@@ -74,6 +75,32 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
   }
 }
 
+void warn_of_space(const RemeshResult& result, Sentences& warnings) {
+  if (result.parametrization != Parametrization::Spherical) return;
+  const RemeshOptions& options = result.options;
+  if (options.placement.refinement.rounds > 0) {
+    warnings.push_back(
+        "The nodes were not refined, because that needs the radial parametrization, which this "
+        "grain's flanks are too steep for; take it all the same, or set the rounds to 0.");
+  }
+  const std::string nodes = std::to_string(result.mesh.points.size()) + " nodes";
+  if (result.space.self_intersections > 0) {
+    warnings.push_back(
+        std::to_string(result.space.self_intersections) +
+        (result.space.self_intersections == 1 ? " pair" : " pairs") +
+        " of triangles of the remesh meet each other, because sheets of the grain come nearer to "
+        "each other than " +
+        nodes + " can follow.");
+  }
+  if (result.space.enough_nodes == 0) return;
+  warnings.push_back(nodes + " are too few for this shape: on its surface they lose " +
+                     format_percent(result.space.volume_loss) +
+                     " of the volume, or their triangles meet" +
+                     (result.space.enough_nodes > 0
+                          ? "; " + std::to_string(result.space.enough_nodes) + " would do."
+                          : "; so would sixteen times as many."));
+}
+
 void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
   if (result.options.seeding.sampling != Sampling::Weighted) {
     const auto nodes = static_cast<int>(result.mesh.points.size());
@@ -83,6 +110,8 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
                          std::to_string(nodes) + ", was used.");
     }
   } else if (result.relaxation.outcome == RelaxationOutcome::Settled) {
+    // Flat cells on a rough scan differ in area however many they are: no reason for a warning.
+    if (result.parametrization == Parametrization::Spherical) return;
     warnings.push_back("The seeds came to rest with the cells' areas still spread by " +
                        format_percent(result.relaxation.history.back().area_spread) +
                        " about their targets; more nodes follow the surface more evenly.");
@@ -121,6 +150,7 @@ std::vector<std::string> remesh_warnings(const RemeshResult& result) {
   Sentences warnings;
   warn_of_scan(result, warnings);
   warn_of_fit(result, warnings);
+  warn_of_space(result, warnings);
   warn_of_relaxation(result, warnings);
   warn_of_search(result, warnings);
   return warnings;

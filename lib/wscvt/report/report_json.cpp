@@ -74,6 +74,24 @@ Json json_of(const MeshCheckReport& input) {
           {"equivalent_radius", input.equivalent_radius}};
 }
 
+Json json_of(const SphereMapReport& map) {
+  return {{"vertices", map.vertices},
+          {"mean_angle_distortion", map.mean_angle_distortion},
+          {"largest_angle_distortion", map.largest_angle_distortion},
+          {"smallest_area_ratio", map.smallest_area_ratio},
+          {"largest_area_ratio", map.largest_area_ratio}};
+}
+
+Json json_of(const SpaceNodesReport& space) {
+  return {{"self_intersections", space.self_intersections},
+          {"repairs", space.repairs},
+          {"volume_loss_on_surface", space.volume_loss},
+          {"enough_nodes", space.enough_nodes},
+          {"fit_samples", space.fit.samples},
+          {"fit_held_back", space.fit.held_back},
+          {"fit_offset", space.fit.offset}};
+}
+
 Json json_of(const HarmonicFitReport& fit, double equivalent_radius) {
   return {{"requested_degree", fit.requested_degree},
           {"degree", fit.degree},
@@ -178,6 +196,10 @@ Json report_of(const RemeshResult& result) {
       {"input", json_of(result.input)},
       {"centre", json_of(result.centre)},
       {"folded_share", result.folded_share},
+      {"steep_share", result.steep_share},
+      {"parametrization", key_of(result.parametrization)},
+      {"map", json_of(result.map)},
+      {"space", json_of(result.space)},
       {"fit", json_of(result.fit, result.input.equivalent_radius)},
       {"relaxation", json_of(result.relaxation)},
       {"refinement", json_of(result.refinement)},

@@ -6,6 +6,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/report/report.h"
+#include "wscvt/tessellation/space_weights.h"
 
 namespace wscvt {
 
@@ -83,10 +84,15 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                                    counted(input.faces, "face", "faces") + ", closed, genus " +
                                    std::to_string(input.genus) + ", equivalent radius " +
                                    format_number(input.equivalent_radius)));
+  const bool spherical = result.parametrization == Parametrization::Spherical;
+  const std::string limit =
+      spherical ? "" : " (limit " + format_typed(result.options.surface.fold_limit_percent) + " %)";
   lines.push_back(line("Fold", format_percent(result.folded_share) +
-                                   " of the solid angle in sheets beyond the first (limit " +
-                                   format_typed(result.options.surface.fold_limit_percent) + " %" +
-                                   ")"));
+                                   " of the solid angle in sheets beyond the first" + limit));
+  lines.push_back(
+      line("Map", label_of(result.parametrization) + "; " + format_percent(result.steep_share) +
+                      " of the area steeper than " + format_number(steep_flank_angle, 3) +
+                      " degrees (limit " + format_percent(steep_share_limit) + ")"));
 }
 
 std::string reason(const HarmonicFitReport& fit) {
@@ -110,6 +116,30 @@ void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
   lines.push_back(line("Fit", text));
 }
 
+void append_space(const RemeshResult& result, std::vector<std::string>& lines) {
+  if (result.parametrization != Parametrization::Spherical) return;
+  const SpaceNodesReport& space = result.space;
+  std::string text = counted(space.self_intersections, "pair", "pairs") +
+                     " of triangles meet, of " +
+                     counted(result.mesh.triangles.size(), "triangle", "triangles");
+  if (space.repairs > 0) {
+    text += "; repaired by " +
+            counted(static_cast<std::size_t>(space.repairs), "relaxation", "relaxations") +
+            " with more nodes there";
+  }
+  lines.push_back(line("Meeting", text));
+  if (result.options.placement.kind == NodePlacement::Series) {
+    lines.push_back(line("Placement", "on the scan; a spherical map has no fitted series"));
+  }
+  if (space.fit.samples > 0) {
+    lines.push_back(line(
+        "Placement",
+        "along the normals to " + counted(space.fit.samples, "sample", "samples") + "; " +
+            counted(static_cast<std::size_t>(space.fit.held_back), "node", "nodes") +
+            " held back by guards; offset for the volume " + format_number(space.fit.offset, 3)));
+  }
+}
+
 void append_relaxation(const RemeshResult& result, std::vector<std::string>& lines) {
   const SeedingOptions& seeding = result.options.seeding;
   if (seeding.sampling != Sampling::Weighted) {
@@ -128,6 +158,13 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
   }
   if (weighting.kind == Weighting::ErrorAdaptive) {
     weights += ", curvature exponent " + format_number(weighting.adaptive_exponent, 3);
+  }
+  if (result.parametrization == Parametrization::Spherical) {
+    const Weighting taken = weighting_in_space(weighting.kind);
+    if (taken != weighting.kind) {
+      weights = label_of(taken) + " (asked for: " + weights +
+                ", which a spherical map cannot tell from it)";
+    }
   }
   lines.push_back(line("Weighting", weights + "; seeds: " + seeds));
 
@@ -239,6 +276,7 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   std::vector<std::string> lines;
   append_input(result, lines);
   append_fit(result, lines);
+  append_space(result, lines);
   append_search(result, lines);
   append_relaxation(result, lines);
   append_refinement(result, lines);

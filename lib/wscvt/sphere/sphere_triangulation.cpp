@@ -186,6 +186,17 @@ bool SphereTriangulation::is_flippable(std::int32_t half_edge,
   return counter_clockwise(c, a, d) && counter_clockwise(d, b, c);
 }
 
+bool SphereTriangulation::keeps_determinants(std::int32_t half_edge,
+                                             const std::vector<Vector3>& seeds,
+                                             double smallest) const {
+  if (!(smallest > 0.0)) return true;
+  const std::int32_t other = opposite_[half_edge];
+  const Vector3& a = seeds[origin(half_edge)];
+  const Vector3& b = seeds[origin(other)];
+  const Vector3 across = seeds[origin(previous(half_edge))].cross(seeds[origin(previous(other))]);
+  return -a.dot(across) >= smallest && b.dot(across) >= smallest;
+}
+
 void SphereTriangulation::flip(std::int32_t half_edge) {
   const std::int32_t other = opposite_[half_edge];
   const std::int32_t ab = half_edge / 3 * 3;
@@ -253,7 +264,8 @@ void SphereTriangulation::replace(const std::vector<std::int32_t>& triangles,
 template <class NeedsFlip>
 SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Vector3>& seeds,
                                                             const NeedsFlip& needs_flip,
-                                                            const Execution& execution) {
+                                                            const Execution& execution,
+                                                            double smallest_determinant) {
   // The search for edges to flip is the bulk of the work and runs in parallel; flips are few and
   // run in one order.
   constexpr std::size_t block = 4096;
@@ -294,7 +306,7 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       const std::int32_t h = stack.back();
       stack.pop_back();
       if (!needs_flip(h)) continue;
-      if (!is_flippable(h, seeds)) {
+      if (!is_flippable(h, seeds) || !keeps_determinants(h, seeds, smallest_determinant)) {
         stuck.push_back(h);
         continue;
       }
@@ -335,7 +347,7 @@ SphereTriangulation::Repair SphereTriangulation::restore_regular(const std::vect
 
 SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
     const std::vector<Vector3>& seeds, const std::vector<Vector3>& positions,
-    const Execution& execution) {
+    const Execution& execution, double smallest_determinant) {
   return flip_while(
       seeds,
       [&](std::int32_t h) {
@@ -362,7 +374,7 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         return !is_nearly_flat(apex_c, seeds[ends[0]], apex_d) &&
                !is_nearly_flat(apex_d, seeds[ends[1]], apex_c);
       },
-      execution);
+      execution, smallest_determinant);
 }
 
 }  // namespace wscvt

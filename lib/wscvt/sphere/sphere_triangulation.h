@@ -69,10 +69,11 @@ class SphereTriangulation {
   /// Flips edges until the two angles opposite to each edge sum to at most pi, measured on the
   /// surface mesh with vertices `positions` (Bobenko and Springborn 2007: intrinsic Delaunay), as
   /// long as the triangles stay counter-clockwise on the sphere of `seeds`; edges left for that
-  /// reason are counted as stuck.
+  /// reason are counted as stuck. So are those that would give a triangle on the sphere a
+  /// determinant below `smallest_determinant`.
   Repair restore_surface_delaunay(const std::vector<Vector3>& seeds,
-                                  const std::vector<Vector3>& positions,
-                                  const Execution& execution);
+                                  const std::vector<Vector3>& positions, const Execution& execution,
+                                  double smallest_determinant = 0.0);
 
   /// Whether the half-edge's edge may be flipped: both new triangles counter-clockwise on the
   /// sphere.
@@ -92,7 +93,9 @@ class SphereTriangulation {
   const char* build(const std::vector<Vector3>& seeds, const std::vector<double>& weights);
   template <class NeedsFlip>
   Repair flip_while(const std::vector<Vector3>& seeds, const NeedsFlip& needs_flip,
-                    const Execution& execution);
+                    const Execution& execution, double smallest_determinant = 0.0);
+  bool keeps_determinants(std::int32_t half_edge, const std::vector<Vector3>& seeds,
+                          double smallest) const;
   void set_triangles(std::vector<Triangle> triangles, std::size_t vertices);
 
   std::vector<Triangle> triangles_;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/surface/grain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/mesh_collapse.h"
 #include "wscvt/surface/radial_samples.h"
 
 namespace wscvt {
@@ -43,27 +46,50 @@ void refuse_folds(double folded_share, double limit) {
     throw Error(
         ErrorCode::NotStarShaped,
         "The volume centroid of the grain lies outside of it, or on its surface, so that no "
-        "radius in each direction describes it; cut the grain into rounder pieces and "
-        "remesh each on its own.");
+        "radius in each direction describes it; take the spherical parametrization, which needs "
+        "none.");
   }
   if (folded_share > limit) {
     throw Error(ErrorCode::NotStarShaped,
                 "Seen from its centre the grain folds over itself: sheets beyond the first fill " +
                     format_percent(folded_share) + " of the solid angle, above the limit of " +
                     format_percent(limit) +
-                    ". A radius in each direction cannot describe it: remove inner surfaces and "
-                    "attached pieces from the scan, or raise the limit and check the result.");
+                    ". A radius in each direction cannot describe it: take the spherical "
+                    "parametrization, or raise the limit and check the result.");
   }
+}
+
+/// How many vertices of a scan are mapped: nodes see no detail finer than a fortieth of a cell, and
+/// below 50,000 vertices a level would save less than a second.
+std::size_t mapped_vertices(std::size_t vertices, int node_count) {
+  constexpr std::size_t always = 50000;
+  constexpr std::size_t per_node = 40;
+  return std::min(vertices, std::max(always, per_node * static_cast<std::size_t>(node_count)));
+}
+
+void map_scan(Grain& grain, int node_count, const Execution& execution) {
+  IndexedMesh mesh = grain.mesh;
+  const std::size_t kept = mapped_vertices(mesh.points.size(), node_count);
+  if (kept < mesh.points.size()) {
+    MeshCollapse collapse(mesh, execution);
+    collapse.collapse_to(kept, execution.part(0.0, 0.4));
+    mesh = collapse.present_mesh(grain.mesh.points);
+    grain.is_level = true;
+  }
+  grain.map = map_to_sphere(mesh, SphereMapOptions(), execution.part(0.4, 0.95));
+  grain.mapped.emplace(std::move(mesh), std::move(grain.map.directions), execution.part(0.95, 1.0));
 }
 
 }  // namespace
 
 void check_surface_options(const SurfaceOptions& options) {
+  require_valid(options.parametrization);
   require_in_range(options.degree, harmonic_degree_option);
   require_in_range(options.fold_limit_percent, fold_limit_option);
 }
 
-Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, const Execution& execution) {
+Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, int node_count,
+                    const Execution& execution) {
   check_surface_options(options);
   Grain grain;
   grain.unit = scan.report.equivalent_radius;
@@ -75,6 +101,16 @@ Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, const Execu
   });
 
   execution.report(0.0, "Looking for folds");
+  grain.steep_share = steep_share(grain.mesh, execution);
+  const bool spherical = options.parametrization == Parametrization::Spherical ||
+                         (options.parametrization == Parametrization::Auto &&
+                          scan.report.genus == 0 && grain.steep_share > steep_share_limit);
+  if (spherical) {
+    grain.parametrization = Parametrization::Spherical;
+    grain.folded_share = folded_solid_angle(grain.mesh, Vector3::Zero(), execution);
+    map_scan(grain, node_count, execution.part(0.1, 1.0));
+    return grain;
+  }
   const RadialSamples samples = radial_samples(grain.mesh, execution.part(0.0, 0.25));
   grain.folded_share = samples.folded_share;
   refuse_folds(grain.folded_share, 0.01 * options.fold_limit_percent);

@@ -10,15 +10,19 @@
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/mesh_surface.h"
+#include "wscvt/surface/parametrization.h"
 #include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/sphere_map.h"
 
 namespace wscvt {
 
 /// How a scan becomes a surface over the sphere.
 struct SurfaceOptions {
+  Parametrization parametrization = Parametrization::Auto;
   int degree = 20;                  ///< of the harmonic series, see harmonic_degree_option
-  double fold_limit_percent = 5.0;  ///< refuse above this folded_solid_angle
+  double fold_limit_percent = 5.0;  ///< refuse above this folded_solid_angle; Radial only
 };
 
 inline constexpr NumberOption<double> fold_limit_option = {
@@ -36,18 +40,34 @@ struct Grain {
   Vector3 centre = Vector3::Zero();  ///< of the grain, in the input's coordinates
   IndexedMesh mesh;                  ///< the scan, or points of the formula's surface
   bool is_scan = true;               ///< not a formula, whose own points are exact
+  /// Radial or Spherical: how the grain is laid over the sphere. Spherical grains have `mapped` and
+  /// `map`, the others `surface`, `fit` and `coefficients`.
+  Parametrization parametrization = Parametrization::Radial;
+  double steep_share = 0.0;                      ///< see steep_share; 0 of a formula
   std::unique_ptr<const RadialSurface> surface;  ///< the fitted series, or the formula
-  double folded_share = 0.0;                     ///< see folded_solid_angle; 0 of a formula
-  HarmonicFitReport fit;                         ///< of the series; empty of a formula
-  std::vector<double> coefficients;              ///< of the series; empty of a formula
-  std::optional<MeshSurface> rays;               ///< at the mesh, for who places nodes on it
-  std::optional<CurvatureSamples> curvatures;    ///< of the scan itself, for who weighs by them
+  /// The scan over the sphere, or, of a very dense one, an early level of its own collapse.
+  std::optional<MappedSurface> mapped;
+  bool is_level = false;                       ///< `mapped` is such a level
+  SphereMap map;                               ///< of `mapped`; its directions have moved there
+  double folded_share = 0.0;                   ///< see folded_solid_angle; 0 of a formula
+  HarmonicFitReport fit;                       ///< of the series; empty of a formula
+  std::vector<double> coefficients;            ///< of the series; empty of a formula
+  std::optional<MeshSurface> rays;             ///< at the mesh, for who places nodes on it
+  std::optional<CurvatureSamples> curvatures;  ///< of the scan itself, for who weighs by them
 };
 
-/// Centres a scan on its volume centroid and fits the series. Leaves `rays` and `curvatures` empty.
-/// Throws Error: InvalidInput for options out of range, NotStarShaped when the folded share exceeds
-/// the limit or the centroid is not inside, NumericalFailure, Cancelled.
-Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, const Execution& execution);
+/// Centres a scan on its volume centroid and fits the series, or maps it to the sphere. Leaves
+/// `rays` and `curvatures` empty.
+///
+/// A dense scan need not be mapped whole: one with more than 50,000 vertices and more than 40 a
+/// node of the `node_count` is collapsed to that number first. The nodes are relaxed on that level
+/// and put on to the scan, or fitted to it, afterwards.
+///
+/// Throws Error: InvalidInput for options out of range and for a spherical map of a surface with
+/// handles, NotStarShaped when the folded share of a grain that is to be Radial exceeds the limit
+/// or the centroid is not inside, NumericalFailure, Cancelled.
+Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, int node_count,
+                    const Execution& execution);
 
 /// The grain of a surface given by a formula or by coefficients, about its own origin, whose
 /// `integrals` are given. Its mesh has 40,962 points. `surface` must outlive the grain.

@@ -98,6 +98,18 @@ void check_multilevel_options(const MultilevelOptions& options) {
   require_in_range(options.middle_tolerance, middle_tolerance_option);
 }
 
+RelaxationOptions level_options(const RelaxationOptions& options, const MultilevelOptions& levels,
+                                bool finest, bool coarsest) {
+  RelaxationOptions result = options;
+  if (!finest) {
+    const double tolerance = coarsest ? levels.coarsest_tolerance : levels.middle_tolerance;
+    result.displacement_tolerance = std::min(options.displacement_tolerance, tolerance);
+    // Few seeds on a rough grain never spread as little as the last level's may.
+    result.area_tolerance = std::numeric_limits<double>::max();
+  }
+  return result;
+}
+
 RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const SeedModel& model,
                                   const RelaxationOptions& options, const MultilevelOptions& levels,
                                   const Execution& execution) {
@@ -108,17 +120,10 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
                                              " seeds instead of " + std::to_string(sizes.front()) +
                                              ".");
   }
-  const auto options_of = [&](std::size_t level) {
-    RelaxationOptions result = options;
-    if (level + 1 < sizes.size()) {
-      const double tolerance = level == 0 ? levels.coarsest_tolerance : levels.middle_tolerance;
-      result.displacement_tolerance = std::min(options.displacement_tolerance, tolerance);
-      // Few seeds on a rough grain never spread as little as the last level's may.
-      result.area_tolerance = std::numeric_limits<double>::max();
-    }
-    return result;
-  };
   // Progress by the number of seeds to be moved, of which the last level has three quarters.
+  const auto options_of = [&](std::size_t level) {
+    return level_options(options, levels, level + 1 == sizes.size(), level == 0);
+  };
   double done = 0.0;
   double all = 0.0;
   for (const int size : sizes) all += size;

@@ -42,6 +42,10 @@ inline constexpr NumberOption<double> middle_tolerance_option = {
 /// Throws Error(InvalidInput) when a number is below 4.
 std::vector<int> level_sizes(int count, int coarsest_seeds);
 
+/// The options of one level: those given on the finest, else the tolerances of MultilevelOptions.
+RelaxationOptions level_options(const RelaxationOptions& options, const MultilevelOptions& levels,
+                                bool finest, bool coarsest);
+
 /// Relaxes `start`, the seeds of the coarsest level, then halves the edges and relaxes again, level
 /// by level, until there are `count` seeds.
 ///

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/tessellation/power_cells.h"
+#include "wscvt/tessellation/step_control.h"
 
 namespace wscvt {
 
@@ -192,27 +192,6 @@ bool try_evaluation(Evaluation& evaluation, const std::vector<Vector3>& before,
   return false;
 }
 
-/// Notices steps that go round in circles: those of the surface metric need not lead downhill.
-class CycleWatch {
- public:
-  /// Whether the displacement has been well above its smallest for too many steps since that. Below
-  /// 1e-3 h nothing is held against it: there a single flip takes it up for a while, and runs with
-  /// a finer tolerance come to rest sooner with momentum (cycles were seen at 0.01 h and more).
-  bool cycling_at(double displacement) {
-    if (displacement < smallest_) {
-      smallest_ = displacement;
-      steps_above_ = 0;
-    } else if (displacement > std::max(2.0 * smallest_, 1e-3)) {
-      ++steps_above_;
-    }
-    return steps_above_ >= 30;
-  }
-
- private:
-  double smallest_ = std::numeric_limits<double>::infinity();
-  int steps_above_ = 0;
-};
-
 RelaxationResult relax_from(std::vector<Vector3> seeds,
                             std::optional<SphereTriangulation> triangulation,
                             const SeedModel& model, const RelaxationOptions& options,
@@ -231,26 +210,17 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
   // `seeds` is where the cells were evaluated; `arrived` where the last plain step ended.
   std::vector<Vector3> arrived = seeds;
   std::vector<Vector3> stepped(count);
-  double momentum = 1.0;
+  Momentum momentum;
   double factor = options.over_relaxation;
   bool plain = false;
   CycleWatch watch;
   while (true) {
     report.history.push_back(evaluation.step());
     const RelaxationStep& step = evaluation.step();
-    if (step.displacement < options.displacement_tolerance &&
-        step.area_spread < options.area_tolerance) {
-      report.outcome = RelaxationOutcome::Converged;
-      break;
-    }
     // Plain steps are slow to rest; 0.3 of the tolerance leaves triangles as even.
-    const double rest = (plain ? 0.3 : 0.01) * options.displacement_tolerance;
-    if (step.displacement < rest) {
-      report.outcome = RelaxationOutcome::Settled;
-      break;
-    }
-    if (report.iterations >= options.maximum_iterations) {
-      report.outcome = RelaxationOutcome::IterationLimit;
+    const double rest = plain ? 0.3 : 0.01;
+    if (const auto outcome = outcome_at(step, options, report.iterations, rest)) {
+      report.outcome = *outcome;
       break;
     }
     if (options.metric == RelaxationMetric::Surface && !plain &&
@@ -276,13 +246,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
     // `uphill` compares the last step's direction with where the cells now pull: the gradient test
     // of O'Donoghue and Candes, which needs no energy. Momentum that is never dropped swings about
     // the end and takes more than twice the steps.
-    double carry = 0.0;
-    if (options.acceleration && !plain) {
-      if (uphill > 0.0) momentum = 1.0;
-      const double grown = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
-      carry = (momentum - 1.0) / grown;
-      momentum = grown;
-    }
+    const double carry = options.acceleration && !plain ? momentum.carry(uphill > 0.0) : 0.0;
     execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Vector3 moved = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();

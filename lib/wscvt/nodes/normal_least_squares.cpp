@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/normal_least_squares.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/nodes/node_placement.h"
+#include "wscvt/nodes/self_intersections.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 256;
+constexpr double pi = 3.14159265358979323846;
+
+/// Of the samples a node has on the average, each worth one: holds nodes that no sample reaches,
+/// and changes the others' steps by less than a thousandth.
+constexpr double tie = 5e-4;
+
+/// Weights of the corners for the point of a triangle nearest to `p` (Ericson 2005, "Real-time
+/// collision detection", section 5.1.5).
+Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p) {
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
+  const double d1 = ab.dot(p - a);
+  const double d2 = ac.dot(p - a);
+  if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
+  const double d3 = ab.dot(p - b);
+  const double d4 = ac.dot(p - b);
+  if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    const double v = d1 / (d1 - d3);
+    return {1.0 - v, v, 0.0};
+  }
+  const double d5 = ab.dot(p - c);
+  const double d6 = ac.dot(p - c);
+  if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    const double w = d2 / (d2 - d6);
+    return {1.0 - w, 0.0, w};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {0.0, 1.0 - w, w};
+  }
+  const double sum = va + vb + vc;
+  return {va / sum, vb / sum, vc / sum};
+}
+
+Vector3 face_normal(const std::vector<Vector3>& points, const Triangle& t) {
+  return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
+}
+
+std::vector<Vector3> node_normals(const std::vector<Vector3>& positions,
+                                  const std::vector<Triangle>& triangles) {
+  std::vector<Vector3> normals(positions.size(), Vector3::Zero());
+  for (const Triangle& t : triangles) {
+    const Vector3 normal = face_normal(positions, t);
+    for (const std::int32_t v : t) normals[v] += normal;
+  }
+  for (Vector3& normal : normals) {
+    const double length = normal.norm();
+    if (length > 0.0) normal /= length;
+  }
+  return normals;
+}
+
+/// The triangle of the nodes that a sample belongs to, and the row it gives.
+struct Row {
+  Triangle corners{};
+  Vector3 entries = Vector3::Zero();  ///< of the corners' unknowns
+  double residual = 0.0;
+};
+
+/// Finds the triangle nearest to a sample, from the one that holds its direction downhill over the
+/// neighbours.
+class NearestTriangle {
+ public:
+  NearestTriangle(const std::vector<Vector3>& positions, const SphereTriangulation& triangulation)
+      : positions_(positions), triangulation_(triangulation) {}
+
+  std::int32_t find(const Vector3& point, std::int32_t start, Vector3& weights) const {
+    std::int32_t best = start;
+    double smallest = distance(point, start, weights);
+    while (true) {
+      std::int32_t next = -1;
+      for (const std::int32_t v : triangulation_.triangles()[best]) {
+        const std::int32_t first = triangulation_.first_half_edge()[v];
+        std::int32_t h = first;
+        do {
+          Vector3 other;
+          const double d = distance(point, h / 3, other);
+          if (d < smallest) {
+            smallest = d;
+            next = h / 3;
+            weights = other;
+          }
+          h = triangulation_.opposite()[SphereTriangulation::previous(h)];
+        } while (h != first);
+      }
+      if (next < 0) return best;
+      best = next;
+    }
+  }
+
+ private:
+  double distance(const Vector3& point, std::int32_t triangle, Vector3& weights) const {
+    const auto& [i, j, k] = triangulation_.triangles()[triangle];
+    const Vector3 &a = positions_[i], &b = positions_[j], &c = positions_[k];
+    weights = nearest_weights(a, b, c, point);
+    return (weights[0] * a + weights[1] * b + weights[2] * c - point).squaredNorm();
+  }
+
+  const std::vector<Vector3>& positions_;
+  const SphereTriangulation& triangulation_;
+};
+
+std::vector<Row> rows_of(const std::vector<MappedSample>& samples,
+                         const std::vector<Vector3>& positions, const std::vector<Vector3>& seeds,
+                         const std::vector<Vector3>& normals,
+                         const SphereTriangulation& triangulation, const Execution& execution) {
+  const MappedSurface nodes({positions, triangulation.triangles()}, seeds, execution);
+  const NearestTriangle nearest(positions, triangulation);
+  std::vector<Row> rows(samples.size());
+  execution.parallel_for(samples.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::int32_t hint = -1;
+    for (std::size_t s = begin; s < end; ++s) {
+      hint = nodes.locate(samples[s].direction, hint).triangle;
+      Vector3 weights;
+      const std::int32_t triangle = nearest.find(samples[s].point, hint, weights);
+      Row& row = rows[s];
+      row.corners = triangulation.triangles()[triangle];
+      const Vector3 normal = face_normal(positions, row.corners).normalized();
+      Vector3 foot = Vector3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        foot += weights[k] * positions[row.corners[k]];
+        row.entries[k] = weights[k] * normal.dot(normals[row.corners[k]]);
+      }
+      row.residual = normal.dot(samples[s].point - foot);
+    }
+  });
+  return rows;
+}
+
+Eigen::VectorXd solve_steps(const std::vector<Row>& rows, std::size_t nodes) {
+  const auto size = static_cast<Eigen::Index>(nodes);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(6 * rows.size() + nodes);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+  for (const Row& row : rows) {
+    for (int i = 0; i < 3; ++i) {
+      right[row.corners[i]] += row.entries[i] * row.residual;
+      for (int j = 0; j < 3; ++j) {
+        if (row.corners[i] < row.corners[j]) continue;
+        entries.emplace_back(row.corners[i], row.corners[j], row.entries[i] * row.entries[j]);
+      }
+    }
+  }
+  const double weight = tie * static_cast<double>(rows.size()) / static_cast<double>(nodes);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(i), weight);
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
+  solver.setTolerance(1e-12);
+  solver.setMaxIterations(5000);
+  solver.compute(matrix);
+  Eigen::VectorXd steps = solver.solve(right);
+  if (solver.info() != Eigen::Success || !steps.allFinite()) {
+    throw Error(ErrorCode::NumericalFailure,
+                "The nodes cannot be fitted along their normals: the least-squares system does "
+                "not converge. Put the nodes on the surface instead.");
+  }
+  return steps;
+}
+
+/// Cosine of the largest corner angle is not asked for: of the smallest the largest cosine.
+double largest_cosine(const std::vector<Vector3>& points, const Triangle& t) {
+  double largest = -1.0;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 left = points[t[(k + 1) % 3]] - points[t[k]];
+    const Vector3 right = points[t[(k + 2) % 3]] - points[t[k]];
+    const double lengths = left.norm() * right.norm();
+    largest = std::max(largest, lengths > 0.0 ? left.dot(right) / lengths : 1.0);
+  }
+  return largest;
+}
+
+/// What the guards watch: the smallest angle of each triangle and the turn at each half-edge, as
+/// cosines.
+struct Shape {
+  std::vector<double> angles;
+  std::vector<double> turns;
+};
+
+Shape shape_of(const std::vector<Vector3>& points, const SphereTriangulation& triangulation,
+               const Execution& execution) {
+  const std::vector<Triangle>& triangles = triangulation.triangles();
+  Shape shape;
+  shape.angles.resize(triangles.size());
+  shape.turns.resize(3 * triangles.size());
+  std::vector<Vector3> normals(triangles.size());
+  execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      shape.angles[t] = largest_cosine(points, triangles[t]);
+      normals[t] = face_normal(points, triangles[t]).normalized();
+    }
+  });
+  for (std::size_t h = 0; h < shape.turns.size(); ++h) {
+    shape.turns[h] = normals[h / 3].dot(normals[triangulation.opposite()[h] / 3]);
+  }
+  return shape;
+}
+
+/// V(s) - volume as a polynomial in the offset s.
+struct Cubic {
+  std::array<double, 4> coefficients{};
+  double at(double s) const {
+    return ((coefficients[3] * s + coefficients[2]) * s + coefficients[1]) * s + coefficients[0];
+  }
+  double slope(double s) const {
+    return (3.0 * coefficients[3] * s + 2.0 * coefficients[2]) * s + coefficients[1];
+  }
+};
+
+Cubic volume_polynomial(const std::vector<Vector3>& points, const std::vector<Vector3>& normals,
+                        const std::vector<Triangle>& triangles, const Vector3& origin,
+                        double volume) {
+  Cubic result;
+  for (const Triangle& t : triangles) {
+    const Vector3 a = points[t[0]] - origin;
+    const Vector3 b = points[t[1]] - origin;
+    const Vector3 c = points[t[2]] - origin;
+    const Vector3 &l = normals[t[0]], &m = normals[t[1]], &n = normals[t[2]];
+    result.coefficients[0] += a.dot(b.cross(c)) / 6.0;
+    result.coefficients[1] += (l.dot(b.cross(c)) + m.dot(c.cross(a)) + n.dot(a.cross(b))) / 6.0;
+    result.coefficients[2] += (a.dot(m.cross(n)) + b.dot(n.cross(l)) + c.dot(l.cross(m))) / 6.0;
+    result.coefficients[3] += l.dot(m.cross(n)) / 6.0;
+  }
+  result.coefficients[0] -= volume;
+  return result;
+}
+
+/// The root next to zero, or not a number when Newton's method leaves [-limit, limit].
+double offset_for(const Cubic& polynomial, double limit) {
+  double s = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    const double slope = polynomial.slope(s);
+    const double next = s - polynomial.at(s) / slope;
+    if (!(slope > 0.0) || !(std::abs(next) <= limit)) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (next == s || std::abs(next - s) < 1e-16 * limit) return next;
+    s = next;
+  }
+  return s;
+}
+
+void scale_about_mean(const std::vector<Triangle>& triangles, double volume,
+                      std::vector<Vector3>& points, const Execution& execution) {
+  Vector3 mean = Vector3::Zero();
+  for (const Vector3& p : points) mean += p / static_cast<double>(points.size());
+  for (Vector3& p : points) p -= mean;
+  scale_to_volume(triangles, volume, points, execution);
+  for (Vector3& p : points) p += mean;
+}
+
+double mean_edge(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles) {
+  double sum = 0.0;
+  for (const Triangle& t : triangles) {
+    for (int k = 0; k < 3; ++k) sum += (points[t[(k + 1) % 3]] - points[t[k]]).norm();
+  }
+  return sum / (3.0 * static_cast<double>(triangles.size()));
+}
+
+}  // namespace
+
+void check_normal_fit_options(const NormalFitOptions& options) {
+  const auto refuse = [](const std::string& what, double value, const std::string& range) {
+    throw Error(ErrorCode::InvalidInput,
+                what + " is " + format_number(value) + "; give " + range + ".");
+  };
+  if (options.samples == 0) refuse("The number of samples of the fit", 0.0, "1 or more");
+  if (!(options.smallest_angle >= 0.0 && options.smallest_angle < 60.0)) {
+    refuse("The smallest angle of the fit", options.smallest_angle,
+           "at least 0 and less than 60 degrees");
+  }
+  if (!(options.largest_turn > 0.0 && options.largest_turn <= 180.0)) {
+    refuse("The largest turn of the fit", options.largest_turn,
+           "more than 0 and at most 180 degrees");
+  }
+}
+
+std::vector<MappedSample> mapped_samples(const MappedSurface& surface, std::size_t count,
+                                         const Execution& execution) {
+  const std::vector<MeshPlace> places = area_uniform_places(surface.mesh(), count);
+  std::vector<MappedSample> samples(places.size());
+  execution.parallel_for(places.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      samples[i] = {surface.position(places[i]), surface.direction(places[i])};
+    }
+  });
+  return samples;
+}
+
+NormalFit fit_along_normals(const std::vector<Vector3>& positions,
+                            const std::vector<Vector3>& seeds,
+                            const SphereTriangulation& triangulation,
+                            const std::vector<MappedSample>& samples, double volume,
+                            const NormalFitOptions& options, const Execution& execution) {
+  check_normal_fit_options(options);
+  const std::size_t count = positions.size();
+  if (seeds.size() != count || triangulation.vertex_count() != count) {
+    throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(count) + " nodes, " +
+                                             std::to_string(seeds.size()) + " seeds and " +
+                                             std::to_string(triangulation.vertex_count()) +
+                                             " vertices of the triangulation; give one each.");
+  }
+  const std::vector<Triangle>& triangles = triangulation.triangles();
+  const std::vector<Vector3> normals = node_normals(positions, triangles);
+  const Eigen::VectorXd steps =
+      solve_steps(rows_of(samples, positions, seeds, normals, triangulation, execution), count);
+
+  NormalFit fit;
+  fit.report.samples = samples.size();
+  const Shape before = shape_of(positions, triangulation, execution);
+  const std::size_t crossings_before = self_intersections({positions, triangles}).size();
+  const double widest_cosine = std::cos(options.smallest_angle * pi / 180.0);
+  const double turned_cosine = std::cos(options.largest_turn * pi / 180.0);
+  // Halvings of each node's step; beyond the last it takes none.
+  constexpr int most_halvings = 4;
+  std::vector<int> halvings(count, 0);
+  const auto hold_back = [&](std::int32_t node) {
+    if (halvings[node] > most_halvings) return false;
+    ++halvings[node];
+    return true;
+  };
+  const Vector3 origin = positions.front();
+  while (true) {
+    fit.positions = positions;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (halvings[i] > most_halvings) continue;
+      fit.positions[i] +=
+          std::ldexp(steps[static_cast<Eigen::Index>(i)], -halvings[i]) * normals[i];
+    }
+    bool held = false;
+    const Shape shape = shape_of(fit.positions, triangulation, execution);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (shape.angles[t] <= std::max(widest_cosine, before.angles[t])) continue;
+      for (const std::int32_t v : triangles[t]) held |= hold_back(v);
+    }
+    for (std::size_t h = 0; h < shape.turns.size(); ++h) {
+      if (shape.turns[h] >= std::min(turned_cosine, before.turns[h])) continue;
+      for (const std::int32_t v : triangles[h / 3]) held |= hold_back(v);
+    }
+    if (held) continue;
+    const Cubic polynomial = volume_polynomial(fit.positions, normals, triangles, origin, volume);
+    fit.report.offset = offset_for(polynomial, 0.5 * mean_edge(positions, triangles));
+    if (std::isfinite(fit.report.offset)) {
+      for (std::size_t i = 0; i < count; ++i) fit.positions[i] += fit.report.offset * normals[i];
+    } else {
+      fit.report.offset = 0.0;
+      scale_about_mean(triangles, volume, fit.positions, execution);
+    }
+    const auto crossings = self_intersections({fit.positions, triangles});
+    if (crossings.size() <= crossings_before) break;
+    for (const std::int32_t v : vertices_of(crossings, triangles)) held |= hold_back(v);
+    if (!held) break;
+  }
+  fit.report.held_back = static_cast<int>(
+      std::count_if(halvings.begin(), halvings.end(), [](int halved) { return halved > 0; }));
+  return fit;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/mapped_surface.h"
+
+namespace wscvt {
+
+struct NormalFitOptions {
+  std::size_t samples = 60000;  ///< points of the scan that are fitted, at least; > 0
+  /// Nodes are held back where the step would give a triangle a smaller angle than this, or than
+  /// it had before if that is smaller; degrees, in [0, 60).
+  double smallest_angle = 35.0;
+  /// The same for edges whose faces would turn against each other by more than this; degrees, in
+  /// (0, 180].
+  double largest_turn = 120.0;
+};
+
+/// A sample of the scan and where it lies on the sphere of the map.
+struct MappedSample {
+  Vector3 point = Vector3::Zero();
+  Vector3 direction = Vector3::Zero();
+};
+
+struct NormalFitReport {
+  std::size_t samples = 0;
+  int held_back = 0;    ///< nodes that went less than the whole step, for a guard
+  double offset = 0.0;  ///< along all normals, that made the volume exact; length
+};
+
+struct NormalFit {
+  std::vector<Vector3> positions;
+  NormalFitReport report;
+};
+
+/// At least `count` points spread evenly by area over the surface's mesh (see
+/// area_uniform_samples), with their directions.
+std::vector<MappedSample> mapped_samples(const MappedSurface& surface, std::size_t count,
+                                         const Execution& execution);
+
+/// Moves nodes once along their normals, to where their triangles fit the samples best, and then
+/// all by one offset along the same normals, so that the closed mesh encloses `volume` (> 0,
+/// length^3) to rounding.
+///
+/// The step minimises the squared distances of the samples to the planes of the triangles nearest
+/// to them (Hoppe et al. 1993, "Mesh optimization", with one unknown a node), with a weak tie to
+/// zero that holds nodes which no sample reaches. A sample is dealt out by its place on the sphere:
+/// the search for its nearest triangle begins where its direction lies, and goes on from neighbour
+/// to neighbour, so that a sheet of the scan is never taken for the one behind it. Further steps
+/// gained nothing on the scans tried, and cost angles.
+///
+/// Seeds do not move, so no triangle turns on the sphere. Where a guard of the options is violated,
+/// the nodes concerned take a half, a quarter, ... of their step, and at last none.
+///
+/// The volume as a function of the offset is a polynomial of third degree, whose root next to zero
+/// is found by Newton's method. Where it has none within half the mean edge, which a handful of
+/// nodes on a thin body may bring about, the mesh is scaled about its centroid instead.
+///
+/// Throws Error(InvalidInput) for options out of range or other numbers of nodes,
+/// Error(NumericalFailure) when the nodes enclose no volume or the system cannot be solved.
+NormalFit fit_along_normals(const std::vector<Vector3>& positions,
+                            const std::vector<Vector3>& seeds,
+                            const SphereTriangulation& triangulation,
+                            const std::vector<MappedSample>& samples, double volume,
+                            const NormalFitOptions& options, const Execution& execution);
+
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_normal_fit_options(const NormalFitOptions& options);
+
+}  // namespace wscvt

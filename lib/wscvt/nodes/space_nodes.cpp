@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/space_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/tessellation/space_relaxation.h"
+#include "wscvt/tessellation/space_weights.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 256;
+/// Nodes on the surface that lose more volume than this are too few: 25 nodes on a ball.
+constexpr double largest_volume_loss = 0.25;
+
+double enclosed_volume(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles) {
+  double volume = 0.0;
+  for (const Triangle& t : triangles) {
+    volume += points[t[0]].dot(points[t[1]].cross(points[t[2]]));
+  }
+  return volume / 6.0;
+}
+
+/// The unrelaxed levels below a thousand seeds are left out: so few triangles on a body with thin
+/// limbs are long on the sphere, get jammed there, and hand their unevenness down.
+MultilevelOptions levels_in_space(const MultilevelOptions& levels, SeedStart start,
+                                  int node_count) {
+  MultilevelOptions result = levels;
+  result.coarsest_seeds =
+      start == SeedStart::Multilevel ? std::max(4, 4 * levels.coarsest_seeds) : node_count;
+  return result;
+}
+
+SpaceTessellation tessellate(const Grain& grain, int node_count, const SeedingOptions& seeding,
+                             const std::vector<double>& densities,
+                             const RelaxationOptions& relaxation, const MultilevelOptions& levels,
+                             const Execution& execution) {
+  const MappedSurface& surface = *grain.mapped;
+  if (seeding.sampling != Sampling::Weighted) {
+    RelaxationOptions none = relaxation;
+    none.maximum_iterations = 0;
+    std::vector<Vector3> seeds = unrelaxed_seeds(seeding.sampling, node_count);
+    SphereTriangulation triangulation(seeds);
+    return relax_in_space(std::move(seeds), std::move(triangulation), surface, densities, none,
+                          execution);
+  }
+  const MultilevelOptions in_space = levels_in_space(levels, seeding.start, node_count);
+  const int coarsest = level_sizes(node_count, in_space.coarsest_seeds).front();
+  std::vector<Vector3> start = surviving_seeds(surface, grain.map.collapse_order, coarsest);
+  if (seeding.start == SeedStart::Random && coarsest > 50) {
+    start = random_directions(coarsest, seeding.random_seed);
+  }
+  return relax_in_space(std::move(start), node_count, surface, densities, relaxation, in_space,
+                        execution);
+}
+
+/// Raises the density about the middles of triangles that meet: half as many nodes again there,
+/// falling to none over two cells.
+void raise_densities(const MappedSurface& surface, const SpaceTessellation& tessellation,
+                     const std::vector<TrianglePair>& pairs, std::vector<double>& densities,
+                     const Execution& execution) {
+  const std::vector<Vector3>& points = surface.mesh().points;
+  densities.resize(points.size(), 1.0);
+  double area = 0.0;
+  for (const double cell : tessellation.cell_areas) area += cell;
+  const double reach = 2.0 * std::sqrt(area / static_cast<double>(tessellation.seeds.size()));
+  std::vector<Vector3> places;
+  for (const std::int32_t v : vertices_of(pairs, tessellation.triangulation.triangles())) {
+    places.push_back(tessellation.positions[v]);
+  }
+  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double nearest = reach * reach;
+      for (const Vector3& place : places) {
+        nearest = std::min(nearest, (points[i] - place).squaredNorm());
+      }
+      densities[i] *= 1.0 + 0.5 * (1.0 - std::sqrt(nearest) / reach);
+    }
+  });
+}
+
+/// What is wrong with nodes on the surface.
+struct Flaws {
+  std::vector<TrianglePair> pairs;
+  double volume_loss = 0.0;
+  bool any() const { return !pairs.empty() || volume_loss > largest_volume_loss; }
+};
+
+Flaws flaws_of(const SpaceTessellation& tessellation, double volume) {
+  const std::vector<Triangle>& triangles = tessellation.triangulation.triangles();
+  return {self_intersections({tessellation.positions, triangles}),
+          1.0 - enclosed_volume(tessellation.positions, triangles) / volume};
+}
+
+/// The samples of the scan that the nodes are fitted to. On a level of the scan's collapse they are
+/// taken there, where they have directions, and put on to the scan.
+std::vector<MappedSample> samples_of(const Grain& grain, std::size_t count,
+                                     const MeshDistance* to_scan, const Execution& execution) {
+  std::vector<MappedSample> samples = mapped_samples(*grain.mapped, count, execution);
+  if (to_scan != nullptr) {
+    execution.parallel_for(samples.size(), block_size, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        samples[i].point = to_scan->nearest_point(samples[i].point);
+      }
+    });
+  }
+  return samples;
+}
+
+std::string advice(int enough_nodes) {
+  return enough_nodes > 0 ? "; " + std::to_string(enough_nodes) + " would do."
+                          : "; ask for many more.";
+}
+
+}  // namespace
+
+SpaceNodes place_in_space(const Grain& grain, int node_count, const SeedingOptions& seeding,
+                          const WeightingOptions& weighting, const RelaxationOptions& relaxation,
+                          const MultilevelOptions& levels, const PlacementOptions& placement,
+                          double volume, const Execution& execution) {
+  check_placement_options(placement);
+  if (!grain.mapped) {
+    throw Error(ErrorCode::InvalidInput,
+                "The grain is not mapped to the sphere; take the spherical parametrization.");
+  }
+  execution.report(0.0, "Weighing the seeds");
+  std::vector<double> densities =
+      densities_in_space(grain.mapped->mesh(), weighting, node_count, execution);
+  SpaceTessellation tessellation = tessellate(grain, node_count, seeding, densities, relaxation,
+                                              levels, execution.part(0.05, 0.7));
+  SpaceNodes result;
+  Flaws flaws = flaws_of(tessellation, volume);
+
+  constexpr int most_repairs = 3;
+  const bool relaxes = seeding.sampling == Sampling::Weighted;
+  while (relaxes && !flaws.pairs.empty() && result.report.repairs < most_repairs) {
+    raise_densities(*grain.mapped, tessellation, flaws.pairs, densities, execution);
+    RelaxationOptions local = relaxation;
+    local.maximum_iterations = std::min(relaxation.maximum_iterations, 200);
+    SpaceTessellation denser =
+        relax_in_space(tessellation.seeds, tessellation.triangulation, *grain.mapped, densities,
+                       local, execution.part(0.7, 0.8));
+    ++result.report.repairs;
+    Flaws left = flaws_of(denser, volume);
+    if (left.pairs.size() >= flaws.pairs.size()) break;
+    denser.report.coarser_levels = tessellation.report.coarser_levels;
+    tessellation = std::move(denser);
+    flaws = std::move(left);
+  }
+
+  if (flaws.any() && relaxes) {
+    // Twice as many until it does; a relaxation less strict says as much.
+    constexpr int most_doublings = 4;
+    RelaxationOptions quick = relaxation;
+    quick.maximum_iterations = std::min(relaxation.maximum_iterations, 100);
+    result.report.enough_nodes = too_many_nodes;
+    for (int k = 1; k <= most_doublings && (node_count << k) <= 20000; ++k) {
+      const int more = node_count << k;
+      const SpaceTessellation trial =
+          tessellate(grain, more, seeding,
+                     densities_in_space(grain.mapped->mesh(), weighting, more, execution), quick,
+                     levels, execution.part(0.8, 0.85));
+      if (flaws_of(trial, volume).any()) continue;
+      result.report.enough_nodes = more;
+      break;
+    }
+  }
+  result.report.volume_loss = flaws.volume_loss;
+  if (!(flaws.volume_loss < 1.0)) {
+    throw Error(ErrorCode::NumericalFailure,
+                std::to_string(tessellation.seeds.size()) +
+                    " nodes are too few for this shape: their mesh encloses no volume" +
+                    advice(result.report.enough_nodes));
+  }
+
+  execution.report(0.85, "Placing the nodes");
+  PlacedNodes& nodes = result.placed;
+  nodes.mesh = {tessellation.positions, tessellation.triangulation.triangles()};
+  std::optional<MeshDistance> to_scan;
+  if (grain.is_level) to_scan.emplace(grain.mesh);
+  if (placement.kind == NodePlacement::LeastSquares) {
+    NormalFitOptions options;
+    const std::vector<MappedSample> samples =
+        samples_of(grain, std::max(options.samples, 10 * tessellation.seeds.size()),
+                   to_scan ? &*to_scan : nullptr, execution);
+    NormalFit fit =
+        fit_along_normals(tessellation.positions, tessellation.seeds, tessellation.triangulation,
+                          samples, volume, options, execution.part(0.85, 1.0));
+    nodes.mesh.points = std::move(fit.positions);
+    result.report.fit = fit.report;
+  } else if (to_scan) {
+    for (Vector3& point : nodes.mesh.points) point = to_scan->nearest_point(point);
+  }
+  result.report.self_intersections = self_intersections(nodes.mesh).size();
+  if (result.report.self_intersections > 0 && placement.refuse_self_intersections) {
+    throw Error(ErrorCode::NumericalFailure,
+                std::to_string(result.report.self_intersections) +
+                    " pairs of triangles of the mesh with " +
+                    std::to_string(tessellation.seeds.size()) +
+                    " nodes meet each other, which the options refuse; " +
+                    (result.report.enough_nodes > 0
+                         ? std::to_string(result.report.enough_nodes) + " nodes would do."
+                         : std::string("ask for more nodes, or allow it.")));
+  }
+  nodes.directions.reserve(nodes.mesh.points.size());
+  for (const Vector3& point : nodes.mesh.points) {
+    const double radius = point.norm();
+    nodes.radii.push_back(radius);
+    nodes.directions.push_back(radius > 0.0 ? Vector3(point / radius) : Vector3::UnitX());
+  }
+  nodes.cell_areas = std::move(tessellation.cell_areas);
+  result.relaxation = std::move(tessellation.report);
+  return result;
+}
+
+}  // namespace wscvt

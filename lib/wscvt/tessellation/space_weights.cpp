@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/space_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wscvt/surface/curvature.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+/// The cells of a WSCVT-C at most differ by these shares from the mean; see SurfaceSeedModel.
+constexpr double curvature_clip = 0.9;
+/// Curvatures below these are taken as these: a flat face has no scale of its own.
+constexpr double flat_curvature = 0.01;
+constexpr double flat_share_of_median = 0.3;
+
+std::vector<double> vertex_areas(const IndexedMesh& mesh) {
+  std::vector<double> areas(mesh.points.size(), 0.0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3& a = mesh.points[t[0]];
+    const double area = 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
+    for (const std::int32_t v : t) areas[v] += area / 3.0;
+  }
+  return areas;
+}
+
+/// Takes means over the vertices' rings, by area, as often as carries a value `distance` far: one
+/// round has the spread of a walk by one edge.
+void smooth(const IndexedMesh& mesh, const std::vector<double>& areas, double distance,
+            std::vector<double>& values) {
+  constexpr int most_rounds = 400;
+  double squared_edges = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      squared_edges += (mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]]).squaredNorm();
+    }
+  }
+  squared_edges /= 3.0 * static_cast<double>(mesh.triangles.size());
+  const double wanted = std::ceil(distance * distance / squared_edges);
+  const int rounds = static_cast<int>(std::clamp(wanted, 1.0, 1.0 * most_rounds));
+  std::vector<double> moments(values.size());
+  std::vector<double> measures(values.size());
+  for (int round = 0; round < rounds; ++round) {
+    std::fill(moments.begin(), moments.end(), 0.0);
+    std::fill(measures.begin(), measures.end(), 0.0);
+    for (const Triangle& t : mesh.triangles) {
+      double moment = 0.0;
+      double measure = 0.0;
+      for (const std::int32_t v : t) {
+        moment += areas[v] * values[v];
+        measure += areas[v];
+      }
+      for (const std::int32_t v : t) {
+        moments[v] += moment;
+        measures[v] += measure;
+      }
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (measures[i] > 0.0) values[i] = moments[i] / measures[i];
+    }
+  }
+}
+
+}  // namespace
+
+Weighting weighting_in_space(Weighting asked) {
+  return asked == Weighting::Curvature || asked == Weighting::ErrorAdaptive ? asked
+                                                                            : Weighting::Area;
+}
+
+std::vector<double> densities_in_space(const IndexedMesh& mesh, const WeightingOptions& options,
+                                       int node_count, const Execution& execution) {
+  check_weighting_options(options);
+  const Weighting weighting = weighting_in_space(options.kind);
+  if (weighting == Weighting::Area) return {};
+  // The paper fits over one ring, which scans leave under-determined.
+  constexpr int rings = 2;
+  const std::vector<double> areas = vertex_areas(mesh);
+  double area = 0.0;
+  for (const double part : areas) area += part;
+  const double radius = std::sqrt(area / (4.0 * pi));
+  std::vector<double> field;
+  field.reserve(areas.size());
+  for (const PrincipalCurvatures& k : quadric_fit_curvatures(mesh, rings, execution)) {
+    const double largest = std::max(k.maximum * k.maximum, k.minimum * k.minimum);
+    const double mean = 0.5 * (k.maximum * k.maximum + k.minimum * k.minimum);
+    field.push_back(weighting == Weighting::Curvature ? largest : mean);
+  }
+  smooth(mesh, areas, 0.6 * std::sqrt(area / node_count), field);
+  for (double& square : field) square = std::sqrt(square) * radius;
+
+  if (weighting == Weighting::ErrorAdaptive) {
+    std::vector<double> order = field;
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+    std::nth_element(order.begin(), middle, order.end());
+    const double floor = std::max(flat_share_of_median * *middle, flat_curvature);
+    for (double& k : field) k = std::pow(std::max(k, floor), options.adaptive_exponent);
+    return field;
+  }
+  double mean = 0.0;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    field[i] = -std::log(std::max(field[i], flat_curvature));
+    mean += areas[i] * field[i] / area;
+  }
+  double variance = 0.0;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    variance += areas[i] * (field[i] - mean) * (field[i] - mean) / area;
+  }
+  // A sphere has no deviation to measure by.
+  if (!(variance > 1e-18)) return {};
+  for (double& value : field) {
+    const double x = options.curvature_alpha * (value - mean) / (3.0 * std::sqrt(variance));
+    const double weight = 4.0 * std::clamp(x, -curvature_clip, curvature_clip);
+    const double cell = 1.0 + cell_area_per_weight * weight / (4.0 * pi);
+    value = 1.0 / std::max(smallest_cell_share, cell);
+  }
+  return field;
+}
+
+}  // namespace wscvt

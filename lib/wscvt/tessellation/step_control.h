@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "wscvt/tessellation/relaxation.h"
+
+namespace wscvt {
+
+/// Notices steps that go round in circles: those of the surface metric need not lead downhill.
+class CycleWatch {
+ public:
+  /// Whether the displacement has been well above its smallest for too many steps since that. Below
+  /// 1e-3 h nothing is held against it: there a single flip takes it up for a while, and runs with
+  /// a finer tolerance come to rest sooner with momentum (cycles were seen at 0.01 h and more).
+  bool cycling_at(double displacement) {
+    if (displacement < smallest_) {
+      smallest_ = displacement;
+      steps_above_ = 0;
+    } else if (displacement > std::max(2.0 * smallest_, 1e-3)) {
+      ++steps_above_;
+    }
+    return steps_above_ >= 30;
+  }
+
+ private:
+  double smallest_ = std::numeric_limits<double>::infinity();
+  int steps_above_ = 0;
+};
+
+/// Nesterov's momentum, dropped whenever it points uphill (O'Donoghue and Candes 2015, "Adaptive
+/// restart for accelerated gradient schemes").
+class Momentum {
+ public:
+  /// The share of the last change that the next step carries on.
+  double carry(bool uphill) {
+    if (uphill) weight_ = 1.0;
+    const double grown = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * weight_ * weight_));
+    const double share = (weight_ - 1.0) / grown;
+    weight_ = grown;
+    return share;
+  }
+
+ private:
+  double weight_ = 1.0;
+};
+
+/// Why a relaxation ends at `step`; empty when it goes on. Below `rest` times the displacement
+/// tolerance the seeds have settled, whatever their cells' areas.
+inline std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
+                                                   const RelaxationOptions& options, int iterations,
+                                                   double rest) {
+  if (step.displacement < options.displacement_tolerance &&
+      step.area_spread < options.area_tolerance) {
+    return RelaxationOutcome::Converged;
+  }
+  if (step.displacement < rest * options.displacement_tolerance) return RelaxationOutcome::Settled;
+  if (iterations >= options.maximum_iterations) return RelaxationOutcome::IterationLimit;
+  return std::nullopt;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "grains/bent_grain.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/remesh.h"
+#include "wscvt/report/report.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+
+namespace wscvt {
+namespace {
+
+IndexedMesh body(const std::string& name) {
+  return test::bent_grain_mesh(test::bent_grain(name), 2500);
+}
+
+RemeshOptions options_of(int nodes, NodePlacement placement = NodePlacement::Scan) {
+  RemeshOptions options;
+  options.node_count = nodes;
+  options.weighting.kind = Weighting::Area;
+  options.placement.kind = placement;
+  return options;
+}
+
+/// Exactly so many nodes, closed, outward, of genus 0: nothing to mend.
+void expect_valid(const RemeshResult& result, std::size_t nodes, const std::string& what) {
+  ASSERT_EQ(result.mesh.points.size(), nodes) << what;
+  ASSERT_EQ(result.mesh.triangles.size(), 2 * nodes - 4) << what;
+  const MeshCheckReport report = check_mesh(result.mesh, MeshCheckOptions(), Execution(1)).report;
+  EXPECT_EQ(report.vertices, nodes) << what;
+  EXPECT_EQ(report.faces, 2 * nodes - 4) << what;
+  EXPECT_EQ(report.genus, 0) << what;
+  EXPECT_EQ(report.reoriented_faces, 0U) << what;
+  EXPECT_EQ(result.space.self_intersections, self_intersections(result.mesh).size()) << what;
+}
+
+bool says(const std::vector<std::string>& lines, const std::string& what) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const std::string& line) { return line.find(what) != std::string::npos; });
+}
+
+TEST(RemeshSpherical, AutoDecidesByTheFlanks) {
+  const RemeshResult gentle = remesh(test::lumpy(4), options_of(100), Execution(1));
+  EXPECT_EQ(gentle.parametrization, Parametrization::Radial);
+  EXPECT_LE(gentle.steep_share, steep_share_limit);
+  EXPECT_TRUE(says(report_lines(gentle), "radial; "));
+  const RemeshResult hook = remesh(body("hook"), options_of(300), Execution(1));
+  EXPECT_EQ(hook.parametrization, Parametrization::Spherical);
+  EXPECT_GT(hook.steep_share, steep_share_limit);
+  EXPECT_TRUE(says(report_lines(hook), "spherical; "));
+  // What is asked for is taken.
+  RemeshOptions spherical = options_of(100);
+  spherical.surface.parametrization = Parametrization::Spherical;
+  EXPECT_EQ(remesh(test::lumpy(4), spherical, Execution(1)).parametrization,
+            Parametrization::Spherical);
+}
+
+TEST(RemeshSpherical, BentBodiesKeepTheirShape) {
+  for (const char* name : {"hook", "C-shape", "mushroom", "crescent"}) {
+    const RemeshResult result =
+        remesh(body(name), options_of(400, NodePlacement::LeastSquares), Execution(1));
+    expect_valid(result, 400, name);
+    EXPECT_EQ(result.space.self_intersections, 0U) << name;
+    // Rounding of sums over 800 triangles, and of the way to grain units and back.
+    EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11) << name;
+    EXPECT_NEAR(result.remesh.area / result.original.area, 1.0, 0.03) << name;
+    EXPECT_LT(result.quality.edge_ratio.mean, 1.2) << name;
+  }
+}
+
+TEST(RemeshSpherical, AHandfulOfNodesIsValidOrRefusedWithAReason) {
+  for (const char* name : {"hook", "mushroom", "crescent"}) {
+    const IndexedMesh scan = test::bent_grain_mesh(test::bent_grain(name), 3000);
+    for (const NodePlacement placement : {NodePlacement::Scan, NodePlacement::LeastSquares}) {
+      for (const int nodes : {4, 5, 6, 8, 11, 15, 20}) {
+        const std::string what = std::string(name) + " with " + std::to_string(nodes) + " nodes";
+        try {
+          const RemeshResult result = remesh(scan, options_of(nodes, placement), Execution(1));
+          ASSERT_EQ(result.mesh.points.size(), static_cast<std::size_t>(nodes)) << what;
+          ASSERT_EQ(result.mesh.triangles.size(), static_cast<std::size_t>(2 * nodes - 4)) << what;
+          EXPECT_NO_THROW(to_mesh(result.mesh)) << what;
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ErrorCode::NumericalFailure) << what;
+          EXPECT_NE(std::string(error.what()).find("nodes"), std::string::npos) << error.what();
+        }
+      }
+    }
+  }
+}
+
+TEST(RemeshSpherical, TooFewNodesAreSaidWithTheNumberThatWouldDo) {
+  const IndexedMesh hook = body("hook");
+  const RemeshResult few = remesh(hook, options_of(20), Execution(1));
+  ASSERT_GT(few.space.enough_nodes, 20);
+  EXPECT_TRUE(says(few.warnings, "too few for this shape"));
+  EXPECT_TRUE(says(few.warnings, std::to_string(few.space.enough_nodes) + " would do"));
+  const RemeshResult enough = remesh(hook, options_of(few.space.enough_nodes), Execution(1));
+  EXPECT_EQ(enough.space.enough_nodes, 0);
+  EXPECT_FALSE(says(enough.warnings, "too few"));
+}
+
+TEST(RemeshSpherical, RadialDistanceIsTheAreaWeightingAndSaysSo) {
+  RemeshOptions options = options_of(150);
+  const IndexedMesh hook = body("hook");
+  const RemeshResult area = remesh(hook, options, Execution(1));
+  options.weighting.kind = Weighting::RadialDistance;
+  const RemeshResult distance = remesh(hook, options, Execution(1));
+  EXPECT_EQ(distance.mesh.points, area.mesh.points);
+  EXPECT_TRUE(says(report_lines(distance), "asked for"));
+  EXPECT_FALSE(says(report_lines(area), "asked for"));
+}
+
+TEST(RemeshSpherical, CurvatureWeightingsGatherNodesWhereItBends) {
+  // A rod's caps are bent twice as much as its sides.
+  const IndexedMesh scan = test::scaled(test::sphere(4), Vector3(3, 1, 1));
+  for (const Weighting weighting : {Weighting::ErrorAdaptive, Weighting::Curvature}) {
+    RemeshOptions options = options_of(200);
+    options.surface.parametrization = Parametrization::Spherical;
+    const auto at_the_tips = [&](Weighting kind) {
+      options.weighting.kind = kind;
+      int count = 0;
+      for (const Vector3& p : remesh(scan, options, Execution(1)).mesh.points) {
+        count += std::abs(p.x()) > 2.4 ? 1 : 0;
+      }
+      return count;
+    };
+    EXPECT_GT(at_the_tips(weighting), 1.3 * at_the_tips(Weighting::Area));
+  }
+}
+
+TEST(RemeshSpherical, SameBytesOnAnyNumberOfThreads) {
+  const IndexedMesh hook = body("hook");
+  const RemeshOptions options = options_of(150, NodePlacement::LeastSquares);
+  const RemeshResult one = remesh(hook, options, Execution(1));
+  const RemeshResult three = remesh(hook, options, Execution(3));
+  EXPECT_EQ(one.mesh.points, three.mesh.points);
+  EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
+}
+
+TEST(RemeshSpherical, OtherSamplingsLieOnTheMap) {
+  RemeshOptions options = options_of(100);
+  options.seeding.sampling = Sampling::Fibonacci;
+  expect_valid(remesh(body("crescent"), options, Execution(1)), 100, "Fibonacci");
+}
+
+TEST(RemeshSpherical, RefinementKeepsTheRadialMapWhereThereIsOne) {
+  RemeshOptions options = options_of(60, NodePlacement::LeastSquares);
+  options.placement.refinement.rounds = 1;
+  // Steep, but without a fold.
+  const IndexedMesh needle = test::scaled(test::sphere(4), Vector3(10, 1, 1));
+  const RemeshResult refined = remesh(needle, options, Execution(1));
+  EXPECT_EQ(refined.parametrization, Parametrization::Radial);
+  EXPECT_FALSE(refined.refinement.history.empty());
+  const RemeshResult hook = remesh(body("hook"), options, Execution(1));
+  EXPECT_EQ(hook.parametrization, Parametrization::Spherical);
+  EXPECT_TRUE(says(hook.warnings, "were not refined"));
+  options.surface.parametrization = Parametrization::Spherical;
+  EXPECT_THROW(remesh(needle, options, Execution(1)), Error);
+}
+
+TEST(RemeshSpherical, MeetingTrianglesAreRefusedWhereAskedFor) {
+  // Two sheets of a thin bowl, and far too few nodes.
+  const IndexedMesh bowl = test::bent_grain_mesh(test::bent_grain("bowl"), 6000);
+  for (const int nodes : {30, 40, 60, 80, 120}) {
+    RemeshOptions options = options_of(nodes);
+    const RemeshResult result = remesh(bowl, options, Execution(1));
+    if (result.space.self_intersections == 0) continue;
+    EXPECT_TRUE(says(result.warnings, "meet each other"));
+    options.placement.refuse_self_intersections = true;
+    try {
+      remesh(bowl, options, Execution(1));
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
+      EXPECT_NE(std::string(error.what()).find("which the options refuse"), std::string::npos);
+    }
+    return;
+  }
+  FAIL() << "no number of nodes makes sheets of the bowl meet";
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/space_relaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "grains/bent_grain.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/sphere/orientation.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/sphere_map.h"
+
+namespace wscvt {
+namespace {
+
+struct Body {
+  explicit Body(const IndexedMesh& mesh, const Execution& execution = Execution(1))
+      : map(map_to_sphere(mesh, SphereMapOptions(), execution)),
+        surface(mesh, map.directions, execution) {}
+  SphereMap map;
+  MappedSurface surface;
+};
+
+const Body& hook() {
+  static const Body body(test::bent_grain_mesh(test::bent_grain("hook"), 3000));
+  return body;
+}
+
+SpaceTessellation relaxed(const Body& body, int count, const std::vector<double>& densities = {},
+                          const MultilevelOptions& levels = {}, int threads = 1) {
+  const int coarsest = level_sizes(count, levels.coarsest_seeds).front();
+  return relax_in_space(surviving_seeds(body.surface, body.map.collapse_order, coarsest), count,
+                        body.surface, densities, RelaxationOptions(), levels, Execution(threads));
+}
+
+/// Closed with so many nodes, upright on the sphere, and on the surface.
+void expect_promises(const SpaceTessellation& tessellation, const Body& body, std::size_t count) {
+  ASSERT_EQ(tessellation.seeds.size(), count);
+  ASSERT_EQ(tessellation.positions.size(), count);
+  // The constructor checks that the triangles are a closed 2-manifold, upright on the sphere.
+  EXPECT_NO_THROW(SphereTriangulation(tessellation.seeds, tessellation.triangulation.triangles()));
+  const MeshDistance scan(body.surface.mesh());
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_NEAR(tessellation.seeds[i].norm(), 1.0, 1e-14);
+    // Barycentric coordinates of a point of size 1 round to a few 1e-16.
+    ASSERT_LT(scan.distance(tessellation.positions[i]), 1e-13);
+  }
+}
+
+TEST(SpaceRelaxation, EvensOutAHookThatNoRayDescribes) {
+  const SpaceTessellation result = relaxed(hook(), 300);
+  expect_promises(result, hook(), 300);
+  const MeshQuality quality = measure_quality({result.positions, result.triangulation.triangles()});
+  // The mean of centroidal tessellations is 1.10 to 1.15; the start's is above 1.3.
+  EXPECT_LT(quality.edge_ratio.mean, 1.17);
+  EXPECT_GT(quality.smallest_angle, 25.0);
+  EXPECT_NE(result.report.outcome, RelaxationOutcome::Stuck);
+  EXPECT_LT(result.report.history.back().displacement, RelaxationOptions().displacement_tolerance);
+}
+
+TEST(SpaceRelaxation, LevelsGiveExactlyTheNumberAskedFor) {
+  MultilevelOptions levels;
+  levels.coarsest_seeds = 30;
+  for (const int count : {123, 200, 397}) {
+    const SpaceTessellation result = relaxed(hook(), count, {}, levels);
+    expect_promises(result, hook(), static_cast<std::size_t>(count));
+    EXPECT_FALSE(result.report.coarser_levels.empty());
+  }
+}
+
+TEST(SpaceRelaxation, AHandfulOfNodesStaysUpright) {
+  for (int count = 4; count <= 20; ++count) {
+    expect_promises(relaxed(hook(), count), hook(), static_cast<std::size_t>(count));
+  }
+}
+
+TEST(SpaceRelaxation, MoreNodesThanVerticesAreFound) {
+  const Body body(test::scaled(test::sphere(1), Vector3(1.0, 0.7, 0.5)));
+  ASSERT_LT(body.surface.mesh().points.size(), 100U);
+  expect_promises(relaxed(body, 100), body, 100);
+}
+
+TEST(SpaceRelaxation, SameBytesOnAnyNumberOfThreads) {
+  const SpaceTessellation one = relaxed(hook(), 200);
+  const SpaceTessellation three = relaxed(hook(), 200, {}, {}, 3);
+  EXPECT_EQ(one.seeds, three.seeds);
+  EXPECT_EQ(one.positions, three.positions);
+  EXPECT_EQ(one.triangulation.triangles(), three.triangulation.triangles());
+  EXPECT_EQ(one.cell_areas, three.cell_areas);
+}
+
+TEST(SpaceRelaxation, DensitiesShareOutTheNodes) {
+  const Body body(test::sphere(4));
+  const std::vector<Vector3>& points = body.surface.mesh().points;
+  std::vector<double> densities;
+  for (const Vector3& p : points) densities.push_back(p.z() > 0.0 ? 3.0 : 1.0);
+  const SpaceTessellation result = relaxed(body, 400, densities);
+  int upper = 0;
+  for (const Vector3& p : result.positions) upper += p.z() > 0.0 ? 1 : 0;
+  // Three quarters, but for half a row of cells at the equator (about 18 of 36).
+  EXPECT_NEAR(upper, 300, 20);
+}
+
+TEST(SpaceRelaxation, RefusesNumbersThatDoNotFit) {
+  const auto refusal = [](auto&& call) {
+    try {
+      call();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal([] {
+              relaxed(hook(), 50, {1.0, 2.0});
+            }).find("give one each, or none"),
+            std::string::npos);
+  EXPECT_NE(refusal([] {
+              surviving_seeds(hook().surface, hook().map.collapse_order, 3);
+            }).find("at least 4"),
+            std::string::npos);
+  EXPECT_NE(refusal([] {
+              relax_in_space(fibonacci_lattice(20), 30, hook().surface, {}, RelaxationOptions(),
+                             MultilevelOptions(), Execution(1));
+            }).find("20 seeds instead of 30"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wscvt
