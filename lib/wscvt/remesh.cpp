@@ -66,8 +66,10 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
     prepared.input.welded_vertices = points - different;
   }
   SurfaceOptions surface = options.surface;
-  // Refinement works on the radial map, so a grain that has one keeps it.
-  if (options.placement.refinement.rounds > 0 && surface.parametrization == Parametrization::Auto &&
+  // The series and refinement are those of the radial map, so a grain that has one keeps it.
+  const bool asks_for_radial =
+      options.placement.kind == NodePlacement::Series || options.placement.refinement.rounds > 0;
+  if (asks_for_radial && surface.parametrization == Parametrization::Auto &&
       folded_solid_angle(checked.mesh, checked.report.centroid, execution) <=
           0.01 * surface.fold_limit_percent) {
     surface.parametrization = Parametrization::Radial;

@@ -15,7 +15,7 @@ std::vector<Call> refused_calls() {
       {"OpenMesh", without_a_patch(), {}, {"boundary"}},
       {"TwoHalves", two_grains(), {}, {"bodies"}},
       {"NoVolume", flat_grain(), {}, {"volume"}},
-      {"CentreOutside", bent_grain(), {}, {"outside"}},
+      {"CentreOutside", bent_grain(), {{"Parametrization", "1"}}, {"outside", "spherical"}},
       {"TooFewNodes", grain(), {{"NodeCount", "3"}}, {"NodeCount", "4"}},
       {"NegativeNodes", grain(), {{"NodeCount", "-7"}}, {"NodeCount", "4"}},
       {"TooManyNodes", grain(), {{"NodeCount", "1000001"}}, {"NodeCount", "1000000"}},
@@ -71,10 +71,11 @@ std::vector<Call> unmeasurable_calls() {
 }
 
 std::vector<Call> extreme_calls() {
-  // These are mended.
+  // These are mended, or mapped to the sphere.
   const double infinity = std::numeric_limits<double>::infinity();
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   return {
+      {"CentreOutsideBySphere", bent_grain(), {}, {}},
       {"NonManifoldEdge", with_non_manifold_edge(), {}, {}},
       {"NotANumber", with_coordinate(not_a_number), {}, {}},
       {"Infinite", with_coordinate(infinity), {}, {}},

@@ -142,6 +142,7 @@ inline RemeshOptions random_options(Choices& choices) {
   o.weighting.curvature_alpha = choices.one_in(2) ? 1.0 : choices.real(-3.0, 3.0);
   o.weighting.adaptive_exponent = choices.one_in(2) ? 2.0 / 3.0 : choices.real(0.0, 1.5);
   o.weighting.curvature_source = static_cast<CurvatureSource>(choices.whole(0, 1));
+  o.surface.parametrization = static_cast<Parametrization>(choices.whole(0, 2));
   o.surface.degree = choices.whole(1, 30);
   o.surface.fold_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 99.0);
   o.placement.kind = static_cast<NodePlacement>(choices.whole(0, 2));
@@ -219,7 +220,8 @@ inline std::string broken_result(const RemeshResult& result, const RemeshOptions
   // A million radii away the positions of the nodes have ten digits left; faces among 300 nodes
   // are larger than that. Farther out rounding may turn a thin face over.
   if (result.centre.norm() < 1e6 * result.input.equivalent_radius) {
-    for (const Triangle& t : mesh.triangles) {
+    const bool star_shaped = result.parametrization == Parametrization::Radial;
+    for (const Triangle& t : star_shaped ? mesh.triangles : std::vector<Triangle>()) {
       const Vector3 a = mesh.points[static_cast<std::size_t>(t[0])] - result.centre;
       const Vector3 b = mesh.points[static_cast<std::size_t>(t[1])] - result.centre;
       const Vector3 c = mesh.points[static_cast<std::size_t>(t[2])] - result.centre;

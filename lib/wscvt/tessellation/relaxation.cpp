@@ -287,4 +287,16 @@ RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangula
   return relax_from(std::move(seeds), std::move(triangulation), model, options, execution);
 }
 
+std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
+                                            const RelaxationOptions& options, int iterations,
+                                            double rest) {
+  if (step.displacement < options.displacement_tolerance &&
+      step.area_spread < options.area_tolerance) {
+    return RelaxationOutcome::Converged;
+  }
+  if (step.displacement < rest * options.displacement_tolerance) return RelaxationOutcome::Settled;
+  if (iterations >= options.maximum_iterations) return RelaxationOutcome::IterationLimit;
+  return std::nullopt;
+}
+
 }  // namespace wscvt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -153,5 +154,11 @@ RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangula
 
 /// Throws Error(InvalidInput) for options out of range.
 void check_relaxation_options(const RelaxationOptions& options);
+
+/// Why a relaxation ends at `step`; empty when it goes on. Below `rest` times the displacement
+/// tolerance the seeds have settled, whatever their cells' areas.
+std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
+                                            const RelaxationOptions& options, int iterations,
+                                            double rest);
 
 }  // namespace wscvt

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-
-#include "wscvt/tessellation/relaxation.h"
 
 namespace wscvt {
 
@@ -47,19 +44,5 @@ class Momentum {
  private:
   double weight_ = 1.0;
 };
-
-/// Why a relaxation ends at `step`; empty when it goes on. Below `rest` times the displacement
-/// tolerance the seeds have settled, whatever their cells' areas.
-inline std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
-                                                   const RelaxationOptions& options, int iterations,
-                                                   double rest) {
-  if (step.displacement < options.displacement_tolerance &&
-      step.area_spread < options.area_tolerance) {
-    return RelaxationOutcome::Converged;
-  }
-  if (step.displacement < rest * options.displacement_tolerance) return RelaxationOutcome::Settled;
-  if (iterations >= options.maximum_iterations) return RelaxationOutcome::IterationLimit;
-  return std::nullopt;
-}
 
 }  // namespace wscvt
