@@ -176,9 +176,8 @@ SpaceNodes place_in_space(const Grain& grain, int node_count, const SeedingOptio
   result.report.volume_loss = flaws.volume_loss;
   if (!(flaws.volume_loss < 1.0)) {
     throw Error(ErrorCode::NumericalFailure,
-                std::to_string(tessellation.seeds.size()) +
-                    " nodes are too few for this shape: their mesh encloses no volume" +
-                    advice(result.report.enough_nodes));
+                "The shape is too much for " + std::to_string(tessellation.seeds.size()) +
+                    " nodes: their mesh encloses no volume" + advice(result.report.enough_nodes));
   }
 
   execution.report(0.85, "Placing the nodes");
@@ -202,10 +201,9 @@ SpaceNodes place_in_space(const Grain& grain, int node_count, const SeedingOptio
   result.report.self_intersections = self_intersections(nodes.mesh).size();
   if (result.report.self_intersections > 0 && placement.refuse_self_intersections) {
     throw Error(ErrorCode::NumericalFailure,
-                std::to_string(result.report.self_intersections) +
-                    " pairs of triangles of the mesh with " +
-                    std::to_string(tessellation.seeds.size()) +
-                    " nodes meet each other, which the options refuse; " +
+                "In the mesh with " + std::to_string(tessellation.seeds.size()) + " nodes " +
+                    std::to_string(result.report.self_intersections) +
+                    " pairs of triangles meet each other, which the options refuse; " +
                     (result.report.enough_nodes > 0
                          ? std::to_string(result.report.enough_nodes) + " nodes would do."
                          : std::string("ask for more nodes, or allow it.")));
