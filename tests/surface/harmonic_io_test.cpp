@@ -129,6 +129,52 @@ TEST_F(HarmonicIo, MalformedJsonIsRefused) {
   EXPECT_NE(refusal("", true), "");
 }
 
+TEST_F(HarmonicIo, MapsComeBackWithTheSameBits) {
+  std::array<std::vector<double>, 3> coefficients;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const Vector3& u : random_directions(9, test::announced(6 + k))) {
+      coefficients[k].push_back(0.05 * u.x());
+    }
+  }
+  coefficients[0][harmonic_index(1, 1)] = -1.0;
+  coefficients[1][harmonic_index(1, -1)] = -1.0;
+  coefficients[2][harmonic_index(1, 0)] = 1.0;
+  write_harmonic_map(path_, HarmonicMap(coefficients));
+  EXPECT_EQ(read_harmonic_kind(path_), HarmonicKind::Map);
+  EXPECT_EQ(read_harmonic_map(path_).coefficients(), coefficients);
+  // Neither kind is taken for the other.
+  EXPECT_THROW(read_harmonics(path_), Error);
+  write_harmonics(path_, HarmonicSurface({3.5}));
+  EXPECT_EQ(read_harmonic_kind(path_), HarmonicKind::Radial);
+  EXPECT_THROW(read_harmonic_map(path_), Error);
+}
+
+TEST_F(HarmonicIo, MalformedMapsAreRefused) {
+  const auto refused = [&](const std::string& text, const std::string& reason) {
+    std::ofstream(path_) << text;
+    try {
+      read_harmonic_map(path_);
+    } catch (const Error& error) {
+      return error.code() == ErrorCode::InvalidInput &&
+             std::string(error.what()).find(reason) != std::string::npos;
+    }
+    return false;
+  };
+  const std::string head = R"({"format": "wscvt-harmonics-1", "kind": "map",)";
+  EXPECT_TRUE(refused(head + R"("degree": 0, "coefficients": [1]})", "cannot use"));
+  EXPECT_TRUE(refused(head + R"("degree": 0, "coefficients": {"x": [1], "y": [1]}})", "z"));
+  EXPECT_TRUE(
+      refused(head + R"("degree": 1, "coefficients": {"x": [1], "y": [1], "z": [1]}})", "degree"));
+  // A point, and a sphere inside out.
+  EXPECT_TRUE(refused(head + R"("degree": 0, "coefficients": {"x": [1], "y": [1], "z": [1]}})",
+                      "no volume"));
+  EXPECT_TRUE(refused(head + R"("degree": 1, "coefficients":
+      {"x": [0, 0, 0, 1], "y": [0, -1, 0, 0], "z": [0, 0, 1, 0]}})",
+                      "inside out"));
+  std::ofstream(path_) << R"({"format": "wscvt-harmonics-1", "kind": "other", "degree": 0})";
+  EXPECT_THROW(read_harmonic_kind(path_), Error);
+}
+
 TEST_F(HarmonicIo, FilesThatCannotBeOpened) {
   const std::string nowhere = path_ + "/nowhere/file";
   const auto is_io_error = [](const auto& action) {
@@ -141,6 +187,8 @@ TEST_F(HarmonicIo, FilesThatCannotBeOpened) {
   };
   EXPECT_TRUE(is_io_error([&] { read_harmonics(nowhere); }));
   EXPECT_TRUE(is_io_error([&] { read_complex_harmonics(nowhere); }));
+  EXPECT_TRUE(is_io_error([&] { read_harmonic_map(nowhere); }));
+  EXPECT_TRUE(is_io_error([&] { read_harmonic_kind(nowhere); }));
   EXPECT_TRUE(is_io_error([&] { write_harmonics(nowhere, HarmonicSurface({1.0})); }));
 }
 

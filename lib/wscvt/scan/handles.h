@@ -12,9 +12,9 @@ namespace wscvt {
 
 struct HandleOptions {
   /// Longest loop along which a handle is cut, in equal-volume radii. Scanner noise makes handles
-  /// of a few voxels; a ring, whose hole is real, has no loop below half a radius unless its tube
-  /// is 400 times thinner than the ring is wide.
-  double length_limit = 0.5;
+  /// of a few voxels, up to half a radius on a rough scan; a ring, whose hole is real, has no loop
+  /// below 0.7 radii unless its tube is 150 times thinner than the ring is wide.
+  double length_limit = 0.7;
 };
 
 inline constexpr NumberOption<double> handle_length_option{

@@ -2,6 +2,7 @@
 #include "wscvt/surface/harmonic_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <fstream>
@@ -19,6 +20,9 @@ namespace wscvt {
 namespace {
 
 constexpr const char* format_tag = "wscvt-harmonics-1";
+constexpr const char* radial_kind = "radial";
+constexpr const char* map_kind = "map";
+constexpr std::array<const char*, 3> coordinate_names{"x", "y", "z"};
 
 std::ifstream open_for_reading(const std::string& path) {
   std::ifstream stream(path);
@@ -93,6 +97,57 @@ HarmonicSurface make_surface(const std::string& path, std::vector<double> coeffi
   return surface;
 }
 
+/// Opens and parses the file, checks its format and hands it to `read`.
+template <class Read>
+auto read_json(const std::string& path, const Read& read) {
+  std::ifstream stream = open_for_reading(path);
+  try {
+    const nlohmann::json json = nlohmann::json::parse(stream);
+    if (json.at("format").get<std::string>() != format_tag) {
+      refuse(path, std::string("its \"format\" is not \"") + format_tag + "\".");
+    }
+    return read(json);
+  } catch (const nlohmann::json::exception& error) {
+    // The parser's message holds the line and column.
+    refuse(path, error.what());
+  }
+}
+
+HarmonicKind kind_of(const std::string& path, const nlohmann::json& json) {
+  const std::string kind = json.value("kind", std::string(radial_kind));
+  if (kind != radial_kind && kind != map_kind) {
+    refuse(path, "its \"kind\" is \"" + kind + "\"; it must be \"" + radial_kind + "\" or \"" +
+                     map_kind + "\".");
+  }
+  return kind == map_kind ? HarmonicKind::Map : HarmonicKind::Radial;
+}
+
+std::vector<double> coefficients_of(const std::string& path, const nlohmann::json& degree_json,
+                                    const nlohmann::json& values) {
+  // The library would cut 2.7 to 2, take 1e30 for any number and true for 1.
+  if (!degree_json.is_number_integer() || degree_json < 0 ||
+      degree_json > maximum_harmonic_degree) {
+    refuse(path, "its \"degree\" is no whole number from 0 to " +
+                     std::to_string(maximum_harmonic_degree) + ".");
+  }
+  const int degree = degree_json.get<int>();
+  if (!values.is_array()) refuse(path, "its \"coefficients\" are no list.");
+  std::vector<double> coefficients;
+  for (const nlohmann::json& coefficient : values) {
+    if (!coefficient.is_number()) {
+      refuse(path, "coefficient " + std::to_string(coefficients.size()) + " is no number.");
+    }
+    coefficients.push_back(coefficient.get<double>());
+  }
+  if (coefficients.size() != harmonic_count(degree)) {
+    refuse(path, "\"degree\" is " + std::to_string(degree) + " and there are " +
+                     std::to_string(coefficients.size()) +
+                     " coefficients; there must be (degree + 1)^2, degree 0 to " +
+                     std::to_string(maximum_harmonic_degree) + ".");
+  }
+  return coefficients;
+}
+
 }  // namespace
 
 HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
@@ -133,49 +188,56 @@ HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
   return make_surface(path, std::move(real));
 }
 
+HarmonicKind read_harmonic_kind(const std::string& path) {
+  return read_json(path, [&](const nlohmann::json& json) { return kind_of(path, json); });
+}
+
 HarmonicSurface read_harmonics(const std::string& path) {
-  std::ifstream stream = open_for_reading(path);
-  int degree = 0;
-  std::vector<double> coefficients;
-  try {
-    const nlohmann::json json = nlohmann::json::parse(stream);
-    if (json.at("format").get<std::string>() != format_tag) {
-      refuse(path, std::string("its \"format\" is not \"") + format_tag + "\".");
+  return read_json(path, [&](const nlohmann::json& json) {
+    if (kind_of(path, json) != HarmonicKind::Radial) {
+      refuse(path,
+             "it holds series of x, y and z, not one of the radius; read it as a harmonic map.");
     }
-    // The library would cut 2.7 to 2, take 1e30 for any number and true for 1.
-    const nlohmann::json& given = json.at("degree");
-    if (!given.is_number_integer() || given < 0 || given > maximum_harmonic_degree) {
-      refuse(path, "its \"degree\" is no whole number from 0 to " +
-                       std::to_string(maximum_harmonic_degree) + ".");
-    }
-    degree = given.get<int>();
-    const nlohmann::json& list = json.at("coefficients");
-    if (!list.is_array()) refuse(path, "its \"coefficients\" are no list.");
-    for (const nlohmann::json& coefficient : list) {
-      if (!coefficient.is_number()) {
-        refuse(path, "coefficient " + std::to_string(coefficients.size()) + " is no number.");
-      }
-      coefficients.push_back(coefficient.get<double>());
-    }
-  } catch (const nlohmann::json::exception& error) {
-    // The parser's message holds the line and column.
-    refuse(path, error.what());
-  }
-  if (degree < 0 || degree > maximum_harmonic_degree ||
-      coefficients.size() != harmonic_count(degree)) {
-    refuse(path, "\"degree\" is " + std::to_string(degree) + " and there are " +
-                     std::to_string(coefficients.size()) +
-                     " coefficients; there must be (degree + 1)^2, degree 0 to " +
-                     std::to_string(maximum_harmonic_degree) + ".");
-  }
-  return make_surface(path, std::move(coefficients));
+    return make_surface(path, coefficients_of(path, json.at("degree"), json.at("coefficients")));
+  });
 }
 
 void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
   nlohmann::ordered_json json;
   json["format"] = format_tag;
+  json["kind"] = radial_kind;
   json["degree"] = surface.degree();
   json["coefficients"] = surface.coefficients();
+  write_file(path, json.dump(1) + "\n");
+}
+
+HarmonicMap read_harmonic_map(const std::string& path) {
+  return read_json(path, [&](const nlohmann::json& json) {
+    if (kind_of(path, json) != HarmonicKind::Map) {
+      refuse(path, "it holds one series, of the radius; read it as a radial surface.");
+    }
+    const nlohmann::json& all = json.at("coefficients");
+    std::array<std::vector<double>, 3> coefficients;
+    for (std::size_t k = 0; k < 3; ++k) {
+      coefficients[k] = coefficients_of(path, json.at("degree"), all.at(coordinate_names[k]));
+    }
+    HarmonicMap map(std::move(coefficients));
+    // Twice as many rows as the cube of the series needs.
+    if (!(body_integrals(map, 3 * map.degree() + 4, Execution(1)).volume > 0.0)) {
+      refuse(path, "the surface of its series encloses no volume, or is turned inside out.");
+    }
+    return map;
+  });
+}
+
+void write_harmonic_map(const std::string& path, const HarmonicMap& map) {
+  nlohmann::ordered_json json;
+  json["format"] = format_tag;
+  json["kind"] = map_kind;
+  json["degree"] = map.degree();
+  for (std::size_t k = 0; k < 3; ++k) {
+    json["coefficients"][coordinate_names[k]] = map.coefficients()[k];
+  }
   write_file(path, json.dump(1) + "\n");
 }
 

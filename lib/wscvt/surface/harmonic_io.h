@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
@@ -19,12 +20,28 @@ namespace wscvt {
 /// -1 keeps all.
 HarmonicSurface read_complex_harmonics(const std::string& path, int degree = -1);
 
-/// Reads what `write_harmonics` writes.
+/// What a file of `write_harmonics` or `write_harmonic_map` holds.
+enum class HarmonicKind {
+  Radial,  ///< one series, of the radius
+  Map,     ///< three, of x, y and z over the map to the sphere
+};
+
+HarmonicKind read_harmonic_kind(const std::string& path);
+
+/// Reads what `write_harmonics` writes. A file without "kind" is taken for a radial one.
 HarmonicSurface read_harmonics(const std::string& path);
 
-/// Writes {"format": "wscvt-harmonics-1", "degree": L, "coefficients": [...]}: real orthonormal
-/// harmonics as in spherical_harmonics.h, a_lm at place l^2 + l + m. Reading gives the same bits
-/// back. Written whole or not at all, see write_file.
+/// Writes {"format": "wscvt-harmonics-1", "kind": "radial", "degree": L, "coefficients": [...]}:
+/// real orthonormal harmonics as in spherical_harmonics.h, a_lm at place l^2 + l + m. Reading gives
+/// the same bits back. Written whole or not at all, see write_file.
 void write_harmonics(const std::string& path, const HarmonicSurface& surface);
+
+/// Reads what `write_harmonic_map` writes. Refuses series that enclose no volume or are turned
+/// inside out.
+HarmonicMap read_harmonic_map(const std::string& path);
+
+/// As `write_harmonics`, with "kind": "map" and "coefficients": {"x": [...], "y": [...], "z":
+/// [...]}.
+void write_harmonic_map(const std::string& path, const HarmonicMap& map);
 
 }  // namespace wscvt

@@ -61,10 +61,11 @@ double VertexFan::energy(const Vector3& p) const {
   return sum;
 }
 
-bool VertexFan::improve(Vector3& p) const {
+double VertexFan::improve(Vector3& p) const {
   const Vector3 e1 = p.unitOrthogonal();
   const Vector3 e2 = p.cross(e1);
   double before = 0.0;
+  double edges = 0.0;                      // sum of squares
   double g1 = 0.0, g2 = 0.0;               // gradient
   double h11 = 0.0, h12 = 0.0, h22 = 0.0;  // Hessian without its isotropic part
   double isotropic = 0.0;
@@ -73,10 +74,12 @@ bool VertexFan::improve(Vector3& p) const {
     const Vector3 from_q = p - t.q;
     const Vector3 from_r = p - t.r;
     const double area = 0.5 * from_q.dot(t.normal);
-    if (!(area > 1e-145)) return false;
+    if (!(area > 1e-145)) return 0.0;
+    const double square_q = from_q.squaredNorm();
+    edges += square_q;
     const Vector3 gradient_d = t.cotangent_q * from_r + t.cotangent_r * from_q;
-    const double dirichlet = 0.5 * (t.opposite_edge + t.cotangent_q * from_r.squaredNorm() +
-                                    t.cotangent_r * from_q.squaredNorm());
+    const double dirichlet =
+        0.5 * (t.opposite_edge + t.cotangent_q * from_r.squaredNorm() + t.cotangent_r * square_q);
     const double inverse = 1.0 / area;
     const double s = t.area_square * inverse * inverse;
     before += dirichlet * (1.0 + s);
@@ -107,7 +110,7 @@ bool VertexFan::improve(Vector3& p) const {
     h22 += shift;
   }
   const double determinant = h11 * h22 - h12 * h12;
-  if (!(determinant > 0.0)) return false;
+  if (!(determinant > 0.0)) return 0.0;
   double x = -(h22 * g1 - h12 * g2) / determinant;
   double y = -(h11 * g2 - h12 * g1) / determinant;
   const double length = std::sqrt(x * x + y * y);
@@ -116,16 +119,17 @@ bool VertexFan::improve(Vector3& p) const {
     y *= 0.5 / length;
   }
   const double slope = g1 * x + g2 * y;
-  if (!(slope < 0.0)) return false;
+  if (!(slope < 0.0)) return 0.0;
   double step = 1.0;
   for (int trial = 0; trial < 12; ++trial, step *= 0.4) {
     const Vector3 candidate = (p + step * (x * e1 + y * e2)).normalized();
     if (energy(candidate) < before + 1e-4 * step * slope) {
+      const double way = (candidate - p).squaredNorm();
       p = candidate;
-      return true;
+      return way * static_cast<double>(triangles_.size()) / edges;
     }
   }
-  return false;
+  return 0.0;
 }
 
 }  // namespace wscvt

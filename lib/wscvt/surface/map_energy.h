@@ -34,8 +34,9 @@ class VertexFan {
            double cotangent_r, double area_square);
 
   /// One Newton step on the sphere from the unit vector p, with the Hessian made positive and a
-  /// line search. Returns whether the energy fell; all triangles stay counter-clockwise.
-  bool improve(Vector3& p) const;
+  /// line search; all triangles stay counter-clockwise. Returns the square of the way p went over
+  /// the mean square of its edges; 0 where the energy could not be lowered.
+  double improve(Vector3& p) const;
 
   /// The energy at p; infinite where a triangle is not counter-clockwise with certainty.
   double energy(const Vector3& p) const;

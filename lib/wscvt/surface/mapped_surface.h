@@ -8,6 +8,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/cube_map.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 
@@ -20,8 +21,9 @@ struct MeshPlace {
 /// A scan spread over the unit sphere, one to one (sphere_map.h): every direction u has one place
 /// on the mesh, x(u). Within the spherical triangle of a face with corners at the directions a, b,
 /// c the weights are those of u = alpha a + beta b + gamma c scaled to sum 1, so x(u) runs straight
-/// over the face and great circles that meet in a corner go to straight lines through it.
-class MappedSurface {
+/// over the face and arcs of great circles within a face go to straight lines. Its derivatives jump
+/// from face to face, and its curvature is zero within each: all of it lies in the edges.
+class MappedSurface : public SphereSurface {
  public:
   /// Takes the mesh and the directions of its vertices. Throws Error(InvalidInput) unless there is
   /// a unit vector for each vertex, the mesh is closed, and all triangles are counter-clockwise on
@@ -32,6 +34,9 @@ class MappedSurface {
   const std::vector<Vector3>& directions() const { return directions_; }
   /// The half-edge that runs the other way, for each; numbered as in half_edges.h.
   const std::vector<std::int32_t>& opposite() const { return opposite_; }
+
+  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                     SurfaceJet* jets) const override;
 
   /// The place in a direction (any length but zero), by a walk over the sphere's triangles from the
   /// triangle `hint`, or from a table where `hint` is -1. Exact predicates, so the triangle holds

@@ -32,6 +32,9 @@ void check_options(const SphereMapOptions& options) {
   require_in_range(options.tolerance, map_tolerance_option);
 }
 
+/// A vertex that moves by less than the root of this of its edges' length is still.
+constexpr double still = 1e-5;
+
 /// Puts the vertices of a collapsed mesh on the sphere, one after another.
 class Embedding {
  public:
@@ -200,11 +203,20 @@ class Embedding {
     references_.resize(mesh_.triangles().size());
     for (const std::int32_t f : mesh_.present_triangles()) references_[f] = reference_of(f);
     const auto stored = [&](std::int32_t f) -> const ReferenceTriangle& { return references_[f]; };
+    // A vertex is passed over once neither it nor a neighbour moves any more: its step lowers the
+    // energy by the square of the way only.
+    awake_.resize(directions_.size());
+    for (const std::int32_t v : order_) awake_[v] = 1;
     double before = energy();
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       for (const std::int32_t v : order_) {
+        if (awake_[v] == 0) continue;
+        awake_[v] = 0;
         load_fan(v, stored);
-        fan_.improve(directions_[v]);
+        if (fan_.improve(directions_[v]) < still) continue;
+        awake_[v] = 1;
+        mesh_.visit_outgoing(v,
+                             [&](std::int32_t h) { awake_[target_of(mesh_.triangles(), h)] = 1; });
       }
       ++report_.sweeps;
       if (sweep % 4 == 0) {
@@ -243,6 +255,7 @@ class Embedding {
   SphereMapReport report_;
   double area_unit_ = 1.0;
   std::vector<ReferenceTriangle> references_;
+  std::vector<char> awake_;
   VertexFan fan_;
   std::vector<Vector3> ring_;
   std::vector<double> distances_;

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/harmonic_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_equations.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::size_t block_size = 8192;
+
+/// Sides of the quadrature's triangles on the sphere, times the degree. The midpoint rule is wrong
+/// by about spacing^2 / 24 of the highest harmonics, one per cent.
+constexpr double spacing_times_degree = 0.5;
+
+/// Points of the quadrature are taken closer only as long as they are fewer than this; scans of a
+/// million vertices have one a face.
+constexpr std::size_t quadrature_limit = 500000;
+
+/// Middles of the pieces that faces are cut into.
+struct Quadrature {
+  std::vector<Vector3> directions;
+  std::array<std::vector<double>, 3> coordinates;
+  std::vector<double> weights;  ///< areas
+};
+
+/// Pieces along each side of the faces.
+std::vector<std::int32_t> pieces_of(const MappedSurface& surface, int degree) {
+  const std::vector<Triangle>& triangles = surface.mesh().triangles;
+  const std::vector<Vector3>& u = surface.directions();
+  std::vector<std::int32_t> pieces(triangles.size());
+  for (double spacing = spacing_times_degree / std::max(1, degree);; spacing *= 2.0) {
+    std::size_t total = 0;
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      const Triangle& t = triangles[f];
+      const double longest = std::max(
+          {(u[t[1]] - u[t[0]]).norm(), (u[t[2]] - u[t[1]]).norm(), (u[t[0]] - u[t[2]]).norm()});
+      pieces[f] = std::max(1, static_cast<std::int32_t>(std::ceil(longest / spacing)));
+      total += static_cast<std::size_t>(pieces[f]) * static_cast<std::size_t>(pieces[f]);
+    }
+    // Wider where faces are needles all along the sphere, whose number goes with the square.
+    if (total <= std::max(quadrature_limit, triangles.size())) return pieces;
+  }
+}
+
+Quadrature quadrature_over(const MappedSurface& surface, int degree) {
+  const IndexedMesh& mesh = surface.mesh();
+  const std::vector<std::int32_t> pieces = pieces_of(surface, degree);
+  Quadrature result;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    const Vector3& a = mesh.points[t[0]];
+    const double area = 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
+    if (!(area > 0.0)) continue;
+    const std::int32_t count = pieces[f];
+    const auto add = [&](int i, int j, double shift) {
+      MeshPlace place;
+      place.triangle = static_cast<std::int32_t>(f);
+      place.weights[0] = (i + shift) / count;
+      place.weights[1] = (j + shift) / count;
+      place.weights[2] = 1.0 - place.weights[0] - place.weights[1];
+      const Vector3 x = surface.position(place);
+      result.directions.push_back(surface.direction(place));
+      for (std::size_t k = 0; k < 3; ++k) {
+        result.coordinates[k].push_back(x[static_cast<Eigen::Index>(k)]);
+      }
+      result.weights.push_back(area / (static_cast<double>(count) * count));
+    };
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; i + j < count; ++j) {
+        add(i, j, 1.0 / 3.0);
+        if (i + j + 1 < count) add(i, j, 2.0 / 3.0);  // upside down
+      }
+    }
+  }
+  return result;
+}
+
+double turned_share(const HarmonicMap& map, const MappedSurface& surface,
+                    const Execution& execution) {
+  const SphereQuadrature quadrature = gauss_legendre_sphere(2 * map.degree() + 8);
+  const std::vector<Vector3>& u = quadrature.directions;
+  using Sums = Eigen::Vector2d;
+  const Sums sums = execution.parallel_sum(
+      u.size(), block_size, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
+        std::vector<SurfaceJet> jets(end - begin);
+        map.evaluate_jets(u.data() + begin, jets.size(), Derivatives::First, jets.data());
+        Sums part = Sums::Zero();
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vector3 normal = area_normal(jets[i - begin], u[i]);
+          const double area = quadrature.weights[i] * normal.norm();
+          part[0] += area;
+          if (normal.dot(surface.normal(surface.locate(u[i]))) < 0.0) part[1] += area;
+        }
+        return part;
+      });
+  return sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
+}
+
+}  // namespace
+
+HarmonicMap::HarmonicMap(std::array<std::vector<double>, 3> coefficients)
+    : coefficients_(std::move(coefficients)),
+      series_{HarmonicSeries(coefficients_[0]), HarmonicSeries(coefficients_[1]),
+              HarmonicSeries(coefficients_[2])} {
+  constexpr std::array<char, 3> names{'x', 'y', 'z'};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (coefficients_[k].size() != coefficients_[0].size()) {
+      throw Error(ErrorCode::InvalidInput, "The series for x, y and z have " +
+                                               std::to_string(coefficients_[0].size()) + ", " +
+                                               std::to_string(coefficients_[1].size()) + " and " +
+                                               std::to_string(coefficients_[2].size()) +
+                                               " coefficients; give them the same degree.");
+    }
+    for (std::size_t i = 0; i < coefficients_[k].size(); ++i) {
+      if (!std::isfinite(coefficients_[k][i])) {
+        throw Error(ErrorCode::InvalidInput, "Coefficient " + std::to_string(i) +
+                                                 " of the series for " + names[k] +
+                                                 " is not a finite number.");
+      }
+    }
+  }
+}
+
+void HarmonicMap::evaluate_jets(const Vector3* directions, std::size_t count,
+                                Derivatives derivatives, SurfaceJet* jets) const {
+  std::fill(jets, jets + count, SurfaceJet());
+  std::vector<RadialJet> coordinate(count);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    series_[k].sum(directions, count, derivatives, coordinate.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      jets[i].position[row] = coordinate[i].radius;
+      if (derivatives == Derivatives::None) continue;
+      jets[i].jacobian.row(row) = coordinate[i].gradient.transpose();
+      if (derivatives == Derivatives::Second) jets[i].hessians[k] = coordinate[i].hessian;
+    }
+  }
+}
+
+HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
+                                const Execution& execution) {
+  if (degree < 0 || degree > maximum_fit_degree) {
+    throw Error(ErrorCode::InvalidInput, "The degree of the fit is " + std::to_string(degree) +
+                                             "; give one from 0 to " +
+                                             std::to_string(maximum_fit_degree) + ".");
+  }
+  execution.report(0.0, "Fitting the harmonic map");
+  const Quadrature quadrature = quadrature_over(surface, degree);
+  double area = 0.0;
+  for (const double weight : quadrature.weights) area += weight;
+  if (!(area > 0.0 && std::isfinite(area))) {
+    throw Error(ErrorCode::InvalidInput,
+                "The mapped surface has no area to fit a series to; check the mesh first.");
+  }
+  WeightedDirections points{quadrature.directions, quadrature.weights};
+  for (double& weight : points.weights) weight *= 4.0 * pi / area;
+
+  HarmonicMapReport report;
+  report.requested_degree = degree;
+  report.points = points.directions.size();
+  int trial = degree;
+  while (trial > 0 && points_per_coefficient * harmonic_count(trial) > report.points) --trial;
+  if (trial < degree) report.limit = DegreeLimit::Points;
+  const std::unique_ptr<HarmonicEquations> equations = harmonic_equations(points, trial, execution);
+  execution.report(0.4, "Fitting the harmonic map");
+  for (; trial >= 0; trial -= std::max(1, trial / 8)) {
+    equations->set_degree(trial, execution);
+    report.condition = condition_of(*equations, trial, execution);
+    bool converged = report.condition <= largest_condition;
+    std::array<std::vector<double>, 3> coefficients;
+    double square = 0.0;
+    for (std::size_t k = 0; k < 3 && converged; ++k) {
+      HarmonicLeastSquares fit =
+          least_squares(*equations, points, quadrature.coordinates[k], trial, execution);
+      converged = fit.converged;
+      coefficients[k] = std::move(fit.coefficients);
+      square += fit.residual * fit.residual;
+      execution.report(0.5 + 0.15 * static_cast<double>(k), "Fitting the harmonic map");
+    }
+    if (!converged) {
+      report.limit = DegreeLimit::Condition;
+      continue;
+    }
+    HarmonicMap map(std::move(coefficients));
+    report.degree = trial;
+    report.residual = std::sqrt(square);
+    report.turned_area_share = turned_share(map, surface, execution);
+    execution.report(1.0, "Fitting the harmonic map");
+    return {std::move(map), report};
+  }
+  throw Error(ErrorCode::NumericalFailure,
+              "No series of spherical harmonics describes the mapped surface, not even of degree "
+              "0; check the mesh for faces without area.");
+}
+
+}  // namespace wscvt

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/mapped_surface.h"
+#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/spherical_harmonics.h"
+
+namespace wscvt {
+
+/// A closed surface of genus 0 given by a series of real orthonormal spherical harmonics for each
+/// coordinate, x(u) = sum of a_lm Y_lm(u) (Brechbuehler, Gerig and Kuebler 1995, "Parametrization
+/// of closed surfaces for 3-D shape description"; see spherical_harmonics.h for the convention).
+/// Shells and hooks have such series, and smooth curvatures with them.
+class HarmonicMap : public SphereSurface {
+ public:
+  /// `coefficients` of x, y and z: (degree + 1)^2 values each in length units, a_lm at index
+  /// l^2 + l + m. Throws Error(InvalidInput) when there are none, their numbers differ or are no
+  /// square, the degree is above maximum_harmonic_degree, or a value is not finite.
+  explicit HarmonicMap(std::array<std::vector<double>, 3> coefficients);
+
+  int degree() const { return series_[0].degree(); }
+  const std::array<std::vector<double>, 3>& coefficients() const { return coefficients_; }
+
+  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                     SurfaceJet* jets) const override;
+
+ private:
+  std::array<std::vector<double>, 3> coefficients_;
+  std::array<HarmonicSeries, 3> series_;
+};
+
+/// How the fit went.
+struct HarmonicMapReport {
+  int requested_degree = 0;
+  int degree = 0;  ///< lowered when the surface cannot carry the requested one
+  DegreeLimit limit = DegreeLimit::None;
+  std::size_t points = 0;  ///< of the quadrature over the faces
+  double residual = 0.0;   ///< rms over the area of the distance of equal directions, length
+  double condition = 0.0;  ///< estimate for the equations, which all coordinates share
+  /// Share of the series' area that looks the other way than the scan there: folds, at edges and
+  /// limbs that the degree is too low for.
+  double turned_area_share = 0.0;
+};
+
+struct HarmonicMapFit {
+  HarmonicMap map;
+  HarmonicMapReport report;
+};
+
+/// Least squares for x, y and z over the mapped scan, weighted by the scan's area: one matrix with
+/// three right-hand sides. Faces enter by quadrature, points closer than half a radian over the
+/// degree, so the result depends on the surface and its map and not on how it is triangulated.
+///
+/// The degree is lowered until the surface carries it: at least two points a coefficient and a
+/// condition of at most 1000. Throws Error(InvalidInput) for a degree not in [0, 60] and a surface
+/// without area, Error(NumericalFailure) when not even degree 0 has a solution.
+HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
+                                const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/sphere_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wscvt/sphere/sphere_sampling.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t block_size = 1024;
+
+}  // namespace
+
+std::vector<SurfaceJet> SphereSurface::surface_jets(const std::vector<Vector3>& directions,
+                                                    Derivatives derivatives,
+                                                    const Execution& execution) const {
+  std::vector<SurfaceJet> result(directions.size());
+  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    evaluate_jets(directions.data() + begin, end - begin, derivatives, result.data() + begin);
+  });
+  return result;
+}
+
+std::vector<Vector3> SphereSurface::positions(const std::vector<Vector3>& directions,
+                                              const Execution& execution) const {
+  std::vector<Vector3> result(directions.size());
+  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::vector<SurfaceJet> jets(end - begin);
+    evaluate_jets(directions.data() + begin, jets.size(), Derivatives::None, jets.data());
+    for (std::size_t i = begin; i < end; ++i) result[i] = jets[i - begin].position;
+  });
+  return result;
+}
+
+SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives) {
+  SurfaceJet result;
+  const Vector3& u = direction;
+  result.position = jet.radius * u;
+  if (derivatives == Derivatives::None) return result;
+  // x = r(p) q(p) with q = p/|p|, whose Jacobian at |p| = 1 is the projection on the tangent plane.
+  const Matrix3 projection = Matrix3::Identity() - u * u.transpose();
+  result.jacobian = u * jet.gradient.transpose() + jet.radius * projection;
+  if (derivatives == Derivatives::First) return result;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Vector3 gradient = projection.col(i);  // of q_i
+    // Hessian of q_i: -(e_i u^T + u e_i^T) - u_i I + 3 u_i u u^T, written with the gradient.
+    const Matrix3 mixed = gradient * u.transpose();
+    const Matrix3 hessian = -(mixed + mixed.transpose()) - u[i] * projection;
+    const Matrix3 product = gradient * jet.gradient.transpose();
+    result.hessians[static_cast<std::size_t>(i)] =
+        jet.radius * hessian + product + product.transpose() + u[i] * jet.hessian;
+  }
+  return result;
+}
+
+void RadialSphereSurface::evaluate_jets(const Vector3* directions, std::size_t count,
+                                        Derivatives derivatives, SurfaceJet* jets) const {
+  std::vector<RadialJet> radial(count);
+  surface_.evaluate(directions, count, derivatives, radial.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    jets[i] = surface_jet(radial[i], directions[i], derivatives);
+  }
+}
+
+Vector3 area_normal(const SurfaceJet& jet, const Vector3& direction) {
+  // J e1 x J e2 for tangents with e1 x e2 = u is the cofactor matrix of J times u: no tangents need
+  // to be chosen.
+  const Vector3 x = jet.jacobian.col(0);
+  const Vector3 y = jet.jacobian.col(1);
+  const Vector3 z = jet.jacobian.col(2);
+  return direction.x() * y.cross(z) + direction.y() * z.cross(x) + direction.z() * x.cross(y);
+}
+
+double area_element(const SurfaceJet& jet, const Vector3& direction) {
+  return area_normal(jet, direction).norm();
+}
+
+Vector3 surface_normal(const SurfaceJet& jet, const Vector3& direction) {
+  return area_normal(jet, direction).stableNormalized();
+}
+
+PrincipalCurvatures principal_curvatures(const SurfaceJet& jet, const Vector3& direction) {
+  const Vector3 e1 = direction.unitOrthogonal();
+  const Vector3 e2 = direction.cross(e1);
+  const Vector3 x1 = jet.jacobian * e1;
+  const Vector3 x2 = jet.jacobian * e2;
+  const Vector3 normal = x1.cross(x2).stableNormalized();
+  // Along a great circle u'' = -u, which J takes to zero: the second derivatives of x are those of
+  // the Hessians alone.
+  Matrix3 bending = Matrix3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    bending -= normal[static_cast<Eigen::Index>(k)] * jet.hessians[k];
+  }
+  const double l = e1.dot(bending * e1);
+  const double m = e1.dot(bending * e2);
+  const double n = e2.dot(bending * e2);
+  const double e = x1.squaredNorm();
+  const double f = x1.dot(x2);
+  const double g = x2.squaredNorm();
+  const double determinant = e * g - f * f;
+  const double mean = 0.5 * (e * n - 2.0 * f * m + g * l) / determinant;
+  const double product = (l * n - m * m) / determinant;
+  const double spread = std::sqrt(std::max(0.0, mean * mean - product));
+  return {mean + spread, mean - spread};
+}
+
+BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
+                             const Execution& execution) {
+  const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
+  const std::vector<Vector3>& u = quadrature.directions;
+  using Sums = Eigen::Matrix<double, 5, 1>;
+  const Sums sums = execution.parallel_sum(
+      u.size(), block_size, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
+        std::vector<SurfaceJet> jets(end - begin);
+        surface.evaluate_jets(u.data() + begin, jets.size(), Derivatives::First, jets.data());
+        Sums part = Sums::Zero();
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vector3& x = jets[i - begin].position;
+          const Vector3 normal = area_normal(jets[i - begin], u[i]);
+          const double cone = quadrature.weights[i] * x.dot(normal);  // three times its volume
+          part[0] += cone / 3.0;
+          part[1] += quadrature.weights[i] * normal.norm();
+          part.segment<3>(2) += 0.25 * cone * x;
+        }
+        return part;
+      });
+  BodyIntegrals result;
+  result.volume = sums[0];
+  result.area = sums[1];
+  if (result.volume != 0.0) result.centroid = sums.segment<3>(2) / result.volume;
+  return result;
+}
+
+}  // namespace wscvt

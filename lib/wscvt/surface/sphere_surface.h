@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/radial_surface.h"
+
+namespace wscvt {
+
+/// The point of a surface over the direction u, with its derivatives on the unit sphere.
+///
+/// All derivatives are those of the degree-0 homogeneous extension x(p) = x(p/|p|), taken at
+/// |p| = 1, in Cartesian coordinates of the sphere. So jacobian * u = 0, and jacobian * e is the
+/// derivative along a tangent e of the sphere.
+struct SurfaceJet {
+  Vector3 position = Vector3::Zero();  ///< x, length
+  Matrix3 jacobian = Matrix3::Zero();  ///< row i: gradient of coordinate i; length per radian
+  /// Hessian of each coordinate; length per radian^2. e^T hessians[i] e is the second derivative of
+  /// coordinate i along the great circle in direction e.
+  std::array<Matrix3, 3> hessians{Matrix3::Zero(), Matrix3::Zero(), Matrix3::Zero()};
+};
+
+/// A closed surface spread over the unit sphere: a point x(u) for every unit vector u. A radial
+/// surface, x = r u, is one case (RadialSphereSurface); a scan mapped to the sphere and a series
+/// for each coordinate are others.
+class SphereSurface {
+ public:
+  virtual ~SphereSurface() = default;
+
+  /// Positions and derivatives for `count` unit vectors. Fields beyond `derivatives` are left at
+  /// zero. Must be callable from several threads at once, and the value for a direction must not
+  /// depend on what other directions stand in the same call.
+  virtual void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                             SurfaceJet* jets) const = 0;
+
+  /// As `evaluate_jets`, for a whole array and on the threads of `execution`.
+  std::vector<SurfaceJet> surface_jets(const std::vector<Vector3>& directions,
+                                       Derivatives derivatives, const Execution& execution) const;
+
+  /// Points only, on the threads of `execution`.
+  std::vector<Vector3> positions(const std::vector<Vector3>& directions,
+                                 const Execution& execution) const;
+};
+
+/// The point r u and its derivatives, as far as `derivatives` says.
+SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives);
+
+/// A radial surface seen as one over the sphere. What works on radii alone, the published method,
+/// goes on asking the RadialSurface itself: three numbers for one would cost it its speed.
+class RadialSphereSurface : public SphereSurface {
+ public:
+  /// The surface must live as long.
+  explicit RadialSphereSurface(const RadialSurface& surface) : surface_(surface) {}
+
+  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                     SurfaceJet* jets) const override;
+
+ private:
+  const RadialSurface& surface_;
+};
+
+/// Normal of the surface at direction u, as long as the surface's area per solid angle,
+/// g = dA/dOmega in length^2; outward where the map keeps the orientation. From first derivatives.
+Vector3 area_normal(const SurfaceJet& jet, const Vector3& direction);
+
+/// Area of the surface per solid angle, g = dA/dOmega; length^2.
+double area_element(const SurfaceJet& jet, const Vector3& direction);
+
+/// Outward unit normal; zero where g is.
+Vector3 surface_normal(const SurfaceJet& jet, const Vector3& direction);
+
+/// Principal curvatures at direction u from a jet with second derivatives: the eigenvalues of the
+/// shape operator in the first fundamental form. A sphere of radius R gives 1/R twice, a flat face
+/// of a mesh 0. Not finite where g is zero.
+PrincipalCurvatures principal_curvatures(const SurfaceJet& jet, const Vector3& direction);
+
+/// Integrals over the body that a surface encloses.
+struct BodyIntegrals {
+  double volume = 0.0;                 ///< length^3; negative where the map turns it inside out
+  double area = 0.0;                   ///< length^2
+  Vector3 centroid = Vector3::Zero();  ///< of the volume; zero without one
+};
+
+/// By Gauss-Legendre x trapezoid quadrature on the sphere, with `polar_nodes` rows and twice as
+/// many columns; volume and centroid of series are exact from rows of 1.5 and 2 times the degree
+/// on. Throws Error(InvalidInput) if polar_nodes < 1.
+BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
+                             const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/harmonic_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grains/bent_grain.h"
+#include "support/seeds.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/surface/sphere_map.h"
+
+namespace wscvt {
+namespace {
+
+MappedSurface mapped(const IndexedMesh& mesh) {
+  return MappedSurface(mesh, map_to_sphere(mesh, {}, Execution(1)).directions, Execution(1));
+}
+
+TEST(HarmonicMap, AnEllipsoidIsOfDegreeOne) {
+  // Under the affine map of the sphere x, y and z are harmonics of degree 1.
+  const IndexedMesh ball = test::sphere(5);
+  const Vector3 axes(1.0, 0.6, 0.3);
+  const Vector3 shift(4.0, 5.0, 6.0);
+  const IndexedMesh mesh = test::transformed(ball, axes.asDiagonal().toDenseMatrix(), shift);
+  const HarmonicMapFit fit =
+      fit_harmonic_map(MappedSurface(mesh, ball.points, Execution(1)), 6, Execution(1));
+  EXPECT_EQ(fit.report.degree, 6);
+  EXPECT_EQ(fit.report.limit, DegreeLimit::None);
+  // The faces are chords: their middles lie h^2 / 6 below the ellipsoid, h = 0.035 the edge.
+  EXPECT_LT(fit.report.residual, 4e-4);
+  EXPECT_EQ(fit.report.turned_area_share, 0.0);
+  const double unit = std::sqrt(4.0 * test::pi / 3.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<double>& a = fit.map.coefficients()[k];
+    std::vector<double> expected(a.size(), 0.0);
+    const auto axis = static_cast<Eigen::Index>(k);
+    expected[0] = shift[axis] * std::sqrt(4.0 * test::pi);
+    if (k == 0) expected[harmonic_index(1, 1)] = -axes[axis] * unit;
+    if (k == 1) expected[harmonic_index(1, -1)] = -axes[axis] * unit;
+    if (k == 2) expected[harmonic_index(1, 0)] = axes[axis] * unit;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(a[i], expected[i], 2e-3) << k << " " << i;
+  }
+}
+
+TEST(HarmonicMap, ComesCloserToBentGrainsWithTheDegree) {
+  for (const char* name : {"hook", "C-shape", "mushroom"}) {
+    const IndexedMesh mesh = test::bent_grain_mesh(test::bent_grain(name), 5000);
+    const auto report = check_mesh(mesh, {}, Execution(1)).report;
+    const MappedSurface surface = mapped(mesh);
+    double before = 1.0;
+    for (const int degree : {5, 10, 20}) {
+      const HarmonicMapFit fit = fit_harmonic_map(surface, degree, Execution(1));
+      EXPECT_EQ(fit.report.degree, degree) << name;
+      EXPECT_LT(fit.report.residual / report.equivalent_radius, before) << name;
+      before = fit.report.residual / report.equivalent_radius;
+      EXPECT_LT(fit.report.condition, 100.0) << name;
+      const BodyIntegrals sums = body_integrals(fit.map, 3 * degree + 4, Execution(1));
+      if (degree == 20) {
+        EXPECT_NEAR(sums.volume, report.volume, 0.03 * report.volume) << name;
+        EXPECT_LT(before, 0.05) << name;
+        EXPECT_LT(fit.report.turned_area_share, 0.05) << name;
+      }
+    }
+  }
+}
+
+TEST(HarmonicMap, DependsOnTheSurfaceAndNotOnItsTriangles) {
+  // Half of the sphere in triangles four times smaller: vertices would count four times there.
+  const IndexedMesh ball = test::sphere(3);
+  IndexedMesh uneven = ball;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+  const auto is_fine = [&](const Triangle& t) {
+    return ball.points[t[0]].z() + ball.points[t[1]].z() + ball.points[t[2]].z() > 0.0;
+  };
+  uneven.triangles.clear();
+  for (const Triangle& t : ball.triangles) {
+    if (!is_fine(t)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto edge = std::minmax(t[k], t[(k + 1) % 3]);
+      const auto next = static_cast<std::int32_t>(uneven.points.size());
+      if (middles.emplace(edge, next).second) {
+        uneven.points.emplace_back(0.5 * (ball.points[edge.first] + ball.points[edge.second]));
+      }
+    }
+  }
+  for (const Triangle& t : ball.triangles) {
+    std::vector<std::int32_t> ring;
+    std::size_t halved = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ring.push_back(t[k]);
+      const auto middle = middles.find(std::minmax(t[k], t[(k + 1) % 3]));
+      if (middle == middles.end()) continue;
+      ring.push_back(middle->second);
+      ++halved;
+    }
+    if (halved == 3) {
+      uneven.triangles.push_back({ring[1], ring[3], ring[5]});
+      for (std::size_t k = 0; k < 3; ++k) {
+        uneven.triangles.push_back({ring[2 * k], ring[2 * k + 1], ring[(2 * k + 5) % 6]});
+      }
+      continue;
+    }
+    // A fan about a middle, where there is one.
+    std::size_t first = 0;
+    while (halved > 0 && ring[first] < 642) ++first;
+    for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+      const std::size_t size = ring.size();
+      uneven.triangles.push_back(
+          {ring[first % size], ring[(first + k) % size], ring[(first + k + 1) % size]});
+    }
+  }
+  ASSERT_EQ(test::bad_edges(uneven), 0U);
+  std::vector<Vector3> directions = uneven.points;
+  for (Vector3& u : directions) u.normalize();
+  // x, y and z of a bent body over the same directions.
+  const auto bend = [](IndexedMesh mesh) {
+    for (Vector3& p : mesh.points) p = Vector3(p.x() + 0.5 * p.z() * p.z(), p.y(), 2.0 * p.z());
+    return mesh;
+  };
+  const MappedSurface plain(bend(ball), ball.points, Execution(1));
+  const MappedSurface other(bend(uneven), directions, Execution(1));
+  // A degree that leaves a residual for the weights to deal out.
+  const HarmonicMapFit a = fit_harmonic_map(plain, 1, Execution(1));
+  const HarmonicMapFit b = fit_harmonic_map(other, 1, Execution(1));
+  EXPECT_GT(a.report.residual, 0.1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(a.map.coefficients()[k][i], b.map.coefficients()[k][i], 0.01);
+    }
+  }
+  EXPECT_NEAR(a.report.residual, b.report.residual, 0.01 * a.report.residual);
+}
+
+TEST(HarmonicMap, SameBytesOnAnyNumberOfThreads) {
+  const MappedSurface surface = mapped(test::lumpy(4));
+  const HarmonicMapFit one = fit_harmonic_map(surface, 10, Execution(1));
+  const HarmonicMapFit two = fit_harmonic_map(surface, 10, Execution(2));
+  EXPECT_EQ(one.map.coefficients(), two.map.coefficients());
+  EXPECT_EQ(one.report.turned_area_share, two.report.turned_area_share);
+}
+
+TEST(HarmonicMap, RefusesWhatItCannotUse) {
+  const auto refusal = [](const auto& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::vector<double> one{1.0};
+  EXPECT_NE(refusal([&] {
+              HarmonicMap({one, one, {1.0, 0.0, 0.0, 0.0}});
+            }).find("same degree"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              HarmonicMap({one, {std::nan("")}, one});
+            }).find("for y"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { HarmonicMap({}); }), "");
+  const IndexedMesh ball = test::sphere(2);
+  const MappedSurface surface(ball, ball.points, Execution(1));
+  EXPECT_NE(refusal([&] { fit_harmonic_map(surface, 61, Execution(1)); }).find("0 to 60"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { fit_harmonic_map(surface, -1, Execution(1)); }).find("0 to 60"),
+            std::string::npos);
+  IndexedMesh point = ball;
+  for (Vector3& p : point.points) p = Vector3::UnitX();
+  const MappedSurface flat(point, ball.points, Execution(1));
+  EXPECT_NE(refusal([&] { fit_harmonic_map(flat, 3, Execution(1)); }).find("no area"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wscvt
