@@ -43,7 +43,7 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
       options.weighting.curvature_source == CurvatureSource::QuadricFit) {
     grain.curvatures = scan_curvatures(grain.mesh, execution);
   }
-  if (needs_rays(options.placement, grain.is_scan)) {
+  if (!grain.rays && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
   if (measures_distances(options)) prepared.distance.emplace(grain.mesh);

@@ -33,7 +33,7 @@ RemeshResult example() {
   result.input.equivalent_radius = 1.0;
   result.fit.requested_degree = 20;
   result.fit.degree = 20;
-  result.fit.points = scan.points.size();
+  result.fit.rays = scan.points.size();
   result.fit.residual = 0.0039;
   result.relaxation.outcome = RelaxationOutcome::Converged;
   result.relaxation.iterations = 2;
@@ -97,7 +97,7 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.folded_share = 0.0005;
   result.fit.requested_degree = 20;
   result.fit.degree = 9;
-  result.fit.points = 230;
+  result.fit.rays = 230;
   result.input.split_vertices = 2;
   result.input.sliver_faces = 1;
   result.relaxation.outcome = RelaxationOutcome::IterationLimit;

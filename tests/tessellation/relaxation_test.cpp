@@ -9,7 +9,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
@@ -103,11 +103,7 @@ TEST(Relaxation, RandomStartConvergesToo) {
 }
 
 TEST(Relaxation, SurfaceMetricComesToRestOnARoughGrain) {
-  const std::vector<Vector3> directions = fibonacci_lattice(4000);
-  const HarmonicSurface rough =
-      fit_harmonics(directions, test::rough_grain(23).radii(directions),
-                    std::vector<double>(directions.size(), 1.0), 20, Execution(1))
-          .surface;
+  const HarmonicSurface rough = fit_harmonics(test::rough_grain(23), 20, Execution(1)).surface;
   RelaxationOptions options;
   options.metric = RelaxationMetric::Surface;
   for (const auto weighting :

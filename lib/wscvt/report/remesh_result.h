@@ -14,14 +14,15 @@
 #include "wscvt/nodes/node_refinement.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_check.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/tessellation/relaxation.h"
 
 namespace wscvt {
 
 /// A remesh and the reports of its stages, all in the input's units and coordinates.
 struct RemeshResult {
-  IndexedMesh mesh;  ///< exactly N points and 2 N - 4 triangles, closed, outward (to_mesh: OpenMesh)
+  IndexedMesh
+      mesh;  ///< exactly N points and 2 N - 4 triangles, closed, outward (to_mesh: OpenMesh)
   std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for

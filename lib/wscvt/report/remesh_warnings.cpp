@@ -11,50 +11,38 @@ using Sentences = std::vector<std::string>;
 
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   if (result.folded_share > fold_warning_limit) {
-    warnings.push_back("The scan folds over itself: sheets beyond the first fill " +
-         format_percent(result.folded_share) +
-         " of the solid angle seen from its centre; there the outermost was taken. Check the "
-         "result against the scan.");
+    warnings.push_back(
+        "The scan folds over itself: sheets beyond the first fill " +
+        format_percent(result.folded_share) +
+        " of the solid angle seen from its centre; there the outermost was taken. Check the "
+        "result against the scan.");
   }
   if (result.input.components > 1) {
     warnings.push_back("The scan has " + std::to_string(result.input.components) +
-         " separate parts; only the largest was remeshed.");
+                       " separate parts; only the largest was remeshed.");
   }
   if (result.input.genus > 0) {
     warnings.push_back("The scan has " + std::to_string(result.input.genus) +
-         (result.input.genus == 1 ? " hole" : " holes") +
-         " through it (genus), which the remesh closes.");
+                       (result.input.genus == 1 ? " hole" : " holes") +
+                       " through it (genus), which the remesh closes.");
   }
 }
 
 void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
   if (result.fit.degree < result.fit.requested_degree) {
-    const std::string lowered = "The harmonic degree was lowered from " +
-                                std::to_string(result.fit.requested_degree) + " to " +
-                                std::to_string(result.fit.degree);
-    switch (result.fit.limit) {
-      case DegreeLimit::None:
-      case DegreeLimit::Points:
-        warnings.push_back(lowered + ", which is what the scan's " + std::to_string(result.fit.points) +
-             " points can carry.");
-        break;
-      case DegreeLimit::Condition:
-        warnings.push_back(lowered +
-             ", because seen from its centre the scan's points are spread too unevenly "
-             "for more; spread them evenly over the surface first.");
-        break;
-      case DegreeLimit::Radius:
-        warnings.push_back(lowered +
-             ", because above it the series is not positive everywhere: the grain is "
-             "long, flat or sharp.");
-    }
+    warnings.push_back("The harmonic degree was lowered from " +
+                       std::to_string(result.fit.requested_degree) + " to " +
+                       std::to_string(result.fit.degree) +
+                       ", because above it the series is not positive everywhere: the grain is "
+                       "long, flat or sharp.");
   }
   const double misfit = result.fit.residual / result.input.equivalent_radius;
   if (misfit > residual_warning_limit) {
-    warnings.push_back("The fitted series misses the scan by " + format_percent(misfit) +
-         " of the equivalent radius (rms). " +
-         (result.fit.limit == DegreeLimit::None ? "Raise the harmonic degree, or place" : "Place") +
-         " the nodes on the original mesh or by least squares, which follow the scan itself.");
+    warnings.push_back(
+        "The fitted series misses the scan by " + format_percent(misfit) +
+        " of the equivalent radius (rms). " +
+        (result.fit.limit == DegreeLimit::None ? "Raise the harmonic degree, or place" : "Place") +
+        " the nodes on the original mesh or by least squares, which follow the scan itself.");
   }
 }
 
@@ -62,37 +50,40 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
   if (result.options.seeding.sampling != Sampling::Weighted) {
     const auto nodes = static_cast<int>(result.mesh.points.size());
     if (nodes != result.options.node_count) {
-      warnings.push_back("This sampling has no form with " + std::to_string(result.options.node_count) +
-           " nodes; the nearest, with " + std::to_string(nodes) + ", was used.");
+      warnings.push_back("This sampling has no form with " +
+                         std::to_string(result.options.node_count) + " nodes; the nearest, with " +
+                         std::to_string(nodes) + ", was used.");
     }
   } else if (result.relaxation.outcome == RelaxationOutcome::Settled) {
     warnings.push_back("The seeds came to rest with the cells' areas still spread by " +
-         format_percent(result.relaxation.history.back().area_spread) +
-         " about their targets; more nodes follow the surface more evenly.");
+                       format_percent(result.relaxation.history.back().area_spread) +
+                       " about their targets; more nodes follow the surface more evenly.");
   } else if (result.relaxation.outcome == RelaxationOutcome::Stuck) {
-    warnings.push_back("The relaxation stopped after " + std::to_string(result.relaxation.iterations) +
-         " iterations, because a further step would have torn the triangulation; the result keeps "
-         "every promise but may be less even. Another start of the seeds may go further.");
+    warnings.push_back(
+        "The relaxation stopped after " + std::to_string(result.relaxation.iterations) +
+        " iterations, because a further step would have torn the triangulation; the result keeps "
+        "every promise but may be less even. Another start of the seeds may go further.");
   } else if (result.relaxation.outcome == RelaxationOutcome::IterationLimit) {
-    warnings.push_back("The relaxation stopped at its limit of " + std::to_string(result.relaxation.iterations) +
-         " iterations before it converged; raise the limit for the last bit of evenness.");
+    warnings.push_back(
+        "The relaxation stopped at its limit of " + std::to_string(result.relaxation.iterations) +
+        " iterations before it converged; raise the limit for the last bit of evenness.");
   }
   if (result.relaxation.weight_scale < 1.0) {
     warnings.push_back("The differences between the weights were scaled by " +
-         format_number(result.relaxation.weight_scale, 3) +
-         ", because seeds would have lost their cells; " +
-         (result.options.weighting.kind == Weighting::Curvature
-              ? "lower the curvature exponent alpha."
-              : "ask for more nodes, or for another weighting."));
+                       format_number(result.relaxation.weight_scale, 3) +
+                       ", because seeds would have lost their cells; " +
+                       (result.options.weighting.kind == Weighting::Curvature
+                            ? "lower the curvature exponent alpha."
+                            : "ask for more nodes, or for another weighting."));
   }
 }
 
 void warn_of_search(const RemeshResult& result, Sentences& warnings) {
   if (result.search && !result.search->met) {
     warnings.push_back("No number of nodes up to " + std::to_string(result.search->node_count) +
-         " meets the error target of " +
-         format_percent(0.01 * result.options.target.percent) +
-         "; this is the result with that many. Allow more nodes, or a larger error.");
+                       " meets the error target of " +
+                       format_percent(0.01 * result.options.target.percent) +
+                       "; this is the result with that many. Allow more nodes, or a larger error.");
   }
 }
 

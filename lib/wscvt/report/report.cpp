@@ -126,10 +126,6 @@ const char* name_of(DegreeLimit limit) {
   switch (limit) {
     case DegreeLimit::None:
       return "nothing";
-    case DegreeLimit::Points:
-      return "points";
-    case DegreeLimit::Condition:
-      return "condition";
     case DegreeLimit::Radius:
       return "radius";
   }
@@ -198,25 +194,13 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                                    format_percent(result.options.surface.fold_limit) + ")"));
 }
 
-std::string reason(const HarmonicFitReport& fit) {
-  switch (fit.limit) {
-    case DegreeLimit::None:
-    case DegreeLimit::Points:
-      break;
-    case DegreeLimit::Condition:
-      return "the points are spread too unevenly for more";
-    case DegreeLimit::Radius:
-      return "above it the series is not positive everywhere";
-  }
-  return counted(fit.points, "point carries", "points carry") + " no more";
-}
-
 void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
-  if (result.fit.points == 0) return;
+  if (result.fit.rays == 0) return;
   const HarmonicFitReport& fit = result.fit;
   std::string text = "spherical harmonics of degree " + std::to_string(fit.degree);
   if (fit.degree < fit.requested_degree) {
-    text += " (lowered from " + std::to_string(fit.requested_degree) + ": " + reason(fit) + ")";
+    text += " (lowered from " + std::to_string(fit.requested_degree) +
+            ": above it the series is not positive everywhere)";
   }
   text += ", residual " + format_number(fit.residual, 3);
   const double radius = result.input.equivalent_radius;
@@ -430,10 +414,9 @@ Json json_of(const HarmonicFitReport& f, double equivalent_radius) {
   return {{"requested_degree", f.requested_degree},
           {"degree", f.degree},
           {"degree_limited_by", name_of(f.limit)},
-          {"points", f.points},
+          {"rays", f.rays},
           {"residual", f.residual},
           {"residual_percent_of_equivalent_radius", 100.0 * f.residual / equivalent_radius},
-          {"condition", f.condition},
           {"smallest_radius", f.smallest_radius}};
 }
 

@@ -7,9 +7,9 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
-#include "wscvt/surface/radial_samples.h"
 
 namespace wscvt {
 
@@ -83,12 +83,11 @@ Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, const Execu
   });
 
   execution.report(0.0, "Looking for folds");
-  const RadialSamples samples = radial_samples(grain.mesh, execution.part(0.0, 0.25));
-  grain.folded_share = samples.folded_share;
+  grain.folded_share = folded_solid_angle(grain.mesh, Vector3::Zero(), execution);
   refuse_folds(grain.folded_share, options.fold_limit);
-  execution.report(0.25, "Fitting harmonics");
-  HarmonicFit fit = fit_harmonics(samples.directions, samples.radii, samples.weights,
-                                  options.degree, execution.part(0.25, 1.0));
+  execution.report(0.2, "Casting rays");
+  grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
+  HarmonicFit fit = fit_harmonics(*grain.rays, options.degree, execution.part(0.5, 1.0));
   grain.fit = fit.report;
   grain.coefficients = fit.surface.coefficients();
   grain.surface = std::make_unique<HarmonicSurface>(std::move(fit.surface));

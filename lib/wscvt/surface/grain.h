@@ -9,7 +9,7 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/surface/curvature.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/radial_surface.h"
 
@@ -35,11 +35,11 @@ struct Grain {
   double folded_share = 0.0;                     ///< see folded_solid_angle; 0 of a formula
   HarmonicFitReport fit;                         ///< of the series; empty of a formula
   std::vector<double> coefficients;              ///< of the series; empty of a formula
-  std::optional<MeshSurface> rays;               ///< at the mesh, for who places nodes on it
+  std::optional<MeshSurface> rays;               ///< at the mesh; of a formula only if asked for
   std::optional<CurvatureSamples> curvatures;    ///< of the scan itself, for who weighs by them
 };
 
-/// Centres a scan on its volume centroid and fits the series. Leaves `rays` and `curvatures` empty.
+/// Centres a scan on its volume centroid and fits the series. Leaves `curvatures` empty.
 /// Throws Error: InvalidInput for options out of range, NotStarShaped when the folded share exceeds
 /// the limit or the centroid is not inside, NumericalFailure, Cancelled.
 Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, const Execution& execution);

@@ -33,46 +33,4 @@ class HarmonicSurface : public RadialSurface {
 /// length; a surface that is not positive everywhere is not star-shaped about the origin.
 double smallest_radius(const HarmonicSurface& surface, const Execution& execution);
 
-/// Why a series has a lower degree than was asked for.
-enum class DegreeLimit {
-  None,       ///< it has the degree asked for
-  Points,     ///< fewer than two points a coefficient
-  Condition,  ///< the points are spread too unevenly to tell the coefficients apart
-  Radius,  ///< of higher degree the series is not positive everywhere: a long, flat or sharp body
-};
-
-/// How the fit went.
-struct HarmonicFitReport {
-  int requested_degree = 0;
-  int degree = 0;  ///< lowered when the points cannot carry the requested one
-  DegreeLimit limit = DegreeLimit::None;
-  std::size_t points = 0;        ///< that entered the fit
-  double residual = 0.0;         ///< weighted rms of r_i - r(u_i), length
-  double condition = 0.0;        ///< condition estimate of the weighted normal equations
-  double smallest_radius = 0.0;  ///< of the series on a fine grid, > 0
-};
-
-struct HarmonicFit {
-  HarmonicSurface surface;
-  HarmonicFitReport report;
-};
-
-/// Weighted least-squares fit of a series to samples (u_i, r_i), r_i > 0, with weights w_i > 0
-/// (solid angles, any scale), as the paper's eq. 5.
-///
-/// The degree is lowered until the points carry it: at least two points a coefficient, a condition
-/// of the normal equations of at most 1000, and a series that is positive on a fine grid. From
-/// about two thousand points on, the equations are formed from moments gathered on a grid, in time
-/// linear in the points; the result is that of the plain sums to well within 1e-3 of the residual.
-///
-/// Throws Error(InvalidInput) for arrays of different lengths, degree < 0 or > 60, no points, or a
-/// point that is not as above; Error(NumericalFailure) when the series is not positive everywhere
-/// at any degree.
-HarmonicFit fit_harmonics(const std::vector<Vector3>& directions, const std::vector<double>& radii,
-                          const std::vector<double>& weights, int degree,
-                          const Execution& execution);
-
-/// A report in lengths of `unit`, in plain lengths.
-void scale(HarmonicFitReport& report, double unit);
-
 }  // namespace wscvt
