@@ -10,6 +10,7 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_fit.h"
+#include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
@@ -103,7 +104,13 @@ TEST(Relaxation, RandomStartConvergesToo) {
 }
 
 TEST(Relaxation, SurfaceMetricComesToRestOnARoughGrain) {
-  const HarmonicSurface rough = fit_harmonics(test::rough_grain(23), 20, Execution(1)).surface;
+  IndexedMesh scan;
+  scan.points = fibonacci_lattice(4000);
+  scan.triangles = SphereTriangulation(scan.points).triangles();
+  const std::vector<double> scan_radii = test::rough_grain(23).radii(scan.points);
+  for (std::size_t i = 0; i < scan_radii.size(); ++i) scan.points[i] *= scan_radii[i];
+  const MeshSurface rays(scan, Vector3::Zero(), 1.0, Execution(1));
+  const HarmonicSurface rough = fit_harmonics(rays, 20, Execution(1)).surface;
   RelaxationOptions options;
   options.metric = RelaxationMetric::Surface;
   for (const auto weighting :
