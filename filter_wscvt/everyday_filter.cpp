@@ -11,9 +11,9 @@ namespace wscvt::filter {
 
 namespace {
 
-const std::vector<std::string> everyday_names = {"NodeCount", "Weighting",        "Placement",
-                                                 "Metric",    "RefinementRounds", "Distances",
-                                                 "Quality",   "ColorByQuality",   "ReportFile"};
+const std::vector<std::string> everyday_names = {"NodeCount",        "Method",    "Weighting",
+                                                 "RefinementRounds", "Distances", "Quality",
+                                                 "ColorByQuality",   "ReportFile"};
 
 }  // namespace
 

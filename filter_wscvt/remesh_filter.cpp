@@ -30,13 +30,14 @@ ParameterList remesh_parameters() {
               "about ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error target is of the",
                       "Which error the target limits, each in % of the original's own."),
+      table_parameter("Method", defaults.method, "Method",
+                      "As published overrides map, metric, placement and refinement."),
       sampling_parameter(),
       weighting_parameter(),
       option_parameter(
           "HarmonicDegree", defaults.surface.degree, harmonic_degree_option, "Harmonic degree",
-          "Degree of the spherical-harmonic series fitted to the surface. 20 suits most grains, 30 "
-          "rough ones; lower smooths. Lowered, with a line in the log, when the mesh has too few "
-          "points to carry it."),
+          "Degree of the spherical-harmonic series fitted to the surface, on the radial map only. "
+          "0: follows the grain, the log says how; as published then means 20."),
       curvature_alpha_parameter(),
       table_parameter("CurvatureSource", defaults.weighting.curvature_source, "Curvature from",
                       "Where WSCVT-C takes the curvature from."),
@@ -89,6 +90,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   RemeshSettings settings;
   RemeshOptions& options = settings.options;
   options = read_node_options(checked);
+  options.method = checked.choice<Method>("Method");
   options.target.percent = checked.real("ErrorTarget");
   options.target.measure = checked.choice<ErrorMeasure>("TargetMeasure");
   options.target.largest_node_count =

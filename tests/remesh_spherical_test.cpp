@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grains/bent_grain.h"
+#include "grains/handled_body.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/nodes/self_intersections.h"
@@ -183,6 +184,41 @@ TEST(RemeshSpherical, MeetingTrianglesAreRefusedWhereAskedFor) {
     return;
   }
   FAIL() << "no number of nodes makes sheets of the bowl meet";
+}
+
+TEST(RemeshSpherical, HandlesAreCutAndTold) {
+  RemeshOptions options = options_of(300, NodePlacement::LeastSquares);
+  for (const IndexedMesh& mesh : {test::ball_with_a_bridge(), test::ball_with_a_tunnel()}) {
+    const RemeshResult result = remesh(mesh, options, Execution(1));
+    expect_valid(result, 300, "a ball with a handle");
+    EXPECT_EQ(result.input.genus, 1);
+    ASSERT_EQ(result.handles.cut.size(), 1U);
+    EXPECT_TRUE(says(result.warnings, "1 handle, which was cut"));
+    EXPECT_TRUE(says(report_lines(result), "1 handle cut and closed"));
+    // The volume that is kept is that of the scan without its handle.
+    EXPECT_NEAR(result.remesh.volume / result.input.volume, 1.0, 1e-12);
+  }
+  // One radius a direction passes tunnels by.
+  options.surface.parametrization = Parametrization::Radial;
+  const RemeshResult closed = remesh(test::ball_with_a_tunnel(), options, Execution(1));
+  EXPECT_TRUE(closed.handles.cut.empty());
+  EXPECT_TRUE(says(closed.warnings, "which the remesh closes"));
+}
+
+TEST(RemeshSpherical, ARingIsRefusedWithAdviceThatWorks) {
+  const IndexedMesh ring = test::torus(1.0, 0.4, 24);
+  RemeshOptions options = options_of(300);
+  try {
+    remesh(ring, options, Execution(1));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    EXPECT_NE(std::string(error.what()).find("raise the limit"), std::string::npos) << error.what();
+  }
+  options.handles.length_limit = 3.0;
+  const RemeshResult cut = remesh(ring, options, Execution(1));
+  expect_valid(cut, 300, "a ring cut open");
+  EXPECT_EQ(cut.handles.cut.size(), 1U);
 }
 
 }  // namespace

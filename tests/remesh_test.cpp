@@ -38,6 +38,9 @@ RemeshOptions options_of(int nodes, Weighting weighting,
   options.node_count = nodes;
   options.weighting.kind = weighting;
   options.relaxation.metric = metric;
+  // The published ones; the defaults have tests of their own.
+  options.surface.degree = 20;
+  options.placement.kind = NodePlacement::Series;
   return options;
 }
 
@@ -130,15 +133,13 @@ TEST(Remesh, NodesOnTheOriginalMeshLieOnIt) {
 }
 
 TEST(Remesh, SphereGivesSphere) {
-  IndexedMesh sphere;
-  sphere.points = fibonacci_lattice(3000);
-  sphere.triangles = SphereTriangulation(sphere.points).triangles();
+  const IndexedMesh sphere = test::sphere(6);
   for (const Weighting weighting :
        {Weighting::Constant, Weighting::RadialDistance, Weighting::Curvature, Weighting::Area,
         Weighting::ErrorAdaptive}) {
     SCOPED_TRACE(static_cast<int>(weighting));
     const RemeshResult result = remesh(sphere, options_of(500, weighting), Execution(1));
-    // The scan's 3000 vertices lie on the unit sphere up to the centroid of its polyhedron.
+    // The scan's 40,962 vertices lie on the unit sphere, its faces up to 1e-4 below.
     for (const double r : result.radial_distances) EXPECT_NEAR(r, 1.0, 1e-4);
     EXPECT_NEAR(result.remesh.aspect_ratio, 1.0, 2e-3);
     EXPECT_LT(result.remesh.sdq, 0.1);
@@ -156,7 +157,8 @@ TEST(Remesh, RotatedScanGivesTheSameDescriptors) {
   EXPECT_NEAR(b.original.sdq / a.original.sdq, 1.0, 1e-9);
   // The series of a rotated scan is the rotated series; only its lattice of nodes differs, so what
   // is left is a share of the discretisation error (volume 0.7 %, Sdq 1 % at N = 1000).
-  EXPECT_NEAR(b.fit.residual / a.fit.residual, 1.0, 1e-5);
+  // The residual is read at other points: 2 % is their scatter.
+  EXPECT_NEAR(b.fit.residual / a.fit.residual, 1.0, 0.02);
   EXPECT_NEAR(b.remesh.volume / a.remesh.volume, 1.0, 1e-3);
   EXPECT_NEAR(b.remesh.area / a.remesh.area, 1.0, 1e-3);
   EXPECT_NEAR(b.remesh.sphericity / a.remesh.sphericity, 1.0, 1e-3);
@@ -317,16 +319,20 @@ TEST(Remesh, ReferenceGrainsStayWithinTheDesignsTable) {
   }
 }
 
-TEST(Remesh, LowersTheDegreeToWhatThePointsCarryAndSaysSo) {
+TEST(Remesh, ACoarseScanIsFittedLikeTheSameSurfaceWithSplitFaces) {
+  // A vertex fit gave the 230 points degree 9 and the split faces degree 20.
   IndexedMesh coarse;
   coarse.points = fibonacci_lattice(230);
   coarse.triangles = SphereTriangulation(coarse.points).triangles();
   for (Vector3& p : coarse.points) p = p.cwiseProduct(Vector3(1.2, 1.0, 0.8));
-  const RemeshResult result = remesh(coarse, options_of(100, Weighting::Area), Execution(1));
-  EXPECT_LT(result.fit.degree, 20);
-  EXPECT_EQ(result.fit.requested_degree, 20);
-  ASSERT_FALSE(result.warnings.empty());
-  EXPECT_NE(result.warnings.front().find("degree was lowered from 20"), std::string::npos);
+  const RemeshOptions options = options_of(100, Weighting::Area);
+  const RemeshResult whole = remesh(coarse, options, Execution(1));
+  const RemeshResult split = remesh(test::subdivided(coarse, 2), options, Execution(1));
+  EXPECT_EQ(whole.fit.degree, 20);
+  ASSERT_EQ(whole.coefficients.size(), split.coefficients.size());
+  for (std::size_t k = 0; k < whole.coefficients.size(); ++k) {
+    EXPECT_NEAR(whole.coefficients[k], split.coefficients[k], 1e-12) << k;
+  }
 }
 
 bool warns_of(const RemeshResult& result, const std::string& part) {
@@ -335,9 +341,9 @@ bool warns_of(const RemeshResult& result, const std::string& part) {
 }
 
 TEST(Remesh, SaysThatAFlatBodyIsBeyondTheSeries) {
-  // Twelve times as wide as high: the radius climbs too steeply to the rim for twenty degrees.
+  // Forty times as wide as high: the radius climbs too steeply to the rim for twenty degrees.
   IndexedMesh disc = test::sphere(5);
-  for (Vector3& p : disc.points) p = p.cwiseProduct(Vector3(12.0, 12.0, 1.0));
+  for (Vector3& p : disc.points) p = p.cwiseProduct(Vector3(40.0, 40.0, 1.0));
   const RemeshResult result = remesh(disc, options_of(200, Weighting::Constant), Execution(1));
   expect_promises(result, 200);
   EXPECT_EQ(result.fit.limit, DegreeLimit::Radius);
@@ -386,8 +392,8 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
   };
   refused([](RemeshOptions& o) { o.node_count = 3; }, "from 4 to");
   refused([](RemeshOptions& o) { o.node_count = node_count_option.maximum + 1; }, "from 4 to");
-  refused([](RemeshOptions& o) { o.surface.degree = 0; }, "from 1 to 60");
-  refused([](RemeshOptions& o) { o.surface.degree = 61; }, "from 1 to 60");
+  refused([](RemeshOptions& o) { o.surface.degree = -1; }, "from 0 to 60");
+  refused([](RemeshOptions& o) { o.surface.degree = 61; }, "from 0 to 60");
   refused([](RemeshOptions& o) { o.surface.fold_limit_percent = 100.0; }, "from 0 to 99");
   refused([](RemeshOptions& o) { o.surface.fold_limit_percent = std::nan(""); }, "from 0 to 99");
   refused([](RemeshOptions& o) { o.weighting.curvature_alpha = 4.0; }, "from -3 to 3");
@@ -552,7 +558,7 @@ TEST(Remesh, AFlatLeafDoesNotCrash) {
   IndexedMesh disc;
   disc.points = fibonacci_lattice(4000);
   disc.triangles = SphereTriangulation(disc.points).triangles();
-  disc = test::scaled(std::move(disc), Vector3(12.0, 12.0, 1.0));
+  disc = test::scaled(std::move(disc), Vector3(40.0, 40.0, 1.0));
   expect_promises(remesh(disc, options_of(50, Weighting::RadialDistance), Execution(1)), 50);
 }
 

@@ -19,6 +19,7 @@ struct Everyday {
 };
 constexpr Everyday everyday[] = {
     {node_count_option.key, 'n'},
+    {EnumerationTable<Method>::key, 0},
     {EnumerationTable<Weighting>::key, 'w'},
     {EnumerationTable<RelaxationMetric>::key, 'm'},
     {EnumerationTable<NodePlacement>::key, 'p'},

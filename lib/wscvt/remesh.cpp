@@ -10,6 +10,7 @@
 #include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/scan/handles.h"
 #include "wscvt/scan/point_cloud.h"
 #include "wscvt/tessellation/seeding.h"
 
@@ -23,6 +24,7 @@ constexpr double pi = 3.14159265358979323846;
 struct PreparedGrain {
   Grain grain;
   MeshCheckReport input;  ///< in the input's units
+  HandleReport handles;   ///< in the input's units
   ShapeDescriptors original;
   MeshQuality original_quality;
   /// To the grain's mesh. It takes longer to make ready than to ask on a dense scan, so it is made
@@ -46,7 +48,7 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
       options.weighting.curvature_source == CurvatureSource::QuadricFit) {
     grain.curvatures = scan_curvatures(grain.mesh, execution);
   }
-  if (radial && needs_rays(options.placement, grain.is_scan)) {
+  if (radial && !grain.rays && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
   if (measures_distances(options)) prepared.distance.emplace(grain.mesh);
@@ -58,13 +60,7 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   const bool without_faces = scan.triangles.empty() && points > 0;
   if (without_faces) scan = mesh_of_points(std::move(scan.points));
   const std::size_t different = scan.points.size();
-  CheckedMesh checked = check_mesh(std::move(scan), options.check, execution.part(0.0, 0.5));
-  prepared.input = checked.report;
-  if (without_faces) {  // what was given, not what was made of it
-    prepared.input.input_vertices = points;
-    prepared.input.input_faces = 0;
-    prepared.input.welded_vertices = points - different;
-  }
+  CheckedMesh checked = check_mesh(std::move(scan), options.check, execution.part(0.0, 0.4));
   SurfaceOptions surface = options.surface;
   // The series and refinement are those of the radial map, so a grain that has one keeps it.
   const bool asks_for_radial =
@@ -73,6 +69,16 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
       folded_solid_angle(checked.mesh, checked.report.centroid, execution) <=
           0.01 * surface.fold_limit_percent) {
     surface.parametrization = Parametrization::Radial;
+  }
+  // Rays go past a tunnel, but no map to the sphere does.
+  if (checked.report.genus > 0 && surface.parametrization != Parametrization::Radial) {
+    prepared.handles = cut_handles(checked, options.handles, execution.part(0.4, 0.5));
+  }
+  prepared.input = checked.report;
+  if (without_faces) {  // what was given, not what was made of it
+    prepared.input.input_vertices = points;
+    prepared.input.input_faces = 0;
+    prepared.input.welded_vertices = points - different;
   }
   prepared.grain =
       grain_of_scan(std::move(checked), surface, options.node_count, execution.part(0.5, 0.9));
@@ -145,9 +151,14 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   const Grain& grain = prepared.grain;
   RemeshResult result;
   result.options = options;
-  // Samplings that are not relaxed are cut into cells on the sphere.
+  // Samplings that are not relaxed are cut into cells on the sphere, and so are a handful of nodes,
+  // whose flat cells are no likeness of the surface: four end with edges of 1 : 3 instead of a
+  // tetrahedron, eight and twelve with a mean edge ratio of 1.4 to 1.5 instead of 1.2.
+  constexpr int fewest_flat_cells = 20;
   RelaxationMetric& metric = result.options.relaxation.metric;
-  if (options.seeding.sampling != Sampling::Weighted) metric = RelaxationMetric::Sphere;
+  if (options.seeding.sampling != Sampling::Weighted || options.node_count < fewest_flat_cells) {
+    metric = RelaxationMetric::Sphere;
+  }
 
   PlacedNodes nodes;
   if (grain.parametrization == Parametrization::Spherical) {
@@ -188,6 +199,7 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
 
   result.centre = grain.centre;
   result.input = prepared.input;
+  result.handles = prepared.handles;
   result.folded_share = grain.folded_share;
   result.parametrization = grain.parametrization;
   result.steep_share = grain.steep_share;
@@ -252,15 +264,17 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
 
 }  // namespace
 
-RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
-  check_options(options);
+RemeshResult remesh(IndexedMesh scan, const RemeshOptions& asked, const Execution& execution) {
+  check_options(asked);
+  const RemeshOptions options = with_method(asked);
   return finish(prepare(std::move(scan), options, execution.part(0.0, 0.3)), options,
                 execution.part(0.3, 1.0));
 }
 
-RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
+RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& asked,
                     const Execution& execution) {
-  check_options(options);
+  check_options(asked);
+  const RemeshOptions options = with_method(asked);
   return finish(prepare(surface, options, execution.part(0.0, 0.3)), options,
                 execution.part(0.3, 1.0));
 }

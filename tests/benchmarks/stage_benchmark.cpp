@@ -17,7 +17,7 @@
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/radial_samples.h"
 #include "wscvt/tessellation/power_cells.h"
@@ -36,9 +36,8 @@ const IndexedMesh& scan_of(std::int64_t vertices) {
 
 const HarmonicSurface& surface() {
   static const HarmonicSurface fitted = [] {
-    const RadialSamples samples = radial_samples(scan_of(20000), Execution());
-    return fit_harmonics(samples.directions, samples.radii, samples.weights, 20, Execution())
-        .surface;
+    const MeshSurface rays(scan_of(20000), Vector3::Zero(), 1.0, Execution());
+    return fit_harmonics(rays, 20, Execution()).surface;
   }();
   return fitted;
 }
@@ -108,10 +107,9 @@ void prepare_distances(benchmark::State& state) {
 
 void fit_degree_30(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
-  const RadialSamples samples = radial_samples(scan_of(state.range(0)), execution);
+  const MeshSurface rays(scan_of(state.range(0)), Vector3::Zero(), 1.0, execution);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        fit_harmonics(samples.directions, samples.radii, samples.weights, 30, execution));
+    benchmark::DoNotOptimize(fit_harmonics(rays, 30, execution));
   }
   count(state, state.range(0));
 }

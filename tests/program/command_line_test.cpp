@@ -50,7 +50,7 @@ TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
   };
   for (const BadCall& call :
        {BadCall{"missing.ply remesh.ply -n 100", 1, "missing.ply"},
-        BadCall{sand_ + " remesh.ply -r 10", 1, "least squares"},
+        BadCall{sand_ + " remesh.ply -p series -r 10", 1, "least squares"},
         BadCall{sand_ + " remesh.ply --coefficients ./report.json", 1, "two names"},
         BadCall{sand_ + " remesh.ply --nodse 100", 2, "nodse"},
         BadCall{sand_ + " remesh.ply more.ply", 2, "more.ply"}, BadCall{sand_, 2, "output"}}) {

@@ -34,9 +34,10 @@ RemeshResult example() {
   result.input.faces = scan.triangles.size();
   result.input.components = 1;
   result.input.equivalent_radius = 1.0;
+  result.options.placement.kind = NodePlacement::Series;
   result.fit.requested_degree = 20;
   result.fit.degree = 20;
-  result.fit.points = scan.points.size();
+  result.fit.rays = scan.points.size();
   result.fit.residual = 0.0039;
   result.relaxation.outcome = RelaxationOutcome::Converged;
   result.relaxation.iterations = 2;
@@ -114,8 +115,8 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.folded_share = 0.0005;
   result.fit.requested_degree = 20;
   result.fit.degree = 9;
-  result.fit.limit = DegreeLimit::Points;
-  result.fit.points = 230;
+  result.fit.limit = DegreeLimit::Radius;
+  result.fit.rays = 230;
   result.input.split_vertices = 2;
   result.input.sliver_faces = 1;
   result.relaxation.outcome = RelaxationOutcome::IterationLimit;
@@ -130,7 +131,8 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
         "3 inner surfaces dropped (25 % of the volume)",
         "2 smaller bodies dropped (1.23 % of the volume)", "100 faces dropped with them",
         "2 vertices added where the surface touched itself", "1 face of no area kept",
-        "0.05 % of the solid angle", "degree 9 (lowered from 20: 230 points carry no more)",
+        "0.05 % of the solid angle",
+        "degree 9 (lowered from 20: above it the series is not positive everywhere)",
         "not converged: stopped at the limit of 2 iterations", "First warning.",
         "Second warning."}) {
     EXPECT_TRUE(contains(text, part)) << part << "\nnot in\n" << text;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "grains/marching_cubes.h"
+#include "grains/handled_body.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/scan/mesh_check.h"
@@ -16,41 +16,6 @@
 
 namespace wscvt {
 namespace {
-
-/// The surface of a body given by its depth, of spacing 0.04, in a box of -1.5 to 1.5.
-IndexedMesh body(const std::function<double(const Vector3&)>& depth) {
-  test::VoxelGrid grid;
-  grid.spacing = 0.04;
-  grid.origin = Vector3(-1.507, -1.511, -1.513);
-  grid.size = {76, 76, 76};
-  for (int z = 0; z < grid.size[2]; ++z) {
-    for (int y = 0; y < grid.size[1]; ++y) {
-      for (int x = 0; x < grid.size[0]; ++x) {
-        grid.values.push_back(depth(grid.origin + grid.spacing * Vector3(x, y, z)));
-      }
-    }
-  }
-  return check_mesh(test::marching_cubes(grid, 0.0), {}, Execution(1)).mesh;
-}
-
-double ball(const Vector3& p) { return 1.0 - p.norm(); }
-
-/// Half of a ring stands out of the ball as the handle of a cup does.
-double bridge(const Vector3& p) {
-  const Vector3 q = p - Vector3(1.0, 0.0, 0.0);
-  return 0.08 - std::hypot(std::hypot(q.x(), q.z()) - 0.3, q.y());
-}
-
-/// Depth of the ball with a hole drilled through it near its edge.
-double drilled(const Vector3& p) {
-  return std::min(ball(p), std::hypot(p.x() + 0.8, p.y()) - 0.07);
-}
-
-IndexedMesh ball_with_a_bridge() {
-  return body([](const Vector3& p) { return std::max(ball(p), bridge(p)); });
-}
-
-IndexedMesh ball_with_a_tunnel() { return body(drilled); }
 
 int genus_of(const IndexedMesh& mesh) { return check_mesh(mesh, {}, Execution(1)).report.genus; }
 
@@ -96,7 +61,7 @@ int meeting_pairs(const IndexedMesh& mesh, const Vector3& place, double reach) {
 }
 
 TEST(Handles, CutsABridge) {
-  const IndexedMesh mesh = ball_with_a_bridge();
+  const IndexedMesh mesh = test::ball_with_a_bridge();
   ASSERT_EQ(genus_of(mesh), 1);
   const HandleFreeMesh result = remove_handles(mesh, {}, Execution(1));
   EXPECT_EQ(genus_of(result.mesh), 0);
@@ -105,7 +70,7 @@ TEST(Handles, CutsABridge) {
   const CutHandle& cut = result.report.cut[0];
   // Once round the tube of radius 0.08; along edges it is somewhat longer.
   EXPECT_NEAR(cut.length, 2.0 * test::pi * 0.08, 0.3 * 2.0 * test::pi * 0.08);
-  EXPECT_GT(bridge(cut.place), 0.0);
+  EXPECT_GT(test::bridge(cut.place), 0.0);
   EXPECT_LT(std::abs(result.report.volume_change), 1e-3);
   // All that is far from the cut is as it was.
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -116,7 +81,7 @@ TEST(Handles, CutsABridge) {
 }
 
 TEST(Handles, ClosesATunnel) {
-  const IndexedMesh mesh = ball_with_a_tunnel();
+  const IndexedMesh mesh = test::ball_with_a_tunnel();
   ASSERT_EQ(genus_of(mesh), 1);
   const HandleFreeMesh result = remove_handles(mesh, {}, Execution(1));
   EXPECT_EQ(genus_of(result.mesh), 0);
@@ -127,16 +92,16 @@ TEST(Handles, ClosesATunnel) {
 }
 
 TEST(Handles, PartsTheTwoCaps) {
-  for (const IndexedMesh& mesh : {ball_with_a_bridge(), ball_with_a_tunnel()}) {
+  for (const IndexedMesh& mesh : {test::ball_with_a_bridge(), test::ball_with_a_tunnel()}) {
     const HandleFreeMesh result = remove_handles(mesh, {}, Execution(1));
     EXPECT_EQ(meeting_pairs(result.mesh, result.report.cut[0].place, 0.4), 0);
   }
 }
 
 TEST(Handles, CutsTheShortestFirst) {
-  const IndexedMesh mesh = body([](const Vector3& p) {
-    const double other = bridge(Vector3(-p.z(), p.x(), p.y()));
-    return std::max({drilled(p), bridge(p), other + 0.03});
+  const IndexedMesh mesh = test::body_of_depth([](const Vector3& p) {
+    const double other = test::bridge(Vector3(-p.z(), p.x(), p.y()));
+    return std::max({test::drilled(p), test::bridge(p), other + 0.03});
   });
   ASSERT_EQ(genus_of(mesh), 3);
   HandleOptions options;
@@ -177,9 +142,9 @@ TEST(Handles, RefusesARingWithAdviceThatWorks) {
 
 TEST(Handles, SaysHowManyAreLeft) {
   // A thin handle on a ring: the one is cut, the other is the ring's hole.
-  const IndexedMesh ring = body([](const Vector3& p) {
+  const IndexedMesh ring = test::body_of_depth([](const Vector3& p) {
     const double tube = 0.35 - std::hypot(std::hypot(p.x(), p.z()) - 0.75, p.y());
-    return std::max(tube, bridge(p - Vector3(0.05, 0.0, 0.0)) - 0.03);
+    return std::max(tube, test::bridge(p - Vector3(0.05, 0.0, 0.0)) - 0.03);
   });
   ASSERT_EQ(genus_of(ring), 2);
   try {
@@ -201,7 +166,7 @@ TEST(Handles, LeavesASphereAsItIs) {
 }
 
 TEST(Handles, SameBytesOnAnyNumberOfThreads) {
-  const IndexedMesh mesh = ball_with_a_bridge();
+  const IndexedMesh mesh = test::ball_with_a_bridge();
   const HandleFreeMesh one = remove_handles(mesh, {}, Execution(1));
   const HandleFreeMesh two = remove_handles(mesh, {}, Execution(2));
   EXPECT_EQ(one.mesh.points, two.mesh.points);
@@ -219,7 +184,7 @@ TEST(Handles, RefusesWhatItCannotUse) {
 }
 
 TEST(Handles, StopsWhenAskedTo) {
-  const IndexedMesh mesh = ball_with_a_bridge();
+  const IndexedMesh mesh = test::ball_with_a_bridge();
   try {
     remove_handles(mesh, {}, Execution(1, [](double, const std::string&) { return false; }));
     ADD_FAILURE() << "not cancelled";

@@ -98,6 +98,7 @@ struct Sums {
 
 RemeshOptions paper_options(const Method& method, int node_count) {
   RemeshOptions options;
+  options.method = wscvt::Method::AsPublished;
   options.seeding.sampling = method.sampling;
   options.weighting.kind = method.weighting;
   options.node_count = node_count;

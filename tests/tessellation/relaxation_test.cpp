@@ -10,7 +10,8 @@
 #include "support/seeds.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
+#include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
@@ -82,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Relaxation, PlainOverRelaxationReachesTheSameEvenness) {
   const SurfaceSeedModel model = model_of(Weighting::Area, 400);
   RelaxationOptions options;
+  options.metric = RelaxationMetric::Sphere;
   options.acceleration = false;
   options.over_relaxation = 1.8;
   const RelaxationResult plain = relax(fibonacci_lattice(400), model, options, Execution(1));
@@ -98,6 +100,7 @@ TEST(Relaxation, MomentumWithRestartsSparesMostOfTheSteps) {
   // spares a third only.
   const SurfaceSeedModel model = model_of(Weighting::Area, 300);
   RelaxationOptions momentum;
+  momentum.metric = RelaxationMetric::Sphere;
   momentum.displacement_tolerance = 1e-5;
   RelaxationOptions plain = momentum;
   plain.acceleration = false;
@@ -120,11 +123,13 @@ TEST(Relaxation, RandomStartConvergesToo) {
 }
 
 TEST(Relaxation, SurfaceMetricComesToRestOnARoughGrain) {
-  const std::vector<Vector3> directions = fibonacci_lattice(4000);
-  const HarmonicSurface rough =
-      fit_harmonics(directions, test::rough_grain(23).radii(directions),
-                    std::vector<double>(directions.size(), 1.0), 20, Execution(1))
-          .surface;
+  IndexedMesh scan;
+  scan.points = fibonacci_lattice(4000);
+  scan.triangles = SphereTriangulation(scan.points).triangles();
+  const std::vector<double> scan_radii = test::rough_grain(23).radii(scan.points);
+  for (std::size_t i = 0; i < scan_radii.size(); ++i) scan.points[i] *= scan_radii[i];
+  const MeshSurface rays(scan, Vector3::Zero(), 1.0, Execution(1));
+  const HarmonicSurface rough = fit_harmonics(rays, 20, Execution(1)).surface;
   RelaxationOptions options;
   options.metric = RelaxationMetric::Surface;
   for (const auto weighting :
@@ -149,6 +154,7 @@ TEST(Relaxation, SmallestTessellationsAreThePolyhedra) {
   weighting.kind = Weighting::Constant;
   const SurfaceSeedModel model(sphere, weighting, 4, nullptr, Execution(1));
   RelaxationOptions options;
+  options.metric = RelaxationMetric::Sphere;  // few flat cells are no likeness of a sphere
   options.displacement_tolerance = 1e-9;
   const auto smallest_and_largest = [&](int count) {
     const RelaxationResult result = relax(fibonacci_lattice(count), model, options, Execution(1));
@@ -181,6 +187,7 @@ TEST(Relaxation, ImpossibleWeightsAreDampedUntilEverySeedHasItsCell) {
     }
   };
   RelaxationOptions options;
+  options.metric = RelaxationMetric::Sphere;
   options.maximum_iterations = 5;
   const RelaxationResult result = relax(fibonacci_lattice(300), Wild(), options, Execution(1));
   EXPECT_LT(result.report.weight_scale, 1.0);

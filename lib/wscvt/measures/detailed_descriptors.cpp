@@ -10,7 +10,7 @@
 #include "wscvt/measures/convex_hull.h"
 #include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
@@ -36,10 +36,7 @@ void check_options(const DetailedOptions& options) {
 void describe_radius(const IndexedMesh& mesh, const DetailedOptions& options, double unit,
                      const Execution& execution, DetailedDescriptors& result) {
   const MeshSurface surface(mesh, result.basic.centroid, unit, execution);
-  const SphereQuadrature quadrature = gauss_legendre_sphere(options.polar_nodes);
-  const HarmonicFit fit =
-      fit_harmonics(quadrature.directions, surface.radii(quadrature.directions, execution),
-                    quadrature.weights, options.roundness_degree, execution);
+  const HarmonicFit fit = fit_harmonics(surface, options.roundness_degree, execution);
   result.roundness_degree = fit.report.degree;
   result.roundness = wadell_roundness(fit.surface, result.inscribed_sphere.radius / unit,
                                       options.polar_nodes, execution);

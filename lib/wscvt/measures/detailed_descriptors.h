@@ -10,7 +10,7 @@
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"
 #include "wscvt/measures/shape_descriptors.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/fit_degree.h"
 
 namespace wscvt {
 

@@ -8,7 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 
 namespace wscvt {
 
@@ -32,7 +32,7 @@ Roughness radial_roughness(const RadialSurface& surface, int degree, int polar_n
   const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
   const std::vector<Vector3>& u = quadrature.directions;
   const std::vector<double> radii = surface.radii(u, execution);
-  const HarmonicFit low = fit_harmonics(u, radii, quadrature.weights, degree, execution);
+  const HarmonicFit low = fit_harmonics(surface, degree, execution);
   const std::vector<RadialJet> jets = low.surface.jets(u, Derivatives::First, execution);
 
   // A few ten thousand terms: not worth threads.

@@ -35,7 +35,7 @@ struct EnumerationTable<NodePlacement> {
 };
 
 struct PlacementOptions {
-  NodePlacement kind = NodePlacement::Series;
+  NodePlacement kind = NodePlacement::LeastSquares;
   RefinementOptions refinement;  ///< of the nodes towards the scan; needs LeastSquares, and Radial
   /// Refuse a result in which triangles meet, which a radial one never has.
   bool refuse_self_intersections = false;

@@ -22,6 +22,17 @@ struct CheckOption {
 
 }  // namespace
 
+RemeshOptions with_method(RemeshOptions options) {
+  if (options.method != Method::AsPublished) return options;
+  constexpr int published_degree = 20;
+  options.surface.parametrization = Parametrization::Radial;
+  if (options.surface.degree == automatic_degree) options.surface.degree = published_degree;
+  options.relaxation.metric = RelaxationMetric::Sphere;
+  options.placement.kind = NodePlacement::Series;
+  options.placement.refinement.rounds = 0;
+  return options;
+}
+
 void check_options(const RemeshOptions& options) {
   CheckOption check;
   for_each_option(options, check);

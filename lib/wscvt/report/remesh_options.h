@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string_view>
+
+#include "wscvt/base/enumeration.h"
 #include "wscvt/base/option.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_count_search.h"
 #include "wscvt/nodes/placed_nodes.h"
+#include "wscvt/scan/handles.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/surface/grain.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
@@ -13,6 +17,25 @@
 #include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
+
+/// What a remesh keeps to.
+enum class Method {
+  OnScan,       ///< every stage as chosen; by default what keeps the scan's shape best
+  AsPublished,  ///< the paper's: see with_method
+};
+
+template <>
+struct EnumerationTable<Method> {
+  static constexpr std::string_view key = "method";
+  static constexpr std::string_view subject = "method";
+  static constexpr Enumerator<Method> rows[] = {
+      {Method::OnScan, "on-scan", "on the scan",
+       "even triangles that follow the scan itself, with exactly its volume"},
+      {Method::AsPublished, "as-published", "as published",
+       "Wu, Huang and Lai 2022: nodes on a harmonic series, with cells on the sphere; map, metric, "
+       "placement and refinement are set for that"},
+  };
+};
 
 /// What is measured beyond descriptors and quality.
 struct MeasureOptions {
@@ -24,8 +47,10 @@ struct MeasureOptions {
 /// Everything a caller may choose, stage by stage; the defaults work.
 struct RemeshOptions {
   int node_count = 1000;  ///< N; with an error target the first N tried
+  Method method = Method::OnScan;
   ErrorTarget target;
   MeshCheckOptions check;
+  HandleOptions handles;
   SurfaceOptions surface;
   SeedingOptions seeding;
   WeightingOptions weighting;
@@ -44,6 +69,7 @@ inline constexpr FlagOption distances_option = {"distances", "distances to the s
 template <class Options, class Visitor>
 void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.node_count, node_count_option);
+  visitor(options.method);
   visitor(options.target.percent, error_target_option);
   visitor(options.target.measure);
   visitor(options.target.largest_node_count, largest_node_count_option);
@@ -76,7 +102,12 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.check.weld_tolerance, weld_tolerance_option);
   visitor(options.check.mended_area_limit_percent, mended_area_limit_option);
   visitor(options.check.dropped_volume_limit, dropped_volume_limit_option);
+  visitor(options.handles.length_limit, handle_length_option);
 }
+
+/// The options with what their method sets. AsPublished: a series of degree 20 (where the degree is
+/// not given) over the radial map, cells on the sphere, nodes on the series, no refinement.
+RemeshOptions with_method(RemeshOptions options);
 
 /// Throws Error(InvalidInput), with the range, for options out of range or at odds with each other.
 void check_options(const RemeshOptions& options);

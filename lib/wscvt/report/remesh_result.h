@@ -15,7 +15,7 @@
 #include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_check.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/tessellation/relaxation.h"
 
 namespace wscvt {
@@ -33,7 +33,8 @@ struct RemeshResult {
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
   Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
   MeshCheckReport input;
-  double folded_share = 0.0;                                  ///< see folded_solid_angle
+  HandleReport handles;       ///< cut for a spherical map, lengths and places of the input
+  double folded_share = 0.0;  ///< see folded_solid_angle
   Parametrization parametrization = Parametrization::Radial;  ///< the one taken: not Auto
   double steep_share = 0.0;  ///< of the scan, by which Auto decides; see steep_share
   SphereMapReport map;       ///< of a Spherical one

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/remesh_warnings.h"
 
+#include <cmath>
+
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -35,7 +37,14 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
     warnings.push_back("Holes and non-manifold edges of the scan were mended, which changed " +
                        format_percent(mended) + " of its area. Check the result against the scan.");
   }
-  if (result.input.genus > 0) {
+  if (!result.handles.cut.empty()) {
+    const std::size_t cut = result.handles.cut.size();
+    warnings.push_back("The scan has " + std::to_string(cut) +
+                       (cut == 1 ? " handle, which was" : " handles, which were") +
+                       " cut and closed for its map to the sphere; that changed its volume by " +
+                       format_percent(std::abs(result.handles.volume_change)) +
+                       ". The log says where.");
+  } else if (result.input.genus > 0) {
     warnings.push_back("The scan has " + std::to_string(result.input.genus) +
                        (result.input.genus == 1 ? " hole" : " holes") +
                        " through it (genus), which the remesh closes.");
@@ -44,26 +53,11 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
 
 void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
   if (result.fit.degree < result.fit.requested_degree) {
-    const std::string lowered = "The harmonic degree was lowered from " +
-                                std::to_string(result.fit.requested_degree) + " to " +
-                                std::to_string(result.fit.degree);
-    switch (result.fit.limit) {
-      case DegreeLimit::None:
-      case DegreeLimit::Points:
-        warnings.push_back(lowered + ", which is what the scan's " +
-                           std::to_string(result.fit.points) + " points can carry.");
-        break;
-      case DegreeLimit::Condition:
-        warnings.push_back(
-            lowered +
-            ", because seen from its centre the scan's points are spread too unevenly "
-            "for more; spread them evenly over the surface first.");
-        break;
-      case DegreeLimit::Radius:
-        warnings.push_back(lowered +
-                           ", because above it the series is not positive everywhere: the grain is "
-                           "long, flat or sharp.");
-    }
+    warnings.push_back("The harmonic degree was lowered from " +
+                       std::to_string(result.fit.requested_degree) + " to " +
+                       std::to_string(result.fit.degree) +
+                       ", because above it the series is not positive everywhere: the grain is "
+                       "long, flat or sharp.");
   }
   const double misfit = result.fit.residual / result.input.equivalent_radius;
   if (misfit > residual_warning_limit) {
@@ -111,7 +105,7 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
     }
   } else if (result.relaxation.outcome == RelaxationOutcome::Settled) {
     // Flat cells on a rough scan differ in area however many they are: no reason for a warning.
-    if (result.parametrization == Parametrization::Spherical) return;
+    if (result.options.relaxation.metric == RelaxationMetric::Surface) return;
     warnings.push_back("The seeds came to rest with the cells' areas still spread by " +
                        format_percent(result.relaxation.history.back().area_spread) +
                        " about their targets; more nodes follow the surface more evenly.");

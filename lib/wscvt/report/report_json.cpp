@@ -74,6 +74,15 @@ Json json_of(const MeshCheckReport& input) {
           {"equivalent_radius", input.equivalent_radius}};
 }
 
+Json json_of(const HandleReport& handles) {
+  Json cut = Json::array();
+  for (const CutHandle& handle : handles.cut) {
+    cut.push_back(
+        {{"length", handle.length}, {"edges", handle.edges}, {"place", json_of(handle.place)}});
+  }
+  return {{"count", handles.cut.size()}, {"volume_change", handles.volume_change}, {"cut", cut}};
+}
+
 Json json_of(const SphereMapReport& map) {
   return {{"vertices", map.vertices},
           {"mean_angle_distortion", map.mean_angle_distortion},
@@ -96,10 +105,10 @@ Json json_of(const HarmonicFitReport& fit, double equivalent_radius) {
   return {{"requested_degree", fit.requested_degree},
           {"degree", fit.degree},
           {"degree_limited_by", key_of(fit.limit)},
-          {"points", fit.points},
+          {"rays", fit.rays},
           {"residual", fit.residual},
           {"residual_percent_of_equivalent_radius", 100.0 * fit.residual / equivalent_radius},
-          {"condition", fit.condition},
+          {"chord_error", fit.chord_error},
           {"smallest_radius", fit.smallest_radius}};
 }
 
@@ -194,6 +203,7 @@ Json report_of(const RemeshResult& result) {
       {"version", 2},
       {"options", json_of(result.options)},
       {"input", json_of(result.input)},
+      {"handles", json_of(result.handles)},
       {"centre", json_of(result.centre)},
       {"folded_share", result.folded_share},
       {"steep_share", result.steep_share},

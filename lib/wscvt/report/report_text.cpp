@@ -95,23 +95,41 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                       " degrees (limit " + format_percent(steep_share_limit) + ")"));
 }
 
-std::string reason(const HarmonicFitReport& fit) {
-  // Points are the usual reason, and how many there are is of use.
-  if (fit.limit != DegreeLimit::Points) return label_of(fit.limit);
-  return counted(fit.points, "point carries", "points carry") + " no more";
+void append_handles(const RemeshResult& result, std::vector<std::string>& lines) {
+  // A noisy scan may have a hundred, which JSON lists.
+  constexpr std::size_t most_told = 5;
+  const std::vector<CutHandle>& cut = result.handles.cut;
+  if (cut.empty()) return;
+  std::string text = counted(cut.size(), "handle", "handles") + " cut and closed";
+  for (std::size_t i = 0; i < std::min(cut.size(), most_told); ++i) {
+    const Vector3& place = cut[i].place;
+    text += (i == 0 ? ": " : "; ") + format_number(cut[i].length, 3) + " long at (" +
+            format_number(place.x(), 3) + ", " + format_number(place.y(), 3) + ", " +
+            format_number(place.z(), 3) + ")";
+  }
+  if (cut.size() > most_told) text += "; ...";
+  lines.push_back(line("Handles", text));
 }
 
 void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
-  if (result.fit.points == 0) return;
+  if (result.fit.rays == 0) return;
   const HarmonicFitReport& fit = result.fit;
   std::string text = "spherical harmonics of degree " + std::to_string(fit.degree);
   if (fit.degree < fit.requested_degree) {
-    text += " (lowered from " + std::to_string(fit.requested_degree) + ": " + reason(fit) + ")";
+    text +=
+        " (lowered from " + std::to_string(fit.requested_degree) + ": " + label_of(fit.limit) + ")";
   }
   text += ", residual " + format_number(fit.residual, 3);
   const double radius = result.input.equivalent_radius;
   if (radius > 0.0) {
-    text += " (" + format_number(100.0 * fit.residual / radius, 3) + " % of the equivalent radius)";
+    text += " (" + format_number(100.0 * fit.residual / radius, 3) + " % of the equivalent radius";
+    if (fit.requested_degree == automatic_degree) {
+      // Why this degree.
+      text += fit.limit == DegreeLimit::None ? "; the lowest degree below the"
+                                             : "; " + label_of(fit.limit) + ", but not below the";
+      text += " chords' " + format_number(100.0 * fit.chord_error / radius, 3) + " %";
+    }
+    text += ")";
   }
   lines.push_back(line("Fit", text));
 }
@@ -275,6 +293,7 @@ std::vector<DescriptorComparison> comparison(const RemeshResult& result) {
 std::vector<std::string> report_lines(const RemeshResult& result) {
   std::vector<std::string> lines;
   append_input(result, lines);
+  append_handles(result, lines);
   append_fit(result, lines);
   append_space(result, lines);
   append_search(result, lines);

@@ -312,4 +312,14 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
   return result;
 }
 
+HandleReport cut_handles(CheckedMesh& scan, const HandleOptions& options,
+                         const Execution& execution) {
+  HandleFreeMesh free = remove_handles(std::move(scan.mesh), options, execution);
+  scan.mesh = std::move(free.mesh);
+  const int genus = scan.report.genus;
+  measure_closed(scan.mesh, execution, scan.report);
+  scan.report.genus = genus;
+  return std::move(free.report);
+}
+
 }  // namespace wscvt

@@ -7,6 +7,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
+#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt {
 
@@ -18,8 +19,12 @@ struct HandleOptions {
 };
 
 inline constexpr NumberOption<double> handle_length_option{
-    "handle-length", "longest loop along which a handle is cut", 0.0,
-    std::numeric_limits<double>::infinity()};
+    "handle-length",
+    "longest loop along which a handle is cut",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::Both,
+    "in equivalent radii; a scan with a longer one, such as a ring, has no spherical map"};
 
 /// A handle that was cut.
 struct CutHandle {
@@ -54,5 +59,10 @@ struct HandleFreeMesh {
 /// sphere exists; the sentence says how many are left, how long and where.
 HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                               const Execution& execution);
+
+/// The same for a checked scan, whose report then has the measures of what is left, but for the
+/// genus, which stays that of the scan.
+HandleReport cut_handles(CheckedMesh& scan, const HandleOptions& options,
+                         const Execution& execution);
 
 }  // namespace wscvt

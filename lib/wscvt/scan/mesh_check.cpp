@@ -219,7 +219,9 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
          " and check the result against the scan, or scan the grain again.");
 }
 
-void measure(const IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
+}  // namespace
+
+void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
   using Sums = Eigen::Matrix<double, 6, 1>;  // 6 V, 2 A, 24 V (centroid - origin), slivers
   const Vector3 origin = mesh.points[index(mesh.triangles[0][0])];
   const Sums sums = execution.parallel_sum(mesh.triangles.size(), block_size, Sums(Sums::Zero()),
@@ -255,8 +257,6 @@ void measure(const IndexedMesh& mesh, const Execution& execution, MeshCheckRepor
   report.genus = static_cast<int>((2 - euler) / 2);
   report.equivalent_radius = std::cbrt(3.0 * report.volume / (4.0 * 3.14159265358979323846));
 }
-
-}  // namespace
 
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution) {
@@ -346,7 +346,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                                                    static_cast<std::int32_t>(main), execution);
   const std::size_t turned = keep_component(mesh, components, main);
   if (boundary_edges == 0) report.reoriented_faces = turned;
-  measure(mesh, execution, report);
+  measure_closed(mesh, execution, report);
   report.duplicate_area_share = duplicates.copied_area / report.area;
   report.folded_area_share = duplicates.folded_area / report.area;
   report.flap_area_share = flap_area / report.area;

@@ -98,4 +98,9 @@ struct CheckedMesh {
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution);
 
+/// Fills in what a report says of a closed, outward mesh: sliver faces, vertices, faces, genus,
+/// volume, area, centroid and equivalent radius. Throws Error(InvalidInput) when it encloses no
+/// volume.
+void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report);
+
 }  // namespace wscvt

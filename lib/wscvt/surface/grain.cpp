@@ -12,7 +12,6 @@
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_collapse.h"
-#include "wscvt/surface/radial_samples.h"
 
 namespace wscvt {
 
@@ -102,21 +101,23 @@ Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, int node_co
 
   execution.report(0.0, "Looking for folds");
   grain.steep_share = steep_share(grain.mesh, execution);
-  const bool spherical = options.parametrization == Parametrization::Spherical ||
-                         (options.parametrization == Parametrization::Auto &&
-                          scan.report.genus == 0 && grain.steep_share > steep_share_limit);
+  const bool spherical =
+      options.parametrization == Parametrization::Spherical ||
+      (options.parametrization == Parametrization::Auto && grain.steep_share > steep_share_limit);
   if (spherical) {
     grain.parametrization = Parametrization::Spherical;
     grain.folded_share = folded_solid_angle(grain.mesh, Vector3::Zero(), execution);
     map_scan(grain, node_count, execution.part(0.1, 1.0));
     return grain;
   }
-  const RadialSamples samples = radial_samples(grain.mesh, execution.part(0.0, 0.25));
-  grain.folded_share = samples.folded_share;
+  grain.folded_share = folded_solid_angle(grain.mesh, Vector3::Zero(), execution);
   refuse_folds(grain.folded_share, 0.01 * options.fold_limit_percent);
-  execution.report(0.25, "Fitting harmonics");
-  HarmonicFit fit = fit_harmonics(samples.directions, samples.radii, samples.weights,
-                                  options.degree, execution.part(0.25, 1.0));
+  execution.report(0.2, "Casting rays");
+  grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
+  const Execution fitting = execution.part(0.5, 1.0);
+  HarmonicFit fit = options.degree == automatic_degree
+                        ? fit_harmonics_for_nodes(*grain.rays, node_count, fitting)
+                        : fit_harmonics(*grain.rays, options.degree, fitting);
   grain.fit = fit.report;
   grain.coefficients = fit.surface.coefficients();
   grain.surface = std::make_unique<HarmonicSurface>(std::move(fit.surface));

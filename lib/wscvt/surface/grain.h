@@ -9,7 +9,7 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/surface/curvature.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/parametrization.h"
@@ -21,7 +21,7 @@ namespace wscvt {
 /// How a scan becomes a surface over the sphere.
 struct SurfaceOptions {
   Parametrization parametrization = Parametrization::Auto;
-  int degree = 20;                  ///< of the harmonic series, see harmonic_degree_option
+  int degree = automatic_degree;    ///< of the harmonic series, see harmonic_degree_option
   double fold_limit_percent = 5.0;  ///< refuse above this folded_solid_angle; Radial only
 };
 
@@ -52,16 +52,18 @@ struct Grain {
   double folded_share = 0.0;                   ///< see folded_solid_angle; 0 of a formula
   HarmonicFitReport fit;                       ///< of the series; empty of a formula
   std::vector<double> coefficients;            ///< of the series; empty of a formula
-  std::optional<MeshSurface> rays;             ///< at the mesh, for who places nodes on it
+  std::optional<MeshSurface> rays;             ///< at the mesh; of a formula only if asked for
   std::optional<CurvatureSamples> curvatures;  ///< of the scan itself, for who weighs by them
 };
 
 /// Centres a scan on its volume centroid and fits the series, or maps it to the sphere. Leaves
-/// `rays` and `curvatures` empty.
+/// `curvatures` empty.
 ///
 /// A dense scan need not be mapped whole: one with more than 50,000 vertices and more than 40 a
 /// node of the `node_count` is collapsed to that number first. The nodes are relaxed on that level
 /// and put on to the scan, or fitted to it, afterwards.
+///
+/// An automatic degree of the series is that of fit_harmonics_for_nodes for `node_count`.
 ///
 /// Throws Error: InvalidInput for options out of range and for a spherical map of a surface with
 /// handles, NotStarShaped when the folded share of a grain that is to be Radial exceeds the limit

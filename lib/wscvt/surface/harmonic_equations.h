@@ -11,9 +11,6 @@
 
 namespace wscvt {
 
-/// Highest degree that is fitted.
-inline constexpr int maximum_fit_degree = 60;
-
 /// Points of a least-squares fit: unit vectors, and a weight for each; the weights sum to 4 pi.
 struct WeightedDirections {
   const std::vector<Vector3>& directions;

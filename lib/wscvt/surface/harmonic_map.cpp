@@ -149,11 +149,7 @@ void HarmonicMap::evaluate_jets(const Vector3* directions, std::size_t count,
 
 HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
                                 const Execution& execution) {
-  if (degree < 0 || degree > maximum_fit_degree) {
-    throw Error(ErrorCode::InvalidInput, "The degree of the fit is " + std::to_string(degree) +
-                                             "; give one from 0 to " +
-                                             std::to_string(maximum_fit_degree) + ".");
-  }
+  require_in_range(degree, fit_degree_option);
   execution.report(0.0, "Fitting the harmonic map");
   const Quadrature quadrature = quadrature_over(surface, degree);
   double area = 0.0;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/fit_degree.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 #include "wscvt/surface/spherical_harmonics.h"

@@ -33,7 +33,7 @@ struct EnumerationTable<RelaxationMetric> {
 };
 
 struct RelaxationOptions {
-  RelaxationMetric metric = RelaxationMetric::Sphere;
+  RelaxationMetric metric = RelaxationMetric::Surface;
   int maximum_iterations = 1000;
   double displacement_tolerance = 1e-3;  ///< rms displacement / h
   double area_tolerance = 0.07;          ///< spread of cell area / target

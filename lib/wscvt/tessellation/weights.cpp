@@ -18,6 +18,10 @@ constexpr std::size_t block_size = 1024;
 /// cell, so that no cell is wanted smaller than nothing. Beyond it seeds lose their cells (measured
 /// above alpha 1.25).
 constexpr double curvature_clip = 0.9;
+/// Deviation of the logarithm of the curvature below which the grain counts as a sphere: a
+/// twentieth. Eq. 14 measures by the deviation itself, so that on a scanned sphere it would gather
+/// the nodes by the scan's noise.
+constexpr double smallest_deviation = 0.05;
 /// Curvatures below these are taken as these: a flat face has no scale of its own.
 constexpr double flat_curvature = 0.01;       // in 1 / equivalent radius, for the logarithm
 constexpr double flat_share_of_median = 0.3;  // of the median curvature, for the adaptive density
@@ -229,10 +233,10 @@ double SurfaceSeedModel::weight_from(double field, double count,
       return area_ / (cell_area_per_weight * count * field);
     case Weighting::ErrorAdaptive:
       return total_ * std::exp(-field) / (cell_area_per_weight * count);
-    case Weighting::Curvature: {  // eqs. 11 to 14; a sphere has no deviation to measure by
+    case Weighting::Curvature: {  // eqs. 11 to 14; a sphere's rounding errors are no curvature
       if (!(over_seeds.deviation > 1e-9)) return 0.0;
-      const double x =
-          options_.curvature_alpha * (field - over_seeds.mean) / (3.0 * over_seeds.deviation);
+      const double deviation = std::max(over_seeds.deviation, smallest_deviation);
+      const double x = options_.curvature_alpha * (field - over_seeds.mean) / (3.0 * deviation);
       return 4.0 / count * std::clamp(x, -curvature_clip, curvature_clip);
     }
     case Weighting::Constant:

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/harmonic_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_transform.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr const char* stage = "Fitting spherical harmonics";
+
+/// Rows of the first grid. What the surface holds beyond the degree folds back into the
+/// coefficients at random where the grid does not resolve it: with four rows a degree a noise of
+/// the radii reaches the series at a fifth of its size or less, (degree + 1) over the square root
+/// of the number of rays.
+constexpr int rows_per_degree = 4;
+constexpr int smallest_rows = 96;
+
+/// A needle's tip may lie between the rays. Then its volume changes with the grid.
+constexpr int largest_rows = 768;
+constexpr double volume_tolerance = 1e-3;
+
+/// The residual is read at so many points, one in each equal slice of the area: on a bar of 4 : 1
+/// as many directions of equal solid angle leave it 10 % off, since few of them see the ends. They
+/// are taken from four times as many directions.
+constexpr int residual_points = 3000;
+constexpr int residual_directions = 4 * residual_points;
+constexpr std::size_t point_block = 256;
+
+/// A surface's radii on a Gauss-Legendre grid, row by row.
+struct RadialGrid {
+  GaussLegendre latitudes;  ///< cosines of the rows' polar angles
+  std::vector<double> radii;
+
+  int rows() const { return static_cast<int>(latitudes.nodes.size()); }
+  int azimuths() const { return 2 * rows(); }
+  /// Solid angle of the node.
+  double weight(std::size_t node) const {
+    return latitudes.weights[node / static_cast<std::size_t>(azimuths())] * pi / rows();
+  }
+  double volume() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      sum += weight(i) * radii[i] * radii[i] * radii[i] / 3.0;
+    }
+    return sum;
+  }
+};
+
+RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& execution) {
+  RadialGrid grid;
+  grid.latitudes = gauss_legendre(rows);
+  // The azimuths of HarmonicTransform, which begin at 0.
+  std::vector<Vector3> directions;
+  directions.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(grid.azimuths()));
+  for (const double z : grid.latitudes.nodes) {
+    const double sine = std::sqrt((1.0 - z) * (1.0 + z));
+    for (int k = 0; k < grid.azimuths(); ++k) {
+      const double azimuth = 2.0 * pi * k / grid.azimuths();
+      directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), z);
+    }
+  }
+  grid.radii = surface.radii(directions, execution);
+  for (const double radius : grid.radii) {
+    if (!(radius > 0.0 && std::isfinite(radius))) {
+      throw Error(ErrorCode::InvalidInput,
+                  "A radius of the surface is not a positive number; give a surface that goes once "
+                  "around its origin.");
+    }
+  }
+  return grid;
+}
+
+RadialGrid read_resolved_grid(const RadialSurface& surface, int degree,
+                              const Execution& execution) {
+  int rows = std::max(smallest_rows, rows_per_degree * (degree + 1));
+  // A quarter of the rays tell whether the volume stays.
+  double coarser_volume = read_grid(surface, rows / 2, execution).volume();
+  for (;; rows *= 2) {
+    execution.report(0.2, stage);
+    RadialGrid grid = read_grid(surface, rows, execution);
+    const double volume = grid.volume();
+    if (std::abs(volume - coarser_volume) <= volume_tolerance * volume || 2 * rows > largest_rows) {
+      return grid;
+    }
+    coarser_volume = volume;
+  }
+}
+
+std::vector<double> project(const RadialGrid& grid, int degree, const Execution& execution) {
+  std::vector<double> sines;
+  for (const double z : grid.latitudes.nodes) sines.push_back(std::sqrt((1.0 - z) * (1.0 + z)));
+  const HarmonicTransform transform(degree, grid.latitudes.nodes, sines, grid.azimuths(),
+                                    execution);
+  std::vector<double> products(grid.radii.size());
+  for (std::size_t i = 0; i < products.size(); ++i) products[i] = grid.weight(i) * grid.radii[i];
+  return transform.analyze(products, execution);
+}
+
+/// Distances from points to the series: three steps along its tangent plane find the foot of each.
+/// A step leaves an error of second order in the bend of the surface between the two feet.
+std::vector<double> distances_to(const HarmonicSurface& series,
+                                 const std::vector<Vector3>& points) {
+  constexpr int steps = 3;
+  std::vector<Vector3> directions;
+  directions.reserve(points.size());
+  for (const Vector3& point : points) directions.push_back(point.normalized());
+  std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
+  std::vector<RadialJet> jets(points.size());
+  for (int step = 0; step <= steps; ++step) {
+    series.evaluate(directions.data(), directions.size(),
+                    step < steps ? Derivatives::First : Derivatives::None, jets.data());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Vector3& direction = directions[i];
+      const Vector3 foot = jets[i].radius * direction;
+      const Vector3 offset = points[i] - foot;
+      nearest[i] = std::min(nearest[i], offset.norm());
+      if (step == steps) continue;
+      const Vector3 normal = (jets[i].radius * direction - jets[i].gradient).normalized();
+      const Vector3 next = foot + offset - offset.dot(normal) * normal;
+      // A point far off a bend may be sent past the origin: then the foot stays where it is.
+      if (next.dot(direction) > 0.0) direction = next.normalized();
+    }
+  }
+  return nearest;
+}
+
+/// Points of the surface, one in each of residual_points equal slices of its area.
+std::vector<Vector3> area_uniform_points(const RadialSurface& surface, const Execution& execution) {
+  const std::vector<Vector3> directions = fibonacci_lattice(residual_directions);
+  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::First, execution);
+  double area = 0.0;
+  for (const RadialJet& jet : jets) area += area_element(jet);
+  std::vector<Vector3> points;
+  points.reserve(residual_points);
+  double passed = 0.0;
+  for (std::size_t i = 0; i < jets.size(); ++i) {
+    passed += area_element(jets[i]);
+    // The middle of the next slice; a large element may hold several.
+    while (points.size() < residual_points &&
+           (static_cast<double>(points.size()) + 0.5) * area < passed * residual_points) {
+      points.push_back(jets[i].radius * directions[i]);
+    }
+  }
+  return points;
+}
+
+double rms_distance(const std::vector<Vector3>& points, const HarmonicSurface& series,
+                    const Execution& execution) {
+  const double squares = execution.parallel_sum(
+      points.size(), point_block, 0.0, [&](std::size_t begin, std::size_t end) {
+        double part = 0.0;
+        for (const double distance :
+             distances_to(series, {points.begin() + static_cast<std::ptrdiff_t>(begin),
+                                   points.begin() + static_cast<std::ptrdiff_t>(end)})) {
+          part += distance * distance;
+        }
+        return part;
+      });
+  return std::sqrt(squares / static_cast<double>(points.size()));
+}
+
+/// A grid read once, and the series of every degree up to that it was read for.
+class Fitter {
+ public:
+  Fitter(const RadialSurface& surface, int highest_degree, const Execution& execution)
+      : execution_(execution) {
+    execution.report(0.0, stage);
+    const RadialGrid grid = read_resolved_grid(surface, highest_degree, execution);
+    rays_ = grid.radii.size();
+    coefficients_ = project(grid, highest_degree, execution);
+    execution.report(0.6, stage);
+    points_ = area_uniform_points(surface, execution);
+    execution.report(0.8, stage);
+  }
+
+  /// A lower degree is a part of the higher one's coefficients. Empty where it is not positive
+  /// everywhere.
+  std::optional<HarmonicFit> of_degree(int degree) const {
+    HarmonicSurface series(
+        {coefficients_.begin(),
+         coefficients_.begin() + static_cast<std::ptrdiff_t>(harmonic_count(degree))});
+    HarmonicFitReport report;
+    report.smallest_radius = smallest_radius(series, execution_);
+    if (!(report.smallest_radius > 0.0)) return std::nullopt;
+    report.degree = degree;
+    report.rays = rays_;
+    report.residual = rms_distance(points_, series, execution_);
+    return HarmonicFit{std::move(series), report};
+  }
+
+  /// The highest degree up to `degree` that is positive everywhere: one by one, so that a higher
+  /// degree asked for never yields a lower one than a lower request.
+  HarmonicFit highest(int degree) const {
+    for (int trial = degree; trial >= 0; --trial) {
+      execution_.report(0.8, stage);
+      if (std::optional<HarmonicFit> fit = of_degree(trial)) {
+        fit->report.limit = trial < degree ? DegreeLimit::Radius : DegreeLimit::None;
+        return *std::move(fit);
+      }
+    }
+    throw Error(ErrorCode::NumericalFailure,
+                "No spherical-harmonic series of degree " + std::to_string(degree) +
+                    " or lower describes the surface with a positive radius everywhere; check that "
+                    "the mesh is closed around its centre.");
+  }
+
+ private:
+  Execution execution_;
+  std::size_t rays_ = 0;
+  std::vector<double> coefficients_;
+  std::vector<Vector3> points_;
+};
+
+}  // namespace
+
+HarmonicFit fit_harmonics(const RadialSurface& surface, int degree, const Execution& execution) {
+  require_in_range(degree, fit_degree_option);
+  HarmonicFit fit = Fitter(surface, degree, execution).highest(degree);
+  fit.report.requested_degree = degree;
+  execution.report(1.0, stage);
+  return fit;
+}
+
+double chord_error(const RadialSurface& surface, int node_count, const Execution& execution) {
+  if (node_count < 4) {
+    throw Error(ErrorCode::InvalidInput,
+                "A closed mesh has at least 4 nodes, not " + std::to_string(node_count) + ".");
+  }
+  // Curvatures enter as one mean: a thousand directions give it to a few per cent.
+  constexpr int curvature_directions = 1000;
+  const std::vector<Vector3> directions = fibonacci_lattice(curvature_directions);
+  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::Second, execution);
+  double area = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < jets.size(); ++i) {
+    const double element = area_element(jets[i]);
+    const PrincipalCurvatures k = principal_curvatures(jets[i], directions[i]);
+    area += element;
+    squares += element * 0.5 * (k.maximum * k.maximum + k.minimum * k.minimum);
+  }
+  const double curvature = std::sqrt(squares / area);
+  area *= 4.0 * pi / curvature_directions;
+  // 2 N - 4 equilateral triangles of sqrt(3) / 4 h^2 each.
+  const double squared_edge = 4.0 / std::sqrt(3.0) * area / (2.0 * node_count - 4.0);
+  return squared_edge * curvature / (2.0 * std::sqrt(15.0));
+}
+
+HarmonicFit fit_harmonics_for_nodes(const RadialSurface& surface, int node_count,
+                                    const Execution& execution) {
+  // Most grains and counts need no more than the paper's degree, which is read much faster than
+  // the highest.
+  constexpr int usual_degree = 20;
+  std::optional<HarmonicFit> found;
+  const auto close_enough = [&](const Fitter& fitter, int degree) {
+    execution.report(0.9, stage);
+    std::optional<HarmonicFit> fit = fitter.of_degree(degree);
+    if (!fit) return false;
+    fit->report.chord_error = chord_error(fit->surface, node_count, execution);
+    if (!(fit->report.residual <= fit->report.chord_error)) return false;
+    found = std::move(fit);
+    return true;
+  };
+  // The residual falls with the degree, and the chord error rises with the detail.
+  const auto bisect = [&](const Fitter& fitter, int too_low, int enough) {
+    while (enough - too_low > 1) {
+      const int middle = (too_low + enough) / 2;
+      (close_enough(fitter, middle) ? enough : too_low) = middle;
+    }
+  };
+  const Fitter usual(surface, usual_degree, execution.part(0.0, 0.4));
+  if (close_enough(usual, usual_degree)) {
+    bisect(usual, 0, usual_degree);
+  } else {
+    const Fitter high(surface, fit_degree_option.maximum, execution.part(0.4, 0.9));
+    if (close_enough(high, fit_degree_option.maximum)) {
+      bisect(high, usual_degree, fit_degree_option.maximum);
+    } else {
+      found = high.highest(fit_degree_option.maximum);
+      found->report.chord_error = chord_error(found->surface, node_count, execution);
+      if (found->report.limit == DegreeLimit::None) found->report.limit = DegreeLimit::Highest;
+    }
+  }
+  found->report.requested_degree = automatic_degree;
+  execution.report(1.0, stage);
+  return *std::move(found);
+}
+
+void scale(HarmonicFitReport& report, double unit) {
+  report.residual *= unit;
+  report.smallest_radius *= unit;
+  report.chord_error *= unit;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the first remesh gives, with nothing chosen but the number of nodes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "grains/ct_grain.h"
+#include "support/test_shapes.h"
+#include "wscvt/remesh.h"
+
+namespace wscvt {
+namespace {
+
+RemeshResult remeshed(const IndexedMesh& scan, int nodes, Method method = Method::OnScan) {
+  RemeshOptions options;
+  options.node_count = nodes;
+  options.method = method;
+  options.measures.distances = true;
+  return remesh(scan, options);
+}
+
+double rms_percent(const RemeshResult& result) {
+  return 100.0 * result.distances->root_mean_square / result.input.equivalent_radius;
+}
+
+TEST(RemeshDefaults, KeepShapeAndVolumeOfRoughAndAngularGrains) {
+  for (const test::Grain& grain :
+       {test::reference_grains().back(), test::angular_grain(5), test::angular_grain(6)}) {
+    SCOPED_TRACE(grain.name);
+    const IndexedMesh scan = test::ct_mesh_of_about(grain, 12000);
+    const RemeshResult result = remeshed(scan, 1000);
+    EXPECT_EQ(result.mesh.points.size(), 1000U);
+    EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-12);
+    // What is promised of real scans, which are rougher than these.
+    EXPECT_NEAR(result.remesh.area / result.original.area, 1.0, 0.01);
+    EXPECT_LT(result.quality.edge_ratio.mean, 1.155);
+    EXPECT_GT(result.quality.smallest_angle, 35.0);
+    EXPECT_LT(rms_percent(result), 0.8);
+    // The published method with as many nodes is farther from the scan.
+    EXPECT_LT(rms_percent(result), 0.7 * rms_percent(remeshed(scan, 1000, Method::AsPublished)));
+  }
+}
+
+TEST(RemeshDefaults, AsPublishedIsTheSeriesWithNodesOnIt) {
+  RemeshOptions options;
+  options.method = Method::AsPublished;
+  options.placement.refinement.rounds = 5;  // which it overrides
+  options.node_count = 200;
+  const RemeshResult result = remesh(test::lumpy(4), options);
+  EXPECT_EQ(result.parametrization, Parametrization::Radial);
+  EXPECT_EQ(result.options.relaxation.metric, RelaxationMetric::Sphere);
+  EXPECT_EQ(result.options.placement.kind, NodePlacement::Series);
+  EXPECT_EQ(result.options.placement.refinement.rounds, 0);
+  EXPECT_TRUE(result.refinement.history.empty());
+  EXPECT_EQ(result.fit.degree, 20);
+  const HarmonicSurface series(result.coefficients);
+  for (std::size_t i = 0; i < result.directions.size(); ++i) {
+    EXPECT_NEAR(series.radius(result.directions[i]), result.radial_distances[i], 1e-12);
+  }
+  options.surface.degree = 9;
+  EXPECT_EQ(remesh(test::lumpy(4), options).fit.degree, 9);
+}
+
+TEST(RemeshDefaults, FourNodesOnABallAreARegularTetrahedron) {
+  const RemeshResult result = remeshed(test::sphere(4), 4);
+  // The fit reads the ball's facets, of a hundredth of a radius.
+  EXPECT_NEAR(result.quality.edge_length.minimum / result.quality.edge_length.maximum, 1.0, 0.02);
+}
+
+}  // namespace
+}  // namespace wscvt
