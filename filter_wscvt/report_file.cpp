@@ -36,10 +36,9 @@ std::string extension_of(const std::string& path) {
 FilterParameter report_file_parameter() {
   return output_file_parameter(
       "ReportFile", report_endings(), "Report file",
-      "File for the report, or nothing. Its extension decides what it becomes: .html "
-      "(a page with pictures and histograms), .json (everything) or .csv (a row, added to the "
-      "table if the file is there). A name without a folder lands beside the scan; the log says "
-      "where. It is written whole or not at all; an existing page is replaced.");
+      "File for the report, or nothing. Its extension decides what it becomes: .html (a page with "
+      "pictures), .json (everything) or .csv (a row more of a table). Without a folder it lands "
+      "beside the scan; the log says where. It is written whole or not at all.");
 }
 
 void check_remesh_report_file(const std::string& path) {

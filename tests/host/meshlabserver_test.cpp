@@ -80,7 +80,7 @@ TEST(Server, WritesAReportAsAPageThatNamesTheLayer) {
   EXPECT_EQ(page.count("<img"), 3);
   EXPECT_TRUE(page.contains("<title>Remesh of grain.ply with 150 nodes</title>"));
   EXPECT_TRUE(page.contains(QRegularExpression(" on \\d{4}-\\d\\d-\\d\\d\\.")));
-  EXPECT_TRUE(page.contains("<td>volume</td>"));
+  EXPECT_TRUE(page.contains("<td>volume, length^3</td>"));
 }
 
 TEST(Server, TwoRunsGiveTheSameBytes) {

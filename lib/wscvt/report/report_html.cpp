@@ -36,6 +36,8 @@ class OptionRows {
 
  private:
   void add(std::string_view key, const std::string& value, std::string_view subject) {
+    // Within a sentence a subject may end with a comma.
+    if (!subject.empty() && subject.back() == ',') subject.remove_suffix(1);
     rows_.push_back({"--" + std::string(key) + "=" + value, capitalised(subject)});
   }
 
