@@ -111,7 +111,7 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   request_quality(settings.options, settings.result.quality);
   settings.result.colour_by_quality = checked.flag("ColorByQuality");
   settings.result.report_file = checked.text("ReportFile");
-  check_report_file(settings.result.report_file);
+  check_remesh_report_file(settings.result.report_file);
   check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,
                         "CoefficientsFile");
   return settings;

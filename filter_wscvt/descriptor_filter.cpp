@@ -1,37 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "descriptor_filter.h"
 
-#include <utility>
-
-#include "html_report.h"
 #include "log_text.h"
 #include "report_file.h"
-#include "wscvt/base/output_file.h"
 #include "wscvt/report/descriptor_report.h"
 
 namespace wscvt::filter {
-
-namespace {
-
-std::string html_report(const GrainMeasures& measures) {
-  const MeasuredGrain& grain = measures.grain;
-  HtmlReport report("Shape of " + grain.name);
-  report.add_paragraph(grain_line(grain));
-  if (measures.reference) report.add_paragraph("Compared with " + grain_line(*measures.reference));
-  for (const std::string& remark : remarks(measures)) report.add_paragraph(remark);
-  if (measures.reference) {
-    const ComparisonNames names = {measures.reference->name, grain.name};
-    report.add_table(compare_descriptors(measures), names);
-    report.add_lines("Distances", distance_lines(measures));
-    report.add_histograms(measures.reference->checked.mesh, grain.checked.mesh, names);
-  } else {
-    report.add_table(list_descriptors(grain.descriptors));
-    report.add_histograms({}, grain.checked.mesh, {"", grain.name});
-  }
-  return report.text();
-}
-
-}  // namespace
 
 std::string descriptor_name() { return "Grain shape descriptors"; }
 
@@ -72,7 +46,7 @@ DescriptorSettings read_descriptor_settings(const ParameterValues& values) {
   settings.options.roundness_degree = checked.whole("RoundnessDegree");
   settings.options.roughness_degree = checked.whole("RoughnessDegree");
   settings.report_file = checked.text("ReportFile");
-  check_report_file(settings.report_file);
+  check_descriptor_report_file(settings.report_file, !settings.reference_layer.empty());
   return settings;
 }
 
@@ -80,19 +54,6 @@ std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds) {
   std::vector<std::string> lines = descriptor_lines(measures);
   lines.push_back(seconds_line(seconds));
   return as_log(remarks(measures), lines);
-}
-
-void write_report(const GrainMeasures& measures, const std::string& path) {
-  switch (report_format(path)) {
-    case ReportFormat::None:
-      return;
-    case ReportFormat::Html:
-      return write_file(path, html_report(measures));
-    case ReportFormat::Json:
-      return write_file(path, descriptor_json(measures));
-    case ReportFormat::Csv:
-      return write_file(path, descriptor_csv(measures));
-  }
 }
 
 }  // namespace wscvt::filter

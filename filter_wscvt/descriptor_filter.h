@@ -29,9 +29,4 @@ DescriptorSettings read_descriptor_settings(const ParameterValues& values);
 /// As log_lines of the remesher.
 std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds);
 
-/// Writes the report in the format of the file's extension; nothing for an empty name. Throws
-/// Error(InputOutput) when the file cannot be written, Error(InvalidInput) for an extension other
-/// than .html, .json or .csv, and for an HTML report when there is no QApplication to draw with.
-void write_report(const GrainMeasures& measures, const std::string& path);
-
 }  // namespace wscvt::filter

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filters.h"
 
+#include <QDate>
 #include <QDir>
 #include <QFileInfo>
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/remesh.h"
+#include "wscvt/report/report_file.h"
 #include "wscvt/surface/harmonic_io.h"
 
 namespace wscvt::filter {
@@ -56,6 +58,14 @@ void add_file_line(std::vector<LogLine>& log, const std::string& title, const st
 
 LayerContent content_of(const RemeshResult& result, const ResultSettings& settings) {
   return {result.mesh, quality_values(result, settings.quality), settings.colour_by_quality};
+}
+
+/// Writes the report of today about a layer; nothing for an empty name.
+template <class... Content>
+void save_report(const std::string& file, const std::string& label, const Content&... content) {
+  if (file.empty()) return;
+  const std::string today = QDate::currentDate().toString(Qt::ISODate).toStdString();
+  write_report(file, content..., {label, today}, Execution());
 }
 
 /// Errors and values of a remesh, under the names of the reports.
@@ -112,7 +122,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   const Eigen::Matrix4d transform = layers.transform(scan.number);
   const RemeshResult result = remesh(mesh, settings.options, execution);
   // Files first: when they cannot be written the document stays as it was.
-  write_report(result, mesh, settings.result.report_file);
+  save_report(settings.result.report_file, scan.label, result, mesh);
   if (!settings.coefficients_file.empty()) {
     write_harmonics(settings.coefficients_file, HarmonicSurface(result.coefficients));
   }
@@ -164,7 +174,7 @@ FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
       with_full_names(creation_parameters(), values, folder_at_hand(layers)));
   const auto surface = make_surface(settings);
   const RemeshResult result = remesh(*surface, settings.options, execution);
-  write_report(result, IndexedMesh(), settings.result.report_file);
+  save_report(settings.result.report_file, surface_name(settings), result, IndexedMesh());
   layers.add(
       remesh_label(surface_name(settings), nodes_name(result.options), result.mesh.points.size()),
       content_of(result, settings.result), Eigen::Matrix4d::Identity());
@@ -189,7 +199,7 @@ FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
   }
   const GrainMeasures result = measure_grain({current.label, shown_mesh(layers, current.number)},
                                              std::move(reference), settings.options, execution);
-  write_report(result, settings.report_file);
+  save_report(settings.report_file, current.label, result);
 
   FilterOutcome outcome;
   outcome.log = log_lines(result, stopwatch.seconds());

@@ -108,7 +108,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   request_quality(options, settings.result.quality);
   settings.result.colour_by_quality = checked.flag("ColorByQuality");
   settings.result.report_file = checked.text("ReportFile");
-  check_report_file(settings.result.report_file);
+  check_remesh_report_file(settings.result.report_file);
   settings.coefficients_file = checked.text("CoefficientsFile");
   check_output_file(settings.coefficients_file, {".json"}, "CoefficientsFile");
   check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,

@@ -3,17 +3,11 @@
 
 #include <limits>
 #include <map>
-#include <utility>
 
-#include "html_report.h"
 #include "log_text.h"
-#include "report_file.h"
-#include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/point_cloud.h"
 
 namespace wscvt::filter {
 
@@ -80,41 +74,6 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds) {
   }
   lines.push_back(seconds_line(seconds));
   return as_log(result.warnings, lines);
-}
-
-namespace {
-
-std::string html_report(const RemeshResult& result, IndexedMesh original) {
-  HtmlReport report("Remesh with " + std::to_string(result.mesh.points.size()) + " nodes");
-  for (const std::string& warning : result.warnings) report.add_paragraph(warning);
-  report.add_table(
-      compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh)),
-      ComparisonNames());
-  if (original.triangles.empty() && !original.points.empty()) {
-    original = mesh_of_points(std::move(original.points));
-  }
-  if (!original.triangles.empty()) {
-    original = check_mesh(std::move(original), result.options.check, Execution()).mesh;
-  }
-  report.add_histograms(original, result.mesh, ComparisonNames());
-  report.add_lines("Everything", report_lines(result));
-  return report.text();
-}
-
-}  // namespace
-
-void write_report(const RemeshResult& result, const IndexedMesh& original,
-                  const std::string& path) {
-  switch (report_format(path)) {
-    case ReportFormat::None:
-      return;
-    case ReportFormat::Html:
-      return write_file(path, html_report(result, original));
-    case ReportFormat::Json:
-      return write_file(path, report_json(result));
-    case ReportFormat::Csv:
-      return write_file(path, report_csv(result));
-  }
 }
 
 }  // namespace wscvt::filter

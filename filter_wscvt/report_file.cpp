@@ -6,6 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/report/report_file.h"
 
 namespace wscvt::filter {
 
@@ -15,8 +16,6 @@ std::string extension_of(const std::string& path) {
   const QString suffix = QFileInfo(QString::fromStdString(path)).suffix().toLower();
   return suffix.isEmpty() ? std::string() : "." + suffix.toStdString();
 }
-
-const std::vector<std::string> report_extensions = {".html", ".json", ".csv"};
 
 [[noreturn]] void refuse_extension(const std::string& path,
                                    const std::vector<std::string>& extensions,
@@ -36,24 +35,20 @@ const std::vector<std::string> report_extensions = {".html", ".json", ".csv"};
 
 FilterParameter report_file_parameter() {
   return output_file_parameter(
-      "ReportFile", report_extensions, "Report file",
-      "File for the report, or nothing. Its extension decides what it becomes: .html "
-      "(for reading), .json (everything) or .csv (one row, for tables). A name without a folder "
-      "lands beside the scan; the log says where. It is written whole or not at all; an existing "
-      "file is replaced.");
+      "ReportFile", report_endings(), "Report file",
+      "File for the report, or nothing. Its extension decides what it becomes: .html (a page with "
+      "pictures), .json (everything) or .csv (a row more of a table). Without a folder it lands "
+      "beside the scan; the log says where. It is written whole or not at all.");
 }
 
-ReportFormat report_format(const std::string& path) {
-  if (path.empty()) return ReportFormat::None;
-  const std::string extension = extension_of(path);
-  if (extension == ".html") return ReportFormat::Html;
-  if (extension == ".json") return ReportFormat::Json;
-  if (extension == ".csv") return ReportFormat::Csv;
-  refuse_extension(path, report_extensions, "ReportFile");
+void check_remesh_report_file(const std::string& path) {
+  check_output_file(path, report_endings(), "ReportFile");
+  if (!path.empty()) check_remesh_report(path);
 }
 
-void check_report_file(const std::string& path) {
-  check_output_file(path, report_extensions, "ReportFile");
+void check_descriptor_report_file(const std::string& path, bool with_reference) {
+  check_output_file(path, report_endings(), "ReportFile");
+  if (!path.empty()) check_descriptor_report(path, with_reference);
 }
 
 void check_extension(const std::string& path, const std::vector<std::string>& extensions,

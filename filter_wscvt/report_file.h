@@ -11,16 +11,13 @@ namespace wscvt::filter {
 /// The parameter ReportFile of every filter.
 FilterParameter report_file_parameter();
 
-enum class ReportFormat { None, Html, Json, Csv };
+/// Refuses before work starts what could not be written after it: other extensions and tables with
+/// other columns (InvalidInput), folders that do not exist and names of folders (InputOutput). An
+/// empty name is none.
+void check_remesh_report_file(const std::string& path);
 
-/// By the file's extension, in either case; None for an empty name. Throws Error(InvalidInput) for
-/// any other extension.
-ReportFormat report_format(const std::string& path);
-
-/// Refuses before work starts what could not be written after it: other extensions
-/// (InvalidInput), folders that do not exist and names of folders (InputOutput). An empty name is
-/// none.
-void check_report_file(const std::string& path);
+/// The same for the report of the descriptors, whose tables have more columns with a reference.
+void check_descriptor_report_file(const std::string& path, bool with_reference);
 
 /// The same for a parameter that names a file to be written, with one of `extensions` (".json").
 void check_output_file(const std::string& path, const std::vector<std::string>& extensions,

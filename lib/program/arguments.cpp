@@ -51,6 +51,12 @@ Arguments read_arguments(int argc, char** argv, int& exit_code) {
       ->type_name("N");
   app.add_option("-j,--json", arguments.json, wrapped("Write the report to this file as JSON"))
       ->type_name("FILE");
+  app.add_option("--report", arguments.reports,
+                 wrapped("Write the report to this file, by its ending .html (a page with pictures "
+                         "and histograms), .json, or .csv (a row more of a table); may be given "
+                         "more than once"))
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   app.add_option("--coefficients", arguments.coefficients,
                  wrapped("Write the fitted series to this file as JSON"))
       ->type_name("FILE");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "wscvt/report/remesh_options.h"
 
@@ -11,10 +12,11 @@ namespace wscvt::program {
 struct Arguments {
   std::string input;
   std::string output;
-  std::string json;          ///< empty: none
-  std::string coefficients;  ///< empty: none
-  int threads = 0;           ///< 0: all
-  bool overwrite = false;    ///< an output may replace the scan
+  std::string json;                  ///< empty: none
+  std::vector<std::string> reports;  ///< the ending says what each becomes
+  std::string coefficients;          ///< empty: none
+  int threads = 0;                   ///< 0: all
+  bool overwrite = false;            ///< an output may replace the scan
   bool quiet = false;
   RemeshOptions options;
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The remesher without a display: one scan in, one remesh and its report out.
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arguments.h"
 #include "output_paths.h"
@@ -13,6 +15,7 @@
 #include "wscvt/base/output_file.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
+#include "wscvt/report/report_file.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/surface/harmonic_io.h"
 
@@ -20,16 +23,26 @@ namespace {
 
 namespace program = wscvt::program;
 
+/// "2026-11-21", where the program runs; empty when the clock does not say.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  char text[sizeof "2026-11-21"];
+  if (::localtime_r(&now, &local) == nullptr) return "";
+  return std::strftime(text, sizeof text, "%Y-%m-%d", &local) == 0 ? "" : text;
+}
+
 int run(int argc, char** argv) {
   int exit_code = -1;
   const program::Arguments call = program::read_arguments(argc, argv, exit_code);
   if (exit_code >= 0) return exit_code;
 
-  program::check_output_paths({"the scan", call.input},
-                              {{"the remesh", call.output},
-                               {"the report", call.json},
-                               {"the coefficients", call.coefficients}},
-                              call.overwrite);
+  std::vector<program::NamedFile> outputs = {{"the remesh", call.output},
+                                             {"the report", call.json},
+                                             {"the coefficients", call.coefficients}};
+  for (const std::string& report : call.reports) outputs.push_back({"a report", report});
+  program::check_output_paths({"the scan", call.input}, outputs, call.overwrite);
+  for (const std::string& report : call.reports) wscvt::check_remesh_report(report);
   wscvt::check_mesh_format(call.output);
   if (!call.quiet) wscvt::check_writable("/dev/stdout");
   program::note_signals();
@@ -40,12 +53,18 @@ int run(int argc, char** argv) {
   });
   execution.report(0.0, "Reading the scan");
   wscvt::IndexedMesh scan = wscvt::read_mesh(call.input);
+  wscvt::IndexedMesh shown;  // on a page
+  if (!call.reports.empty()) shown = scan;
   const wscvt::RemeshResult result = wscvt::remesh(std::move(scan), call.options, execution);
   execution.report(1.0, "Writing");  // the last chance to cancel
   line.clear();
 
   wscvt::write_mesh(result.mesh, call.output);
-  if (!call.json.empty()) wscvt::write_file(call.json, wscvt::report_json(result));
+  const wscvt::ReportOrigin origin = {call.input, today()};
+  if (!call.json.empty()) wscvt::write_file(call.json, wscvt::report_json(result, origin));
+  for (const std::string& report : call.reports) {
+    wscvt::write_report(report, result, shown, origin, wscvt::Execution(call.threads));
+  }
   if (!call.coefficients.empty()) {
     wscvt::write_harmonics(call.coefficients, wscvt::HarmonicSurface(result.coefficients));
   }

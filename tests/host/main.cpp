@@ -8,8 +8,7 @@
 // leaks of our own code, called straight from the tests, have no frame in these libraries.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libQt5\nleak:libqoffscreen\nleak:libmeshlab-common\nleak:libqwt\nleak:"
-         "libfontconfig\n";
+  return "leak:libQt5\nleak:libqoffscreen\nleak:libmeshlab-common\nleak:libfontconfig\n";
 }
 #endif
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <QFile>
+#include <QRegularExpression>
 
 #include "calls.h"
 #include "programs.h"
@@ -60,7 +61,7 @@ TEST(Server, InPlaceReplacesTheMesh) {
   EXPECT_EQ(read_mesh(output.toStdString()).points.size(), 321U);
 }
 
-TEST(Server, WritesAReportAsAPageWithTwoFigures) {
+TEST(Server, WritesAReportAsAPageThatNamesTheLayer) {
   QTemporaryDir folder;
   const QString input = folder.filePath("grain.ply");
   write_as_it_is(grain(), input);
@@ -76,8 +77,10 @@ TEST(Server, WritesAReportAsAPageWithTwoFigures) {
   const QString page = QString::fromUtf8(file.readAll());
   EXPECT_TRUE(page.startsWith("<!DOCTYPE html>"));
   EXPECT_TRUE(page.endsWith("</html>\n"));
-  EXPECT_EQ(page.count("<svg"), 2);
-  EXPECT_TRUE(page.contains("<td>volume</td>"));
+  EXPECT_EQ(page.count("<img"), 3);
+  EXPECT_TRUE(page.contains("<title>Remesh of grain.ply with 150 nodes</title>"));
+  EXPECT_TRUE(page.contains(QRegularExpression(" on \\d{4}-\\d\\d-\\d\\d\\.")));
+  EXPECT_TRUE(page.contains("<td>volume, length^3</td>"));
 }
 
 TEST(Server, TwoRunsGiveTheSameBytes) {

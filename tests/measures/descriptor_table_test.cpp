@@ -69,6 +69,24 @@ TEST(DescriptorTable, NoPercentageWhereItSaysNothing) {
   EXPECT_TRUE(std::isnan(compare_descriptors(a, b).front().error_percent));
 }
 
+TEST(DescriptorTable, NoPercentageAgainstAValueNearZero) {
+  const std::vector<DescriptorValue> from = {{"axis", "axis", "length", 2.0},
+                                             {"smooth", "smooth", "length", 0.0019},
+                                             {"rough", "rough", "length", 0.0021},
+                                             {"small", "small", "", 0.0009},
+                                             {"ratio", "ratio", "", 0.0011}};
+  std::vector<DescriptorValue> to = from;
+  for (DescriptorValue& row : to) row.value *= 12.0;
+  const std::vector<DescriptorComparison> rows = compare_descriptors(from, to);
+  for (const std::size_t k : {0, 2, 4}) EXPECT_NEAR(rows[k].error_percent, 1100.0, 1e-9) << k;
+  for (const std::size_t k : {1, 3}) EXPECT_TRUE(std::isnan(rows[k].error_percent)) << k;
+  // A larger body of the same shape: the same rows say nothing.
+  std::vector<DescriptorValue> large = from;
+  for (std::size_t k = 0; k < 3; ++k) large[k].value *= 1e6;
+  EXPECT_TRUE(std::isnan(compare_descriptors(large, large)[1].error_percent));
+  EXPECT_EQ(compare_descriptors(large, large)[2].error_percent, 0.0);
+}
+
 TEST(DescriptorTable, RefusesListsOfDifferentKinds) {
   const std::vector<DescriptorValue> a = {{"one", "one", "", 1.0}};
   const std::vector<DescriptorValue> b = {{"two", "two", "", 1.0}};

@@ -88,6 +88,7 @@ TEST(MeshQuality, HistogramsCountEveryEdgeAndFaceOnce) {
   };
   EXPECT_EQ(total(h.relative_edge_length), 3 * mesh.triangles.size() / 2);
   EXPECT_EQ(total(h.edge_ratio), mesh.triangles.size());
+  EXPECT_EQ(total(h.angle), 3 * mesh.triangles.size());
   EXPECT_EQ(h.relative_edge_length.lower, 0.0);
   EXPECT_EQ(h.relative_edge_length.upper, 3.0);
   EXPECT_EQ(h.edge_ratio.lower, 1.0);
@@ -100,6 +101,10 @@ TEST(MeshQuality, HistogramPutsValuesInTheirBins) {
   EXPECT_EQ(cube.relative_edge_length.counts[8], 12U);
   EXPECT_EQ(cube.relative_edge_length.counts[12], 6U);
   EXPECT_EQ(cube.edge_ratio.counts[6], 12U);
+  // Angles of 45 and 90 degrees lie on the edges of bins of 15.
+  const QualityHistograms angles = quality_histograms(test::box(1, 1, 1), 12);
+  EXPECT_EQ(angles.angle.counts[2] + angles.angle.counts[3], 24U);
+  EXPECT_EQ(angles.angle.counts[5] + angles.angle.counts[6], 12U);
   // Ratios beyond the range go to the last bin.
   const QualityHistograms plate = quality_histograms(test::box(1, 1, 0.01), 10);
   EXPECT_EQ(plate.edge_ratio.counts.back(), 8U);

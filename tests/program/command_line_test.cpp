@@ -4,10 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string>
 
 #include "program_run.h"
@@ -33,6 +35,33 @@ TEST_F(CommandLine, RemeshesToTheExactCount) {
   EXPECT_EQ(mesh.triangles.size(), 196U);
   EXPECT_NE(outcome.output.find("100 nodes, 196 faces"), std::string::npos) << outcome.output;
   EXPECT_NE(content("report.json").find("wscvt-report"), std::string::npos);
+}
+
+TEST_F(CommandLine, WritesReportsByTheirEndings) {
+  // Two grains in one table; the page and the other report are of the last.
+  for (const std::string nodes : {"100", "120"}) {
+    const Outcome outcome = run(sand_ + " remesh.ply -q -n " + nodes +
+                                " --report page.html --report table.csv --report all.json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  }
+  const std::string page = content("page.html");
+  EXPECT_NE(page.find("sand_7228.ply with 120 nodes</title>"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
+  const std::regex date("by wscvt [0-9.]+ on [0-9]{4}-[0-9]{2}-[0-9]{2}\\.");
+  EXPECT_TRUE(std::regex_search(page, date));
+  EXPECT_NE(content("all.json").find("sand_7228.ply\""), std::string::npos);
+  const std::string table = content("table.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+  // What cannot become a report is refused before the work, of a million nodes here.
+  std::ofstream(folder_ / "other.csv") << "a,b\r\n";
+  for (const std::string bad :
+       {"report.pdf", "report", "other.csv", "remesh.ply", "no/page.html"}) {
+    SCOPED_TRACE(bad);
+    const Outcome outcome = run(sand_ + " remesh.ply -n 1000000 --report " + bad);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.errors.find(bad), std::string::npos) << outcome.errors;
+  }
+  EXPECT_EQ(content("other.csv"), "a,b\r\n");
 }
 
 TEST_F(CommandLine, SaysItsVersion) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/measures/descriptor_table.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
@@ -11,6 +14,10 @@ namespace wscvt {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// A value smaller than this share of what it is measured by is noise: the roughness of a grain
+/// without any, which a remesh of flat triangles multiplies.
+constexpr double near_zero_share = 1e-3;
 
 void append_axes(std::vector<DescriptorValue>& rows, const std::string& suffix,
                  const std::string& convention, const FormAxes& axes, const FormRatios& ratios) {
@@ -87,6 +94,13 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
                     std::to_string(values.size()) +
                     " descriptors; compare lists made by the same function.");
   }
+  // What counts as near zero: numbers without a unit are of the size 1, others are judged by the
+  // largest of their unit, lengths so by the longest axis.
+  std::map<std::string, double> sizes = {{"", 1.0}};
+  for (const DescriptorValue& row : reference) {
+    double& size = sizes[row.unit];
+    if (!row.unit.empty() && std::isfinite(row.value)) size = std::max(size, std::abs(row.value));
+  }
   std::vector<DescriptorComparison> rows;
   rows.reserve(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -97,8 +111,10 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
                   "Row " + std::to_string(i) + " holds " + from.key + " in one list and " + to.key +
                       " in the other; compare lists made by the same function.");
     }
-    const double error =
-        from.on_ratio_scale ? relative_error_percent(to.value, from.value) : not_a_number;
+    const bool near_zero = std::abs(from.value) < near_zero_share * sizes[from.unit];
+    const double error = from.on_ratio_scale && !near_zero
+                             ? relative_error_percent(to.value, from.value)
+                             : not_a_number;
     rows.push_back({from.key, from.label, from.unit, from.value, to.value, error});
   }
   return rows;

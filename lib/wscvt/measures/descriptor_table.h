@@ -26,13 +26,16 @@ struct DescriptorComparison {
   std::string unit;
   double reference = 0.0;
   double value = 0.0;
-  double error_percent = 0.0;  ///< 100 (value / reference - 1); NaN where that says nothing
+  double error_percent =
+      0.0;  ///< 100 (value / reference - 1); NaN where that says nothing, see compare_descriptors
 };
 
 std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& descriptors);
 std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& descriptors);
 
-/// Row by row. Throws Error(InvalidInput) when the two lists do not hold the same descriptors.
+/// Row by row. An error in per cent says nothing where zero is an ordinary value and where the
+/// reference lies near zero: below a thousandth of 1, or of the largest value with its unit. Throws
+/// Error(InvalidInput) when the two lists do not hold the same descriptors.
 std::vector<DescriptorComparison> compare_descriptors(const std::vector<DescriptorValue>& reference,
                                                       const std::vector<DescriptorValue>& values);
 

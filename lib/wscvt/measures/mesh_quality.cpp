@@ -87,12 +87,14 @@ TriangleEdges triangle_edges(const IndexedMesh& mesh, const Triangle& t) {
   return edges;
 }
 
-/// Degrees; the angle opposite to the shortest edge, by its tangent, which is exact near 0.
-double smallest_angle(const TriangleEdges& edges) {
-  const Vector3& a = edges.vectors[(edges.shortest + 1) % 3];
-  const Vector3& b = edges.vectors[(edges.shortest + 2) % 3];
+/// Degrees; the angle opposite to edge k, by its tangent, which is exact near 0.
+double angle_opposite(const TriangleEdges& edges, std::size_t k) {
+  const Vector3& a = edges.vectors[(k + 1) % 3];
+  const Vector3& b = edges.vectors[(k + 2) % 3];
   return std::atan2(a.cross(b).norm(), -a.dot(b)) * degrees_per_radian;
 }
+
+double smallest_angle(const TriangleEdges& edges) { return angle_opposite(edges, edges.shortest); }
 
 /// In a closed oriented mesh every edge runs once in each direction, so this names it once.
 bool names_edge(const Triangle& t, std::size_t k) { return t[k] < t[(k + 1) % 3]; }
@@ -166,10 +168,12 @@ QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins) 
   QualityHistograms histograms;
   histograms.relative_edge_length = {0.0, 3.0, std::vector<std::size_t>(bins, 0)};
   histograms.edge_ratio = {1.0, 3.0, std::vector<std::size_t>(bins, 0)};
+  histograms.angle = {0.0, 180.0, std::vector<std::size_t>(bins, 0)};
   for (const Triangle& t : mesh.triangles) {
     const TriangleEdges edges = triangle_edges(mesh, t);
     for (std::size_t k = 0; k < 3; ++k) {
       if (names_edge(t, k)) count(histograms.relative_edge_length, edges.lengths[k] / mean);
+      count(histograms.angle, angle_opposite(edges, k));
     }
     count(histograms.edge_ratio, edges.ratio);
   }

@@ -39,10 +39,12 @@ struct MeshQuality {
 /// gives). Throws Error(InvalidInput) if it has no faces.
 MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution = Execution(1));
 
-/// Distributions of edge length / mean edge length over [0, 3], and of the edge ratio over [1, 3].
+/// Distributions of edge length / mean edge length over [0, 3], of the edge ratio over [1, 3], and
+/// of the triangles' angles, three each, over [0, 180] degrees.
 struct QualityHistograms {
   Histogram relative_edge_length;
   Histogram edge_ratio;
+  Histogram angle;
 };
 
 /// Histograms of `bins` >= 1 bins for a mesh as measure_quality takes it. Throws

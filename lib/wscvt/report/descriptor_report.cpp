@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/descriptor_report.h"
 
+#include <optional>
 #include <utility>
 
 #include "wscvt/base/text_format.h"
+#include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
+#include "wscvt/report/page_figures.h"
 
 namespace wscvt {
 
 namespace {
 
-Json report_of(const GrainMeasures& measures) {
-  Json report = {{"format", "wscvt-descriptors"}, {"version", 2}, {"grain", measures.grain.name}};
+Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
+  Json report = {{"format", "wscvt-descriptors"},
+                 {"version", 2},
+                 {"made_by", made_by()},
+                 {"date", told(origin.date)},
+                 {"grain", measures.grain.name}};
   const std::vector<DescriptorValue> values = list_descriptors(measures.grain.descriptors);
   if (measures.reference) {
     report["reference"] = measures.reference->name;
@@ -77,10 +84,40 @@ std::vector<std::string> descriptor_lines(const GrainMeasures& measures) {
   return lines;
 }
 
-std::string descriptor_json(const GrainMeasures& measures) {
-  return json_document(report_of(measures));
+std::string descriptor_json(const GrainMeasures& measures, const ReportOrigin& origin) {
+  return json_document(report_of(measures, origin));
 }
 
-std::string descriptor_csv(const GrainMeasures& measures) { return csv_of(report_of(measures)); }
+std::string descriptor_csv(const GrainMeasures& measures, const ReportOrigin& origin) {
+  return csv_of(report_of(measures, origin));
+}
+
+std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& origin,
+                            const Execution& execution) {
+  const MeasuredGrain& grain = measures.grain;
+  std::optional<ShownMesh> reference;
+  if (measures.reference) {
+    reference.emplace(ShownMesh{measures.reference->checked.mesh, measures.reference->name});
+  }
+  const PageFigures figures = page_figures(reference, {grain.checked.mesh, grain.name}, execution);
+
+  HtmlDocument page("Shape of " + grain.name);
+  page.add_paragraph(origin_sentence({"", origin.date}));
+  page.add_paragraph(grain_line(grain));
+  if (measures.reference) page.add_paragraph("Compared with " + grain_line(*measures.reference));
+  for (const std::string& remark : remarks(measures)) page.add_warning(remark);
+  page.add_figures(figures.pictures);
+  page.add_heading("Descriptors");
+  if (measures.reference) {
+    page.add_table(compare_descriptors(measures), {measures.reference->name, grain.name});
+    page.add_heading("Distances");
+    page.add_lines(distance_lines(measures));
+  } else {
+    page.add_table(list_descriptors(grain.descriptors));
+  }
+  page.add_heading("Distributions");
+  page.add_figures(figures.distributions);
+  return page.text();
+}
 
 }  // namespace wscvt

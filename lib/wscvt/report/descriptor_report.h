@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/measures/grain_measures.h"
+#include "wscvt/report/report_origin.h"
 
 namespace wscvt {
 
@@ -31,12 +33,17 @@ std::vector<std::string> distance_lines(const GrainMeasures& measures);
 std::vector<std::string> descriptor_lines(const GrainMeasures& measures);
 
 /// The same as a JSON document (UTF-8, two-space indent, keys in a fixed order). Numbers that are
-/// not finite become null.
-std::string descriptor_json(const GrainMeasures& measures);
+/// not finite become null. The origin's source is not looked at: the measures name their grains.
+std::string descriptor_json(const GrainMeasures& measures, const ReportOrigin& origin = {});
 
 /// The same as CSV after RFC 4180: a header and one row, with every member of the JSON document
 /// that is not in a list, under the path to it, joined with dots. Remarks are one field. Measures
 /// with a reference have more columns than without.
-std::string descriptor_csv(const GrainMeasures& measures);
+std::string descriptor_csv(const GrainMeasures& measures, const ReportOrigin& origin = {});
+
+/// The same as a page, as report_html; the pictures and histograms show the grain, and the
+/// reference if there is one.
+std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& origin,
+                            const Execution& execution);
 
 }  // namespace wscvt

@@ -17,6 +17,9 @@ namespace wscvt {
 /// Members keep the order in which they were added. Numbers that are not finite become null.
 using Json = nlohmann::ordered_json;
 
+/// A text, or null for one that is empty.
+Json told(const std::string& text);
+
 Json json_of(const Vector3& vector);
 Json json_of(const Statistics& statistics);
 Json json_of(const MeshQuality& quality);

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/report/remesh_result.h"
+#include "wscvt/report/report_origin.h"
 
 namespace wscvt {
 
@@ -15,14 +18,23 @@ std::vector<std::string> report_lines(const RemeshResult& result);
 
 /// The same as a JSON document (UTF-8, two-space indent, keys in a fixed order). Options have the
 /// names and the values that one types for the program. Numbers that are not finite become null,
-/// and so does what was not asked for.
-std::string report_json(const RemeshResult& result);
+/// and so does what was not asked for or not told.
+std::string report_json(const RemeshResult& result, const ReportOrigin& origin = {});
 
 /// The same as CSV after RFC 4180: a header and one row. Every member of the JSON document that is
 /// not in a list is a column, named by the path to it, joined with dots ("options.weighting"), so
 /// the histories, the coarser levels, the node counts tried and the descriptors' names are left
 /// out. Every report has the same columns, so that the rows of many remeshes make one table.
 /// Numbers read back to the same bits; null is empty. Warnings stand in the last column.
-std::string report_csv(const RemeshResult& result);
+std::string report_csv(const RemeshResult& result, const ReportOrigin& origin = {});
+
+/// The same as a page for reading and printing (HTML), one file that refers to no other: pictures
+/// of scan and remesh and of the distance between them, histograms, descriptors, every option as
+/// one types it, the log; with an error target the error against the number of nodes. `scan` is the
+/// mesh as it was given to remesh; empty for a surface from a formula. A page of a scan with a
+/// million faces takes 300 MB while it is made. Throws Error as check_mesh does for the scan, and
+/// Error(Cancelled).
+std::string report_html(const RemeshResult& result, IndexedMesh scan, const ReportOrigin& origin,
+                        const Execution& execution);
 
 }  // namespace wscvt

@@ -195,12 +195,15 @@ Json json_of(const std::optional<NodeCountSearch>& search) {
   return report;
 }
 
-Json report_of(const RemeshResult& result) {
+Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
   const std::vector<DescriptorComparison> comparison =
       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
   return {
       {"format", "wscvt-report"},
       {"version", 2},
+      {"made_by", made_by()},
+      {"source", told(origin.source)},
+      {"date", told(origin.date)},
       {"options", json_of(result.options)},
       {"input", json_of(result.input)},
       {"handles", json_of(result.handles)},
@@ -227,8 +230,12 @@ Json report_of(const RemeshResult& result) {
 
 }  // namespace
 
-std::string report_json(const RemeshResult& result) { return json_document(report_of(result)); }
+std::string report_json(const RemeshResult& result, const ReportOrigin& origin) {
+  return json_document(report_of(result, origin));
+}
 
-std::string report_csv(const RemeshResult& result) { return csv_of(report_of(result)); }
+std::string report_csv(const RemeshResult& result, const ReportOrigin& origin) {
+  return csv_of(report_of(result, origin));
+}
 
 }  // namespace wscvt

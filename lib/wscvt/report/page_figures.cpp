@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report/page_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/report/figures.h"
+#include "wscvt/report/mesh_view.h"
+#include "wscvt/report/picture.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t bins = 60;
+constexpr const char* reference_colour = "#6e6e6e";
+constexpr const char* shown_colour = "#0a58b4";
+/// Pictures are drawn twice as wide and high and halved, which smooths their edges.
+constexpr int drawn_pixels = 840;
+/// Points of the surface at which the histogram takes distances: a bin of 1 % holds 200 of them.
+constexpr std::size_t distance_samples = 20000;
+
+/// Distances of points to a closed surface, positive outside of it.
+std::vector<double> signed_distances(const MeshDistance& surface,
+                                     const std::vector<Vector3>& points,
+                                     const Execution& execution) {
+  std::vector<double> distances = surface.distances(points, execution);
+  constexpr std::size_t block_size = 256;
+  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (surface.contains(points[i])) distances[i] = -distances[i];
+    }
+  });
+  return distances;
+}
+
+/// The distance that 98 of 100 samples stay below: single spikes would take all colour from the
+/// rest. Never 0.
+double usual_distance(const std::vector<double>& distances) {
+  std::vector<double> sizes;
+  sizes.reserve(distances.size());
+  for (const double d : distances) sizes.push_back(std::abs(d));
+  const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 98 / 100);
+  std::nth_element(sizes.begin(), place, sizes.end());
+  return std::max(*place, 1e-300);
+}
+
+Histogram histogram_of(const std::vector<double>& values, double half_width) {
+  Histogram histogram{-half_width, half_width, std::vector<std::size_t>(bins, 0)};
+  for (const double value : values) {
+    const double share = (value + half_width) / (2.0 * half_width);
+    const double bin = std::clamp(std::floor(share * bins), 0.0, bins - 1.0);
+    ++histogram.counts[static_cast<std::size_t>(bin)];
+  }
+  return histogram;
+}
+
+Figure picture_figure(const Picture& picture, const std::string& caption,
+                      const std::string& below = "") {
+  return {image_element(halved(picture), caption) + below, caption};
+}
+
+void add_triangle_histograms(std::vector<Figure>& figures,
+                             const std::optional<ShownMesh>& reference, const ShownMesh& shown) {
+  std::vector<NamedHistogram> lengths;
+  std::vector<NamedHistogram> ratios;
+  std::vector<NamedHistogram> angles;
+  const auto add = [&](const ShownMesh& mesh, const std::string& colour) {
+    QualityHistograms histograms = quality_histograms(mesh.mesh, bins);
+    lengths.push_back({mesh.name, colour, std::move(histograms.relative_edge_length)});
+    ratios.push_back({mesh.name, colour, std::move(histograms.edge_ratio)});
+    angles.push_back({mesh.name, colour, std::move(histograms.angle)});
+  };
+  if (reference) add(*reference, reference_colour);
+  add(shown, shown_colour);
+  const std::string last_bin = " Values beyond the right end are counted in the last bin.";
+  figures.push_back({histogram_figure("edge length / mean edge length", "edges", lengths),
+                     "How even the edges are." + last_bin});
+  figures.push_back({histogram_figure("longest / shortest edge of a triangle", "triangles", ratios),
+                     "How even the triangles are; 1 is best." + last_bin});
+  figures.push_back({histogram_figure("angle, degrees", "angles", angles),
+                     "Angles of the triangles; 60 is best."});
+}
+
+}  // namespace
+
+PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownMesh& shown,
+                         const Execution& execution) {
+  PageFigures figures;
+  const MeshView view = view_of(reference ? reference->mesh : shown.mesh, drawn_pixels);
+  if (reference) {
+    // On a dense scan the edges would hide the surface.
+    figures.pictures.push_back(picture_figure(
+        draw(reference->mesh, look_at(reference->mesh, view), view, false, {}),
+        reference->name + ": " + std::to_string(reference->mesh.points.size()) + " vertices, " +
+            std::to_string(reference->mesh.triangles.size()) + " faces"));
+  }
+  const SeenMesh seen = look_at(shown.mesh, view);
+  figures.pictures.push_back(
+      picture_figure(draw(shown.mesh, seen, view, true, {}),
+                     shown.name + ": " + std::to_string(shown.mesh.points.size()) + " vertices, " +
+                         std::to_string(shown.mesh.triangles.size()) + " faces"));
+  add_triangle_histograms(figures.distributions, reference, shown);
+  if (!reference) return figures;
+
+  const MeshDistance surface(reference->mesh);
+  const std::vector<double> distances =
+      signed_distances(surface, area_uniform_samples(shown.mesh, distance_samples), execution);
+  const double usual = usual_distance(distances);
+  const auto colour_of = [&](const std::vector<Vector3>& points) {
+    std::vector<Colour> colours;
+    colours.reserve(points.size());
+    for (const double d : signed_distances(surface, points, execution)) {
+      colours.push_back(diverging_colour(d / usual));
+    }
+    return colours;
+  };
+  figures.pictures.push_back(picture_figure(
+      draw(shown.mesh, seen, view, false, colour_of),
+      "Distance of " + shown.name + " to " + reference->name +
+          ": red outside of it, blue inside, in the mesh's unit of length. 2 % of the surface lies "
+          "beyond the ends of the scale.",
+      colour_scale(usual)));
+  figures.distributions.push_back(
+      {histogram_figure("signed distance to " + reference->name, "surface",
+                        {{shown.name, shown_colour, histogram_of(distances, 1.5 * usual)}}),
+       "How far " + shown.name + " lies outside (positive) and inside of " + reference->name +
+           ", by area. Values beyond the ends are counted in the end bins."});
+  return figures;
+}
+
+}  // namespace wscvt

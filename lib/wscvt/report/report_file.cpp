@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report/report_file.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/report/csv_table.h"
+#include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+namespace {
+
+/// The columns alone matter.
+std::string example_csv(bool with_reference) {
+  GrainMeasures measures;
+  if (with_reference) {
+    measures.reference.emplace();
+    measures.distances.emplace();
+  }
+  return descriptor_csv(measures, {});
+}
+
+void check(const std::string& path, const std::string& csv) {
+  if (report_format(path) == ReportFormat::Csv) return check_table(path, csv);
+  check_writable(path);
+}
+
+}  // namespace
+
+const std::vector<std::string>& report_endings() {
+  static const std::vector<std::string> endings = {".html", ".json", ".csv"};
+  return endings;
+}
+
+ReportFormat report_format(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  const auto& endings = report_endings();
+  const auto found = std::find(endings.begin(), endings.end(), ending);
+  if (found == endings.end()) {
+    throw Error(ErrorCode::InvalidInput,
+                "\"" + path +
+                    "\" is to hold a report, but its ending says no kind of it; give a name that "
+                    "ends in .html, .json or .csv.");
+  }
+  return static_cast<ReportFormat>(found - endings.begin());
+}
+
+void check_remesh_report(const std::string& path) { check(path, report_csv(RemeshResult(), {})); }
+
+void check_descriptor_report(const std::string& path, bool with_reference) {
+  check(path, example_csv(with_reference));
+}
+
+void write_report(const std::string& path, const RemeshResult& result, const IndexedMesh& scan,
+                  const ReportOrigin& origin, const Execution& execution) {
+  switch (report_format(path)) {
+    case ReportFormat::Html:
+      return write_file(path, report_html(result, scan, origin, execution));
+    case ReportFormat::Json:
+      return write_file(path, report_json(result, origin));
+    case ReportFormat::Csv:
+      return append_to_table(path, report_csv(result, origin));
+  }
+}
+
+void write_report(const std::string& path, const GrainMeasures& measures,
+                  const ReportOrigin& origin, const Execution& execution) {
+  switch (report_format(path)) {
+    case ReportFormat::Html:
+      return write_file(path, descriptor_html(measures, origin, execution));
+    case ReportFormat::Json:
+      return write_file(path, descriptor_json(measures, origin));
+    case ReportFormat::Csv:
+      return append_to_table(path, descriptor_csv(measures, origin));
+  }
+}
+
+}  // namespace wscvt

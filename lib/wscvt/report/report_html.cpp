@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wscvt/base/option.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/report/figures.h"
+#include "wscvt/report/html_document.h"
+#include "wscvt/report/page_figures.h"
+#include "wscvt/report/report.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/point_cloud.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Options as one types them for the program.
+class OptionRows {
+ public:
+  template <class Number>
+  void operator()(const Number& value, const NumberOption<Number>& option) {
+    add(option.key, typed_text(value), option.subject);
+  }
+  void operator()(const bool& value, const FlagOption& option) {
+    add(option.key, value ? "true" : "false", option.subject);
+  }
+  template <class Enumeration>
+  void operator()(const Enumeration& value) {
+    using Table = EnumerationTable<Enumeration>;
+    add(Table::key, key_of(value), Table::subject);
+  }
+  const std::vector<std::vector<std::string>>& rows() const { return rows_; }
+
+ private:
+  void add(std::string_view key, const std::string& value, std::string_view subject) {
+    // Within a sentence a subject may end with a comma.
+    if (!subject.empty() && subject.back() == ',') subject.remove_suffix(1);
+    rows_.push_back({"--" + std::string(key) + "=" + value, capitalised(subject)});
+  }
+
+  std::vector<std::vector<std::string>> rows_ = {{"option", "meaning"}};
+};
+
+/// The scan as it was used; nothing for a surface from a formula.
+IndexedMesh used_scan(IndexedMesh scan, const MeshCheckOptions& options,
+                      const Execution& execution) {
+  if (scan.triangles.empty() && !scan.points.empty()) scan = mesh_of_points(std::move(scan.points));
+  if (scan.triangles.empty()) return scan;
+  return check_mesh(std::move(scan), options, execution).mesh;
+}
+
+Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
+  std::vector<CurvePoint> points;
+  for (const NodeCountTrial& trial : search.trials) {
+    points.push_back({static_cast<double>(trial.node_count), trial.error});
+  }
+  return {logarithmic_figure("number of nodes", label_of(target.measure) + " error, %",
+                             std::move(points), target.percent),
+          "What each number of nodes that was tried cost; the smallest that meets the target was "
+          "taken."};
+}
+
+}  // namespace
+
+std::string report_html(const RemeshResult& result, IndexedMesh scan, const ReportOrigin& origin,
+                        const Execution& execution) {
+  scan = used_scan(std::move(scan), result.options.check, execution);
+  std::optional<ShownMesh> reference;
+  if (!scan.triangles.empty()) reference.emplace(ShownMesh{scan, "original"});
+  const PageFigures figures = page_figures(reference, {result.mesh, "remesh"}, execution);
+
+  const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
+  HtmlDocument page("Remesh" + (name.empty() ? "" : " of " + name) + " with " +
+                    std::to_string(result.mesh.points.size()) + " nodes");
+  page.add_paragraph(origin_sentence(origin));
+  for (const std::string& warning : result.warnings) page.add_warning(warning);
+  page.add_figures(figures.pictures);
+  page.add_heading("Descriptors");
+  page.add_table(
+      compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh)),
+      ComparisonNames());
+  page.add_heading("Distributions");
+  page.add_figures(figures.distributions);
+  if (result.search) {
+    page.add_heading("Error against the number of nodes");
+    page.add_figures({search_figure(*result.search, result.options.target)});
+  }
+  page.add_heading("Options");
+  OptionRows options;
+  for_each_option(result.options, options);
+  page.add_rows(options.rows(), RowKind::Typed);
+  page.add_heading("Log");
+  page.add_lines(report_lines(result));
+  return page.text();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,63 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Shows a report's page in headless Chromium: on a telephone (400 pixels wide), in a wide window
+# (1400) and printed. Fails when the page is wider than a window or a picture of it does not load.
+#   tests/page_in_browser.sh PROGRAM FOLDER
+# PROGRAM is wscvt. The page, the pictures page-400.png and page-1400.png and page.pdf are left in
+# FOLDER to be looked at. Needs chromium; run by tests/run_all.sh page, because of its 300 MB.
+set -eu
+program=$(realpath "${1:?usage: page_in_browser.sh PROGRAM FOLDER}")
+folder=$(realpath -m "${2:?usage: page_in_browser.sh PROGRAM FOLDER}")
+meshes=$(realpath "$(dirname "$0")/../meshes")
+command -v chromium > /dev/null || {
+  echo "chromium is not installed; run: apt-get install --no-install-recommends chromium" >&2
+  exit 1
+}
+mkdir -p "$folder"
+home=$(mktemp -d)
+trap 'rm -rf "$home"' EXIT
+browser() {  # width, height, further arguments
+  size=$1,$2
+  shift 2
+  # Without a sandbox, which root cannot have; the page is our own.
+  HOME=$home timeout 120 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage \
+    --hide-scrollbars --user-data-dir="$home/profile" --window-size="$size" "$@" 2> "$home/log" || {
+    cat "$home/log" >&2
+    exit 1
+  }
+}
+
+# With an error target, so that every figure is there.
+"$program" -q "$meshes/sand_7228.ply" "$folder/remesh.ply" -n 300 --target 1 --target-measure volume \
+  --report "$folder/page.html"
+
+# A window of Chromium is never narrower than 500 pixels, but a frame in it is.
+for width in 400 1400; do
+  cat > "$home/frame.html" << END
+<body style="margin: 0"><iframe src="file://$folder/page.html" width="$width" style="border: 0"
+  onload="
+    const page = this.contentDocument, images = [...page.images];
+    this.height = page.documentElement.scrollHeight;
+    document.title = 'asked: ' + page.documentElement.scrollWidth + ' by ' + this.height + ' pixels, ' +
+      images.filter(i => i.complete && i.naturalWidth > 0).length + ' pictures, ' +
+      page.querySelectorAll('svg').length + ' drawings';"></iframe></body>
+END
+  answer=$(browser 1400 1000 --allow-file-access-from-files --dump-dom "file://$home/frame.html" |
+    grep -o 'asked: [^<]*drawings' | head -n 1)
+  echo "In a frame $width wide $answer"
+  wide=$(echo "$answer" | sed 's/asked: \([0-9]*\) by.*/\1/')
+  high=$(echo "$answer" | sed 's/.* by \([0-9]*\) pixels.*/\1/')
+  [ "$wide" -le "$width" ] || {
+    echo "The page is wider than its frame." >&2
+    exit 1
+  }
+  case $answer in *" 3 pictures, 6 drawings") ;; *)
+    echo "A picture or a drawing is missing." >&2
+    exit 1 ;;
+  esac
+  browser "$width" "$high" --allow-file-access-from-files \
+    --screenshot="$folder/page-$width.png" "file://$home/frame.html"
+done
+browser 1400 1000 --no-pdf-header-footer --print-to-pdf="$folder/page.pdf" "file://$folder/page.html"
+test -s "$folder/page.pdf"
+echo "The page and its pictures are in $folder."

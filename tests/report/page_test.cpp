@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The report as a page: its document, its plots and its pictures.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/version.h"
+#include "wscvt/remesh.h"
+#include "wscvt/report/csv_table.h"
+#include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/figures.h"
+#include "wscvt/report/html_document.h"
+#include "wscvt/report/mesh_view.h"
+#include "wscvt/report/page_figures.h"
+#include "wscvt/report/report.h"
+#include "wscvt/report/report_file.h"
+
+namespace wscvt {
+namespace {
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(HtmlDocument, WritesSignsOut) {
+  HtmlDocument page("a < b & \"c\"");
+  page.add_paragraph("<script>");
+  page.add_rows({{"<th>"}, {"<td>"}});
+  page.add_lines({"<pre>"});
+  page.add_figures({{"<svg></svg>", "<caption>"}});
+  const std::string text = page.text();
+  EXPECT_NE(text.find("<title>a &lt; b &amp; &quot;c&quot;</title>"), std::string::npos);
+  for (const char* raw : {"<script>", "<caption>"}) {
+    EXPECT_EQ(text.find(raw), std::string::npos) << raw;
+  }
+  EXPECT_EQ(count_of(text, "<svg>"), 1U);
+  EXPECT_EQ(count_of(text, "<div"), count_of(text, "</div>"));
+}
+
+TEST(Figures, TicksAreRoundAndWithin) {
+  EXPECT_EQ(round_ticks(0.0, 3.0, 8), (std::vector<double>{0, 0.5, 1, 1.5, 2, 2.5, 3}));
+  EXPECT_EQ(round_ticks(1.0, 3.0, 8).size(), 5U);  // 1, 1.5, ...
+  EXPECT_EQ(round_ticks(0.0, 180.0, 8), (std::vector<double>{0, 50, 100, 150}));
+  EXPECT_TRUE(round_ticks(1.0, 1.0, 5).empty());
+  for (const double size : {1e-7, 0.03, 4.7, 123.0, 1e9}) {
+    const std::vector<double> ticks = round_ticks(-size, size, 6);
+    EXPECT_GE(ticks.size(), 2U) << size;
+    EXPECT_LE(ticks.size(), 6U) << size;
+    for (const double tick : ticks) EXPECT_LE(std::abs(tick), size * (1 + 1e-8));
+  }
+}
+
+TEST(Figures, HistogramsShowEverySeriesByItsName) {
+  const Histogram histogram{0.0, 3.0, {1, 2, 1}};
+  const std::string svg = histogram_figure(
+      "length", "edges", {{"<one>", "#111111", histogram}, {"two", "#222222", histogram}});
+  EXPECT_EQ(count_of(svg, "<path"), 2U);
+  EXPECT_NE(svg.find("&lt;one&gt;"), std::string::npos);
+  EXPECT_NE(svg.find(">two<"), std::string::npos);
+  EXPECT_NE(svg.find("share of the edges, %"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  // Nothing counted is nothing drawn, not a division by it.
+  EXPECT_EQ(histogram_figure("x", "y", {{"none", "#111111", {0.0, 1.0, {0, 0}}}}).find("nan"),
+            std::string::npos);
+}
+
+TEST(Figures, CurvesLeaveOutWhatHasNoLogarithm) {
+  const std::string svg =
+      logarithmic_figure("N", "error", {{200, 1.0}, {100, 2.0}, {50, INFINITY}, {400, 0.0}}, 1.5);
+  EXPECT_EQ(count_of(svg, "<circle"), 2U);
+  EXPECT_NE(svg.find("target 1.5"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  EXPECT_EQ(count_of(logarithmic_figure("N", "error", {{100, 2.0}}, 2.0), "<circle"), 1U);
+  EXPECT_EQ(count_of(logarithmic_figure("N", "error", {}, 2.0), "<circle"), 0U);
+}
+
+std::uint32_t number_at(const std::string& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    value = value << 8U | static_cast<unsigned char>(bytes[at + k]);
+  return value;
+}
+
+TEST(Picture, PngReadsBackToItsPixels) {
+  Picture picture{3, 2, {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}}};
+  const std::string file = png_of(picture);
+  ASSERT_EQ(file.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  std::string data;
+  for (std::size_t at = 8; at < file.size();) {
+    const std::uint32_t size = number_at(file, at);
+    const std::string type = file.substr(at + 4, 4);
+    const std::string checked = file.substr(at + 4, 4 + size);
+    EXPECT_EQ(
+        number_at(file, at + 8 + size),
+        crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size())))
+        << type;
+    if (type == "IHDR") {
+      EXPECT_EQ(number_at(file, at + 8), 3U);
+      EXPECT_EQ(number_at(file, at + 12), 2U);
+    }
+    if (type == "IDAT") data = file.substr(at + 8, size);
+    at += 12 + size;
+  }
+  std::string rows(2 * (1 + 3 * 3), '\0');
+  uLongf size = rows.size();
+  ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(rows.data()), &size,
+                       reinterpret_cast<const Bytef*>(data.data()), data.size()),
+            Z_OK);
+  ASSERT_EQ(size, rows.size());
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(static_cast<std::uint8_t>(rows[i / 3 * 10 + 1 + i % 3 * 3 + c]),
+                picture.pixels[i][c]);
+    }
+  }
+  EXPECT_EQ(halved({2, 2, {{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {12, 1, 1}}}).pixels[0],
+            (Colour{6, 0, 0}));
+}
+
+TEST(MeshView, SeesTheNearSideOfASphereAndNothingElse) {
+  const IndexedMesh sphere = test::sphere(4);
+  const MeshView view = view_of(sphere, 200);
+  const SeenMesh seen = look_at(sphere, view);
+  const Vector3 towards = view.right.cross(view.up);
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < seen.faces.size(); ++i) {
+    if (seen.faces[i] < 0) continue;
+    ++covered;
+    EXPECT_GT(seen.points[i].dot(towards), -0.05);
+    EXPECT_NEAR(seen.points[i].norm(), 1.0, 0.005);
+    const double y = (100.0 - (static_cast<double>(i / 200) + 0.5)) * view.half_size / 100.0;
+    EXPECT_NEAR(seen.points[i].dot(view.up), y, 1e-9);
+  }
+  // A disc of radius 1 in a square of 2 half_size; the facets cut its rim by less than 0.5 %.
+  const double share = static_cast<double>(covered) / (200.0 * 200.0);
+  EXPECT_NEAR(share, test::pi / (4.0 * view.half_size * view.half_size), 0.01);
+}
+
+TEST(MeshView, ColoursComeFromThePointsSeen) {
+  const IndexedMesh box = test::box(1, 1, 1);
+  const MeshView view = view_of(box, 100);
+  const SeenMesh seen = look_at(box, view);
+  const auto by_height = [](const std::vector<Vector3>& points) {
+    std::vector<Colour> colours;
+    for (const Vector3& p : points) {
+      colours.push_back(p.z() > 0.49999 ? Colour{255, 0, 0} : Colour{0, 0, 255});
+    }
+    return colours;
+  };
+  const Picture picture = draw(box, seen, view, false, by_height);
+  std::size_t red = 0;
+  std::size_t blue = 0;
+  for (std::size_t i = 0; i < seen.faces.size(); ++i) {
+    if (seen.faces[i] < 0) {
+      EXPECT_EQ(picture.pixels[i], (Colour{255, 255, 255}));
+      continue;
+    }
+    // Colours are those of squares of four pixels: away from the rim of the top each is its own.
+    if (std::abs(seen.points[i].head<2>().cwiseAbs().maxCoeff() - 0.5) < 0.05 &&
+        std::abs(seen.points[i].z() - 0.5) < 0.05) {
+      continue;
+    }
+    (seen.points[i].z() > 0.49999 ? red : blue) += 1;
+    EXPECT_EQ(picture.pixels[i][seen.points[i].z() > 0.49999 ? 2 : 0], 0);
+  }
+  EXPECT_GT(red, 100U);
+  EXPECT_GT(blue, red);
+  EXPECT_EQ(diverging_colour(0.0)[0], diverging_colour(0.0)[2]);
+  EXPECT_GT(diverging_colour(1.0)[0], diverging_colour(1.0)[2]);
+  EXPECT_LT(diverging_colour(-2.0)[0], diverging_colour(-2.0)[2]);
+}
+
+TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
+  const IndexedMesh scan = test::transformed(test::sphere(4), Vector3(1.0, 0.8, 0.7).asDiagonal());
+  RemeshOptions options;
+  options.node_count = 100;
+  options.surface.degree = 6;
+  const RemeshResult plain = remesh(scan, options, Execution(1));
+  const std::string page = report_html(plain, scan, {"<sand>.ply", "2026-11-21"}, Execution(1));
+  EXPECT_NE(page.find("<title>Remesh of &lt;sand&gt;.ply with 100 nodes"), std::string::npos);
+  EXPECT_NE(page.find("Made from &lt;sand&gt;.ply by " + made_by() + " on 2026-11-21."),
+            std::string::npos);
+  EXPECT_EQ(count_of(page, "<img"), 3U);
+  EXPECT_EQ(count_of(page, "<svg"), 5U);  // four histograms and the scale of the colours
+  EXPECT_EQ(count_of(page, "</figure>"), 7U);
+  // One file: nothing is fetched, and no two parts have one name.
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  EXPECT_EQ(count_of(page, " id="), 1U);
+  EXPECT_EQ(page.find(">nan"), std::string::npos);
+  EXPECT_EQ(page.find("\"nan"), std::string::npos);
+  EXPECT_EQ(page.find(">-0<"), std::string::npos);
+  EXPECT_NE(page.find("<td>--weighting=radial-distance</td>"), std::string::npos);
+  EXPECT_EQ(page, report_html(plain, scan, {"<sand>.ply", "2026-11-21"}, Execution(2)));
+
+  // Points alone are triangulated; of a formula there is nothing to compare with.
+  EXPECT_EQ(count_of(report_html(plain, {scan.points, {}}, {}, Execution(1)), "<img"), 3U);
+  const std::string alone = report_html(plain, IndexedMesh(), {}, Execution(1));
+  EXPECT_EQ(count_of(alone, "<img"), 1U);
+  EXPECT_EQ(count_of(alone, "<svg"), 3U);
+
+  options.target.percent = 3.0;
+  options.target.measure = ErrorMeasure::Volume;
+  const RemeshResult searched = remesh(scan, options, Execution(1));
+  const std::string with_curve = report_html(searched, scan, {}, Execution(1));
+  EXPECT_EQ(count_of(with_curve, "<svg"), 6U);
+  EXPECT_EQ(count_of(with_curve, "<circle"), searched.search->trials.size());
+}
+
+TEST(Page, OfDescriptorsNamesTheGrains) {
+  const CheckedMesh checked = check_mesh(test::sphere(3), MeshCheckOptions(), Execution(1));
+  GrainMeasures measures;
+  measures.grain = {"remesh.ply", checked, DetailedDescriptors()};
+  const std::string alone = descriptor_html(measures, {"", "2026-11-21"}, Execution(1));
+  EXPECT_EQ(count_of(alone, "<img"), 1U);
+  EXPECT_EQ(count_of(alone, "<svg"), 3U);
+  EXPECT_NE(alone.find("<title>Shape of remesh.ply<"), std::string::npos);
+  EXPECT_NE(alone.find("by " + made_by() + " on 2026-11-21."), std::string::npos);
+  measures.reference = {"<b>scan</b>", checked, DetailedDescriptors()};
+  measures.distances.emplace();
+  const std::string compared = descriptor_html(measures, {}, Execution(1));
+  EXPECT_EQ(count_of(compared, "<img"), 3U);
+  EXPECT_EQ(count_of(compared, "<svg"), 5U);
+  EXPECT_NE(compared.find(">&lt;b&gt;scan&lt;/b&gt;</text>"), std::string::npos);
+  EXPECT_EQ(compared.find("<b>"), std::string::npos);
+}
+
+TEST(Reports, SayWhatTheyAreOfAndWhenTheyWereMade) {
+  const ReportOrigin origin = {"scan.ply", "2026-11-21"};
+  RemeshResult result;
+  const auto json = nlohmann::json::parse(report_json(result, origin));
+  EXPECT_EQ(json.at("source"), "scan.ply");
+  EXPECT_EQ(json.at("date"), "2026-11-21");
+  EXPECT_EQ(json.at("made_by"), std::string("wscvt ") + version());
+  EXPECT_TRUE(nlohmann::json::parse(report_json(result)).at("date").is_null());
+  EXPECT_EQ(nlohmann::json::parse(descriptor_json(GrainMeasures(), origin)).at("date"),
+            "2026-11-21");
+  EXPECT_EQ(origin_sentence(origin), "Made from scan.ply by " + made_by() + " on 2026-11-21.");
+  EXPECT_EQ(origin_sentence({}), "Made by " + made_by() + ".");
+}
+
+class ReportFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "wscvt_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name = "table.csv") const {
+    return (folder_ / name).string();
+  }
+  std::string content(const std::string& name = "table.csv") const {
+    std::ostringstream text;
+    text << std::ifstream(path(name), std::ios::binary).rdbuf();
+    return text.str();
+  }
+  void write(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(ReportFiles, TableGrowsByARowUnderItsHeader) {
+  append_to_table(path(), "a,b\r\n1,2\r\n");
+  append_to_table(path(), "a,b\r\n3,\"x\r\ny\"\r\n");
+  append_to_table(path(), "a,b\r\n5,6\r\n");
+  EXPECT_EQ(content(), "a,b\r\n1,2\r\n3,\"x\r\ny\"\r\n5,6\r\n");
+  write("");
+  append_to_table(path(), "a,b\r\n1,2\r\n");
+  EXPECT_EQ(content(), "a,b\r\n1,2\r\n");
+}
+
+TEST_F(ReportFiles, TableRefusesAnotherHeaderAndLeavesTheFile) {
+  for (const std::string other : {"a,c\r\n1,2\r\n", "a,b", "a,b\r\n1,2", "notes\n", "\n"}) {
+    write(other);
+    for (const auto& call : {check_table, append_to_table}) {
+      try {
+        call(path(), "a,b\r\n3,4\r\n");
+        ADD_FAILURE() << "not refused: " << other;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+        EXPECT_NE(std::string(error.what()).find("new file"), std::string::npos);
+      }
+      EXPECT_EQ(content(), other);
+    }
+  }
+  append_to_table(path("new.csv"), "a,b\r\n3,4\r\n");  // the advice
+  EXPECT_EQ(content("new.csv"), "a,b\r\n3,4\r\n");
+}
+
+TEST_F(ReportFiles, ManyMayAppendToOneTable) {
+  constexpr int writers = 8;
+  constexpr int rows = 20;
+  std::vector<std::thread> threads;
+  for (int k = 0; k < writers; ++k) {
+    threads.emplace_back([&] {
+      for (int row = 0; row < rows; ++row) append_to_table(path(), "a,b\r\n3,4\r\n");
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(count_of(content(), "a,b\r\n"), 1U);
+  EXPECT_EQ(count_of(content(), "3,4\r\n"), static_cast<std::size_t>(writers * rows));
+  EXPECT_EQ(content().size(), 5U * (writers * rows + 1));
+}
+
+TEST_F(ReportFiles, FollowTheirEndings) {
+  const IndexedMesh scan = test::sphere(3);
+  RemeshOptions options;
+  options.node_count = 50;
+  options.surface.degree = 2;
+  const RemeshResult result = remesh(scan, options, Execution(1));
+  const ReportOrigin origin = {"scan.ply", "2026-11-21"};
+  for (const std::string name : {"r.html", "r.JSON", "r.csv"}) {
+    check_remesh_report(path(name));
+    write_report(path(name), result, scan, origin, Execution(1));
+  }
+  EXPECT_EQ(content("r.html"), report_html(result, scan, origin, Execution(1)));
+  for (int time = 1; time <= 2; ++time) {
+    if (time == 2) write_report(path("r.csv"), result, scan, origin, Execution(1));
+    EXPECT_EQ(content("r.JSON"), report_json(result, origin));
+    EXPECT_EQ(count_of(content("r.csv"), "\r\n"), 1U + static_cast<std::size_t>(time));
+  }
+  // The rows of remeshes of any options stand in one table; those of descriptors in two others.
+  EXPECT_THROW(check_descriptor_report(path("r.csv"), false), Error);
+  const CheckedMesh checked = check_mesh(scan, MeshCheckOptions(), Execution(1));
+  GrainMeasures measures;
+  measures.grain = {"a", checked, DetailedDescriptors()};
+  for (const bool compared : {false, true}) {
+    if (compared) {
+      measures.reference = {"b", checked, DetailedDescriptors()};
+      measures.distances.emplace();
+    }
+    const std::string name = compared ? "compared.csv" : "alone.csv";
+    write_report(path(name), measures, origin, Execution(1));
+    check_descriptor_report(path(name), compared);
+    EXPECT_THROW(check_descriptor_report(path(name), !compared), Error);
+  }
+  for (const std::string name : {"r.txt", "html", "r", ""}) {
+    EXPECT_THROW(check_remesh_report(path(name)), Error) << name;
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
