@@ -117,6 +117,11 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   return settings;
 }
 
+bool holds_map(const CreationSettings& settings) {
+  return settings.surface == GrainSurface::Harmonics && is_json(settings.coefficients_file) &&
+         read_harmonic_kind(settings.coefficients_file) == HarmonicKind::Map;
+}
+
 std::unique_ptr<const RadialSurface> make_surface(const CreationSettings& settings) {
   switch (settings.surface) {
     case GrainSurface::Ellipsoid:

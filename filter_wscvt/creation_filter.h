@@ -52,7 +52,11 @@ struct CreationSettings {
 /// Throws Error(InvalidInput) for values that do not fit and file names with other extensions.
 CreationSettings read_creation_settings(const ParameterValues& values);
 
-/// The surface; reads the file of its coefficients. Throws Error: InputOutput, InvalidInput.
+/// Whether the coefficients are those of a harmonic map. Reads their file. Throws the same.
+bool holds_map(const CreationSettings& settings);
+
+/// The surface, not of a harmonic map; reads the file of its coefficients. Throws Error:
+/// InputOutput, InvalidInput.
 std::unique_ptr<const RadialSurface> make_surface(const CreationSettings& settings);
 
 /// Name of the surface for labels: Ellipsoid, Superellipsoid or the coefficients' file.

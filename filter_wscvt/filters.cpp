@@ -19,6 +19,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/remesh.h"
+#include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report_file.h"
 #include "wscvt/surface/harmonic_io.h"
 
@@ -124,7 +125,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   // Files first: when they cannot be written the document stays as it was.
   save_report(settings.result.report_file, scan.label, result, mesh);
   if (!settings.coefficients_file.empty()) {
-    write_harmonics(settings.coefficients_file, HarmonicSurface(result.coefficients));
+    write_coefficients(settings.coefficients_file, result);
   }
 
   const std::string label =
@@ -172,8 +173,10 @@ FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
   const Stopwatch stopwatch;
   const CreationSettings settings = read_creation_settings(
       with_full_names(creation_parameters(), values, folder_at_hand(layers)));
-  const auto surface = make_surface(settings);
-  const RemeshResult result = remesh(*surface, settings.options, execution);
+  const RemeshResult result =
+      holds_map(settings)
+          ? remesh(read_harmonic_map(settings.coefficients_file), settings.options, execution)
+          : remesh(*make_surface(settings), settings.options, execution);
   save_report(settings.result.report_file, surface_name(settings), result, IndexedMesh());
   layers.add(
       remesh_label(surface_name(settings), nodes_name(result.options), result.mesh.points.size()),

@@ -48,6 +48,10 @@ ParameterList remesh_parameters() {
                        "After a placement by least squares: at most so many rounds of moving "
                        "nodes, flipping edges and taking nodes to where they help most, all "
                        "towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
+      option_parameter("SmallestAngle", defaults.placement.refinement.smallest_angle,
+                       refinement_angle_option, "Smallest angle of a refinement",
+                       "In degrees. Refinement gives no triangle a smaller one; smaller is closer "
+                       "to the scan and less even."),
       table_parameter("Parametrization", defaults.surface.parametrization, "Map to the sphere",
                       "How the scan is laid over the sphere."),
       option_parameter(
@@ -79,7 +83,8 @@ ParameterList remesh_parameters() {
       report_file_parameter(),
       output_file_parameter(
           "CoefficientsFile", {".json"}, "Save coefficients to",
-          "A .json file for the coefficients of the fitted harmonic series, about the volume "
+          "A .json file for the coefficients of the fitted harmonic series, of the radius or, on "
+          "the spherical map, of x, y and z, about the volume "
           "centroid and in units of the mesh, or nothing. A name without a folder lands beside the "
           "scan. The filter that creates grains reads it."),
   };
@@ -99,6 +104,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.weighting.curvature_source = checked.choice<CurvatureSource>("CurvatureSource");
   options.placement.kind = checked.choice<NodePlacement>("Placement");
   options.placement.refinement.rounds = checked.whole("RefinementRounds");
+  options.placement.refinement.smallest_angle = checked.real("SmallestAngle");
   options.surface.parametrization = checked.choice<Parametrization>("Parametrization");
   options.surface.fold_limit_percent = checked.real("FoldLimit");
   options.check.mended_area_limit_percent = checked.real("MendLimit");
@@ -110,6 +116,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   settings.result.report_file = checked.text("ReportFile");
   check_remesh_report_file(settings.result.report_file);
   settings.coefficients_file = checked.text("CoefficientsFile");
+  options.measures.coefficients = !settings.coefficients_file.empty();
   check_output_file(settings.coefficients_file, {".json"}, "CoefficientsFile");
   check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,
                         "CoefficientsFile");

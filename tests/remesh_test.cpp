@@ -598,7 +598,8 @@ TEST(Remesh, SamplingsOfFigure1AreTriangulatedTheSameWay) {
     options.seeding.sampling = sampling;
     const RemeshResult result = remesh(sand(), options, Execution(1));
     expect_promises(result, static_cast<int>(result.mesh.points.size()));
-    EXPECT_EQ(result.warnings.size(), warnings);
+    const bool misses = warns_of(result, "misses the scan:");  // as random nodes do
+    EXPECT_EQ(result.warnings.size(), warnings + (misses ? 1U : 0U));
     EXPECT_EQ(result.relaxation.iterations, 0);
     return result.mesh.points.size();
   };
@@ -634,6 +635,7 @@ RemeshOptions fitted_options(int nodes, int rounds = 0) {
   RemeshOptions options = options_of(nodes, Weighting::ErrorAdaptive);
   options.placement.kind = NodePlacement::LeastSquares;
   options.placement.refinement.rounds = rounds;
+  options.placement.refinement.smallest_angle = 15.5;  // what the limits below were measured at
   options.measures.distances = true;
   options.measures.distance_sampling.samples = 10000;
   return options;

@@ -72,6 +72,7 @@ Arguments read_arguments(int argc, char** argv, int& exit_code) {
       throw std::runtime_error("The help could not be written.");
     }
   }
+  arguments.options.measures.coefficients = !arguments.coefficients.empty();
   return arguments;
 }
 

@@ -14,10 +14,10 @@
 #include "standard_streams.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/remesh.h"
+#include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/report_file.h"
 #include "wscvt/scan/mesh_io.h"
-#include "wscvt/surface/harmonic_io.h"
 
 namespace {
 
@@ -66,7 +66,7 @@ int run(int argc, char** argv) {
     wscvt::write_report(report, result, shown, origin, wscvt::Execution(call.threads));
   }
   if (!call.coefficients.empty()) {
-    wscvt::write_harmonics(call.coefficients, wscvt::HarmonicSurface(result.coefficients));
+    wscvt::write_coefficients(call.coefficients, result);
   }
   for (const std::string& warning : result.warnings) {
     std::fprintf(stderr, "Warning: %s\n", warning.c_str());

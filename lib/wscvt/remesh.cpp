@@ -4,213 +4,20 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/nodes/space_nodes.h"
+#include "wscvt/remesh_stages.h"
 #include "wscvt/report/remesh_warnings.h"
-#include "wscvt/scan/folded_solid_angle.h"
-#include "wscvt/scan/handles.h"
-#include "wscvt/scan/point_cloud.h"
-#include "wscvt/tessellation/seeding.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/harmonic_map.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-/// All that does not depend on the number of nodes, in the grain's units but for `input`.
-struct PreparedGrain {
-  Grain grain;
-  MeshCheckReport input;  ///< in the input's units
-  HandleReport handles;   ///< in the input's units
-  ShapeDescriptors original;
-  MeshQuality original_quality;
-  /// To the grain's mesh. It takes longer to make ready than to ask on a dense scan, so it is made
-  /// once for all node counts that are tried.
-  std::optional<MeshDistance> distance;
-};
-
-bool measures_distances(const RemeshOptions& options) {
-  return options.measures.distances ||
-         (options.target.percent > 0.0 && options.target.measure == ErrorMeasure::Distance);
-}
-
-/// What the later stages read off the grain, made once.
-void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Execution& execution) {
-  Grain& grain = prepared.grain;
-  execution.report(0.0, "Measuring the scan");
-  prepared.original = describe_shape(grain.mesh, execution.part(0.0, 0.5));
-  prepared.original_quality = measure_quality(grain.mesh, execution);
-  const bool radial = grain.parametrization == Parametrization::Radial;
-  if (radial && grain.is_scan && options.weighting.kind == Weighting::Curvature &&
-      options.weighting.curvature_source == CurvatureSource::QuadricFit) {
-    grain.curvatures = scan_curvatures(grain.mesh, execution);
-  }
-  if (radial && !grain.rays && needs_rays(options.placement, grain.is_scan)) {
-    grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
-  }
-  if (measures_distances(options)) prepared.distance.emplace(grain.mesh);
-}
-
-PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
-  PreparedGrain prepared;
-  const std::size_t points = scan.points.size();
-  const bool without_faces = scan.triangles.empty() && points > 0;
-  if (without_faces) scan = mesh_of_points(std::move(scan.points));
-  const std::size_t different = scan.points.size();
-  CheckedMesh checked = check_mesh(std::move(scan), options.check, execution.part(0.0, 0.4));
-  SurfaceOptions surface = options.surface;
-  // The series and refinement are those of the radial map, so a grain that has one keeps it.
-  const bool asks_for_radial =
-      options.placement.kind == NodePlacement::Series || options.placement.refinement.rounds > 0;
-  if (asks_for_radial && surface.parametrization == Parametrization::Auto &&
-      folded_solid_angle(checked.mesh, checked.report.centroid, execution) <=
-          0.01 * surface.fold_limit_percent) {
-    surface.parametrization = Parametrization::Radial;
-  }
-  // Rays go past a tunnel, but no map to the sphere does.
-  if (checked.report.genus > 0 && surface.parametrization != Parametrization::Radial) {
-    prepared.handles = cut_handles(checked, options.handles, execution.part(0.4, 0.5));
-  }
-  prepared.input = checked.report;
-  if (without_faces) {  // what was given, not what was made of it
-    prepared.input.input_vertices = points;
-    prepared.input.input_faces = 0;
-    prepared.input.welded_vertices = points - different;
-  }
-  prepared.grain =
-      grain_of_scan(std::move(checked), surface, options.node_count, execution.part(0.5, 0.9));
-  make_ready(prepared, options, execution.part(0.9, 1.0));
-  return prepared;
-}
-
-PreparedGrain prepare(const RadialSurface& surface, const RemeshOptions& options,
-                      const Execution& execution) {
-  PreparedGrain prepared;
-  const SurfaceIntegrals integrals = integrate(surface, execution);
-  prepared.grain = grain_of_surface(surface, integrals, execution);
-  prepared.input.volume = integrals.volume;
-  prepared.input.area = integrals.area;
-  prepared.input.centroid = integrals.centroid;
-  prepared.input.equivalent_radius = prepared.grain.unit;
-  prepared.input.components = 1;
-  make_ready(prepared, options, execution.part(0.9, 1.0));
-  // The integrals are those of the surface itself, without its mesh's chords.
-  const double unit = prepared.grain.unit;
-  prepared.original.volume = 4.0 * pi / 3.0;
-  prepared.original.area = integrals.area / (unit * unit);
-  prepared.original.sphericity = 4.0 * pi / prepared.original.area;
-  return prepared;
-}
-
-RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
-                            const Execution& execution) {
-  execution.report(0.0, "Weighing the seeds");
-  const bool weighted = options.seeding.sampling == Sampling::Weighted;
-  WeightingOptions weighting = options.weighting;
-  if (!weighted) weighting.kind = Weighting::Constant;
-  const SurfaceSeedModel model(*grain.surface, weighting, options.node_count,
-                               grain.curvatures ? &*grain.curvatures : nullptr, execution);
-  if (!weighted) {
-    RelaxationOptions none = options.relaxation;
-    none.maximum_iterations = 0;
-    return relax(unrelaxed_seeds(options.seeding.sampling, options.node_count), model, none,
-                 execution);
-  }
-  MultilevelOptions levels = options.levels;
-  if (options.seeding.start != SeedStart::Multilevel) levels.coarsest_seeds = options.node_count;
-  const int coarsest = level_sizes(options.node_count, levels.coarsest_seeds).front();
-  return relax_multilevel(start_seeds(options.seeding, model, coarsest, execution),
-                          options.node_count, model, options.relaxation, levels,
-                          execution.part(0.1, 1.0));
-}
-
-/// Turns what was measured in the grain's units into the input's.
-void to_input_units(const Grain& grain, RemeshResult& result) {
-  const double unit = grain.unit;
-  scale(result.fit, unit);
-  for (double& coefficient : result.coefficients) coefficient *= unit;
-  scale(result.original, unit, grain.centre);
-  scale(result.remesh, unit, grain.centre);
-  scale(result.original_quality, unit);
-  scale(result.quality, unit);
-  scale(result.refinement, unit);
-  result.space.fit.offset *= unit;
-  if (result.distances) scale(*result.distances, unit);
-  for (Vector3& point : result.mesh.points) point = grain.centre + unit * point;
-  for (double& radius : result.radial_distances) radius *= unit;
-  for (double& area : result.cell_areas) area *= unit * unit;
-  for (double& curvature : result.curvatures) curvature /= unit;
-  for (double& distance : result.vertex_distances) distance *= unit;
-}
-
-RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions& options,
-                             const Execution& execution) {
-  const Grain& grain = prepared.grain;
-  RemeshResult result;
-  result.options = options;
-  // Samplings that are not relaxed are cut into cells on the sphere, and so are a handful of nodes,
-  // whose flat cells are no likeness of the surface: four end with edges of 1 : 3 instead of a
-  // tetrahedron, eight and twelve with a mean edge ratio of 1.4 to 1.5 instead of 1.2.
-  constexpr int fewest_flat_cells = 20;
-  RelaxationMetric& metric = result.options.relaxation.metric;
-  if (options.seeding.sampling != Sampling::Weighted || options.node_count < fewest_flat_cells) {
-    metric = RelaxationMetric::Sphere;
-  }
-
-  PlacedNodes nodes;
-  if (grain.parametrization == Parametrization::Spherical) {
-    metric = RelaxationMetric::Surface;
-    SpaceNodes in_space = place_in_space(
-        grain, options.node_count, options.seeding, options.weighting, options.relaxation,
-        options.levels, options.placement, prepared.original.volume, execution.part(0.0, 0.9));
-    result.relaxation = std::move(in_space.relaxation);
-    result.space = in_space.report;
-    nodes = std::move(in_space.placed);
-  } else {
-    RelaxationResult relaxed = tessellate(grain, result.options, execution.part(0.0, 0.7));
-    result.relaxation = std::move(relaxed.report);
-    nodes = place_nodes(grain, std::move(relaxed), metric, prepared.original.volume,
-                        options.placement, execution.part(0.7, 0.9));
-  }
-  result.mesh = std::move(nodes.mesh);
-  result.directions = std::move(nodes.directions);
-  result.radial_distances = std::move(nodes.radii);
-  result.cell_areas = std::move(nodes.cell_areas);
-  result.refinement = std::move(nodes.refinement);
-  if (options.measures.node_curvatures) {
-    result.curvatures = grain.surface
-                            ? largest_curvatures(*grain.surface, result.directions, execution)
-                            : largest_curvatures(result.mesh, execution);
-  }
-
-  execution.report(0.9, "Measuring the remesh");
-  result.remesh = describe_shape(result.mesh, execution.part(0.9, 0.92));
-  result.quality = measure_quality(result.mesh, execution);
-  if (prepared.distance) {
-    const Execution measuring = execution.part(0.92, 0.98);
-    measuring.report(0.0, "Measuring distances");
-    result.distances = measure_distances(result.mesh, grain.mesh, *prepared.distance,
-                                         options.measures.distance_sampling, measuring);
-    result.vertex_distances = prepared.distance->distances(result.mesh.points, execution);
-  }
-
-  result.centre = grain.centre;
-  result.input = prepared.input;
-  result.handles = prepared.handles;
-  result.folded_share = grain.folded_share;
-  result.parametrization = grain.parametrization;
-  result.steep_share = grain.steep_share;
-  if (grain.parametrization == Parametrization::Spherical) result.map = grain.map.report;
-  result.fit = grain.fit;
-  result.coefficients = grain.coefficients;
-  result.original = prepared.original;
-  result.original_quality = prepared.original_quality;
-  to_input_units(grain, result);
-  return result;
-}
 
 RemeshResult remesh_to_target(const PreparedGrain& prepared, const RemeshOptions& options,
                               const Execution& execution) {
@@ -252,11 +59,55 @@ RemeshResult remesh_to_target(const PreparedGrain& prepared, const RemeshOptions
   return best;
 }
 
+/// What changes to the options bring the remesh nearer to the scan by: each tried, not guessed.
+std::vector<TriedChange> try_changes(const PreparedGrain& prepared, const RemeshOptions& options,
+                                     const Execution& execution) {
+  std::vector<TriedChange> tried;
+  const auto add = [&](const std::string& name, const auto& remeshed) {
+    try {
+      const RemeshResult result = remeshed();
+      tried.push_back({name, result.misfit / result.input.equivalent_radius,
+                       result.remesh.area / result.original.area - 1.0});
+    } catch (const Error& failure) {
+      // A change that does not work, as a map of a ring, is no advice.
+      if (failure.code() == ErrorCode::Cancelled) throw;
+    }
+  };
+  RemeshOptions plain = options;
+  plain.target.percent = 0.0;
+  plain.measures = MeasureOptions();
+  if (options.placement.kind != NodePlacement::LeastSquares) {
+    add("nodes fitted to the scan by least squares, in the surface metric", [&] {
+      RemeshOptions fitted = plain;
+      fitted.method = Method::OnScan;
+      fitted.surface = SurfaceOptions();
+      fitted.relaxation.metric = RelaxationMetric::Surface;
+      fitted.placement.kind = NodePlacement::LeastSquares;
+      return remesh_prepared(prepare(prepared.grain.mesh, fitted, execution.part(0.0, 0.3)), fitted,
+                             execution.part(0.3, 0.5));
+    });
+  }
+  // More would take long only to be told so.
+  constexpr int most_nodes_tried = 20000;
+  if (2 * options.node_count <= most_nodes_tried) {
+    RemeshOptions more = plain;
+    more.node_count = 2 * options.node_count;
+    add(std::to_string(more.node_count) + " nodes",
+        [&] { return remesh_prepared(prepared, more, execution.part(0.5, 1.0)); });
+  }
+  return tried;
+}
+
 RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
                     const Execution& execution) {
-  RemeshResult result = options.target.percent > 0.0
-                            ? remesh_to_target(prepared, options, execution)
-                            : remesh_prepared(prepared, options, execution);
+  const Execution working = execution.part(0.0, 0.9);
+  RemeshResult result = options.target.percent > 0.0 ? remesh_to_target(prepared, options, working)
+                                                     : remesh_prepared(prepared, options, working);
+  if (options.measures.advice && prepared.grain.is_scan && misses_the_scan(result)) {
+    RemeshOptions used = options;
+    used.node_count = static_cast<int>(result.mesh.points.size());
+    result.tried = try_changes(prepared, used, execution.part(0.9, 1.0));
+  }
   result.warnings = remesh_warnings(result);
   execution.report(1.0, "Done");
   return result;
@@ -277,6 +128,18 @@ RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& asked,
   const RemeshOptions options = with_method(asked);
   return finish(prepare(surface, options, execution.part(0.0, 0.3)), options,
                 execution.part(0.3, 1.0));
+}
+
+RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
+                    const Execution& execution) {
+  constexpr int frequency = 64;
+  IndexedMesh mesh;
+  mesh.points = subdivided_icosahedron(frequency);
+  mesh.triangles = SphereTriangulation(mesh.points).triangles();
+  mesh.points = map.positions(mesh.points, execution);
+  RemeshOptions on_map = options;
+  if (on_map.placement.kind == NodePlacement::Series) on_map.placement.kind = NodePlacement::Scan;
+  return remesh(std::move(mesh), on_map, execution);
 }
 
 }  // namespace wscvt

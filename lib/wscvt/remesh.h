@@ -8,6 +8,7 @@
 
 namespace wscvt {
 
+class HarmonicMap;
 class RadialSurface;
 
 /// Remeshes a dense scan to exactly N nodes. The scan is taken by value, since it is mended and
@@ -27,6 +28,12 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
 /// have no meaning here. Throws Error: InvalidInput for options out of range and surfaces that
 /// cannot be integrated (see integrate), NumericalFailure, Cancelled.
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
+                    const Execution& execution = Execution());
+
+/// Remeshes the surface of a harmonic map, as a mesh of 40,962 of its points: a series of low
+/// degree turns some of its area inside out at edges and limbs, which no formula of it helps.
+/// Throws the same as for a scan.
+RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
                     const Execution& execution = Execution());
 
 }  // namespace wscvt

@@ -100,6 +100,7 @@ IndexedMesh remeshed(const IndexedMesh& scan, int nodes, Weighting weighting,
   options.weighting.kind = weighting;
   options.placement.kind = placement;
   options.placement.refinement.rounds = rounds;
+  options.placement.refinement.smallest_angle = 15.5;
   return remesh(scan, options).mesh;
 }
 

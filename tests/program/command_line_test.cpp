@@ -27,13 +27,13 @@ class CommandLine : public test::ProgramRun {
 };
 
 TEST_F(CommandLine, RemeshesToTheExactCount) {
-  const Outcome outcome = run(sand_ + " remesh.ply -n 100 --json report.json");
+  const Outcome outcome = run(sand_ + " remesh.ply -n 300 --json report.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   const IndexedMesh mesh = read_mesh(path("remesh.ply"));
-  EXPECT_EQ(mesh.points.size(), 100U);
-  EXPECT_EQ(mesh.triangles.size(), 196U);
-  EXPECT_NE(outcome.output.find("100 nodes, 196 faces"), std::string::npos) << outcome.output;
+  EXPECT_EQ(mesh.points.size(), 300U);
+  EXPECT_EQ(mesh.triangles.size(), 596U);
+  EXPECT_NE(outcome.output.find("300 nodes, 596 faces"), std::string::npos) << outcome.output;
   EXPECT_NE(content("report.json").find("wscvt-report"), std::string::npos);
 }
 

@@ -59,6 +59,7 @@ const std::vector<OptionCase>& option_cases() {
       {"coarsest-tolerance", 0.001, "0", "above 0"},
       {"middle-tolerance", 0.002, "-1", "above 0"},
       {"distances", true, "perhaps", "distances"},
+      {"advice", false, "perhaps", "advice"},
       {"distance-samples", 500, "0", "from 1 to 100000000"},
       {"weld-tolerance", 1e-9, "0.02", "from 0 to 0.01"},
       {"mend-limit", 12.5, "101", "from 0 to 100"},
@@ -89,9 +90,9 @@ class ProgramOptions : public test::ProgramRun {
 };
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
-  std::set<std::string> tested = {"help",  "version",         "threads",
-                                  "json",  "coefficients",    "overwrite",
-                                  "quiet", "no-acceleration", "report"};
+  std::set<std::string> tested = {"help",         "version",   "threads", "json",
+                                  "coefficients", "overwrite", "quiet",   "no-acceleration",
+                                  "no-advice",    "report"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("--help");
   EXPECT_EQ(help.exit_code, 0);

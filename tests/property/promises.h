@@ -159,6 +159,7 @@ inline RemeshOptions random_options(Choices& choices) {
   o.measures.distances = choices.one_in(4);
   o.measures.distance_sampling.samples = static_cast<std::size_t>(choices.whole(1, 3000));
   o.measures.node_curvatures = choices.one_in(2);
+  o.measures.advice = choices.one_in(8);
   o.check.mended_area_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 100.0);
   o.check.weld_tolerance = choices.one_in(4) ? std::pow(10.0, choices.real(-16.0, -2.0)) : 1e-12;
   o.check.dropped_volume_limit = choices.one_in(2) ? 0.25 : choices.real(0.01, 0.99);

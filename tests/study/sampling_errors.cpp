@@ -99,6 +99,7 @@ struct Sums {
 RemeshOptions paper_options(const Method& method, int node_count) {
   RemeshOptions options;
   options.method = wscvt::Method::AsPublished;
+  options.measures.advice = false;
   options.seeding.sampling = method.sampling;
   options.weighting.kind = method.weighting;
   options.node_count = node_count;

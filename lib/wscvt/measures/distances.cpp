@@ -222,6 +222,14 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
   return result;
 }
 
+double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
+                    const Execution& execution) {
+  check_distance_options({samples});
+  const DistanceSums sums =
+      distance_sums(area_uniform_samples(from, samples), MeshDistance(to), execution);
+  return std::sqrt(sums.squares / static_cast<double>(samples));
+}
+
 void scale(MeshDistances& distances, double unit) {
   for (OneSidedDistance* side : {&distances.to_reference, &distances.from_reference}) {
     side->maximum *= unit;

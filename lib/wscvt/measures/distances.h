@@ -93,6 +93,12 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
                                 const MeshDistance& to_reference, const DistanceOptions& options,
                                 const Execution& execution);
 
+/// Root mean square of the distances from `samples` points spread evenly over one surface to
+/// another; length. The side of measure_distances that needs a tree of the second mesh only. Throws
+/// the same.
+double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
+                    const Execution& execution);
+
 /// The `count` places that measure_distances spreads over a surface. Throws Error(InvalidInput) if
 /// the mesh has no faces or no area.
 std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count);

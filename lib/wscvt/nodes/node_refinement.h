@@ -12,9 +12,12 @@
 namespace wscvt {
 
 struct RefinementOptions {
-  int rounds = 0;                ///< at most so many; 0: nothing is done
-  double smallest_angle = 15.5;  ///< no triangle is given a smaller one; degrees
-  double tolerance = 2e-3;       ///< stop when a round gains less than this share
+  int rounds = 0;  ///< at most so many; 0: nothing is done
+  /// No triangle is given a smaller one; degrees. Rms of a sand grain with 1000 nodes at 15.5, 25,
+  /// 30, 35: .088, .097, .106, .117 % of R, at mean edge ratios of 1.82, 1.65, 1.53, 1.43; the
+  /// collapse of Lindstrom and Turk has .103, 1.91 and angles down to 2.
+  double smallest_angle = 30.0;
+  double tolerance = 2e-3;  ///< stop when a round gains less than this share
 };
 
 inline constexpr NumberOption<int> refinement_rounds_option = {

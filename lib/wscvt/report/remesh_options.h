@@ -42,6 +42,8 @@ struct MeasureOptions {
   bool distances = false;  ///< fill RemeshResult::distances and vertex_distances
   DistanceOptions distance_sampling;
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
+  bool coefficients = false;     ///< fill RemeshResult::map_coefficients of a Spherical one
+  bool advice = true;            ///< fill RemeshResult::tried where the remesh misses the scan
 };
 
 /// Everything a caller may choose, stage by stage; the defaults work.
@@ -62,6 +64,10 @@ struct RemeshOptions {
 
 inline constexpr FlagOption distances_option = {"distances", "distances to the scan",
                                                 "measured and reported"};
+
+inline constexpr FlagOption advice_option = {
+    "advice", "advice",
+    "where the remesh misses the scan, other settings are tried and the best is named"};
 
 /// Calls `visitor` for every option of a remesh that its result or its report follows: with a
 /// number and its NumberOption, with a flag and its FlagOption, or with an enumeration, which has
@@ -99,6 +105,7 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.levels.middle_tolerance, middle_tolerance_option);
   visitor(options.measures.distances, distances_option);
   visitor(options.measures.distance_sampling.samples, distance_samples_option);
+  visitor(options.measures.advice, advice_option);
   visitor(options.check.weld_tolerance, weld_tolerance_option);
   visitor(options.check.mended_area_limit_percent, mended_area_limit_option);
   visitor(options.check.dropped_volume_limit, dropped_volume_limit_option);

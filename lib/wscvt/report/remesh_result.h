@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@
 #include "wscvt/tessellation/relaxation.h"
 
 namespace wscvt {
+
+/// What another setting would have given.
+struct TriedChange {
+  std::string change;     ///< in words that complete "with"
+  double misfit = 0.0;    ///< rms distance from the scan to that remesh / equivalent radius
+  double area_off = 0.0;  ///< its area / the scan's - 1
+};
 
 /// A remesh and the reports of its stages, all in the input's units and coordinates.
 struct RemeshResult {
@@ -42,8 +50,14 @@ struct RemeshResult {
   HarmonicFitReport fit;     ///< of the series; of a Radial one
   std::vector<double>
       coefficients;  ///< of the fitted series about `centre`, length; of a Radial one
+  /// Of series of x, y and z about `centre` (see HarmonicMap), length; of a Spherical one, if asked
+  /// for.
+  std::array<std::vector<double>, 3> map_coefficients;
   RelaxationReport relaxation;
   RefinementReport refinement;
+  /// Rms distance from the scan to the remesh, over 20,000 points of the scan; length.
+  double misfit = 0.0;
+  std::vector<TriedChange> tried;  ///< where the remesh misses the scan; see misses_the_scan
   std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for
   std::optional<NodeCountSearch> search;   ///< what each N tried cost, in %; with an error target
   MeshQuality original_quality;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/remesh_warnings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "wscvt/base/text_format.h"
@@ -129,6 +130,32 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
   }
 }
 
+std::string told(double misfit, double area_off) {
+  return "rms distance " + format_percent(misfit) + " of the equivalent radius, area " +
+         (area_off < 0.0 ? "-" : "+") + format_percent(std::abs(area_off));
+}
+
+void warn_of_misfit(const RemeshResult& result, Sentences& warnings) {
+  if (result.input.input_vertices == 0 || !misses_the_scan(result)) return;
+  const double misfit = result.misfit / result.input.equivalent_radius;
+  const double area_off = result.remesh.area / result.original.area - 1.0;
+  std::string text = "The remesh misses the scan: " + told(misfit, area_off) + ".";
+  // The measure that is farthest over its limit decides which change helps most.
+  const auto badness = [](double rms, double area) {
+    return std::max(rms / misfit_warning_limit, std::abs(area) / area_warning_limit);
+  };
+  const auto best = std::min_element(
+      result.tried.begin(), result.tried.end(), [&](const TriedChange& a, const TriedChange& b) {
+        return badness(a.misfit, a.area_off) < badness(b.misfit, b.area_off);
+      });
+  if (best != result.tried.end()) {
+    text += badness(best->misfit, best->area_off) < badness(misfit, area_off)
+                ? " With " + best->change + ": " + told(best->misfit, best->area_off) + "."
+                : std::string(" None of the changes tried brings it nearer.");
+  }
+  warnings.push_back(text);
+}
+
 void warn_of_search(const RemeshResult& result, Sentences& warnings) {
   if (result.search && !result.search->met) {
     warnings.push_back("No number of nodes up to " + std::to_string(result.search->node_count) +
@@ -140,10 +167,16 @@ void warn_of_search(const RemeshResult& result, Sentences& warnings) {
 
 }  // namespace
 
+bool misses_the_scan(const RemeshResult& result) {
+  return result.misfit > misfit_warning_limit * result.input.equivalent_radius ||
+         std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
+}
+
 std::vector<std::string> remesh_warnings(const RemeshResult& result) {
   Sentences warnings;
   warn_of_scan(result, warnings);
   warn_of_fit(result, warnings);
+  warn_of_misfit(result, warnings);
   warn_of_space(result, warnings);
   warn_of_relaxation(result, warnings);
   warn_of_search(result, warnings);

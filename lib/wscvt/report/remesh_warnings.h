@@ -14,6 +14,13 @@ inline constexpr double fold_warning_limit = 0.01;
 /// Residual of the fit / equivalent radius above which the result carries a warning.
 inline constexpr double residual_warning_limit = 0.05;
 
+/// Misfit / equivalent radius, and the share of area lost or won, above which the same.
+inline constexpr double misfit_warning_limit = 0.01;
+inline constexpr double area_warning_limit = 0.02;
+
+/// Whether the remesh is farther from the scan than either limit.
+bool misses_the_scan(const RemeshResult& result);
+
 /// What the user of a result ought to know, a sentence each, the scan's faults first.
 std::vector<std::string> remesh_warnings(const RemeshResult& result);
 

@@ -195,6 +195,16 @@ Json json_of(const std::optional<NodeCountSearch>& search) {
   return report;
 }
 
+Json json_of(const std::vector<TriedChange>& tried) {
+  Json list = Json::array();
+  for (const TriedChange& one : tried) {
+    list.push_back({{"with", one.change},
+                    {"misfit_percent_of_equivalent_radius", 100.0 * one.misfit},
+                    {"area_error_percent", 100.0 * one.area_off}});
+  }
+  return list;
+}
+
 Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
   const std::vector<DescriptorComparison> comparison =
       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
@@ -221,6 +231,10 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
        {{"vertices", result.mesh.points.size()}, {"faces", result.mesh.triangles.size()}}},
       {"quality",
        {{"original", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
+      {"misfit",
+       {{"root_mean_square", result.misfit},
+        {"percent_of_equivalent_radius", 100.0 * result.misfit / result.input.equivalent_radius}}},
+      {"tried", json_of(result.tried)},
       {"distances", json_of(result.distances)},
       {"descriptors", json_of(comparison, ComparisonNames())},
       {"descriptor_names", json_names_of(comparison)},

@@ -302,6 +302,10 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   lines.push_back(line("Result", counted(result.mesh.points.size(), "node", "nodes") + ", " +
                                      counted(result.mesh.triangles.size(), "face", "faces") +
                                      ", placement: " + label_of(result.options.placement.kind)));
+  lines.push_back(line(
+      "Closeness", "rms distance from the scan " + format_number(result.misfit, 3) + " (" +
+                       format_number(100.0 * result.misfit / result.input.equivalent_radius, 3) +
+                       " % of the equivalent radius)"));
   append_distances(result, lines);
   append_quality(result, lines);
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {

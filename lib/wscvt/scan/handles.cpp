@@ -298,8 +298,8 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
               format_number(handle.place.z()) + "), above the limit of " +
               format_number(options.length_limit) +
               ": too wide for a flaw of the scanner. A ring has a real hole and cannot be mapped "
-              "to the sphere. Fill the hole or cut the ring in the scan, or raise the limit above "
-              "that length to have it cut there.");
+              "to the sphere. Fill the hole or cut the ring in the scan, raise the limit above "
+              "that length to have it cut there, or take the radial map, which goes past it.");
     }
     const std::vector<std::int32_t> moved = cut_and_cap(mesh, links, loop);
     links = linked(mesh);
