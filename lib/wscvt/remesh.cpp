@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/scan/folded_solid_angle.h"
@@ -16,8 +17,6 @@
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// All that does not depend on the number of nodes, in the grain's units but for `input`.
 struct PreparedGrain {

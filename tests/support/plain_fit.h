@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/surface/spherical_harmonics.h"
 
 /// The fit by its definition, in time points * coefficients^2: what the library's is held against.
@@ -56,7 +57,7 @@ inline PlainFit plain_least_squares(const std::vector<Vector3>& directions,
 /// Root mean square over the sphere of the difference of two series of the same degree.
 inline double rms_difference(const std::vector<double>& a, const Eigen::VectorXd& b) {
   const Eigen::Map<const Eigen::VectorXd> mapped(a.data(), static_cast<Eigen::Index>(a.size()));
-  return (mapped - b).norm() / std::sqrt(4.0 * 3.14159265358979323846);
+  return (mapped - b).norm() / std::sqrt(4.0 * pi);
 }
 
 }  // namespace wscvt::test

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/base/mesh.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_surface.h"

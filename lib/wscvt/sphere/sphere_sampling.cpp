@@ -8,12 +8,11 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void require_at_least(int value, int least, const char* what) {
   if (value < least) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
@@ -17,8 +18,6 @@
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Up to this many points the basis is stored; above, the points are spread to a grid.
 constexpr std::size_t maximum_stored_points = 2000;
@@ -150,7 +149,7 @@ class SpreadMoments : public NormalEquations {
 
   Vector project(const std::vector<double>& values, const Execution& execution) const override {
     const SphereGrid grid = SphereGrid::spread(
-        rows_, 1, fit_stencil, samples_.directions,
+        rows_, fit_stencil, samples_.directions,
         [&](std::size_t begin, std::size_t end, double* products) {
           for (std::size_t i = begin; i < end; ++i) {
             products[i - begin] = samples_.weights[i] * values[i];
@@ -162,7 +161,7 @@ class SpreadMoments : public NormalEquations {
 
   std::vector<double> evaluate(const Vector& coefficients,
                                const Execution& execution) const override {
-    const SphereGrid grid(rows_, 1, fit_stencil,
+    const SphereGrid grid(rows_, fit_stencil,
                           on_points_grid_->synthesize(to_array(coefficients), execution));
     std::vector<double> values(samples_.directions.size());
     execution.parallel_for(values.size(), point_block, [&](std::size_t begin, std::size_t end) {
@@ -176,7 +175,7 @@ class SpreadMoments : public NormalEquations {
  private:
   std::vector<double> moments_of_weights(int degree, const Execution& execution) const {
     const SphereGrid grid = SphereGrid::spread(
-        rows_, 1, fit_stencil, samples_.directions,
+        rows_, fit_stencil, samples_.directions,
         [&](std::size_t begin, std::size_t end, double* values) {
           std::copy(samples_.weights.begin() + static_cast<std::ptrdiff_t>(begin),
                     samples_.weights.begin() + static_cast<std::ptrdiff_t>(end), values);
