@@ -8,6 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/nodes/node_refinement.h"
 #include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/scan/folded_solid_angle.h"

@@ -13,6 +13,7 @@
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
 namespace {

@@ -15,6 +15,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
 

@@ -8,6 +8,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/node_placement.h"
+#include "wscvt/nodes/node_refinement.h"
 
 namespace wscvt {
 

@@ -9,6 +9,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/tessellation/space_relaxation.h"
