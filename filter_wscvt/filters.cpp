@@ -257,6 +257,10 @@ std::string sentence_of_current_exception() {
     throw;
   } catch (const std::bad_alloc&) {
     return "There is not enough memory for this mesh; simplify it or ask for fewer nodes.";
+  } catch (const Error& error) {
+    // Of what the library knows nothing about: the document, which a run changes only at its end.
+    if (error.code() != ErrorCode::Cancelled) return error.what();
+    return error.what() + std::string(" Nothing was changed.");
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {

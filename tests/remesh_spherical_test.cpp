@@ -7,6 +7,7 @@
 
 #include "grains/bent_grain.h"
 #include "grains/handled_body.h"
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/nodes/self_intersections.h"
@@ -164,7 +165,7 @@ TEST(RemeshSpherical, RefinementKeepsTheRadialMapWhereThereIsOne) {
   EXPECT_EQ(hook.parametrization, Parametrization::Spherical);
   EXPECT_TRUE(says(hook.warnings, "were not refined"));
   options.surface.parametrization = Parametrization::Spherical;
-  EXPECT_THROW(remesh(needle, options, Execution(1)), Error);
+  EXPECT_ERROR(remesh(needle, options, Execution(1)), InvalidInput);
 }
 
 TEST(RemeshSpherical, MeetingTrianglesAreRefusedWhereAskedFor) {

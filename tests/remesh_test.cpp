@@ -14,9 +14,11 @@
 #include "grains/ct_grain.h"
 #include "grains/marching_cubes.h"
 #include "support/comma_decimals.h"
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
@@ -277,22 +279,22 @@ TEST(Remesh, CoefficientsDescribeTheFittedSurface) {
   }
 }
 
-// What prototypes reached on these grains: errors of the remesh against the fitted surface in %,
-// nodes on that surface; and the evenness of its edges.
-struct DesignLimits {
+// Limits on the errors of the remesh against the fitted surface in %, nodes on that surface, and on
+// the unevenness of its edges: what prototypes of the method reached on these grains.
+struct ReferenceLimits {
   int nodes;
   double volume, area, aspect_ratio;
   double variation_radial_distance, variation_area;
 };
 
-TEST(Remesh, ReferenceGrainsStayWithinTheDesignsTable) {
-  const std::vector<DesignLimits> table = {{100, 7.5, 6.6, 1.5, 0.14, 0.13},
-                                           {500, 1.45, 1.8, 0.3, 0.14, 0.13},
-                                           {1000, 0.75, 0.95, 0.15, 0.15, 0.13},
-                                           {2000, 0.38, 0.5, 0.1, 0.16, 0.13}};
+TEST(Remesh, ReferenceGrainsStayWithinTheirLimits) {
+  const std::vector<ReferenceLimits> table = {{100, 7.5, 6.6, 1.5, 0.14, 0.13},
+                                              {500, 1.45, 1.8, 0.3, 0.14, 0.13},
+                                              {1000, 0.75, 0.95, 0.15, 0.15, 0.13},
+                                              {2000, 0.38, 0.5, 0.1, 0.16, 0.13}};
   for (const test::Grain& grain : test::reference_grains()) {
     const IndexedMesh scan = test::ct_mesh_of_about(grain, 7000);
-    for (const DesignLimits& limits : table) {
+    for (const ReferenceLimits& limits : table) {
       SCOPED_TRACE(testing::Message() << grain.name << ", N = " << limits.nodes);
       const RemeshResult printed =
           remesh(scan, options_of(limits.nodes, Weighting::RadialDistance), Execution());
@@ -571,16 +573,16 @@ TEST(Remesh, SurfacesFromFormulasAreDiscretisedAboutTheirOrigin) {
     for (std::size_t i = 0; i < result.directions.size(); ++i) {
       EXPECT_NEAR(result.radial_distances[i], ellipsoid.radius(result.directions[i]), 1e-12);
     }
-    EXPECT_NEAR(result.original.volume / (4.0 / 3.0 * 3.14159265358979 * 13.0 * 9.0 * 7.0), 1.0,
-                1e-10);
-    // Chords lose 660 / N % of the volume.
+    EXPECT_NEAR(result.original.volume / (4.0 / 3.0 * pi * 13.0 * 9.0 * 7.0), 1.0, 1e-10);
+    // Chords lose about 660 / N % of the volume of a round body.
     EXPECT_NEAR(relative_error_percent(result.remesh.volume, result.original.volume), -0.66, 0.2);
     EXPECT_NEAR(result.original.inertia_semi_axes[2], 13.0, 0.005);
   }
 }
 
 TEST(Remesh, RefusesSurfacesTooLongToBeMeasured) {
-  EXPECT_THROW(remesh(Ellipsoid(Vector3(1e6, 1.0, 1e-6)), RemeshOptions(), Execution()), Error);
+  EXPECT_ERROR(remesh(Ellipsoid(Vector3(1e6, 1.0, 1e-6)), RemeshOptions(), Execution()),
+               InvalidInput);
 }
 
 TEST(Remesh, CoefficientsOfARemeshGiveTheSameSurfaceAgain) {
@@ -663,11 +665,11 @@ TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
   }
 }
 
-// What prototypes reached, fitted placement: rms distance in % of the equal-volume radius, on the
-// grains themselves, whose meshes here (chords of 10,242 vertices) are the originals. Not refined,
-// error-adaptive nodes miss five of the sixteen limits (collapse_comparison --exact); three rounds
-// meet them all.
-TEST(RemeshLeastSquares, ReferenceGrainsStayWithinTheDesignsTable) {
+// Limits on the rms distance in % of the equal-volume radius, as above, of the fitted placement on
+// the grains themselves, whose meshes here (chords of 10,242 vertices) are the originals. Not
+// refined, error-adaptive nodes miss five of the sixteen limits (collapse_comparison --exact);
+// three rounds meet them all.
+TEST(RemeshLeastSquares, ReferenceGrainsStayWithinTheirLimits) {
   struct Limits {
     int nodes;
     std::array<double, 4> rms;
@@ -720,7 +722,7 @@ TEST(RemeshLeastSquares, RefinementNeedsIt) {
   RemeshOptions options = options_of(100, Weighting::RadialDistance);
   options.placement.kind = NodePlacement::Series;
   options.placement.refinement.rounds = 1;
-  EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
+  EXPECT_ERROR(remesh(sand(), options, Execution(1)), InvalidInput);
 }
 
 TEST(RemeshDistances, AreThereOnDemandOnly) {
@@ -728,7 +730,7 @@ TEST(RemeshDistances, AreThereOnDemandOnly) {
       remesh(sand(), options_of(100, Weighting::RadialDistance), Execution(1));
   EXPECT_FALSE(without.distances.has_value());
   EXPECT_TRUE(without.vertex_distances.empty());
-  EXPECT_THROW(error_percent(without, ErrorMeasure::Distance), Error);
+  EXPECT_ERROR(error_percent(without, ErrorMeasure::Distance), InvalidInput);
   const RemeshResult with = remesh(sand(), fitted_options(100), Execution(1));
   ASSERT_EQ(with.vertex_distances.size(), 100U);
   const double largest =
@@ -787,10 +789,10 @@ TEST(RemeshErrorTarget, SaysSoWhenTheLimitIsTooLow) {
 TEST(RemeshErrorTarget, RefusesTargetsThatMakeNoSense) {
   RemeshOptions options = fitted_options(50);
   options.target.percent = -1.0;
-  EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
+  EXPECT_ERROR(remesh(sand(), options, Execution(1)), InvalidInput);
   options.target.percent = 1.0;
   options.target.largest_node_count = 3;
-  EXPECT_THROW(remesh(sand(), options, Execution(1)), Error);
+  EXPECT_ERROR(remesh(sand(), options, Execution(1)), InvalidInput);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "progress_line.h"
 #include "signals.h"
 #include "standard_streams.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/coefficients_file.h"
@@ -86,7 +87,10 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    // The library, which is cancelled before anything is written, knows of no files.
+    const auto* known = dynamic_cast<const wscvt::Error*>(&error);
+    const bool cancelled = known != nullptr && known->code() == wscvt::ErrorCode::Cancelled;
+    std::fprintf(stderr, "%s%s\n", error.what(), cancelled ? " Nothing was written." : "");
     // As a shell gives it for a program that the signal ended.
     const int signal = program::noted_signal();
     return signal == 0 ? program::Failed : 128 + signal;

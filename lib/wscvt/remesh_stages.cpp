@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "wscvt/base/pi.h"
 #include "wscvt/nodes/space_nodes.h"
+#include "wscvt/report/remesh_units.h"
 #include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/scan/point_cloud.h"
 #include "wscvt/surface/harmonic_map.h"
@@ -13,8 +15,6 @@
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 bool measures_distances(const RemeshOptions& options) {
   return options.measures.distances ||
@@ -58,29 +58,6 @@ RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
   return relax_multilevel(start_seeds(options.seeding, model, coarsest, execution),
                           options.node_count, model, options.relaxation, levels,
                           execution.part(0.1, 1.0));
-}
-
-/// Turns what was measured in the grain's units into the input's.
-void to_input_units(const Grain& grain, RemeshResult& result) {
-  const double unit = grain.unit;
-  scale(result.fit, unit);
-  for (double& coefficient : result.coefficients) coefficient *= unit;
-  for (std::vector<double>& coordinate : result.map_coefficients) {
-    for (double& coefficient : coordinate) coefficient *= unit;
-  }
-  scale(result.original, unit, grain.centre);
-  scale(result.remesh, unit, grain.centre);
-  scale(result.original_quality, unit);
-  scale(result.quality, unit);
-  scale(result.refinement, unit);
-  result.space.fit.offset *= unit;
-  result.misfit *= unit;
-  if (result.distances) scale(*result.distances, unit);
-  for (Vector3& point : result.mesh.points) point = grain.centre + unit * point;
-  for (double& radius : result.radial_distances) radius *= unit;
-  for (double& area : result.cell_areas) area *= unit * unit;
-  for (double& curvature : result.curvatures) curvature /= unit;
-  for (double& distance : result.vertex_distances) distance *= unit;
 }
 
 }  // namespace

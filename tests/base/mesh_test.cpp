@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 
@@ -34,12 +35,12 @@ TEST(Mesh, OfNothingIsEmpty) {
 TEST(Mesh, RefusesFacesThatDoNotFit) {
   IndexedMesh out_of_range = test::tetrahedron(1);
   out_of_range.triangles[2][0] = 4;
-  EXPECT_THROW(to_mesh(out_of_range), Error);
+  EXPECT_ERROR(to_mesh(out_of_range), InvalidInput);
   out_of_range.triangles[2][0] = -1;
-  EXPECT_THROW(to_mesh(out_of_range), Error);
+  EXPECT_ERROR(to_mesh(out_of_range), InvalidInput);
   IndexedMesh twisted = test::tetrahedron(1);
   std::swap(twisted.triangles[0][0], twisted.triangles[0][1]);
-  EXPECT_THROW(to_mesh(twisted), Error);
+  EXPECT_ERROR(to_mesh(twisted), InvalidInput);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "support/expect_error.h"
 #include "wscvt/base/error.h"
 
 namespace wscvt {
@@ -65,13 +66,13 @@ TEST_F(OutputFile, StaysAsItWasWhenWritingFails) {
     stream << "half";
     return false;
   };
-  EXPECT_THROW(write_file(path("report.txt"), gives_up), Error);
+  EXPECT_ERROR(write_file(path("report.txt"), gives_up), InputOutput);
   expect_only("before");
   const auto breaks = [](std::ostream& stream) {
     stream.setstate(std::ios::badbit);
     return true;
   };
-  EXPECT_THROW(write_file(path("report.txt"), breaks), Error);
+  EXPECT_ERROR(write_file(path("report.txt"), breaks), InputOutput);
   expect_only("before");
   const auto throws = [](std::ostream&) -> bool { throw std::runtime_error("no"); };
   EXPECT_THROW(write_file(path("report.txt"), throws), std::runtime_error);
@@ -116,7 +117,7 @@ TEST_F(OutputFile, WritesThroughALinkToAFileThatIsNotThereYet) {
   EXPECT_TRUE(fs::is_symlink(path("second.txt")));
   EXPECT_EQ(read(path("folder/new.txt")), "after");
   fs::create_symlink(path("circle.txt"), path("circle.txt"));
-  EXPECT_THROW(write_file(path("circle.txt"), "after"), Error);
+  EXPECT_ERROR(write_file(path("circle.txt"), "after"), InputOutput);
   EXPECT_TRUE(fs::is_symlink(path("circle.txt")));
 }
 
@@ -158,7 +159,7 @@ TEST_F(OutputFile, WritesIntoPipesAndDevicesWithoutReplacingThem) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   EXPECT_TRUE(fs::is_symlink(path("null")));
   fs::create_symlink("/dev/full", path("full"));
-  EXPECT_THROW(write_file(path("full"), "nothing"), Error);
+  EXPECT_ERROR(write_file(path("full"), "nothing"), InputOutput);
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
@@ -183,9 +184,9 @@ TEST_F(OutputFile, TellsBeforehandWhatCannotBeWritten) {
   check_writable(path("new.txt"));
   check_writable("/dev/null");
   expect_only("before");
-  EXPECT_THROW(check_writable(path("no folder/report.txt")), Error);
-  EXPECT_THROW(check_writable(fs::path(path("report.txt")).parent_path().string()), Error);
-  EXPECT_THROW(check_writable(path("report.txt/inside.txt")), Error);
+  EXPECT_ERROR(check_writable(path("no folder/report.txt")), InputOutput);
+  EXPECT_ERROR(check_writable(fs::path(path("report.txt")).parent_path().string()), InputOutput);
+  EXPECT_ERROR(check_writable(path("report.txt/inside.txt")), InputOutput);
   expect_only("before");
 }
 

@@ -28,6 +28,7 @@
 
 #include "grains/ct_grain.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/remesh.h"
 #include "wscvt/scan/mesh_io.h"
 
@@ -154,7 +155,7 @@ Row measure(const Method& method, const std::string& scan_name, const IndexedMes
   const ShapeDescriptors shape = describe_shape(mesh, execution);
   const ShapeDescriptors original = describe_shape(scan, execution);
   const MeshQuality quality = measure_quality(mesh);
-  const double radius = std::cbrt(original.volume / (4.0 / 3.0 * 3.14159265358979323846));
+  const double radius = std::cbrt(original.volume / (4.0 / 3.0 * pi));
   const double diagonal = box_diagonal(scan);
   const Row row = {100.0 * distances.root_mean_square / radius,
                    100.0 * distances.hausdorff / radius, quality.smallest_angle};

@@ -22,6 +22,7 @@
 #include "wscvt/surface/radial_samples.h"
 #include "wscvt/tessellation/power_cells.h"
 #include "wscvt/tessellation/relaxation.h"
+#include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
 namespace {

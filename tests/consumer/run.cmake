@@ -12,7 +12,21 @@ endfunction()
 
 file(REMOVE_RECURSE ${work_dir})
 run(${CMAKE_COMMAND} --install ${build_dir} --prefix ${work_dir}/prefix)
-run(${CMAKE_COMMAND} -S ${source_dir}/tests/consumer -B ${work_dir}/build -G ${generator}
+# Every header that is installed finds what it includes, and machinery is not among them.
+file(GLOB_RECURSE headers RELATIVE ${work_dir}/prefix/include ${work_dir}/prefix/include/wscvt/*.h)
+list(LENGTH headers count)
+if(count LESS 18 OR count GREATER 48)
+  message(FATAL_ERROR "${count} headers are installed: ${headers}")
+endif()
+set(every_header)
+foreach(header ${headers})
+  if(header MATCHES "/sphere/|_triangulation|/relaxation.h|refinement_[^o]|weights|_surface_|half_edges")
+    message(FATAL_ERROR "${header} is machinery, and is installed.")
+  endif()
+  string(APPEND every_header "#include <${header}>\n")
+endforeach()
+file(WRITE ${work_dir}/every_header.cpp "${every_header}")
+run(${CMAKE_COMMAND} -S ${source_dir}/tests/consumer -D every_header=${work_dir}/every_header.cpp -B ${work_dir}/build -G ${generator}
   -D CMAKE_BUILD_TYPE=${build_type} "-DCMAKE_CXX_FLAGS=${cxx_flags}"
   -D CMAKE_PREFIX_PATH=${work_dir}/prefix)
 run(${CMAKE_COMMAND} --build ${work_dir}/build)

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts faults into the library, one at a time, and looks whether the tests notice.
 
-  tests/faults/run.py [--check] [--build DIRECTORY] [--jobs NUMBER] [WORD ...]
+  tests/faults/run.py [--check] [--table] [--build DIRECTORY] [--jobs NUMBER] [WORD ...]
 
 faults.txt lists the faults; WORDs keep those whose room, title or file holds one of them. Each is
 put into a copy of the sources under DIRECTORY (build/faults), the tests of its own subject are
 built and run, and the fault is taken out again. The tree itself is only read, so that it is as it
 was also after an interruption. A fault is killed when a test fails, crashes, or takes ten times as
 long as without it. --check only tells whether every fault still finds its place; after a change of
-the library that is to be mended in faults.txt.
+the library that is to be mended in faults.txt. --table writes what came of them into README.md,
+where the rows of faults that were not tried stay as they are.
 
 Exit code 0: every fault is killed, or survives for the reason that faults.txt gives. A run takes as
 long as a build and half a minute a fault. With --jobs there are several copies, each of which is
@@ -26,6 +27,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -158,10 +160,28 @@ def try_faults(build, faults):
         yield fault, verdict, passed == (fault.survives is not None)
 
 
+def write_table(verdicts):
+    """Puts (fault, verdict) into the table of README.md, in the order of faults.txt."""
+    path = HERE / "README.md"
+    head, mark, old = path.read_text().partition("| room | fault | what came of it |\n|---|---|---|\n")
+    rows = {}
+    for line in old.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) == 3:
+            rows[cells[0], cells[1]] = cells[2]
+    rows.update({(fault.room, fault.title): verdict for fault, verdict in verdicts})
+    faults = read_faults(HERE / "faults.txt")
+    path.write_text(head + mark + "".join(
+        "| %s | %s | %s |\n" % (fault.room, fault.title,
+                                rows.get((fault.room, fault.title), "not tried"))
+        for fault in faults))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--table", action="store_true")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "faults")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("words", nargs="*")
@@ -188,6 +208,7 @@ def main():
     for group in groups.values():
         waiting.put(group)
     verdicts = []
+    one_at_a_time = threading.Lock()
 
     def work(number):
         build = Build(arguments.build.resolve() / str(number))
@@ -197,16 +218,19 @@ def main():
             except queue.Empty:
                 return
             for fault, verdict, good in try_faults(build, group):
-                verdicts.append((verdict, good))
+                with one_at_a_time:
+                    verdicts.append((fault, verdict, good))
+                    if arguments.table:  # at once: a run may be ended before its end
+                        write_table([(each, what) for each, what, _ in verdicts])
                 print("%s %-12s %-72s %s" % (" " if good else "!", fault.room, fault.title, verdict),
                       flush=True)
 
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as workers:
         for done in [workers.submit(work, number) for number in range(arguments.jobs)]:
             done.result()
-    killed = sum(verdict.startswith("killed") for verdict, _ in verdicts)
-    surviving = sum(verdict.startswith("SURVIVES") for verdict, _ in verdicts)
-    wrong = sum(not good for _, good in verdicts)
+    killed = sum(verdict.startswith("killed") for _, verdict, _ in verdicts)
+    surviving = sum(verdict.startswith("SURVIVES") for _, verdict, _ in verdicts)
+    wrong = sum(not good for _, _, good in verdicts)
     print("%d faults: %d killed, %d surviving, %d not as they should be"
           % (len(faults), killed, surviving, wrong))
     return 1 if wrong else 0

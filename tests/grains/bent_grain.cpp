@@ -9,13 +9,12 @@
 
 #include "marching_cubes.h"
 #include "voxel_blur.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/scan/mesh_check.h"
 
 namespace wscvt::test {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double crescent(const Vector3& p) {
   const Vector3 bite(p.x() - 0.55, p.y(), std::sqrt(0.5) * p.z());

@@ -8,6 +8,7 @@
 
 #include "marching_cubes.h"
 #include "voxel_blur.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -16,8 +17,6 @@
 namespace wscvt::test {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Numbers that are the same from every standard library, which std::normal_distribution's are not.
 class RandomNumbers {
@@ -112,15 +111,12 @@ Grain scaled_grain(const std::string& name, const RadiusFunction& radii) {
 /// Share of every voxel inside the grain.
 VoxelGrid occupancy(const Grain& grain, const CtOptions& options) {
   // A table of radii, a fraction of a degree apart, serves the millions of points.
-  const auto field = [&](const Vector3* directions, std::size_t count, double* values) {
-    const std::vector<double> r = grain.radii(std::vector<Vector3>(directions, directions + count));
-    std::copy(r.begin(), r.end(), values);
-  };
-  const SphereGrid table(240, 1, 4, field, Execution(1));
+  constexpr int rows = 240;
+  const std::vector<Vector3> directions = SphereGrid::directions(rows);
+  const std::vector<double> radii = grain.radii(directions);
+  const SphereGrid table(rows, 4, radii);
   Vector3 low = Vector3::Zero();
   Vector3 high = Vector3::Zero();
-  const std::vector<Vector3> directions = table.directions();
-  const std::vector<double> radii = table.values();
   for (std::size_t i = 0; i < radii.size(); ++i) {
     low = low.cwiseMin(radii[i] * directions[i]);
     high = high.cwiseMax(radii[i] * directions[i]);

@@ -13,6 +13,7 @@
 #include "calls.h"
 #include "programs.h"
 #include "sample_meshes.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/surface/harmonic_io.h"
@@ -23,8 +24,6 @@ namespace {
 using Values = std::map<std::string, std::string>;
 
 constexpr int refused = 255;
-const double pi = std::acos(-1.0);
-
 /// Applies a script of the project with other values, to meshes that lie in `folder`.
 Outcome run_script(const QString& original, const Values& values, const QStringList& meshes,
                    const QTemporaryDir& folder, const QStringList& more = {}) {

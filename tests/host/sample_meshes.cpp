@@ -4,11 +4,11 @@
 #include <cmath>
 #include <fstream>
 
+#include "wscvt/base/pi.h"
+
 namespace wscvt::host_test {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 Vector3 grain_point(const Vector3& u) {
   const double bumps = 1.0 + 0.08 * std::sin(3.0 * u.x()) * std::cos(4.0 * u.y() + 1.0) +

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 
@@ -90,8 +91,8 @@ TEST(DescriptorTable, NoPercentageAgainstAValueNearZero) {
 TEST(DescriptorTable, RefusesListsOfDifferentKinds) {
   const std::vector<DescriptorValue> a = {{"one", "one", "", 1.0}};
   const std::vector<DescriptorValue> b = {{"two", "two", "", 1.0}};
-  EXPECT_THROW(compare_descriptors(a, b), Error);
-  EXPECT_THROW(compare_descriptors(a, {}), Error);
+  EXPECT_ERROR(compare_descriptors(a, b), InvalidInput);
+  EXPECT_ERROR(compare_descriptors(a, {}), InvalidInput);
 }
 
 /// A row whose numbers need their last bit, and one that is not finite.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -124,7 +125,7 @@ TEST(DetailedDescriptors, RefuseOptionsOutOfRange) {
        {DetailedOptions{0, 8, 128}, DetailedOptions{61, 8, 128}, DetailedOptions{15, -1, 128},
         DetailedOptions{15, 61, 128}, DetailedOptions{15, 8, 15}, DetailedOptions{15, 8, 2000},
         DetailedOptions{40, 8, 32}}) {
-    EXPECT_THROW(describe_shape_in_detail(mesh, options, Execution(1)), Error);
+    EXPECT_ERROR(describe_shape_in_detail(mesh, options, Execution(1)), InvalidInput);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <random>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 
@@ -53,7 +54,7 @@ TEST(MeshDistance, PassesOverFacesWithoutArea) {
   mesh.triangles.push_back({0, 0, 1});
   EXPECT_NEAR(MeshDistance(mesh).distance({0, 0, 2}), 1.5, 1e-15);
   mesh.triangles.assign(1, {0, 0, 1});
-  EXPECT_THROW(MeshDistance{mesh}, Error);
+  EXPECT_ERROR(MeshDistance{mesh}, InvalidInput);
 }
 
 TEST(Distances, NestedCubes) {
@@ -135,9 +136,11 @@ TEST(Distances, SameBitsWithATreeAtHand) {
 
 TEST(Distances, RefusesWhatCannotBeMeasured) {
   const IndexedMesh box = test::box(1, 1, 1);
-  EXPECT_THROW(measure_distances(box, IndexedMesh(), DistanceOptions(), Execution(1)), Error);
-  EXPECT_THROW(measure_distances(IndexedMesh(), box, DistanceOptions(), Execution(1)), Error);
-  EXPECT_THROW(measure_distances(box, box, DistanceOptions{0}, Execution(1)), Error);
+  EXPECT_ERROR(measure_distances(box, IndexedMesh(), DistanceOptions(), Execution(1)),
+               InvalidInput);
+  EXPECT_ERROR(measure_distances(IndexedMesh(), box, DistanceOptions(), Execution(1)),
+               InvalidInput);
+  EXPECT_ERROR(measure_distances(box, box, DistanceOptions{0}, Execution(1)), InvalidInput);
 }
 
 TEST(Distances, CanBeCancelled) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -66,7 +67,7 @@ TEST(FormAxes, SameBitsEveryTime) {
 }
 
 TEST(FormAxes, RefusesTooFewPoints) {
-  EXPECT_THROW(oriented_box_axes({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), Error);
+  EXPECT_ERROR(oriented_box_axes({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), InvalidInput);
 }
 
 TEST(FormRatios, FollowTheirFormulas) {

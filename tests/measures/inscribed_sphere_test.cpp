@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 
@@ -65,7 +66,7 @@ TEST(InscribedSphere, SameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(InscribedSphere, RefusesAMeshWithoutFaces) {
-  EXPECT_THROW(largest_inscribed_sphere(IndexedMesh(), Execution(1)), Error);
+  EXPECT_ERROR(largest_inscribed_sphere(IndexedMesh(), Execution(1)), InvalidInput);
 }
 
 }  // namespace

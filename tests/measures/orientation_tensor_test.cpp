@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 
@@ -80,7 +81,7 @@ TEST(OrientationTensor, SameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(OrientationTensor, RefusesAMeshWithoutArea) {
-  EXPECT_THROW(orientation_tensor(IndexedMesh(), Execution(1)), Error);
+  EXPECT_ERROR(orientation_tensor(IndexedMesh(), Execution(1)), InvalidInput);
 }
 
 }  // namespace

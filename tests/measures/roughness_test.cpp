@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/surface/harmonic_surface.h"
@@ -73,9 +74,9 @@ TEST(Roughness, SameBitsOnAnyNumberOfThreads) {
 
 TEST(Roughness, RefusesDegreesOutOfRange) {
   const HarmonicSurface surface = waves(1, 0.0);
-  EXPECT_THROW(radial_roughness(surface, -1, 32, Execution(1)), Error);
-  EXPECT_THROW(radial_roughness(surface, 32, 32, Execution(1)), Error);
-  EXPECT_THROW(radial_roughness(surface, 61, 128, Execution(1)), Error);
+  EXPECT_ERROR(radial_roughness(surface, -1, 32, Execution(1)), InvalidInput);
+  EXPECT_ERROR(radial_roughness(surface, 32, 32, Execution(1)), InvalidInput);
+  EXPECT_ERROR(radial_roughness(surface, 61, 128, Execution(1)), InvalidInput);
 }
 
 TEST(PrintedSdq, ChangesWithTheOrientationAsItsClosedFormSays) {
@@ -102,7 +103,7 @@ TEST(PrintedSdq, ChangesWithTheOrientationAsItsClosedFormSays) {
 
 TEST(PrintedSdq, OfASphereIsZero) {
   EXPECT_NEAR(printed_sdq(waves(1, 0.0), 50, Execution(1)), 0.0, 1e-12);
-  EXPECT_THROW(printed_sdq(waves(1, 0.0), 0, Execution(1)), Error);
+  EXPECT_ERROR(printed_sdq(waves(1, 0.0), 0, Execution(1)), InvalidInput);
 }
 
 }  // namespace

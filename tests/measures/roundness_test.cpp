@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/surface/quadric_surface.h"
@@ -77,8 +78,8 @@ TEST(Roundness, DoesNotDependOnScale) {
 
 TEST(Roundness, RefusesARadiusThatIsNotPositive) {
   const Ellipsoid surface({1, 1, 1});
-  EXPECT_THROW(wadell_roundness(surface, 0.0, 16, Execution(1)), Error);
-  EXPECT_THROW(wadell_roundness(surface, 1.0, 0, Execution(1)), Error);
+  EXPECT_ERROR(wadell_roundness(surface, 0.0, 16, Execution(1)), InvalidInput);
+  EXPECT_ERROR(wadell_roundness(surface, 1.0, 0, Execution(1)), InvalidInput);
 }
 
 }  // namespace

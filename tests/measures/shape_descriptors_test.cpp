@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 
@@ -176,8 +177,8 @@ TEST(ShapeDescriptors, SameBitsOnAnyNumberOfThreads) {
 TEST(ShapeDescriptors, InsideOutIsRefused) {
   IndexedMesh mesh = test::box(1, 1, 1);
   for (Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
-  EXPECT_THROW(describe(mesh), Error);
-  EXPECT_THROW(describe(IndexedMesh()), Error);
+  EXPECT_ERROR(describe(mesh), InvalidInput);
+  EXPECT_ERROR(describe(IndexedMesh()), InvalidInput);
 }
 
 TEST(ShapeDescriptors, RelativeError) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -171,6 +172,7 @@ TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
       // Not inherited: the shell that started the test may ignore it.
       std::signal(SIGINT, SIG_DFL);
       if (chdir(folder_.c_str()) != 0) _exit(99);
+      if (std::freopen("said.txt", "w", stderr) == nullptr) _exit(97);
       execl(WSCVT_PROGRAM, "wscvt", "scan.ply", "remesh.ply", "-n", "1000", "-q", nullptr);
       _exit(98);
     }
@@ -184,7 +186,11 @@ TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 128 + number);
     fs::directory_iterator left(folder_);
-    EXPECT_EQ(std::distance(begin(left), end(left)), 1) << "something is left beside the scan";
+    EXPECT_EQ(std::distance(begin(left), end(left)), 2)
+        << "something is left beside the scan and what the program said";
+    const std::string said = content("said.txt");
+    EXPECT_EQ(said.rfind("Cancelled during: ", 0), 0U) << said;
+    EXPECT_NE(said.find(". Nothing was written.\n"), std::string::npos) << said;
   }
 }
 

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/version.h"
@@ -335,7 +336,7 @@ TEST_F(ReportFiles, FollowTheirEndings) {
     EXPECT_EQ(count_of(content("r.csv"), "\r\n"), 1U + static_cast<std::size_t>(time));
   }
   // The rows of remeshes of any options stand in one table; those of descriptors in two others.
-  EXPECT_THROW(check_descriptor_report(path("r.csv"), false), Error);
+  EXPECT_ERROR(check_descriptor_report(path("r.csv"), false), InvalidInput);
   const CheckedMesh checked = check_mesh(scan, MeshCheckOptions(), Execution(1));
   GrainMeasures measures;
   measures.grain = {"a", checked, DetailedDescriptors()};
@@ -347,10 +348,11 @@ TEST_F(ReportFiles, FollowTheirEndings) {
     const std::string name = compared ? "compared.csv" : "alone.csv";
     write_report(path(name), measures, origin, Execution(1));
     check_descriptor_report(path(name), compared);
-    EXPECT_THROW(check_descriptor_report(path(name), !compared), Error);
+    EXPECT_ERROR(check_descriptor_report(path(name), !compared), InvalidInput);
   }
   for (const std::string name : {"r.txt", "html", "r", ""}) {
-    EXPECT_THROW(check_remesh_report(path(name)), Error) << name;
+    SCOPED_TRACE(name);
+    EXPECT_ERROR(check_remesh_report(path(name)), InvalidInput);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "grains/handled_body.h"
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/scan/mesh_check.h"
@@ -176,11 +177,11 @@ TEST(Handles, SameBytesOnAnyNumberOfThreads) {
 TEST(Handles, RefusesWhatItCannotUse) {
   IndexedMesh open = test::sphere(1);
   open.triangles.pop_back();
-  EXPECT_THROW(remove_handles(open, {}, Execution(1)), Error);
-  EXPECT_THROW(remove_handles(IndexedMesh{}, {}, Execution(1)), Error);
+  EXPECT_ERROR(remove_handles(open, {}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(remove_handles(IndexedMesh{}, {}, Execution(1)), InvalidInput);
   HandleOptions options;
   options.length_limit = -1.0;
-  EXPECT_THROW(remove_handles(test::sphere(1), options, Execution(1)), Error);
+  EXPECT_ERROR(remove_handles(test::sphere(1), options, Execution(1)), InvalidInput);
 }
 
 TEST(Handles, StopsWhenAskedTo) {

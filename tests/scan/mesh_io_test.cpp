@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "support/expect_error.h"
 #include "support/read_content.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -277,10 +278,10 @@ TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {
 
 TEST_F(MeshIo, RefusesWhereItCannotWrite) {
   fs::create_directory(path("taken.ply"));
-  EXPECT_THROW(write_mesh(test::box(1, 1, 1), path("taken.ply")), Error);
+  EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("taken.ply")), InputOutput);
   EXPECT_TRUE(fs::is_directory(path("taken.ply")));
-  EXPECT_THROW(write_mesh(test::box(1, 1, 1), path("no/such/folder/a.ply")), Error);
-  EXPECT_THROW(write_mesh(test::box(1, 1, 1), path("a.vtk")), Error);
+  EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("no/such/folder/a.ply")), InputOutput);
+  EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("a.vtk")), InputOutput);
 }
 
 TEST_F(MeshIo, LeavesNothingBeside) {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "support/expect_error.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double smallest_distance(const std::vector<Vector3>& points) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -111,7 +111,7 @@ TEST(SphereSampling, RefusesADensityThatIsNotPositive) {
     for (const Vector3& v : u) values.push_back(v.z());
     return values;
   };
-  EXPECT_THROW(warped_lattice(100, density, 20), Error);
+  EXPECT_ERROR(warped_lattice(100, density, 20), InvalidInput);
 }
 
 TEST(SphereSampling, GridsHaveTheirCountsAndTheNearestIsNearest) {

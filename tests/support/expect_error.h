@@ -20,3 +20,7 @@ void expect_error(ErrorCode code, const Action& action) {
 }
 
 }  // namespace wscvt::test
+
+/// The same for one expression: EXPECT_ERROR(remesh(scan, options), InvalidInput).
+#define EXPECT_ERROR(expression, code_name) \
+  ::wscvt::test::expect_error(::wscvt::ErrorCode::code_name, [&] { static_cast<void>(expression); })

@@ -10,11 +10,12 @@
 #include <utility>
 
 #include "wscvt/base/mesh.h"
+#include "wscvt/base/pi.h"
 
 /// Meshes with known measures, and ways to move them, for the tests.
 namespace wscvt::test {
 
-inline constexpr double pi = 3.14159265358979323846;
+using wscvt::pi;
 
 /// Unit icosahedron.
 inline IndexedMesh icosahedron() {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "grains/ct_grain.h"
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -155,8 +156,8 @@ TEST(Curvature, IsTheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(Curvature, RefusesNoRings) {
-  EXPECT_THROW(curvatures(test::sphere(1), 0), Error);
-  EXPECT_THROW(curvatures(test::sphere(1), -1), Error);
+  EXPECT_ERROR(curvatures(test::sphere(1), 0), InvalidInput);
+  EXPECT_ERROR(curvatures(test::sphere(1), -1), InvalidInput);
 }
 
 }  // namespace

@@ -9,14 +9,14 @@
 #include <fstream>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 /// A file of the test's own, gone after it.
 class HarmonicIo : public testing::Test {
@@ -77,7 +77,7 @@ TEST_F(HarmonicIo, NegativeOrdersMayBeLeftOutAndTheSeriesCut) {
   const HarmonicSurface cut = read_complex_harmonics(path_, 1);
   EXPECT_EQ(cut.coefficients(),
             (std::vector<double>{10.0, -0.25 * std::sqrt(2.0), 1.0, 0.5 * std::sqrt(2.0)}));
-  EXPECT_THROW(read_complex_harmonics(path_, -2), Error);
+  EXPECT_ERROR(read_complex_harmonics(path_, -2), InvalidInput);
 }
 
 TEST_F(HarmonicIo, MalformedTextIsRefusedWithItsLine) {

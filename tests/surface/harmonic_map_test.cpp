@@ -14,6 +14,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/scan/mesh_check.h"
+#include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/sphere_map.h"
 
 namespace wscvt {

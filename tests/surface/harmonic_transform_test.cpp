@@ -5,15 +5,15 @@
 
 #include <cmath>
 
+#include "support/expect_error.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 std::vector<double> wave(std::size_t count) {
   std::vector<double> values;
@@ -32,7 +32,7 @@ TEST(HarmonicTransform, SynthesisIsTheSeriesAtTheNodes) {
     const std::vector<double> a = wave(harmonic_count(degree));
     const std::vector<double> values =
         equal_angle_transform(degree, rows).synthesize(a, Execution(2));
-    const std::vector<Vector3> u = SphereGrid(rows, 1, 4).directions();
+    const std::vector<Vector3> u = SphereGrid::directions(rows);
     std::vector<double> expected(u.size());
     HarmonicSeries(a).sum(u.data(), u.size(), expected.data());
     ASSERT_EQ(values.size(), expected.size());
@@ -80,12 +80,12 @@ TEST(HarmonicTransform, SameBitsOnAnyNumberOfThreads) {
 
 TEST(HarmonicTransform, RefusesBadInput) {
   const Execution execution(1);
-  EXPECT_THROW(HarmonicTransform(-1, {0.0}, {1.0}, 4, execution), Error);
-  EXPECT_THROW(HarmonicTransform(2, {0.0}, {1.0, 1.0}, 4, execution), Error);
-  EXPECT_THROW(HarmonicTransform(2, {0.0}, {1.0}, 0, execution), Error);
+  EXPECT_ERROR(HarmonicTransform(-1, {0.0}, {1.0}, 4, execution), InvalidInput);
+  EXPECT_ERROR(HarmonicTransform(2, {0.0}, {1.0, 1.0}, 4, execution), InvalidInput);
+  EXPECT_ERROR(HarmonicTransform(2, {0.0}, {1.0}, 0, execution), InvalidInput);
   const HarmonicTransform transform(2, {0.0}, {1.0}, 4, execution);
-  EXPECT_THROW(transform.synthesize({1.0}, execution), Error);
-  EXPECT_THROW(transform.analyze({1.0}, execution), Error);
+  EXPECT_ERROR(transform.synthesize({1.0}, execution), InvalidInput);
+  EXPECT_ERROR(transform.analyze({1.0}, execution), InvalidInput);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -193,11 +194,11 @@ TEST(MeshSurface, GivesTheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(MeshSurface, RefusesWhatHasNoInside) {
-  EXPECT_THROW(surface_of({}), Error);
-  EXPECT_THROW(surface_of(test::sphere(2), Vector3(2, 0, 0)), Error);
-  EXPECT_THROW(surface_of(test::box(1, 1, 1), Vector3(0.5, 0.1, 0.2)), Error);
+  EXPECT_ERROR(surface_of({}), InvalidInput);
+  EXPECT_ERROR(surface_of(test::sphere(2), Vector3(2, 0, 0)), InvalidInput);
+  EXPECT_ERROR(surface_of(test::box(1, 1, 1), Vector3(0.5, 0.1, 0.2)), InvalidInput);
   for (const double unit : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(surface_of(test::sphere(2), Vector3::Zero(), unit), Error);
+    EXPECT_ERROR(surface_of(test::sphere(2), Vector3::Zero(), unit), InvalidInput);
   }
 }
 

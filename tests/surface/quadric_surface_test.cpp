@@ -8,14 +8,14 @@
 #include <limits>
 #include <memory>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 std::vector<Vector3> axes_and_random() {
   std::vector<Vector3> u = random_directions(200, test::announced(6));
@@ -191,11 +191,11 @@ TEST(QuadricSurfaces, FillOnlyWhatIsAskedFor) {
 }
 
 TEST(QuadricSurfaces, RefuseBadParameters) {
-  EXPECT_THROW(Ellipsoid({1.0, 0.0, 1.0}), Error);
-  EXPECT_THROW(Ellipsoid({1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}), Error);
-  EXPECT_THROW(Superellipsoid({1.0, 1.0, -1.0}, 1.0, 1.0), Error);
-  EXPECT_THROW(Superellipsoid({1.0, 1.0, 1.0}, 0.05, 1.0), Error);
-  EXPECT_THROW(Superellipsoid({1.0, 1.0, 1.0}, 1.0, 2.5), Error);
+  EXPECT_ERROR(Ellipsoid({1.0, 0.0, 1.0}), InvalidInput);
+  EXPECT_ERROR(Ellipsoid({1.0, std::numeric_limits<double>::quiet_NaN(), 1.0}), InvalidInput);
+  EXPECT_ERROR(Superellipsoid({1.0, 1.0, -1.0}, 1.0, 1.0), InvalidInput);
+  EXPECT_ERROR(Superellipsoid({1.0, 1.0, 1.0}, 0.05, 1.0), InvalidInput);
+  EXPECT_ERROR(Superellipsoid({1.0, 1.0, 1.0}, 1.0, 2.5), InvalidInput);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/scan/folded_solid_angle.h"
@@ -90,7 +91,9 @@ TEST(RadialSamples, AreTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(one.folded_share, three.folded_share);
 }
 
-TEST(RadialSamples, RefuseAnEmptyMesh) { EXPECT_THROW(radial_samples({}, Execution(1)), Error); }
+TEST(RadialSamples, RefuseAnEmptyMesh) {
+  EXPECT_ERROR(radial_samples({}, Execution(1)), InvalidInput);
+}
 
 }  // namespace
 }  // namespace wscvt

@@ -7,15 +7,15 @@
 #include <atomic>
 #include <cmath>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 /// Sphere of radius R about `center`, |center| < R: a surface whose radius varies and whose every
 /// measure is known. It keeps the default evaluate_radii.
@@ -95,7 +95,7 @@ TEST(RadialSurface, IntegralsOfAShiftedSphere) {
   EXPECT_NEAR(integrals.area, 4.0 * pi * radius * radius, 1e-12);
   EXPECT_NEAR((integrals.centroid - center).norm(), 0.0, 1e-13);
   EXPECT_GT(integrals.gradient_square, 0.0);
-  EXPECT_THROW(integrate(surface, 0, Execution(1)), Error);
+  EXPECT_ERROR(integrate(surface, 0, Execution(1)), InvalidInput);
 }
 
 TEST(RadialSurface, IntegralsHaveTheSameBitsOnAnyNumberOfThreads) {
@@ -144,8 +144,8 @@ TEST(RadialSurface, IntegratesUntilVolumeAndAreaStayOrRefuses) {
   const double octahedron =
       integrate(Superellipsoid({3.0, 2.0, 1.0}, 2.0, 2.0), Execution()).volume;
   EXPECT_NEAR(octahedron / 8.0, 1.0, 1e-4);
-  EXPECT_THROW(integrate(Ellipsoid({1000.0, 1.0, 1.0}), Execution()), Error);
-  EXPECT_THROW(integrate(Ellipsoid({1e6, 1.0, 1e-6}), Execution()), Error);
+  EXPECT_ERROR(integrate(Ellipsoid({1000.0, 1.0, 1.0}), Execution()), InvalidInput);
+  EXPECT_ERROR(integrate(Ellipsoid({1e6, 1.0, 1e-6}), Execution()), InvalidInput);
 }
 
 }  // namespace

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 std::vector<double> random_coefficients(int degree, std::uint64_t seed) {
   const std::vector<Vector3> random =
@@ -224,13 +224,13 @@ TEST(SphericalHarmonics, ValueDoesNotDependOnTheOtherDirections) {
 }
 
 TEST(SphericalHarmonics, RefusesWhatIsNotASeries) {
-  EXPECT_THROW(HarmonicSeries({}), Error);
-  EXPECT_THROW(HarmonicSeries({1.0, 2.0}), Error);
-  EXPECT_THROW(harmonic_values(-1, nullptr, 0), Error);
-  EXPECT_THROW(harmonic_values(maximum_harmonic_degree + 1, nullptr, 0), Error);
+  EXPECT_ERROR(HarmonicSeries({}), InvalidInput);
+  EXPECT_ERROR(HarmonicSeries({1.0, 2.0}), InvalidInput);
+  EXPECT_ERROR(harmonic_values(-1, nullptr, 0), InvalidInput);
+  EXPECT_ERROR(harmonic_values(maximum_harmonic_degree + 1, nullptr, 0), InvalidInput);
   const double half = 0.5;
   double value = 0.0;
-  EXPECT_THROW(associated_legendre(2, 3, &half, &half, 1, &value), Error);
+  EXPECT_ERROR(associated_legendre(2, 3, &half, &half, 1, &value), InvalidInput);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr int rows = 24;
 
 /// The sum as it is defined, over all pairs of nodes.
 std::vector<double> all_pairs(const GridField& field, double radius) {
-  const std::vector<Vector3> nodes = SphereGrid(rows, 1, 4).directions();
+  const std::vector<Vector3> nodes = SphereGrid::directions(rows);
   std::vector<double> sums(nodes.size(), 0.0);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {

@@ -9,6 +9,7 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
 namespace {

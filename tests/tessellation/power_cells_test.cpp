@@ -8,12 +8,11 @@
 
 #include "support/expect_error.h"
 #include "support/seeds.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 PowerCells cells_of(const std::vector<Vector3>& seeds, const std::vector<double>& weights,
                     int threads = 1) {

@@ -8,16 +8,16 @@
 #include "grains/ct_grain.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 const Ellipsoid& ellipsoid() {
   static const Ellipsoid surface(Vector3(1.3, 0.9, 0.7));
@@ -90,7 +90,7 @@ TEST(Relaxation, PlainOverRelaxationReachesTheSameEvenness) {
   EXPECT_EQ(plain.report.outcome, RelaxationOutcome::Converged);
   const RelaxationResult fast = relax(fibonacci_lattice(400), model, {}, Execution(1));
   EXPECT_EQ(fast.report.outcome, RelaxationOutcome::Converged);
-  // Prototypes reached 0.073 for this weighting and grain, plain; momentum goes further down.
+  // Prototypes reached 0.073 with this weighting and grain, plain; momentum goes further down.
   EXPECT_LT(edge_variation(plain), 0.085);
   EXPECT_LT(edge_variation(fast), edge_variation(plain) + 0.005);
 }

@@ -9,13 +9,12 @@
 #include <numeric>
 
 #include "support/expect_error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 const Ellipsoid& ellipsoid() {
   static const Ellipsoid surface(Vector3(1.3, 0.9, 0.7));

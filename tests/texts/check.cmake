@@ -10,7 +10,13 @@ if(count GREATER 120)
   string(APPEND faults "  README.md has ${count} lines, more than 120\n")
 endif()
 
-set(texts README.md filter_wscvt/README.md lib/README.md meshes/README.md tests/README.md
+file(STRINGS ${source_dir}/lib/wscvt/remesh.cpp lines)
+list(LENGTH lines count)
+if(count GREATER 250)
+  string(APPEND faults "  lib/wscvt/remesh.cpp has ${count} lines, more than 250: it conducts, no more\n")
+endif()
+
+set(texts README.md filter_wscvt/README.md lib/README.md meshes/README.md tests/README.md tests/faults/README.md
   tests/benchmarks/README.md tests/study/README.md)
 foreach(text ${texts})
   get_filename_component(folder ${source_dir}/${text} DIRECTORY)

@@ -118,7 +118,7 @@ class CallerOfLoop {
 };
 
 [[noreturn]] void cancel(const std::string& stage) {
-  throw Error(ErrorCode::Cancelled, "Cancelled during: " + stage + ". Nothing was changed.");
+  throw Error(ErrorCode::Cancelled, "Cancelled during: " + stage + ".");
 }
 
 }  // namespace

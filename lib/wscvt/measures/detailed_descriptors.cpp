@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
-#include "wscvt/measures/convex_hull.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_fit.h"
@@ -16,8 +17,6 @@
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void check_options(const DetailedOptions& options) {
   require_in_range(options.roundness_degree, roundness_degree_option);

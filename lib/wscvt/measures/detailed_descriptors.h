@@ -43,7 +43,7 @@ inline constexpr NumberOption<int> polar_nodes_option = {"polar-nodes", "number 
 
 /// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
 /// that computes it: shape_descriptors.h, form_axes.h, inscribed_sphere.h, orientation_tensor.h,
-/// roundness.h, roughness.h. README.md has them all in one table.
+/// roundness.h, roughness.h. lib/README.md has them all in one table.
 struct DetailedDescriptors {
   ShapeDescriptors basic;
   /// Of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell (1932);

@@ -14,6 +14,8 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
 
@@ -99,8 +101,7 @@ std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t 
   accumulated.reserve(mesh.triangles.size());
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Vector3& a = mesh.points[t[0]];
-    area += 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
+    area += triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     accumulated.push_back(area);
   }
   if (!(area > 0.0)) {

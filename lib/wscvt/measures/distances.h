@@ -8,9 +8,10 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
-#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
+
+struct MeshPlace;
 
 /// A triangle mesh that answers how far points are from it: exact point-to-triangle distances over
 /// a tree of bounding boxes (CGAL's AABB tree). Const calls may come from several threads.

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 
 double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
                      const ShapeDescriptors& original,
                      const std::optional<MeshDistances>& distances) {
-  constexpr double pi = 3.14159265358979323846;
   switch (measure) {
     case ErrorMeasure::Volume:
       return std::abs(relative_error_percent(remesh.volume, original.volume));

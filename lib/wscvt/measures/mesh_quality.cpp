@@ -8,13 +8,14 @@
 #include <limits>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 
 namespace {
 
 constexpr std::size_t block_size = 16384;
-constexpr double degrees_per_radian = 57.295779513082320877;
+constexpr double degrees_per_radian = 180.0 / pi;
 
 /// Running mean, sum of squared deviations and extremes; two of them merge by Chan, Golub and
 /// LeVeque (1983), which keeps a small spread of large values.

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -12,19 +13,20 @@ OrientationTensor orientation_tensor(const IndexedMesh& mesh, const Execution& e
   constexpr std::size_t block_size = 8192;
   using Matrix3 = Eigen::Matrix3d;
   // The trace of the sum is the area.
-  const Matrix3 sum = execution.parallel_sum(
-      mesh.triangles.size(), block_size, Matrix3(Matrix3::Zero()),
-      [&](std::size_t begin, std::size_t end) {
-        Matrix3 part = Matrix3::Zero();
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = mesh.triangles[f];
-          const Vector3& a = mesh.points[t[0]];
-          const Vector3 doubled_area = (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a);
-          const double length = doubled_area.norm();
-          if (length > 0.0) part += 0.5 / length * doubled_area * doubled_area.transpose();
-        }
-        return part;
-      });
+  const Matrix3 sum =
+      execution.parallel_sum(mesh.triangles.size(), block_size, Matrix3(Matrix3::Zero()),
+                             [&](std::size_t begin, std::size_t end) {
+                               Matrix3 part = Matrix3::Zero();
+                               for (std::size_t f = begin; f < end; ++f) {
+                                 const Triangle& t = mesh.triangles[f];
+                                 const Vector3 doubled_area = doubled_area_normal(
+                                     mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+                                 const double length = doubled_area.norm();
+                                 if (length > 0.0)
+                                   part += 0.5 / length * doubled_area * doubled_area.transpose();
+                               }
+                               return part;
+                             });
   if (!(sum.trace() > 0.0)) {
     throw Error(
         ErrorCode::InvalidInput,

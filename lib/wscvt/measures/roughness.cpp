@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_fit.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Sq / mean radius below which heights are rounding errors.
 constexpr double smallest_roughness = 1e-12;

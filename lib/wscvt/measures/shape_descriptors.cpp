@@ -7,20 +7,22 @@
 #include <cmath>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
 namespace {
 
 constexpr std::size_t block_size = 8192;
-constexpr double pi = 3.14159265358979323846;
 
 /// Smallest cosine between normal and radius that Sdq takes seriously.
 constexpr double smallest_cosine = 0.05;
 
 using Matrix3 = Eigen::Matrix3d;
 
-/// Moments of volume about a local origin, and the area.
+/// Moments of volume about a local origin up to the second, and the area. MeshSums stops at the
+/// first moment.
 struct VolumeMoments {
   double volume = 0.0;
   double area = 0.0;
@@ -62,11 +64,11 @@ VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
           const Vector3 a = mesh.points[t[0]] - origin;
           const Vector3 b = mesh.points[t[1]] - origin;
           const Vector3 c = mesh.points[t[2]] - origin;
-          const Vector3 doubled_area = (b - a).cross(c - a);
-          const double determinant = a.dot(doubled_area);
+          const Vector3 normal = doubled_area_normal(a, b, c);
+          const double determinant = a.dot(normal);  // six volumes; the normal is needed anyway
           const Vector3 sum = a + b + c;
           part.volume += determinant / 6.0;
-          part.area += 0.5 * doubled_area.norm();
+          part.area += 0.5 * normal.norm();
           part.first += determinant / 24.0 * sum;
           part.second +=
               determinant / 120.0 *
@@ -86,7 +88,7 @@ double gradient_square(const IndexedMesh& mesh, const Vector3& centre, const Exe
           const Vector3 a = mesh.points[t[0]] - centre;
           const Vector3 b = mesh.points[t[1]] - centre;
           const Vector3 c = mesh.points[t[2]] - centre;
-          const Vector3 doubled_area = (b - a).cross(c - a);
+          const Vector3 doubled_area = doubled_area_normal(a, b, c);
           const double area = 0.5 * doubled_area.norm();
           const Vector3 radius = a + b + c;
           const double length = radius.norm();

@@ -6,7 +6,7 @@
 
 #include "wscvt/base/option.h"
 #include "wscvt/measures/error_measure.h"
-#include "wscvt/tessellation/seeding.h"
+#include "wscvt/tessellation/seeding_options.h"
 
 namespace wscvt {
 

@@ -8,11 +8,19 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
 namespace {
 
+// Along a ray in direction u, the plane of a triangle with corners r_i u_i lies at 1/r = sum of
+// (w_i / height) (1/r_i), with the barycentric weights w_i of where the ray meets the flat triangle
+// of the u_i, and `height` the distance of that point from the origin. So 1/r is linear in the
+// unknowns 1/r_i, and the best radii come from one sparse linear solve; in r itself the problem
+// would have to be linearised again and again.
+
+/// Each triangle reads tens of radii off the surface, so that a few dozen fill a task.
 constexpr std::size_t block_size = 64;
 /// A fit that goes further has no surface to follow: its triangles span a right angle and more, as
 /// those of a dozen nodes that hardly surround the origin.
@@ -54,7 +62,7 @@ std::vector<Sample> read_surface(const std::vector<Vector3>& directions,
       const Vector3& a = directions[triangles[t][0]];
       const Vector3& b = directions[triangles[t][1]];
       const Vector3& c = directions[triangles[t][2]];
-      const double solid_angle = a.dot(b.cross(c)) / (2.0 * static_cast<double>(count));
+      const double solid_angle = six_volumes(a, b, c) / (2.0 * static_cast<double>(count));
       Sample* const own = &samples[t * count];
       for (std::size_t q = 0; q < count; ++q) {
         const Vector3& w = barycentric[q];
@@ -66,6 +74,8 @@ std::vector<Sample> read_surface(const std::vector<Vector3>& directions,
       for (std::size_t q = 0; q < count; ++q) {
         const double r = jets[q].radius;
         own[q].inverse_radius = 1.0 / r;
+        // A difference d in 1/r is r^2 d along the ray, and r^2 d cos(tilt) off the surface; its
+        // square counts with the surface that the sample stands for, g per solid angle. And
         // g cos^2(tilt) = r^4 / g, since cos(tilt) = r^2 / g.
         own[q].weight =
             solid_angle / std::pow(own[q].height, 3) * std::pow(r, 8) / area_element(jets[q]);
@@ -117,6 +127,7 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
                                 fit != nullptr ? &at_corners : nullptr);
     }
   });
+  // Triangles are added up in their order, on one thread: the sums' bits do not depend on threads.
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(6 * triangles.size());
   NormalEquations equations;
@@ -141,7 +152,7 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
 /// out: conjugate gradients take some 25 steps, where a factorisation would fill in.
 Eigen::VectorXd solve(const NormalEquations& equations, const Eigen::VectorXd& guess) {
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
-  solver.setTolerance(1e-14);
+  solver.setTolerance(1e-14);  // to rounding: what is left would show in the bytes of the mesh
   solver.setMaxIterations(1000);
   solver.compute(equations.matrix);
   const Eigen::VectorXd solution = solver.solveWithGuess(equations.right_side, guess);
@@ -170,6 +181,8 @@ std::vector<double> least_squares_radii(const std::vector<Vector3>& directions,
                     " belongs to no triangle, so no radius can be fitted for it.");
   }
   const std::size_t faces = std::max<std::size_t>(triangles.size(), 1);
+  // Nine samples at least for the three unknowns of a triangle; beyond a thousand they would only
+  // repeat what the surface's own resolution holds.
   const double wanted = std::sqrt(static_cast<double>(samples) / static_cast<double>(faces));
   const std::vector<Vector3> barycentric =
       barycentric_centroids(std::clamp(static_cast<int>(std::ceil(wanted)), 3, 32));
@@ -186,7 +199,9 @@ std::vector<double> least_squares_radii(const std::vector<Vector3>& directions,
         inverse_radii.cwiseMax(own / largest_radius_change).cwiseMin(own * largest_radius_change));
   };
   const Eigen::VectorXd first = fitted(own, nullptr);
-  // A third changes no error by more than a fiftieth of it.
+  // The first solve weighs differences in 1/r as if the fit were at the surface, which counts those
+  // of nodes far outside too little; the second weighs by where the first put them. A third changes
+  // no error by more than a fiftieth of it.
   const Eigen::VectorXd second = fitted(first, &first);
   Eigen::Map<Eigen::VectorXd>(radii.data(), count) = second.cwiseInverse();
   return radii;
@@ -194,16 +209,7 @@ std::vector<double> least_squares_radii(const std::vector<Vector3>& directions,
 
 void scale_to_volume(const std::vector<Triangle>& triangles, double volume,
                      std::vector<Vector3>& points, const Execution& execution) {
-  constexpr std::size_t block = 8192;
-  const double enclosed =
-      execution.parallel_sum(triangles.size(), block, 0.0, [&](std::size_t begin, std::size_t end) {
-        double sum = 0.0;
-        for (std::size_t t = begin; t < end; ++t) {
-          const Triangle& corner = triangles[t];
-          sum += points[corner[0]].dot(points[corner[1]].cross(points[corner[2]]));
-        }
-        return sum / 6.0;
-      });
+  const double enclosed = mesh_sums(points, triangles, Vector3::Zero(), execution).volume();
   if (!(enclosed > 0.0) || !(volume > 0.0)) {
     throw Error(ErrorCode::NumericalFailure,
                 "The volume cannot be made equal: a volume is not positive. Put the nodes on the "

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/base/mesh.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {

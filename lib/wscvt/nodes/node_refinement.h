@@ -4,60 +4,18 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/base/mesh.h"
-#include "wscvt/base/option.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/nodes/refinement_options.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
-
-struct RefinementOptions {
-  int rounds = 0;  ///< at most so many; 0: nothing is done
-  /// No triangle is given a smaller one; degrees. Rms of a sand grain with 1000 nodes at 15.5, 25,
-  /// 30, 35: .088, .097, .106, .117 % of R, at mean edge ratios of 1.82, 1.65, 1.53, 1.43; the
-  /// collapse of Lindstrom and Turk has .103, 1.91 and angles down to 2.
-  double smallest_angle = 30.0;
-  double tolerance = 2e-3;  ///< stop when a round gains less than this share
-};
-
-inline constexpr NumberOption<int> refinement_rounds_option = {
-    "refine",
-    "number of refinement rounds",
-    0,
-    1000,
-    Ends::Both,
-    "moving nodes and flipping edges towards the scan; 0 for none; needs least squares"};
-inline constexpr NumberOption<double> refinement_angle_option = {
-    "refine-angle", "smallest angle that the refinement makes, in degrees", 0.0, 40.0};
-inline constexpr NumberOption<double> refinement_tolerance_option = {
-    "refine-tolerance", "share below which the gain of a refinement round is the last", 0.0, 1.0,
-    Ends::NotMaximum};
-
-/// One line of the refinement's history.
-struct RefinementStep {
-  /// The distance after the round, see refine_nodes; length.
-  double distance = 0.0;
-  int moves = 0;        ///< nodes moved
-  int flips = 0;        ///< edges flipped
-  int relocations = 0;  ///< nodes taken from where they help least to where they help most
-};
-
-struct RefinementReport {
-  /// The last round's moves, flips and relocations lowered the square root of the sum that is
-  /// lowered by less than the tolerance, as a share of it.
-  bool converged = false;
-  double start_distance = 0.0;  ///< as RefinementStep::distance, before the first round; length
-  std::vector<RefinementStep> history;
-};
 
 struct RefinedNodes {
   std::vector<Vector3> positions;     ///< about the origin
   SphereTriangulation triangulation;  ///< of their directions
   RefinementReport report;
 };
-
-/// Throws Error(InvalidInput) for options out of range.
-void check_refinement_options(const RefinementOptions& options);
 
 /// Brings a mesh nearer to the original at the same number of nodes.
 ///

@@ -10,7 +10,9 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_placement.h"
 #include "wscvt/nodes/self_intersections.h"
@@ -20,7 +22,6 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t block_size = 256;
-constexpr double pi = 3.14159265358979323846;
 
 /// Of the samples a node has on the average, each worth one: holds nodes that no sample reaches,
 /// and changes the others' steps by less than a thousandth.
@@ -60,7 +61,7 @@ Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, co
 }
 
 Vector3 face_normal(const std::vector<Vector3>& points, const Triangle& t) {
-  return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
+  return doubled_area_normal(points[t[0]], points[t[1]], points[t[2]]);
 }
 
 std::vector<Vector3> node_normals(const std::vector<Vector3>& positions,
@@ -245,10 +246,12 @@ Cubic volume_polynomial(const std::vector<Vector3>& points, const std::vector<Ve
     const Vector3 b = points[t[1]] - origin;
     const Vector3 c = points[t[2]] - origin;
     const Vector3 &l = normals[t[0]], &m = normals[t[1]], &n = normals[t[2]];
-    result.coefficients[0] += a.dot(b.cross(c)) / 6.0;
-    result.coefficients[1] += (l.dot(b.cross(c)) + m.dot(c.cross(a)) + n.dot(a.cross(b))) / 6.0;
-    result.coefficients[2] += (a.dot(m.cross(n)) + b.dot(n.cross(l)) + c.dot(l.cross(m))) / 6.0;
-    result.coefficients[3] += l.dot(m.cross(n)) / 6.0;
+    result.coefficients[0] += six_volumes(a, b, c) / 6.0;
+    result.coefficients[1] +=
+        (six_volumes(l, b, c) + six_volumes(m, c, a) + six_volumes(n, a, b)) / 6.0;
+    result.coefficients[2] +=
+        (six_volumes(a, m, n) + six_volumes(b, n, l) + six_volumes(c, l, m)) / 6.0;
+    result.coefficients[3] += six_volumes(l, m, n) / 6.0;
   }
   result.coefficients[0] -= volume;
   return result;

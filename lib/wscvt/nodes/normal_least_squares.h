@@ -6,6 +6,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/nodes/space_report.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mapped_surface.h"
 
@@ -25,12 +26,6 @@ struct NormalFitOptions {
 struct MappedSample {
   Vector3 point = Vector3::Zero();
   Vector3 direction = Vector3::Zero();
-};
-
-struct NormalFitReport {
-  std::size_t samples = 0;
-  int held_back = 0;    ///< nodes that went less than the whole step, for a guard
-  double offset = 0.0;  ///< along all normals, that made the volume exact; length
 };
 
 struct NormalFit {

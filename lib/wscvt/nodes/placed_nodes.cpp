@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/node_placement.h"
+#include "wscvt/nodes/node_refinement.h"
 
 namespace wscvt {
 
@@ -17,17 +19,6 @@ void put_on_radii(PlacedNodes& nodes) {
   for (std::size_t i = 0; i < nodes.directions.size(); ++i) {
     nodes.mesh.points[i] = nodes.radii[i] * nodes.directions[i];
   }
-}
-
-/// Gives every node a third of each of its triangles.
-std::vector<double> shared_areas(const IndexedMesh& mesh) {
-  std::vector<double> areas(mesh.points.size(), 0.0);
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3& a = mesh.points[t[0]];
-    const double area = 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
-    for (const std::int32_t v : t) areas[v] += area / 3.0;
-  }
-  return areas;
 }
 
 void place_by_least_squares(const MeshSurface& scan, SphereTriangulation triangulation,
@@ -50,7 +41,7 @@ void place_by_least_squares(const MeshSurface& scan, SphereTriangulation triangu
     nodes.radii[i] = nodes.mesh.points[i].norm();
     nodes.directions[i] = nodes.mesh.points[i] / nodes.radii[i];
   }
-  if (refinement.rounds > 0) nodes.cell_areas = shared_areas(nodes.mesh);
+  if (refinement.rounds > 0) nodes.cell_areas = vertex_areas(nodes.mesh);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "wscvt/base/triangle_geometry.h"
+
 namespace wscvt {
 
 void RefinementFan::resize() {
@@ -103,7 +105,7 @@ bool improve_fan(const RefinementState& state, FanWorkspace& work, double cosine
     // that each triangle speaks for its own normal only, and the ridge between two planes is the
     // one direction in which a node on it may slide freely.
     const Vector3 edge = b - a;
-    const Vector3 doubled_area = (a - fan.position).cross(b - fan.position);
+    const Vector3 doubled_area = doubled_area_normal(fan.position, a, b);
     const Vector3 coordinate_gradient = doubled_area.cross(edge) / doubled_area.squaredNorm();
     const RefinementFacet& f = fan.facets[j];
     double squares = 0.0;

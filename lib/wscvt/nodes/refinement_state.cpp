@@ -6,11 +6,11 @@
 #include <numeric>
 #include <utility>
 
+#include "wscvt/base/pi.h"
+
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A distance of so many times the rms distance counts twice its square. That keeps single places
 /// from being given up for the mean.

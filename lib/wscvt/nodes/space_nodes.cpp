@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/tessellation/space_relaxation.h"
@@ -22,11 +24,7 @@ constexpr std::size_t block_size = 256;
 constexpr double largest_volume_loss = 0.25;
 
 double enclosed_volume(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles) {
-  double volume = 0.0;
-  for (const Triangle& t : triangles) {
-    volume += points[t[0]].dot(points[t[1]].cross(points[t[2]]));
-  }
-  return volume / 6.0;
+  return mesh_sums(points, triangles, Vector3::Zero(), Execution(1)).volume();
 }
 
 /// The unrelaxed levels below a thousand seeds are left out: so few triangles on a body with thin

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
-
 #include "wscvt/base/execution.h"
-#include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/placed_nodes.h"
+#include "wscvt/nodes/space_report.h"
 #include "wscvt/surface/grain.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/relaxation.h"
@@ -13,21 +11,6 @@
 #include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
-
-/// What became of nodes on a mapped surface.
-struct SpaceNodesReport {
-  std::size_t self_intersections = 0;  ///< pairs of triangles of the mesh that meet, exactly
-  int repairs = 0;                     ///< relaxations with more nodes where triangles had met
-  double volume_loss = 0.0;  ///< of the nodes on the surface, as a share of the grain's volume
-  /// Above 0: the nodes asked for are too few for the shape (they lose more than a quarter of its
-  /// volume, or their triangles meet), and so many would do; too_many_nodes where none of the
-  /// numbers tried does.
-  int enough_nodes = 0;
-  NormalFitReport fit;  ///< of a least-squares placement
-};
-
-/// No number of nodes up to sixteen times that asked for would do.
-inline constexpr int too_many_nodes = -1;
 
 struct SpaceNodes {
   PlacedNodes placed;

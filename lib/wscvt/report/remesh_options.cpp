@@ -2,6 +2,7 @@
 #include "wscvt/report/remesh_options.h"
 
 #include "wscvt/base/error.h"
+#include "wscvt/tessellation/seeding.h"
 
 namespace wscvt {
 

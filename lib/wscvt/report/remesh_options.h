@@ -7,14 +7,14 @@
 #include "wscvt/base/option.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_count_search.h"
-#include "wscvt/nodes/placed_nodes.h"
+#include "wscvt/nodes/placement_options.h"
 #include "wscvt/scan/handles.h"
 #include "wscvt/scan/mesh_check.h"
-#include "wscvt/surface/grain.h"
-#include "wscvt/tessellation/multilevel_relaxation.h"
-#include "wscvt/tessellation/relaxation.h"
-#include "wscvt/tessellation/seeding.h"
-#include "wscvt/tessellation/weights.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/surface_options.h"
+#include "wscvt/tessellation/relaxation_options.h"
+#include "wscvt/tessellation/seeding_options.h"
+#include "wscvt/tessellation/weighting.h"
 
 namespace wscvt {
 

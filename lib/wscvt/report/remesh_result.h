@@ -12,12 +12,14 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/nodes/node_count_search.h"
-#include "wscvt/nodes/node_refinement.h"
-#include "wscvt/nodes/space_nodes.h"
+#include "wscvt/nodes/refinement_options.h"
+#include "wscvt/nodes/space_report.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_check.h"
-#include "wscvt/surface/harmonic_fit.h"
-#include "wscvt/tessellation/relaxation.h"
+#include "wscvt/surface/fit_degree.h"
+#include "wscvt/surface/parametrization.h"
+#include "wscvt/surface/sphere_map.h"
+#include "wscvt/tessellation/relaxation_options.h"
 
 namespace wscvt {
 

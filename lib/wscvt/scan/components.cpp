@@ -3,11 +3,10 @@
 
 #include <utility>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
-
-using namespace half_edges;
 
 Components find_components(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings) {
   const std::vector<Triangle>& triangles = mesh.triangles;
@@ -64,8 +63,7 @@ Components find_components(const IndexedMesh& mesh, const std::vector<std::int32
     const Vector3 p = mesh.points[index(t[0])] - o;
     const Vector3 q = mesh.points[index(t[1])] - o;
     const Vector3 r = mesh.points[index(t[2])] - o;
-    const double six_volumes = p.dot(q.cross(r));
-    result.list[c].volume += (result.turned[f] ? -six_volumes : six_volumes) / 6.0;
+    result.list[c].volume += (result.turned[f] ? -1.0 : 1.0) * six_volumes(p, q, r) / 6.0;
   }
   return result;
 }

@@ -5,11 +5,10 @@
 #include <array>
 #include <utility>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
-
-using namespace half_edges;
 
 DegenerateFaces drop_degenerate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& first) {
   // Renaming, marking and dropping in one pass over the faces: three would read the largest array
@@ -79,9 +78,8 @@ DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::in
       const std::array<Edge, 3> sides = edges_of(candidates[first].key);
       const bool keep = std::any_of(sides.begin(), sides.end(), needs_face);
       const Triangle& t = candidates[first].key;
-      const Vector3& a = mesh.points[index(t[0])];
-      const double area =
-          0.5 * (mesh.points[index(t[1])] - a).cross(mesh.points[index(t[2])] - a).norm();
+      const double area = triangle_area(mesh.points[index(t[0])], mesh.points[index(t[1])],
+                                        mesh.points[index(t[2])]);
       for (std::size_t i = first + (keep ? 1 : 0); i < last; ++i) {
         dropped[index(candidates[i].face)] = 1;
         ++(keep ? result.copies : result.folded);

@@ -5,13 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
-using namespace half_edges;
-
 namespace {
+
+/// Large enough that starting a block costs nothing.
+constexpr std::size_t block_size = 16384;
 
 /// 1 when the projection of edge a b to the plane z = 0 passes above the point (in y) rightward, -1
 /// when leftward, 0 when it does not. Both faces of an edge get the same answer with opposite
@@ -64,7 +66,7 @@ std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>
             int covers = 0;
             for (std::size_t k = 0; k < 3; ++k) covers += passing(mesh, t[k], t[following(k)], p);
             if (covers == 0) continue;
-            const Vector3 normal = (b - a).cross(c - a);
+            const Vector3 normal = doubled_area_normal(a, b, c);
             // Above the point when the point lies on the side of the face that looks down.
             const double side = normal.dot(p - a) * (normal.z() > 0.0 ? 1.0 : -1.0);
             if (side < 0.0) part.of_point[*at] += covers;

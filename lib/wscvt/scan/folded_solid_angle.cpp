@@ -4,12 +4,17 @@
 #include <cstddef>
 #include <vector>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/sphere/solid_angle.h"
 
 namespace wscvt {
 
-using namespace half_edges;
+namespace {
+
+/// Large enough that starting a block costs nothing.
+constexpr std::size_t block_size = 16384;
+
+}  // namespace
 
 double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
                           const Execution& execution) {

@@ -12,13 +12,14 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Places a shortest loop is looked for at; every handle has two.
 constexpr std::size_t maximum_roots = 64;
@@ -33,13 +34,8 @@ struct Loop {
 };
 
 double volume_of(const IndexedMesh& mesh) {
-  const Vector3 origin = mesh.points[mesh.triangles[0][0]];
-  double sum = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3 a = mesh.points[t[0]] - origin;
-    sum += a.dot((mesh.points[t[1]] - origin).cross(mesh.points[t[2]] - origin)) / 6.0;
-  }
-  return sum;
+  const Vector3& origin = mesh.points[mesh.triangles[0][0]];
+  return mesh_sums(mesh.points, mesh.triangles, origin, Execution(1)).volume();
 }
 
 std::size_t genus_of(const IndexedMesh& mesh) {

@@ -10,11 +10,10 @@
 #include <set>
 #include <utility>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
-
-using namespace half_edges;
 
 namespace {
 
@@ -151,8 +150,8 @@ FilledHoles fill_holes(IndexedMesh& mesh, const std::vector<std::int32_t>& rings
   result.faces = mesh.triangles.size() - first;
   for (std::size_t f = first; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
-    const Vector3& a = mesh.points[index(t[0])];
-    result.area += 0.5 * (mesh.points[index(t[1])] - a).cross(mesh.points[index(t[2])] - a).norm();
+    result.area +=
+        triangle_area(mesh.points[index(t[0])], mesh.points[index(t[1])], mesh.points[index(t[2])]);
   }
   return result;
 }

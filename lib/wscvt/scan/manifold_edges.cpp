@@ -8,11 +8,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
-
-using namespace half_edges;
 
 namespace {
 
@@ -108,10 +107,9 @@ class Sheets {
         stack.pop_back();
         ++patch.faces;
         patch.turned_faces += static_cast<std::size_t>(turned_[f]);
-        const Vector3& a = mesh_.points[index(triangles[f][0])];
-        patch.area += 0.5 * (mesh_.points[index(triangles[f][1])] - a)
-                                .cross(mesh_.points[index(triangles[f][2])] - a)
-                                .norm();
+        patch.area += triangle_area(mesh_.points[index(triangles[f][0])],
+                                    mesh_.points[index(triangles[f][1])],
+                                    mesh_.points[index(triangles[f][2])]);
         for (std::size_t k = 0; k < 3; ++k) {
           const std::size_t h = 3 * f + k;
           const std::int32_t other = rings_[h];

@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/components.h"
 #include "wscvt/scan/degenerate_faces.h"
 #include "wscvt/scan/edge_rings.h"
 #include "wscvt/scan/enclosure.h"
-#include "wscvt/scan/half_edges.h"
 #include "wscvt/scan/holes.h"
 #include "wscvt/scan/manifold_edges.h"
 #include "wscvt/scan/touching_vertices.h"
@@ -23,9 +25,10 @@
 
 namespace wscvt {
 
-using namespace half_edges;
-
 namespace {
+
+/// Large enough that starting a block costs nothing.
+constexpr std::size_t block_size = 16384;
 
 /// Below this volume / area^1.5 (0.094 for a sphere, a third of the thickness for a plate) the
 /// surface is a sheet within rounding.
@@ -40,7 +43,8 @@ std::string count_of(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-/// First index in [0, count) for which `wrong` holds, or count.
+/// First index in [0, count) for which `wrong` holds, or count. The first and not any, so that the
+/// message names the same one on any number of threads.
 template <class Predicate>
 std::size_t first_wrong(std::size_t count, const Execution& execution, const Predicate& wrong) {
   std::vector<std::size_t> first((count + block_size - 1) / block_size, count);
@@ -128,7 +132,8 @@ struct OtherComponent {
   Vector3 point = Vector3::Zero();  // on it, and not on the one kept if that can be
 };
 
-/// The component of largest absolute volume.
+/// The component of largest absolute volume. Absolute, because nothing has been turned outward yet;
+/// and not of most faces, because a finely scanned crumb has more than the grain.
 std::size_t largest_of(const Components& components) {
   std::size_t main = 0;
   for (std::size_t c = 1; c < components.list.size(); ++c) {
@@ -222,40 +227,25 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
 }  // namespace
 
 void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
-  using Sums = Eigen::Matrix<double, 6, 1>;  // 6 V, 2 A, 24 V (centroid - origin), slivers
+  // About a point of the mesh: about the origin a scan in map coordinates would lose its digits.
   const Vector3 origin = mesh.points[index(mesh.triangles[0][0])];
-  const Sums sums = execution.parallel_sum(mesh.triangles.size(), block_size, Sums(Sums::Zero()),
-                                           [&](std::size_t begin, std::size_t end) {
-                                             Sums part = Sums::Zero();
-                                             for (std::size_t f = begin; f < end; ++f) {
-                                               const Triangle& t = mesh.triangles[f];
-                                               const Vector3 p = mesh.points[index(t[0])] - origin;
-                                               const Vector3 q = mesh.points[index(t[1])] - origin;
-                                               const Vector3 r = mesh.points[index(t[2])] - origin;
-                                               const double volume = p.dot(q.cross(r));
-                                               const double area = (q - p).cross(r - p).norm();
-                                               part[0] += volume;
-                                               part[1] += area;
-                                               part.segment<3>(2) += volume * (p + q + r);
-                                               if (area == 0.0) part[5] += 1.0;
-                                             }
-                                             return part;
-                                           });
-  report.volume = sums[0] / 6.0;
-  report.area = sums[1] / 2.0;
+  const MeshSums sums = mesh_sums(mesh.points, mesh.triangles, origin, execution);
+  report.volume = sums.volume();
+  report.area = sums.area();
   if (!(report.volume > flat_limit * std::pow(report.area, 1.5))) {
     refuse("The mesh encloses no volume: it is flat, with an area of " +
            format_number(report.area) + " and a volume of " + format_number(report.volume) +
            "; load the closed surface of a grain.");
   }
-  report.centroid = origin + sums.segment<3>(2) / (4.0 * sums[0]);
-  report.sliver_faces = static_cast<std::size_t>(sums[5]);
+  report.centroid = origin + sums.centroid();
+  report.sliver_faces = sums.flat_triangles;
   report.vertices = mesh.points.size();
   report.faces = mesh.triangles.size();
+  // V - E + F = 2 - 2 genus, with E = 3 F / 2 of a closed triangle mesh.
   const auto euler =
       static_cast<std::int64_t>(report.vertices) - static_cast<std::int64_t>(report.faces / 2);
   report.genus = static_cast<int>((2 - euler) / 2);
-  report.equivalent_radius = std::cbrt(3.0 * report.volume / (4.0 * 3.14159265358979323846));
+  report.equivalent_radius = std::cbrt(3.0 * report.volume / (4.0 * pi));
 }
 
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
@@ -264,6 +254,13 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   require_in_range(options.mended_area_limit_percent, mended_area_limit_option);
   require_in_range(options.dropped_volume_limit, dropped_volume_limit_option);
   const std::string stage = "Checking the mesh";
+  // The order of the repairs. Each needs what the ones before it made so: equal points are welded
+  // before faces are compared, because a copy of a face may have corners of its own; copies go
+  // before edges are counted, because they would make every edge of theirs one of four faces;
+  // sheets are taken apart before faces are turned, because across a non-manifold edge there is no
+  // outside; holes are filled on faces that all turn alike, because the rim's direction says on
+  // which side the filling has its outside; and vertices that only touch are split last, because
+  // both separate_sheets and fill_holes may leave some.
   CheckedMesh result;
   MeshCheckReport& report = result.report;
   report.input_vertices = mesh.points.size();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/coordinates.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/sphere_delaunay.h"
@@ -15,21 +16,6 @@
 namespace wscvt {
 
 namespace {
-
-/// Centroid of the volume enclosed, by tetrahedra about `origin`.
-Vector3 centroid(const IndexedMesh& mesh, const Vector3& origin) {
-  double volume = 0.0;
-  Vector3 moment = Vector3::Zero();
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3 a = mesh.points[t[0]] - origin;
-    const Vector3 b = mesh.points[t[1]] - origin;
-    const Vector3 c = mesh.points[t[2]] - origin;
-    const double tetrahedron = a.dot(b.cross(c));
-    volume += tetrahedron;
-    moment += tetrahedron / 4.0 * (a + b + c);
-  }
-  return origin + moment / volume;
-}
 
 /// As SphereTriangulation, but with progress: a million points take seconds.
 std::vector<Triangle> triangulate(const std::vector<Vector3>& directions,
@@ -86,7 +72,7 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
     }
     const Execution part = execution.part(0.5 * round, 0.5 * (round + 1));
     mesh.triangles = triangulate(directions, part);
-    centre = centroid(mesh, centre);
+    centre += mesh_sums(mesh.points, mesh.triangles, centre, Execution(1)).centroid();
   }
   return mesh;
 }

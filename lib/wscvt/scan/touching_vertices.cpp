@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <utility>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
 
 namespace wscvt {
 
-using namespace half_edges;
+namespace {
+
+/// Large enough that starting a block costs nothing.
+constexpr std::size_t block_size = 16384;
+
+}  // namespace
 
 std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
                                     const std::vector<std::int32_t>& of_face,

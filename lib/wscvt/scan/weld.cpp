@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 
-#include "wscvt/scan/half_edges.h"
+#include "wscvt/base/half_edges.h"
 
 namespace wscvt {
 
-using namespace half_edges;
-
 namespace {
+
+/// Large enough that starting a block costs nothing.
+constexpr std::size_t block_size = 16384;
 
 using Cell = std::array<std::int64_t, 3>;
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "wscvt/base/mesh.h"
+#include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
 

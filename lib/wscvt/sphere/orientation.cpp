@@ -5,10 +5,10 @@
 
 namespace wscvt {
 
-int exact_orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  const auto exact = [](const Vector3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
-  return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c), exact(d)));
+  const auto point = [](const Vector3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
+  return static_cast<int>(CGAL::orientation(point(a), point(b), point(c), point(d)));
 }
 
 }  // namespace wscvt

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -12,7 +14,7 @@ namespace wscvt {
 /// Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126, eq. 8).
 inline double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
   // Edge vectors keep the relative precision of a triangle far smaller than the sphere.
-  const double numerator = a.dot((b - a).cross(c - a));
+  const double numerator = a.dot(doubled_area_normal(a, b, c));
   const double denominator = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
   if (std::abs(numerator) < 0.02 * denominator) {
     // The arctangent's series, to the last bit in this range: a dense scan has no other triangles.
@@ -30,7 +32,7 @@ struct SolidAngleSums {
   bool touched = false;   ///< a face fills half the sphere: the origin lies on it
 
   void add(double angle) {
-    constexpr double half_sphere = 2.0 * 3.14159265358979323846 - 1e-9;
+    constexpr double half_sphere = 2.0 * pi - 1e-9;
     (angle < 0.0 ? backward : outward) += std::abs(angle);
     touched = touched || std::abs(angle) > half_sphere;
   }
@@ -44,7 +46,7 @@ struct SolidAngleSums {
 
   /// See folded_solid_angle in folded_solid_angle.h.
   double folded_share() const {
-    constexpr double four_pi = 4.0 * 3.14159265358979323846;
+    constexpr double four_pi = 4.0 * pi;
     // The signed angles add up to 4 pi seen from inside and to 0 from outside.
     const bool inside = !touched && outward - backward > 0.5 * four_pi;
     const double folded = 2.0 * backward / four_pi;  // as much again looks outward

@@ -6,12 +6,11 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Points a partial grid of `spread` gathers at least, and how many such grids there may be: the
 /// sums must not depend on the threads, and every grid costs memory.
@@ -92,8 +91,7 @@ struct Stencil {
 };
 
 template <int stencil>
-inline Stencil<stencil> make_stencil(const Vector3& u, int rows, std::size_t stride,
-                                     std::size_t channels) {
+inline Stencil<stencil> make_stencil(const Vector3& u, int rows, std::size_t stride) {
   Stencil<stencil> result;
   const double sine = std::sqrt(u.x() * u.x() + u.y() * u.y());
   const double s = azimuth_of(sine, u.z()) * (rows / pi) - 0.5;
@@ -104,95 +102,62 @@ inline Stencil<stencil> make_stencil(const Vector3& u, int rows, std::size_t str
   lagrange_weights<stencil>(s - j, result.row);
   lagrange_weights<stencil>(phi - k, result.column);
   // The halo is stencil/2 wide and the stencil starts stencil/2 - 1 nodes before (j, k).
-  result.start =
-      (static_cast<std::size_t>(j + 1) * stride + static_cast<std::size_t>(k + 1)) * channels;
+  result.start = static_cast<std::size_t>(j + 1) * stride + static_cast<std::size_t>(k + 1);
   return result;
 }
 
 template <int stencil>
-void interpolate_stencils(const double* nodes, int rows, std::size_t stride, std::size_t channels,
+void interpolate_stencils(const double* nodes, int rows, std::size_t stride,
                           const Vector3* directions, std::size_t count, double* values) {
   for (std::size_t i = 0; i < count; ++i) {
-    const Stencil<stencil> at = make_stencil<stencil>(directions[i], rows, stride, channels);
-    for (std::size_t channel = 0; channel < channels; ++channel) {
-      const double* node = nodes + at.start + channel;
-      double sum = 0.0;
-      for (int a = 0; a < stencil; ++a) {
-        double row_sum = 0.0;
-        for (int b = 0; b < stencil; ++b) {
-          row_sum += at.column[b] * node[static_cast<std::size_t>(b) * channels];
-        }
-        sum += at.row[a] * row_sum;
-        node += stride * channels;
-      }
-      values[i * channels + channel] = sum;
+    const Stencil<stencil> at = make_stencil<stencil>(directions[i], rows, stride);
+    const double* node = nodes + at.start;
+    double sum = 0.0;
+    for (int a = 0; a < stencil; ++a) {
+      double row_sum = 0.0;
+      for (int b = 0; b < stencil; ++b) row_sum += at.column[b] * node[b];
+      sum += at.row[a] * row_sum;
+      node += stride;
     }
+    values[i] = sum;
   }
 }
 
 template <int stencil>
-void spread_stencils(double* nodes, int rows, std::size_t stride, std::size_t channels,
-                     const Vector3* directions, std::size_t count, const double* values) {
+void spread_stencils(double* nodes, int rows, std::size_t stride, const Vector3* directions,
+                     std::size_t count, const double* values) {
   for (std::size_t i = 0; i < count; ++i) {
-    const Stencil<stencil> at = make_stencil<stencil>(directions[i], rows, stride, channels);
-    const double* value = values + i * channels;
+    const Stencil<stencil> at = make_stencil<stencil>(directions[i], rows, stride);
     double* node = nodes + at.start;
     for (int a = 0; a < stencil; ++a) {
-      for (int b = 0; b < stencil; ++b) {
-        const double weight = at.row[a] * at.column[b];
-        for (std::size_t channel = 0; channel < channels; ++channel) {
-          node[static_cast<std::size_t>(b) * channels + channel] += weight * value[channel];
-        }
-      }
-      node += stride * channels;
+      for (int b = 0; b < stencil; ++b) node[b] += at.row[a] * at.column[b] * values[i];
+      node += stride;
     }
   }
 }
 
 }  // namespace
 
-SphereGrid::SphereGrid(int rows, int channels, int stencil)
-    : rows_(rows), channels_(channels), stencil_(stencil), halo_(stencil / 2) {
-  if (rows < 8 || channels < 1 || (stencil != 4 && stencil != 6)) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "A grid of the sphere needs 8 rows or more, at least one channel and a stencil of 4 "
-        "or 6; it was given " +
-            std::to_string(rows) + ", " + std::to_string(channels) + " and " +
-            std::to_string(stencil) + ".");
-  }
-  nodes_.assign(
-      static_cast<std::size_t>(rows_ + 2 * halo_) * stride() * static_cast<std::size_t>(channels_),
-      0.0);
-}
-
-SphereGrid::SphereGrid(int rows, int channels, int stencil, const FieldFunction& field,
-                       const Execution& execution)
-    : SphereGrid(rows, channels, stencil) {
-  const std::vector<Vector3> u = directions();
-  execution.parallel_for(static_cast<std::size_t>(rows_), 4,
-                         [&](std::size_t begin, std::size_t end) {
-                           for (std::size_t row = begin; row < end; ++row) {
-                             field(u.data() + row * columns(), columns(),
-                                   nodes_.data() + offset(static_cast<int>(row), 0));
-                           }
-                         });
-  fill_halo();
-}
-
-SphereGrid::SphereGrid(int rows, int channels, int stencil, const std::vector<double>& values)
-    : SphereGrid(rows, channels, stencil) {
-  const std::size_t width = columns() * static_cast<std::size_t>(channels_);
-  if (values.size() != static_cast<std::size_t>(rows_) * width) {
+SphereGrid::SphereGrid(int rows, int stencil) : rows_(rows), stencil_(stencil), halo_(stencil / 2) {
+  if (rows < 8 || (stencil != 4 && stencil != 6)) {
     throw Error(ErrorCode::InvalidInput,
-                "A grid of the sphere with " + std::to_string(rows_) + " rows and " +
-                    std::to_string(channels_) + " channels takes " +
-                    std::to_string(static_cast<std::size_t>(rows_) * width) + " values, not " +
-                    std::to_string(values.size()) + ".");
+                "A grid of the sphere needs 8 rows or more and a stencil of 4 or 6; it was given " +
+                    std::to_string(rows) + " and " + std::to_string(stencil) + ".");
+  }
+  nodes_.assign(static_cast<std::size_t>(rows_ + 2 * halo_) * stride(), 0.0);
+}
+
+SphereGrid::SphereGrid(int rows, int stencil, const std::vector<double>& values)
+    : SphereGrid(rows, stencil) {
+  const std::size_t count = static_cast<std::size_t>(rows_) * columns();
+  if (values.size() != count) {
+    throw Error(ErrorCode::InvalidInput, "A grid of the sphere with " + std::to_string(rows_) +
+                                             " rows takes " + std::to_string(count) +
+                                             " values, not " + std::to_string(values.size()) + ".");
   }
   for (int row = 0; row < rows_; ++row) {
-    const double* begin = values.data() + static_cast<std::size_t>(row) * width;
-    std::copy(begin, begin + width, nodes_.data() + offset(row, 0));
+    const double* begin = values.data() + static_cast<std::size_t>(row) * columns();
+    std::copy(begin, begin + columns(), nodes_.data() + offset(row, 0));
   }
   fill_halo();
 }
@@ -202,9 +167,8 @@ std::size_t SphereGrid::columns() const { return 2 * static_cast<std::size_t>(ro
 std::size_t SphereGrid::stride() const { return columns() + 2 * static_cast<std::size_t>(halo_); }
 
 std::size_t SphereGrid::offset(int row, int column) const {
-  return (static_cast<std::size_t>(row + halo_) * stride() +
-          static_cast<std::size_t>(column + halo_)) *
-         static_cast<std::size_t>(channels_);
+  return static_cast<std::size_t>(row + halo_) * stride() +
+         static_cast<std::size_t>(column + halo_);
 }
 
 std::vector<double> SphereGrid::row_cosines(int rows) {
@@ -221,16 +185,16 @@ std::vector<double> SphereGrid::row_sines(int rows) {
   return sines;
 }
 
-std::vector<Vector3> SphereGrid::directions() const {
-  const std::vector<double> cosines = row_cosines(rows_);
-  const std::vector<double> sines = row_sines(rows_);
-  std::vector<Vector3> result;
-  result.reserve(cosines.size() * columns());
+std::vector<Vector3> SphereGrid::directions(int rows) {
+  const std::vector<double> cosines = row_cosines(rows);
+  const std::vector<double> sines = row_sines(rows);
   std::vector<Eigen::Vector2d> circle;
-  circle.reserve(columns());
-  for (int k = 0; k < 2 * rows_; ++k) {
-    circle.emplace_back(std::cos(k * pi / rows_), std::sin(k * pi / rows_));
+  circle.reserve(2 * static_cast<std::size_t>(rows));
+  for (int k = 0; k < 2 * rows; ++k) {
+    circle.emplace_back(std::cos(k * pi / rows), std::sin(k * pi / rows));
   }
+  std::vector<Vector3> result;
+  result.reserve(cosines.size() * circle.size());
   for (std::size_t j = 0; j < cosines.size(); ++j) {
     for (const Eigen::Vector2d& p : circle) {
       result.emplace_back(sines[j] * p.x(), sines[j] * p.y(), cosines[j]);
@@ -241,11 +205,10 @@ std::vector<Vector3> SphereGrid::directions() const {
 
 std::vector<double> SphereGrid::values() const {
   std::vector<double> result;
-  const std::size_t width = columns() * static_cast<std::size_t>(channels_);
-  result.reserve(static_cast<std::size_t>(rows_) * width);
+  result.reserve(static_cast<std::size_t>(rows_) * columns());
   for (int row = 0; row < rows_; ++row) {
     const double* begin = nodes_.data() + offset(row, 0);
-    result.insert(result.end(), begin, begin + width);
+    result.insert(result.end(), begin, begin + columns());
   }
   return result;
 }
@@ -272,36 +235,30 @@ void for_each_halo_node(int rows, int halo, const Visit& visit) {
 
 void SphereGrid::fill_halo() {
   for_each_halo_node(rows_, halo_, [&](int row, int column, int source_row, int source_column) {
-    const double* source = nodes_.data() + offset(source_row, source_column);
-    std::copy(source, source + channels_, nodes_.data() + offset(row, column));
+    nodes_[offset(row, column)] = nodes_[offset(source_row, source_column)];
   });
 }
 
 void SphereGrid::fold_halo() {
   for_each_halo_node(rows_, halo_, [&](int row, int column, int source_row, int source_column) {
-    const double* halo = nodes_.data() + offset(row, column);
-    double* node = nodes_.data() + offset(source_row, source_column);
-    for (int channel = 0; channel < channels_; ++channel) node[channel] += halo[channel];
+    nodes_[offset(source_row, source_column)] += nodes_[offset(row, column)];
   });
   fill_halo();
 }
 
 void SphereGrid::interpolate(const Vector3* directions, std::size_t count, double* values) const {
-  const auto channels = static_cast<std::size_t>(channels_);
   const auto function = stencil_ == 4 ? interpolate_stencils<4> : interpolate_stencils<6>;
-  function(nodes_.data(), rows_, stride(), channels, directions, count, values);
+  function(nodes_.data(), rows_, stride(), directions, count, values);
 }
 
 void SphereGrid::spread_block(const Vector3* directions, std::size_t count, const double* values) {
-  const auto channels = static_cast<std::size_t>(channels_);
   const auto function = stencil_ == 4 ? spread_stencils<4> : spread_stencils<6>;
-  function(nodes_.data(), rows_, stride(), channels, directions, count, values);
+  function(nodes_.data(), rows_, stride(), directions, count, values);
 }
 
-SphereGrid SphereGrid::spread(int rows, int channels, int stencil,
-                              const std::vector<Vector3>& directions,
+SphereGrid SphereGrid::spread(int rows, int stencil, const std::vector<Vector3>& directions,
                               const PointValueFunction& point_values, const Execution& execution) {
-  SphereGrid result(rows, channels, stencil);
+  SphereGrid result(rows, stencil);
   const std::size_t count = directions.size();
   const std::size_t slabs =
       std::clamp((count + points_per_slab - 1) / points_per_slab, std::size_t{1}, maximum_slabs);
@@ -310,7 +267,7 @@ SphereGrid SphereGrid::spread(int rows, int channels, int stencil,
   execution.parallel_for(count, slab_size, [&](std::size_t begin, std::size_t end) {
     SphereGrid& grid = begin == 0 ? result : partial[begin / slab_size - 1];
     constexpr std::size_t block = 1024;
-    std::vector<double> values(block * static_cast<std::size_t>(channels));
+    std::vector<double> values(block);
     for (std::size_t first = begin; first < end; first += block) {
       const std::size_t last = std::min(first + block, end);
       point_values(first, last, values.data());

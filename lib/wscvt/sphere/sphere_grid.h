@@ -10,16 +10,11 @@
 
 namespace wscvt {
 
-/// Fills `values` (count x channels, one direction after another) for `count` unit vectors; called
-/// from several threads at once.
-using FieldFunction =
-    std::function<void(const Vector3* directions, std::size_t count, double* values)>;
-
-/// Fills `values` ((end - begin) x channels) for the points [begin, end) of an array; called from
+/// Fills `values` (end - begin of them) for the points [begin, end) of an array; called from
 /// several threads at once.
 using PointValueFunction = std::function<void(std::size_t begin, std::size_t end, double* values)>;
 
-/// Fields tabulated on an equal-angle grid of the sphere: rows at theta = (j + 1/2) pi / rows,
+/// A field tabulated on an equal-angle grid of the sphere: rows at theta = (j + 1/2) pi / rows,
 /// columns at phi = k pi / rows, 2 rows of them. Over a pole a field goes on in the row half a turn
 /// away, so the grid has no edge.
 ///
@@ -28,16 +23,12 @@ using PointValueFunction = std::function<void(std::size_t begin, std::size_t end
 /// in each of the two angles. It is continuous, but only piecewise smooth.
 class SphereGrid {
  public:
-  /// All zero. Throws Error(InvalidInput) unless rows >= 8, channels >= 1, stencil 4 or 6.
-  SphereGrid(int rows, int channels, int stencil);
+  /// All zero. Throws Error(InvalidInput) unless rows >= 8, stencil 4 or 6.
+  SphereGrid(int rows, int stencil);
 
-  /// Tabulates a field. Throws as the first.
-  SphereGrid(int rows, int channels, int stencil, const FieldFunction& field,
-             const Execution& execution);
-
-  /// Takes over node values, row by row, channels innermost. Throws as the first, and
-  /// Error(InvalidInput) unless there are rows x 2 rows x channels values.
-  SphereGrid(int rows, int channels, int stencil, const std::vector<double>& values);
+  /// Takes over node values, row by row. Throws as the first, and Error(InvalidInput) unless there
+  /// are rows x 2 rows of them.
+  SphereGrid(int rows, int stencil, const std::vector<double>& values);
 
   int rows() const { return rows_; }
 
@@ -45,22 +36,21 @@ class SphereGrid {
   static std::vector<double> row_cosines(int rows);
   static std::vector<double> row_sines(int rows);
 
-  /// Unit vectors of the nodes, row by row.
-  std::vector<Vector3> directions() const;
+  /// Unit vectors of the nodes of a grid, row by row.
+  static std::vector<Vector3> directions(int rows);
 
-  /// Node values, row by row, channels innermost.
+  /// Node values, row by row.
   std::vector<double> values() const;
 
-  /// Interpolated fields in `count` directions (unit vectors, count x channels values). May be
-  /// called from several threads at once; the value for one does not depend on the others.
+  /// The interpolated field in `count` directions (unit vectors). May be called from several
+  /// threads at once; the value for one does not depend on the others.
   void interpolate(const Vector3* directions, std::size_t count, double* values) const;
 
-  /// The transpose of `interpolate`: every point's values are shared out over its stencil, so that
+  /// The transpose of `interpolate`: every point's value is shared out over its stencil, so that
   /// the sum over the nodes of (node value x f) is the sum over the points of (value x f) for every
   /// f the interpolation reproduces. Same bytes on any number of threads. Throws as the first
   /// constructor.
-  static SphereGrid spread(int rows, int channels, int stencil,
-                           const std::vector<Vector3>& directions,
+  static SphereGrid spread(int rows, int stencil, const std::vector<Vector3>& directions,
                            const PointValueFunction& point_values, const Execution& execution);
 
  private:
@@ -72,10 +62,9 @@ class SphereGrid {
   std::size_t offset(int row, int column) const;
 
   int rows_;
-  int channels_;
   int stencil_;
   int halo_;                   ///< rows and columns beyond the grid on every side
-  std::vector<double> nodes_;  ///< (rows + 2 halo) x (2 rows + 2 halo) x channels
+  std::vector<double> nodes_;  ///< (rows + 2 halo) x (2 rows + 2 halo)
 };
 
 }  // namespace wscvt

@@ -3,17 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
 #include <random>
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void require_at_least(int value, int least, const char* what) {
   if (value < least) {
@@ -62,29 +62,16 @@ GaussLegendre gauss_legendre(int count) {
   GaussLegendre rule;
   rule.nodes.resize(count);
   rule.weights.resize(count);
-  for (int i = 0; i < (count + 1) / 2; ++i) {
-    double x = std::cos(pi * (i + 0.75) / (count + 0.5));
-    double derivative = 1.0;
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      double previous = 1.0;
-      double value = x;
-      for (int n = 2; n <= count; ++n) {
-        const double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
-        previous = value;
-        value = next;
-      }
-      if (count == 1) previous = 1.0;
-      derivative = count * (x * value - previous) / (x * x - 1.0);
-      const double step = value / derivative;
-      x -= step;
-      if (std::abs(step) < 1e-16) break;
-    }
-    if (2 * i + 1 == count) x = 0.0;
-    const double weight = 2.0 / ((1.0 - x * x) * derivative * derivative);
+  // Boost gives the zeros that are not negative, in ascending order; the rest mirror them.
+  const std::vector<double> zeros = boost::math::legendre_p_zeros<double>(count);
+  for (std::size_t i = 0; i < zeros.size(); ++i) {
+    const double x = zeros[zeros.size() - 1 - i];
+    const double slope = boost::math::legendre_p_prime(count, x);
+    const double weight = 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope);
     rule.nodes[i] = x;
-    rule.nodes[count - 1 - i] = -x;
+    rule.nodes[rule.nodes.size() - 1 - i] = -x;
     rule.weights[i] = weight;
-    rule.weights[count - 1 - i] = weight;
+    rule.weights[rule.weights.size() - 1 - i] = weight;
   }
   return rule;
 }

@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/sphere/sphere_triangulation.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/convex_hull_3.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/sphere_delaunay.h"
 
 namespace wscvt {
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using ExactPoint = Kernel::Point_3;
-
-ExactPoint exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Beyond this many steradian exp(w / 2) may leave the range in which the predicates' products
 /// neither overflow nor underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
@@ -38,9 +30,13 @@ bool can_be_lifted(const std::vector<double>& weights) {
 bool is_nearly_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
   const double longest =
       std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return !(a.dot(b.cross(c)) > 1e-6 * longest);
+  return !(six_volumes(a, b, c) > 1e-6 * longest);
 }
 
+/// The points whose convex hull is the regular triangulation. That of circles of angular radius r
+/// about p is the hull of p / cos(r) (Sugihara 2002, "Laguerre Voronoi diagram on the sphere", J.
+/// Geom. Graph. 6, 69-81); exp(w / 2) is 1 / cos(r) for w = r^2 up to terms in r^4, and goes on to
+/// weights below 0, for which there is no circle.
 std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
   std::vector<Vector3> lifted(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) lifted[i] = seeds[i] * std::exp(0.5 * weights[i]);
@@ -52,37 +48,8 @@ std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<d
               "The seeds cannot be triangulated on the sphere: " + what);
 }
 
-std::vector<Triangle> convex_hull(const std::vector<Vector3>& lifted) {
-  std::vector<ExactPoint> points;
-  points.reserve(lifted.size());
-  for (const Vector3& p : lifted) points.push_back(exact(p));
-  CGAL::Surface_mesh<ExactPoint> hull;
-  CGAL::convex_hull_3(points.begin(), points.end(), hull);
-  // The hull copies its points: find them again by value.
-  std::vector<std::int32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto less = [&](std::int32_t i, std::int32_t j) { return points[i] < points[j]; };
-  std::sort(order.begin(), order.end(), less);
-  std::vector<std::int32_t> index_of_hull_vertex(hull.num_vertices());
-  for (const auto vertex : hull.vertices()) {
-    const auto found =
-        std::lower_bound(order.begin(), order.end(), hull.point(vertex),
-                         [&](std::int32_t i, const ExactPoint& p) { return points[i] < p; });
-    index_of_hull_vertex[vertex] = *found;
-  }
-  std::vector<Triangle> triangles;
-  for (const auto face : hull.faces()) {
-    std::vector<std::int32_t> ring;
-    for (const auto vertex : CGAL::vertices_around_face(hull.halfedge(face), hull)) {
-      ring.push_back(index_of_hull_vertex[vertex]);
-    }
-    for (std::size_t k = 2; k < ring.size(); ++k) {
-      triangles.push_back({ring[0], ring[k - 1], ring[k]});
-    }
-  }
-  return triangles;
-}
-
+/// Whether the triangles are as many as cover the sphere once, and all counter-clockwise: by
+/// Euler's formula they then leave no gap and lie on each other nowhere.
 bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vector3>& seeds) {
   if (triangles.size() != 2 * seeds.size() - 4) return false;
   return std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
@@ -126,6 +93,9 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
     return "a weight is not a number, or far larger than the sphere's own solid angle. Use more "
            "nodes, or another weighting.";
   }
+  // The Delaunay triangulation and flips are several times as fast as a convex hull, and with
+  // moderate weights few edges differ. Far apart, weights may leave edges that no flip gets rid of
+  // (Edelsbrunner and Shah 1996: flips in the plane get stuck); then the hull decides.
   const Execution serial(1);
   std::vector<Triangle> triangles = sphere_delaunay(seeds, serial);
   if (covers_sphere(triangles, seeds)) {
@@ -136,7 +106,7 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
       return nullptr;
     }
   }
-  triangles = convex_hull(weights.empty() ? seeds : lift(seeds, weights));
+  triangles = convex_hull_triangles(weights.empty() ? seeds : lift(seeds, weights));
   if (!covers_sphere(triangles, seeds)) {
     return "they do not surround the grain's centre, two coincide, or a weight is so low that its "
            "seed has no cell. Use more nodes, or a smaller curvature exponent.";
@@ -166,6 +136,8 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
 }
 
 void SphereTriangulation::set_triangles(std::vector<Triangle> triangles, std::size_t vertices) {
+  // Triangles in an order of their own, from their smallest corner on: the same seeds get the same
+  // arrays, whichever way they were triangulated.
   for (Triangle& t : triangles) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }
@@ -198,6 +170,8 @@ bool SphereTriangulation::keeps_determinants(std::int32_t half_edge,
 }
 
 void SphereTriangulation::flip(std::int32_t half_edge) {
+  // Triangles abc and bad about the edge ab become cad and dbc about cd, in the same two slots.
+  // Their four outer edges get new half-edges, so what lies beyond them is linked anew.
   const std::int32_t other = opposite_[half_edge];
   const std::int32_t ab = half_edge / 3 * 3;
   const std::int32_t ba = other / 3 * 3;
@@ -228,6 +202,8 @@ void SphereTriangulation::flip(std::int32_t half_edge) {
 
 void SphereTriangulation::replace(const std::vector<std::int32_t>& triangles,
                                   const std::vector<Triangle>& corners) {
+  // Every half-edge of the new triangles has its opposite among them or outside. Patches hold a few
+  // dozen half-edges, so going through all of them for each is faster than a table.
   struct DirectedEdge {
     std::int32_t from;
     std::int32_t to;
@@ -296,8 +272,12 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
   std::vector<std::int32_t> stack;
   for (const auto& edges : found) stack.insert(stack.end(), edges.begin(), edges.end());
   std::vector<std::int32_t> stuck;
-  // Regular flips end by themselves (each raises the lifted surface); flips on a bent surface might
-  // in principle run in circles.
+  // Why flips end. Regular ones: a flip replaces a valley of the lifted surface by a ridge, so the
+  // surface only ever rises, and there are finitely many triangulations (Lawson 1977). Those by the
+  // angles of a surface lower the Dirichlet energy of functions linear on the triangles as long as
+  // the surface stays the same (Bobenko and Springborn 2007); but here the new edge runs straight
+  // through space, which bends the surface, so they might in principle run in circles: hence the
+  // limit.
   const int limit = static_cast<int>(std::min<std::size_t>(50 * count, 1U << 30));
   bool progress = true;
   while (progress) {
@@ -306,6 +286,8 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       const std::int32_t h = stack.back();
       stack.pop_back();
       if (!needs_flip(h)) continue;
+      // An edge whose two triangles make no convex quadrilateral stays, for now: a flip beside it
+      // may make room.
       if (!is_flippable(h, seeds) || !keeps_determinants(h, seeds, smallest_determinant)) {
         stuck.push_back(h);
         continue;
@@ -364,6 +346,8 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         const double sine_d = (a - d).cross(b - d).norm();
         const double left = sine_c * cosine_d;
         const double right = cosine_c * sine_d;
+        // Of four points on a circle both diagonals are equal: rounding, some 1e-15 here, must not
+        // flip them to and fro.
         if (!(left + right < -1e-12 * (std::abs(left) + std::abs(right)))) return false;
         // Three seeds of a lattice often lie on one great circle but for rounding, and the exact
         // predicate then allows a triangle between them that the rounding of its corners' places

@@ -98,9 +98,11 @@ class SphereTriangulation {
                           double smallest) const;
   void set_triangles(std::vector<Triangle> triangles, std::size_t vertices);
 
-  std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> opposite_;
-  std::vector<std::int32_t> first_half_edge_;
+  // Three parallel arrays instead of a half-edge structure: triangle t holds its corners, and its
+  // half-edges 3 t to 3 t + 2 need no entry but the one that runs the other way.
+  std::vector<Triangle> triangles_;            ///< corners of each triangle: indices of seeds
+  std::vector<std::int32_t> opposite_;         ///< of each half-edge, three a triangle
+  std::vector<std::int32_t> first_half_edge_;  ///< of each vertex: one that starts there, any
 };
 
 }  // namespace wscvt

@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/surface/radial_samples.h"
 
 namespace wscvt {
@@ -21,31 +23,24 @@ constexpr std::size_t block_size = 256;
 /// Below this share of the largest pivot a column of the fit does not count.
 constexpr double rank_tolerance = 1e-10;
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 /// The corners of all faces sorted by vertex. Corner 3 f + k is where half-edge k of face f starts,
 /// so the corners of a vertex give both its faces and its neighbours.
 class VertexCorners {
  public:
-  explicit VertexCorners(const IndexedMesh& mesh)
-      : mesh_(mesh), starts_(mesh.points.size() + 2, 0), corners_(3 * mesh.triangles.size()) {
-    for (const Triangle& t : mesh.triangles) {
-      for (const std::int32_t v : t) ++starts_[index(v) + 2];
-    }
-    for (std::size_t v = 2; v < starts_.size(); ++v) starts_[v] += starts_[v - 1];
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::int32_t& place = starts_[index(mesh.triangles[f][k]) + 1];
-        corners_[index(place++)] = static_cast<std::int32_t>(3 * f + k);
-      }
-    }
-  }
+  VertexCorners(const IndexedMesh& mesh, const Execution& execution)
+      : mesh_(mesh),
+        corners_(counting_sort(
+            3 * mesh.triangles.size(), mesh.points.size(),
+            [&](std::size_t corner, const auto& visit) {
+              visit(index(mesh.triangles[corner / 3][corner % 3]));
+            },
+            execution)) {}
 
   /// Calls visit(next, previous), the two other vertices of each face around v.
   template <class Visit>
   void visit_faces(std::int32_t v, const Visit& visit) const {
-    for (std::int32_t i = starts_[index(v)]; i < starts_[index(v) + 1]; ++i) {
-      const std::size_t corner = index(corners_[index(i)]);
+    for (auto i = corners_.begin(index(v)); i != corners_.end(index(v)); ++i) {
+      const std::size_t corner = index(*i);
       const Triangle& t = mesh_.triangles[corner / 3];
       visit(t[(corner + 1) % 3], t[(corner + 2) % 3]);
     }
@@ -53,8 +48,7 @@ class VertexCorners {
 
  private:
   const IndexedMesh& mesh_;
-  std::vector<std::int32_t> starts_;
-  std::vector<std::int32_t> corners_;
+  Groups corners_;
 };
 
 /// Normal of a vertex: the normals of its faces, each by its angle there; zero where all cancel.
@@ -133,7 +127,7 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
     throw Error(ErrorCode::InvalidInput, "The number of rings for the curvature fit is " +
                                              std::to_string(rings) + "; give 1 or more, e.g. 2.");
   }
-  const VertexCorners corners(mesh);
+  const VertexCorners corners(mesh, execution);
   std::vector<PrincipalCurvatures> result(mesh.points.size());
   execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> vertices;

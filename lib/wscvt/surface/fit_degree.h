@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 #include "wscvt/base/enumeration.h"
@@ -44,6 +45,18 @@ struct EnumerationTable<DegreeLimit> {
       {DegreeLimit::Radius, "radius", "above it the series is not positive everywhere"},
       {DegreeLimit::Highest, "highest", "the highest there is"},
   };
+};
+
+/// How the fit went.
+struct HarmonicFitReport {
+  int requested_degree = 0;  ///< or automatic_degree
+  int degree = 0;  ///< lowered when the series of the requested one is not positive everywhere
+  DegreeLimit limit = DegreeLimit::None;
+  std::size_t rays = 0;  ///< directions in which the surface was read; 0: nothing was fitted
+  /// Root mean square, over the area of the surface, of the distance from it to the series; length.
+  double residual = 0.0;
+  double smallest_radius = 0.0;  ///< of the series on a fine grid, length, > 0
+  double chord_error = 0.0;      ///< what an automatic degree was to stay below, length; else 0
 };
 
 }  // namespace wscvt

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -17,7 +18,6 @@ namespace wscvt {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t block_size = 1024;
 
 /// A surface in units of `unit`.

@@ -15,23 +15,9 @@
 #include "wscvt/surface/parametrization.h"
 #include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/sphere_map.h"
+#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
-
-/// How a scan becomes a surface over the sphere.
-struct SurfaceOptions {
-  Parametrization parametrization = Parametrization::Auto;
-  int degree = automatic_degree;    ///< of the harmonic series, see harmonic_degree_option
-  double fold_limit_percent = 5.0;  ///< refuse above this folded_solid_angle; Radial only
-};
-
-inline constexpr NumberOption<double> fold_limit_option = {
-    "fold-limit", "fold limit in %",
-    0.0,          99.0,
-    Ends::Both,   "the scan is refused when sheets beyond the first fill more of the solid angle"};
-
-/// Throws Error(InvalidInput), with the range, for options out of range.
-void check_surface_options(const SurfaceOptions& options);
 
 /// A grain of equivalent radius 1 about the origin, wherever and however large it was, so that
 /// tolerances and table floors mean the same for every scan. All its lengths are in `unit`.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
@@ -14,8 +15,6 @@
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Up to this many points the basis is stored; above, the points are spread to a grid.
 constexpr std::size_t maximum_stored_points = 2000;
@@ -117,7 +116,7 @@ class SpreadMoments : public HarmonicEquations {
 
   Vector project(const std::vector<double>& values, const Execution& execution) const override {
     const SphereGrid grid = SphereGrid::spread(
-        rows_, 1, fit_stencil, samples_.directions,
+        rows_, fit_stencil, samples_.directions,
         [&](std::size_t begin, std::size_t end, double* products) {
           for (std::size_t i = begin; i < end; ++i) {
             products[i - begin] = samples_.weights[i] * values[i];
@@ -129,7 +128,7 @@ class SpreadMoments : public HarmonicEquations {
 
   std::vector<double> evaluate(const Vector& coefficients,
                                const Execution& execution) const override {
-    const SphereGrid grid(rows_, 1, fit_stencil,
+    const SphereGrid grid(rows_, fit_stencil,
                           on_points_grid_->synthesize(to_array(coefficients), execution));
     std::vector<double> values(samples_.directions.size());
     execution.parallel_for(values.size(), point_block, [&](std::size_t begin, std::size_t end) {
@@ -143,7 +142,7 @@ class SpreadMoments : public HarmonicEquations {
  private:
   std::vector<double> moments_of_weights(int degree, const Execution& execution) const {
     const SphereGrid grid = SphereGrid::spread(
-        rows_, 1, fit_stencil, samples_.directions,
+        rows_, fit_stencil, samples_.directions,
         [&](std::size_t begin, std::size_t end, double* values) {
           std::copy(samples_.weights.begin() + static_cast<std::ptrdiff_t>(begin),
                     samples_.weights.begin() + static_cast<std::ptrdiff_t>(end), values);

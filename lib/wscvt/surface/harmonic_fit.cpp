@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
 
@@ -17,7 +18,6 @@ namespace wscvt {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr const char* stage = "Fitting spherical harmonics";
 
 /// Rows of the first grid. What the surface holds beyond the degree folds back into the

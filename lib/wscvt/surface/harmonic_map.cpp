@@ -8,14 +8,15 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_equations.h"
+#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t block_size = 8192;
 
 /// Sides of the quadrature's triangles on the sphere, times the degree. The midpoint rule is wrong

@@ -7,11 +7,12 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/surface/fit_degree.h"
-#include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 #include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
+
+class MappedSurface;
 
 /// A closed surface of genus 0 given by a series of real orthonormal spherical harmonics for each
 /// coordinate, x(u) = sum of a_lm Y_lm(u) (Brechbuehler, Gerig and Kuebler 1995, "Parametrization

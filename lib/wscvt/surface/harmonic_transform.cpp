@@ -5,6 +5,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
@@ -37,7 +38,7 @@ HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosi
                     std::to_string(cosines.size()) + " cosines and " +
                     std::to_string(sines.size()) + " sines.");
   }
-  constexpr double two_pi = 6.28318530717958647693;
+  constexpr double two_pi = 2.0 * pi;
   trigonometric_.resize(azimuths_, 2 * degree + 1);
   for (Eigen::Index k = 0; k < azimuths_; ++k) {
     trigonometric_(k, 0) = 1.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 
 namespace wscvt {
@@ -24,7 +25,7 @@ bool is_well_inside(const Vector3& p, const std::vector<Vector3>& ring, double f
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vector3& a = ring[i];
     const Vector3& b = ring[i + 1 < ring.size() ? i + 1 : 0];
-    if (!(p.dot((a - p).cross(b - p)) > floor)) return false;
+    if (!(p.dot(doubled_area_normal(p, a, b)) > floor)) return false;
   }
   return true;
 }

@@ -9,6 +9,8 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/solid_angle.h"
 
@@ -16,7 +18,6 @@ namespace wscvt {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t block_size = 8192;
 
 /// About two triangles to a cell: the walk from the cell's own triangle is a few steps long.
@@ -126,7 +127,7 @@ MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) con
         const Vector3& r = *corners[(k + 2) % 3];
         // From differences, which keep the relative precision of small triangles. The signs are
         // known; what is below zero is rounding.
-        weights[k] = std::max(0.0, direction.dot((q - direction).cross(r - direction)));
+        weights[k] = std::max(0.0, direction.dot(doubled_area_normal(direction, q, r)));
       }
       const double sum = weights.sum();
       if (sum > 0.0) return {f, weights / sum};
@@ -181,7 +182,7 @@ void MappedSurface::evaluate_jets(const Vector3* directions, std::size_t count,
 Vector3 MappedSurface::normal(const MeshPlace& place) const {
   const Triangle& t = mesh_.triangles[place.triangle];
   const Vector3& a = mesh_.points[t[0]];
-  return (mesh_.points[t[1]] - a).cross(mesh_.points[t[2]] - a).stableNormalized();
+  return doubled_area_normal(a, mesh_.points[t[1]], mesh_.points[t[2]]).stableNormalized();
 }
 
 }  // namespace wscvt

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A vertex of more neighbours waits until some of them are gone. It is never the last to go: a
 /// planar triangulation always has vertices of at most five neighbours.
@@ -158,7 +158,7 @@ std::vector<Vector3> normalised(const IndexedMesh& mesh) {
   }
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    area += 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+    area += triangle_area(points[t[0]], points[t[1]], points[t[2]]);
   }
   const double scale =
       std::min(largest_extent, area > 0.0 ? std::sqrt(4.0 * pi / area) : largest_extent);
@@ -267,7 +267,7 @@ class MeshCollapse::Queue {
       const Triangle& t = mesh.triangles_[f];
       if (absent[f] != 0) continue;
       const Vector3& a = mesh.points_[t[0]];
-      Vector3 normal = (mesh.points_[t[1]] - a).cross(mesh.points_[t[2]] - a);
+      Vector3 normal = doubled_area_normal(a, mesh.points_[t[1]], mesh.points_[t[2]]);
       const double doubled = normal.norm();
       if (!(doubled > 0.0)) continue;
       normal /= doubled;
@@ -413,7 +413,7 @@ class MeshCollapse::Queue {
     for (std::size_t i = 0; i < count; ++i) {
       const Vector3& a = corners_[i];
       const Vector3& b = corners_[i + 1 < count ? i + 1 : 0];
-      normals_[i] = (a - p).cross(b - p);
+      normals_[i] = doubled_area_normal(p, a, b);
       squares_[i] = (a - b).squaredNorm();
     }
     chosen_[v] = -1;

@@ -2,10 +2,10 @@
 #include "wscvt/surface/mesh_surface.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/folded_solid_angle.h"
 
 namespace wscvt {
@@ -68,45 +68,15 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
     cube_ = CubeMap(resolution);
   }
 
-  // Threads fill a bin in any order; sorting it afterwards makes the bytes the same.
-  const auto visit_cells = [&](std::size_t f, const auto& visit) {
-    const Triangle& t = mesh_.triangles[f];
-    cube_.visit_cells(points[static_cast<std::size_t>(t[0])],
-                      points[static_cast<std::size_t>(t[1])],
-                      points[static_cast<std::size_t>(t[2])], visit);
-  };
-  std::vector<std::atomic<std::size_t>> places(cube_.cells());
-  for (auto& place : places) place.store(0, std::memory_order_relaxed);
-  execution.parallel_for(
-      mesh_.triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-          visit_cells(
-              f, [&](std::size_t cell) { places[cell].fetch_add(1, std::memory_order_relaxed); });
-        }
-      });
-  bin_starts_.resize(places.size() + 1);
-  std::size_t sum = 0;
-  for (std::size_t cell = 0; cell < places.size(); ++cell) {
-    bin_starts_[cell] = sum;
-    sum += places[cell].exchange(sum, std::memory_order_relaxed);
-  }
-  bin_starts_.back() = sum;
-  bin_triangles_.resize(sum);
-  execution.parallel_for(
-      mesh_.triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-          visit_cells(f, [&](std::size_t cell) {
-            bin_triangles_[places[cell].fetch_add(1, std::memory_order_relaxed)] =
-                static_cast<std::int32_t>(f);
-          });
-        }
-      });
-  execution.parallel_for(places.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t cell = begin; cell < end; ++cell) {
-      std::sort(bin_triangles_.data() + bin_starts_[cell],
-                bin_triangles_.data() + bin_starts_[cell + 1]);
-    }
-  });
+  bins_ = counting_sort(
+      mesh_.triangles.size(), cube_.cells(),
+      [&](std::size_t f, const auto& visit) {
+        const Triangle& t = mesh_.triangles[f];
+        cube_.visit_cells(points[static_cast<std::size_t>(t[0])],
+                          points[static_cast<std::size_t>(t[1])],
+                          points[static_cast<std::size_t>(t[2])], visit);
+      },
+      execution);
 }
 
 MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
@@ -121,8 +91,8 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
   const double shear_y = direction[axis_y] / direction[axis];
   Hit hit;
   const std::size_t cell = cube_.cell(direction);
-  for (std::size_t i = bin_starts_[cell]; i < bin_starts_[cell + 1]; ++i) {
-    const Triangle& t = mesh_.triangles[static_cast<std::size_t>(bin_triangles_[i])];
+  for (auto triangle = bins_.begin(cell); triangle != bins_.end(cell); ++triangle) {
+    const Triangle& t = mesh_.triangles[static_cast<std::size_t>(*triangle)];
     const Vector3& a = mesh_.points[static_cast<std::size_t>(t[0])];
     const Vector3& b = mesh_.points[static_cast<std::size_t>(t[1])];
     const Vector3& c = mesh_.points[static_cast<std::size_t>(t[2])];
@@ -139,7 +109,7 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
     const double sum = u + v + w;
     if (outside || sum == 0.0) continue;
     const double radius = (u * a[axis] + v * b[axis] + w * c[axis]) / (sum * direction[axis]);
-    if (radius > hit.radius) hit = {bin_triangles_[i], radius};
+    if (radius > hit.radius) hit = {*triangle, radius};
   }
   if (hit.triangle < 0) {
     throw Error(ErrorCode::NumericalFailure,
@@ -166,7 +136,7 @@ void MeshSurface::evaluate(const Vector3* directions, std::size_t count, Derivat
       const Vector3& a = mesh_.points[static_cast<std::size_t>(t[0])];
       const Vector3& b = mesh_.points[static_cast<std::size_t>(t[1])];
       const Vector3& c = mesh_.points[static_cast<std::size_t>(t[2])];
-      const Vector3 normal = (b - a).cross(c - a);
+      const Vector3 normal = doubled_area_normal(a, b, c);
       const Vector3 slope = normal / normal.dot(u);
       // Of d / (n . x): -r s and 2 r s s^T with s = n / (n . u).
       const Matrix3 hessian = 2.0 * hit.radius * slope * slope.transpose();

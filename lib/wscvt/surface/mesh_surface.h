@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "wscvt/base/counting_sort.h"
 #include "wscvt/sphere/cube_map.h"
 #include "wscvt/surface/radial_surface.h"
 
@@ -40,8 +40,7 @@ class MeshSurface : public RadialSurface {
  private:
   IndexedMesh mesh_;
   CubeMap cube_;
-  std::vector<std::size_t> bin_starts_;      ///< into bin_triangles_, one more than cells
-  std::vector<std::int32_t> bin_triangles_;  ///< ascending in every bin
+  Groups bins_;  ///< the triangles that each cell may show
 };
 
 }  // namespace wscvt

@@ -3,11 +3,14 @@
 
 #include <cmath>
 
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
+
 namespace wscvt {
 
 double steep_share(const IndexedMesh& mesh, const Execution& execution) {
   constexpr std::size_t block_size = 8192;
-  constexpr double degree = 3.14159265358979323846 / 180.0;
+  constexpr double degree = pi / 180.0;
   const double smallest_cosine = std::cos(steep_flank_angle * degree);
   struct Areas {
     double steep = 0.0;
@@ -25,7 +28,7 @@ double steep_share(const IndexedMesh& mesh, const Execution& execution) {
           const Vector3& a = mesh.points[mesh.triangles[t][0]];
           const Vector3& b = mesh.points[mesh.triangles[t][1]];
           const Vector3& c = mesh.points[mesh.triangles[t][2]];
-          const Vector3 normal = (b - a).cross(c - a);
+          const Vector3 normal = doubled_area_normal(a, b, c);
           const double area = normal.norm();
           const Vector3 middle = a + b + c;
           part.all += area;

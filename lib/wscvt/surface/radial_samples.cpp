@@ -2,6 +2,7 @@
 #include "wscvt/surface/radial_samples.h"
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/sphere/cube_map.h"
 #include "wscvt/sphere/solid_angle.h"
 #include "wscvt/surface/mesh_surface.h"
@@ -17,8 +18,6 @@ constexpr int fold_resolution = 64;
 
 /// Relative distance by which the sheet in front must be farther out.
 constexpr double hidden_tolerance = 1e-9;
-
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Sets the radius of every vertex behind the outermost sheet to zero.
 void hide_vertices(const IndexedMesh& mesh, const std::vector<double>& angles,

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/solid_angle.h"
 #include "wscvt/surface/kernel_insertion.h"
@@ -20,7 +22,6 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t block_size = 8192;
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t report_interval = 4096;
 /// A neighbour of more is left to the sweeps: each insertion into its ring would go round it.
 constexpr std::int32_t largest_valence = 32;
@@ -172,7 +173,7 @@ class Embedding {
     for (const std::int32_t f : mesh_.present_triangles()) {
       const Triangle& t = mesh_.triangles()[f];
       const Vector3& a = mesh_.points()[t[0]];
-      area += 0.5 * (mesh_.points()[t[1]] - a).cross(mesh_.points()[t[2]] - a).norm();
+      area += triangle_area(a, mesh_.points()[t[1]], mesh_.points()[t[2]]);
     }
     area_unit_ = 4.0 * pi / std::max(area, 1e-9);
   }
@@ -238,7 +239,7 @@ class Embedding {
       const Vector3& p = directions_[t[0]];
       const Vector3 a = directions_[t[1]] - p;
       const Vector3 b = directions_[t[2]] - p;
-      const double area = 0.5 * p.dot(a.cross(b));
+      const double area = 0.5 * six_volumes(p, a, b);
       const double dirichlet =
           0.5 * (r.cotangents[0] * (b - a).squaredNorm() + r.cotangents[1] * b.squaredNorm() +
                  r.cotangents[2] * a.squaredNorm());

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 // The hot loops are compiled twice on x86-64, for every such processor and for those with AVX2.
 // Both give the same bits: the operations and their order are the same, and neither may fuse a
@@ -22,8 +23,6 @@
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void check_degree(int degree) {
   if (degree < 0 || degree > maximum_harmonic_degree) {

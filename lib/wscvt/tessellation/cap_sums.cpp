@@ -3,13 +3,9 @@
 
 #include <algorithm>
 
+#include "wscvt/base/pi.h"
+
 namespace wscvt {
-
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-}  // namespace
 
 CapSums sum_over_caps(const GridField& field, double radius, const Execution& execution) {
   const int rows = field.rows;

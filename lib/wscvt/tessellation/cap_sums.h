@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_grid.h"
 
 namespace wscvt {
@@ -33,7 +34,7 @@ struct GridField {
       sum += sines[j] * row;
       measure += sines[j] * static_cast<double>(columns());
     }
-    return 4.0 * 3.14159265358979323846 * sum / measure;
+    return 4.0 * pi * sum / measure;
   }
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -19,13 +20,15 @@ struct Tessellation {
   std::vector<Triangle> triangles;
 };
 
-/// Cuts every edge at its middle, on the surface's chord, and every triangle in four.
+/// Cuts every edge at its middle, on the surface's chord, and every triangle in four. In the middle
+/// of the chord and not of the arc: on a surface that is far from round the arc's middle would lie
+/// nearer to the end that is closer to the origin, and the children would be as uneven as that.
 Tessellation subdivide(const std::vector<Vector3>& seeds, const std::vector<double>& radii,
                        const SphereTriangulation& triangulation) {
   Tessellation fine;
   fine.seeds = seeds;
   fine.seeds.reserve(4 * seeds.size());
-  std::vector<std::int32_t> middle(triangulation.opposite().size());
+  std::vector<std::int32_t> middle(triangulation.opposite().size());  // vertex on each half-edge
   for (std::int32_t h = 0; h < static_cast<std::int32_t>(middle.size()); ++h) {
     const std::int32_t other = triangulation.opposite()[h];
     if (h < other) {
@@ -51,7 +54,8 @@ Tessellation subdivide(const std::vector<Vector3>& seeds, const std::vector<doub
   return fine;
 }
 
-/// Adds `extra` seeds in the middles of the largest triangles.
+/// Adds `extra` seeds, at most three, in the middles of the largest triangles: there they disturb
+/// least, and the relaxation has the fewest neighbours to push aside.
 void insert_seeds(Tessellation& tessellation, int extra) {
   if (extra == 0) return;
   std::vector<std::size_t> order(tessellation.triangles.size());
@@ -59,14 +63,16 @@ void insert_seeds(Tessellation& tessellation, int extra) {
   std::vector<double> areas;
   areas.reserve(order.size());
   for (const auto& [a, b, c] : tessellation.triangles) {
-    const Vector3& origin = tessellation.seeds[a];
     areas.push_back(
-        (tessellation.seeds[b] - origin).cross(tessellation.seeds[c] - origin).squaredNorm());
+        doubled_area_normal(tessellation.seeds[a], tessellation.seeds[b], tessellation.seeds[c])
+            .squaredNorm());
   }
-  std::partial_sort(order.begin(), order.begin() + extra, order.end(),
-                    [&](std::size_t i, std::size_t j) {
-                      return areas[i] != areas[j] ? areas[i] > areas[j] : i < j;
-                    });
+  std::partial_sort(
+      order.begin(), order.begin() + extra, order.end(),
+      // Equal areas, as of a lattice's triangles, must not be put in order by the sort.
+      [&](std::size_t i, std::size_t j) {
+        return areas[i] != areas[j] ? areas[i] > areas[j] : i < j;
+      });
   for (int k = 0; k < extra; ++k) {
     const auto [a, b, c] = tessellation.triangles[order[k]];
     const auto v = static_cast<std::int32_t>(tessellation.seeds.size());
@@ -87,6 +93,7 @@ std::vector<int> level_sizes(int count, int coarsest_seeds) {
                     std::to_string(std::min(count, coarsest_seeds)) + ".");
   }
   std::vector<int> sizes = {count};
+  // V seeds have 3 V - 6 edges, each with a seed in its middle on the next level: 4 V - 6 there.
   while ((sizes.back() - 2) / 4 + 2 >= coarsest_seeds) sizes.push_back((sizes.back() - 2) / 4 + 2);
   std::reverse(sizes.begin(), sizes.end());
   return sizes;
@@ -142,6 +149,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
     Tessellation fine = subdivide(result.seeds, radii, result.triangulation);
     insert_seeds(fine, sizes[level] - static_cast<int>(fine.seeds.size()));
     SphereTriangulation triangulation(fine.seeds, std::move(fine.triangles));
+    // What happened on any level is told; displacements and outcome are those of the last.
     const int rebuilds = result.report.rebuilds;
     const double weight_scale = result.report.weight_scale;
     result = relax(std::move(fine.seeds), std::move(triangulation), model, options_of(level),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -75,7 +76,7 @@ void compute_power_cells(const SphereTriangulation& triangulation,
         std::int32_t h = first;
         do {
           const Triangle& t = triangles[h / 3];
-          normal += (sites[t[1]] - sites[t[0]]).cross(sites[t[2]] - sites[t[0]]);
+          normal += doubled_area_normal(sites[t[0]], sites[t[1]], sites[t[2]]);
           h = opposite[SphereTriangulation::previous(h)];
         } while (h != first);
         normal.normalize();

@@ -36,8 +36,9 @@ class Evaluation {
 
   void start_from(SphereTriangulation triangulation) { triangulation_ = std::move(triangulation); }
 
-  /// Repairs or rebuilds the triangulation for `seeds` and computes the cells.
-  void at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+  /// Repairs or rebuilds the triangulation for `seeds` and computes the cells. False, and no cells,
+  /// when the seeds have no triangulation whatever they weigh.
+  [[nodiscard]] bool try_at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     flips_ = 0;
     if (metric_ == RelaxationMetric::Surface) {
       model_.radii(seeds, execution_, radii_);
@@ -46,7 +47,7 @@ class Evaluation {
         for (std::size_t i = begin; i < end; ++i) positions_[i] = radii_[i] * seeds[i];
       });
       model_.surface_densities(seeds, execution_, wanted_);
-      triangulate_surface(seeds, report);
+      if (!triangulate_surface(seeds, report)) return false;
       // A centroidal tessellation of density rho has rho^(1/2) cells per area.
       densities_ = wanted_;
       for (double& density : densities_) density *= density;
@@ -54,11 +55,18 @@ class Evaluation {
                           execution_, cells_);
     } else {
       model_.weights(seeds, execution_, weights_);
-      triangulate_regular(seeds, report);
+      if (!triangulate_regular(seeds, report)) return false;
       compute_power_cells(*triangulation_, seeds, weights_, {}, CellGeometry::UnitSphere,
                           execution_, cells_);
     }
     compare(seeds);
+    return true;
+  }
+
+  /// The same for seeds that nothing can take the place of. Throws, with the reason, as
+  /// SphereTriangulation.
+  void at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+    if (!try_at(seeds, report)) triangulation_.emplace(seeds);
   }
 
   /// Where the centroids lie, seen from the origin; unit vectors are taken by the caller.
@@ -71,42 +79,43 @@ class Evaluation {
   std::vector<double> take_areas() { return std::move(cells_.areas); }
 
  private:
-  void triangulate_regular(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+  bool triangulate_regular(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     if (triangulation_) {
       const auto repair = triangulation_->restore_regular(seeds, weights_, execution_);
       flips_ = repair.flips;
-      if (repair.complete()) return;
+      if (repair.complete()) return true;
       ++report.rebuilds;
     }
     // A seed whose weight is too low has no cell. Then the differences between weights are halved
     // until every seed has one; with equal weights every seed has.
+    constexpr int most_halvings = 10;
     double scale = 1.0;
-    for (int attempt = 0;; ++attempt) {
-      try {
-        triangulation_.emplace(seeds, weights_);
-        break;
-      } catch (const Error&) {
-        if (weights_.empty() || attempt == 20) throw;
-      }
+    triangulation_ = SphereTriangulation::try_build(seeds, weights_);
+    for (int halvings = 0; !triangulation_ && !weights_.empty(); ++halvings) {
       scale *= 0.5;
-      if (attempt == 10) {
+      if (halvings == most_halvings) {
         weights_.clear();
         scale = 0.0;
       }
       for (double& weight : weights_) weight *= 0.5;
+      triangulation_ = SphereTriangulation::try_build(seeds, weights_);
     }
+    if (!triangulation_) return false;
     report.weight_scale = std::min(report.weight_scale, scale);
+    return true;
   }
 
-  void triangulate_surface(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+  bool triangulate_surface(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     if (triangulation_) {
       const auto repair = triangulation_->restore_surface_delaunay(seeds, positions_, execution_);
       flips_ = repair.flips;
-      if (!repair.turned_over) return;
+      if (!repair.turned_over) return true;
       ++report.rebuilds;
     }
-    triangulation_.emplace(seeds);
+    triangulation_ = SphereTriangulation::try_build(seeds);
+    if (!triangulation_) return false;
     flips_ += triangulation_->restore_surface_delaunay(seeds, positions_, execution_).flips;
+    return true;
   }
 
   // h and the spread of (cell area / target).
@@ -176,12 +185,7 @@ bool try_evaluation(Evaluation& evaluation, const std::vector<Vector3>& before,
                     std::vector<Vector3>& seeds, RelaxationReport& report) {
   constexpr int halvings = 6;
   for (int attempt = 0;; ++attempt) {
-    try {
-      evaluation.at(seeds, report);
-      return true;
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::NumericalFailure) throw;
-    }
+    if (evaluation.try_at(seeds, report)) return true;
     if (attempt == halvings) break;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       seeds[i] = (seeds[i] + before[i]).normalized();

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/tessellation/power_cells.h"
 #include "wscvt/tessellation/step_control.h"
@@ -64,7 +65,7 @@ std::vector<double> determinants(const SphereTriangulation& triangulation,
   execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto& [a, b, c] = triangles[t];
-      result[t] = seeds[a].dot(seeds[b].cross(seeds[c]));
+      result[t] = six_volumes(seeds[a], seeds[b], seeds[c]);
     }
   });
   return result;
@@ -139,7 +140,7 @@ class Relaxation {
     const Vector3 shift = factor * (cells_.centroids[site] - origin);
     Vector3 normal = Vector3::Zero();
     visit_ring(*triangulation_, site, [&](std::int32_t j, std::int32_t k) {
-      normal += (positions_[j] - origin).cross(positions_[k] - origin);
+      normal += doubled_area_normal(origin, positions_[j], positions_[k]);
     });
     normal.normalize();
     // The triangle of the ring into which the shift points: the one in which the smaller of its two
@@ -271,8 +272,7 @@ void insert_seeds(const MappedSurface& surface, int extra, std::vector<Vector3>&
   if (extra <= 0) return;
   const auto position = [&](std::int32_t v) { return surface.position(surface.locate(seeds[v])); };
   const auto area = [&](const Triangle& t) {
-    const Vector3 a = position(t[0]);
-    return (position(t[1]) - a).cross(position(t[2]) - a).norm();
+    return doubled_area_normal(position(t[0]), position(t[1]), position(t[2])).norm();
   };
   std::vector<double> areas;
   areas.reserve(triangles.size());
@@ -376,11 +376,7 @@ std::vector<Vector3> surviving_seeds(const MappedSurface& surface,
     insert_seeds(surface, count - static_cast<int>(seeds.size()), seeds, triangles);
   }
   // A handful of vertices need not surround the sphere's centre.
-  try {
-    const SphereTriangulation triangulation(seeds);
-  } catch (const Error&) {
-    return fibonacci_lattice(count);
-  }
+  if (!SphereTriangulation::try_build(seeds)) return fibonacci_lattice(count);
   return seeds;
 }
 

@@ -4,28 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/curvature.h"
+#include "wscvt/tessellation/weighting_rule.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-/// The cells of a WSCVT-C at most differ by these shares from the mean; see SurfaceSeedModel.
-constexpr double curvature_clip = 0.9;
-/// Curvatures below these are taken as these: a flat face has no scale of its own.
-constexpr double flat_curvature = 0.01;
-constexpr double flat_share_of_median = 0.3;
-
-std::vector<double> vertex_areas(const IndexedMesh& mesh) {
-  std::vector<double> areas(mesh.points.size(), 0.0);
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3& a = mesh.points[t[0]];
-    const double area = 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
-    for (const std::int32_t v : t) areas[v] += area / 3.0;
-  }
-  return areas;
-}
 
 /// Takes means over the vertices' rings, by area, as often as carries a value `distance` far: one
 /// round has the spread of a walk by one edge.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/convex_hull.h"
+#include "wscvt/base/convex_hull.h"
 
 #include <gtest/gtest.h>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/shape_descriptors.h"
@@ -33,11 +34,25 @@ TEST(ConvexHull, OfTwoCubesIsThePrismOverThem) {
   EXPECT_NEAR(volume(convex_hull(points)), 4.0, 1e-14);
 }
 
+TEST(ConvexHull, NamesPointsOfTheInputInTheirOrder) {
+  const std::vector<Vector3> points = {{0.2, 0.2, 0.2}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const Triangle& t : convex_hull_triangles(points)) {
+    for (const std::int32_t v : t) EXPECT_NE(v, 0);  // inside
+  }
+  EXPECT_EQ(convex_hull_triangles(points).size(), 4U);
+  EXPECT_EQ(convex_hull(points).points, (std::vector<Vector3>(points.begin() + 1, points.end())));
+}
+
+TEST(ConvexHull, HasNoTrianglesInAPlane) {
+  EXPECT_TRUE(convex_hull_triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}).empty());
+  EXPECT_TRUE(convex_hull_triangles({}).empty());
+}
+
 TEST(ConvexHull, RefusesAPlane) {
-  EXPECT_THROW(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), Error);
-  EXPECT_THROW(convex_hull({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}), Error);
-  EXPECT_THROW(convex_hull({{0, 0, 0}}), Error);
-  EXPECT_THROW(convex_hull({}), Error);
+  EXPECT_ERROR(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), InvalidInput);
+  EXPECT_ERROR(convex_hull({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}), InvalidInput);
+  EXPECT_ERROR(convex_hull({{0, 0, 0}}), InvalidInput);
+  EXPECT_ERROR(convex_hull({}), InvalidInput);
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// The triangles of the points' convex hull, counter-clockwise seen from outside, as indices into
+/// `points` (CGAL::convex_hull_3, exact predicates). Of points in one place the hull names one.
+/// Empty when all points lie in one plane.
+std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points);
+
+/// The convex hull as a closed outward mesh; its points are those of the input that lie on it, in
+/// their order. Throws Error(InvalidInput) when all points lie in one plane.
+IndexedMesh convex_hull(const std::vector<Vector3>& points);
+
+}  // namespace wscvt

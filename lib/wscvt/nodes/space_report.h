@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+namespace wscvt {
+
+/// How nodes were fitted along their normals.
+struct NormalFitReport {
+  std::size_t samples = 0;
+  int held_back = 0;    ///< nodes that went less than the whole step, for a guard
+  double offset = 0.0;  ///< along all normals, that made the volume exact; length
+};
+
+/// What became of nodes on a mapped surface.
+struct SpaceNodesReport {
+  std::size_t self_intersections = 0;  ///< pairs of triangles of the mesh that meet, exactly
+  int repairs = 0;                     ///< relaxations with more nodes where triangles had met
+  double volume_loss = 0.0;  ///< of the nodes on the surface, as a share of the grain's volume
+  /// Above 0: the nodes asked for are too few for the shape (they lose more than a quarter of its
+  /// volume, or their triangles meet), and so many would do; too_many_nodes where none of the
+  /// numbers tried does.
+  int enough_nodes = 0;
+  NormalFitReport fit;  ///< of a least-squares placement
+};
+
+/// No number of nodes up to sixteen times that asked for would do.
+inline constexpr int too_many_nodes = -1;
+
+}  // namespace wscvt

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// A relaxed cell's solid angle is this times its seed's weight, plus a constant that is the same
+/// for all seeds: 2 / (5 / (9 sqrt 3)) from the second moment of the regular hexagon.
+inline constexpr double cell_area_per_weight = 3.118;
+
+/// Smallest cell, as a share of the mean one, that this law is trusted with: none is wanted
+/// smaller.
+inline constexpr double smallest_cell_share = 0.05;
+
+/// What the relaxation asks about seeds wherever they stand. One value a seed, in their order.
+class SeedModel {
+ public:
+  virtual ~SeedModel() = default;
+
+  /// Power weights in steradian for as many seeds as are given; left empty when all are equal.
+  virtual void weights(const std::vector<Vector3>& seeds, const Execution& execution,
+                       std::vector<double>& result) const = 0;
+
+  /// Radii of the surface.
+  virtual void radii(const std::vector<Vector3>& seeds, const Execution& execution,
+                     std::vector<double>& result) const = 0;
+
+  /// Wanted number of seeds per surface area, any common scale; left empty when it is constant.
+  virtual void surface_densities(const std::vector<Vector3>& seeds, const Execution& execution,
+                                 std::vector<double>& result) const = 0;
+};
+
+}  // namespace wscvt

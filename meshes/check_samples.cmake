@@ -1,0 +1,18 @@
+# cmake -D program=MAKE_SAMPLES -D meshes_dir=DIR -D work_dir=DIR -P check_samples.cmake: make_samples
+# writes the grains of this folder byte for byte as committed.
+cmake_minimum_required(VERSION 3.22)
+file(REMOVE_RECURSE ${work_dir})
+file(MAKE_DIRECTORY ${work_dir})
+execute_process(COMMAND ${program} ${work_dir} COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB samples RELATIVE ${meshes_dir} ${meshes_dir}/*.ply)
+file(GLOB made RELATIVE ${work_dir} ${work_dir}/*)
+if(NOT samples OR NOT samples STREQUAL made)
+  message(FATAL_ERROR "make_samples wrote ${made}; committed are ${samples}.")
+endif()
+foreach(sample ${samples})
+  file(SHA256 ${meshes_dir}/${sample} committed)
+  file(SHA256 ${work_dir}/${sample} written)
+  if(NOT committed STREQUAL written)
+    message(FATAL_ERROR "make_samples writes another ${sample} than the one committed.")
+  endif()
+endforeach()
