@@ -51,7 +51,8 @@ FilterParameter random_seed_parameter() {
                                     Ends::Both,
                                     random_seed_option.meaning};
   return option_parameter("RandomSeed", static_cast<int>(RemeshOptions().seeding.random_seed),
-                          option, "Random seed", "Of the random start only.");
+                          option, "Random seed",
+                          "Of the random start only; the same seed gives the same mesh.");
 }
 
 FilterParameter maximum_iterations_parameter() {
