@@ -2,6 +2,8 @@
 #include "creation_filter.h"
 
 #include <QFileInfo>
+#include <algorithm>
+#include <vector>
 
 #include "report_file.h"
 #include "wscvt/base/error.h"
@@ -19,16 +21,18 @@ constexpr NumberOption<int> coefficient_degree_option = {
     "coefficient-degree", "degree at which the series is cut", -1, maximum_harmonic_degree};
 
 FilterParameter semi_axis(const std::string& name, double default_value, const std::string& axis) {
+  // Said once, because the dialog is long.
   return option_parameter(name, default_value, semi_axis_option, "Semi-axis along " + axis,
-                          "Half the extent of the ellipsoid or superellipsoid along " + axis +
-                              ", in units of the mesh; up to about 20 times another (5 times with "
-                              "exponents above 1). Harmonics have a size of their own.");
+                          "Half the extent along " + axis +
+                              (axis == "x" ? ", not of harmonics; up to about 20 times another, 5 "
+                                             "times with exponents above 1."
+                                           : "."));
 }
 
 FilterParameter exponent(const std::string& name, const NumberOption<double>& option,
                          const std::string& label, const std::string& where) {
   return option_parameter(name, 1.0, option, label,
-                          "Superellipsoid only, no unit: how square it is " + where +
+                          "Superellipsoid only: how square it is " + where +
                               ". 0.1 nearly a box, 1 round as the ellipsoid, 2 a bevelled edge.");
 }
 
@@ -49,7 +53,7 @@ std::string creation_help() {
 }
 
 ParameterList creation_parameters() {
-  return {
+  ParameterList parameters = {
       table_parameter("Surface", CreationSettings().surface, "Surface",
                       "What is made into a mesh."),
       semi_axis("SemiAxisX", 1.0, "x"),
@@ -60,13 +64,12 @@ ParameterList creation_parameters() {
                "seen along z"),
       input_file_parameter(
           "CoefficientsFile", {".dat", ".json"}, "Coefficients file",
-          "Harmonics only: the file that holds the coefficients, .dat (text of the NIST/VCCTL "
-          "particle shape sets) or .json (as the remesher saves it)."),
+          "Of the harmonics: .dat (text of the NIST/VCCTL particle shape sets) or .json (as the "
+          "remesher saves it)."),
       option_parameter("CoefficientDegree", -1, coefficient_degree_option,
                        "Cut the series at degree",
-                       "Harmonics from a .dat file only: the series is cut at this degree; -1 "
-                       "keeps all. The tables beside the particle shape sets are those "
-                       "of cut series."),
+                       "Of a .dat file only, as for the tables beside the particle shape sets; -1 "
+                       "keeps all."),
       node_count_parameter(),
       sampling_parameter(),
       weighting_parameter(),
@@ -80,10 +83,17 @@ ParameterList creation_parameters() {
       random_seed_parameter(),
       maximum_iterations_parameter(),
       table_parameter("Quality", CreationSettings().result.quality, "Vertex quality",
-                      "What the vertex quality of the result holds."),
+                      "What each vertex of the result holds."),
       colour_by_quality_parameter(),
       report_file_parameter(),
   };
+  const std::vector<std::string> seldom = {
+      "CoefficientDegree", "Sampling",   "CurvatureAlpha", "Metric",
+      "SeedStart",         "RandomSeed", "MaxIterations"};
+  for (FilterParameter& parameter : parameters) {
+    parameter.advanced = std::find(seldom.begin(), seldom.end(), parameter.name) != seldom.end();
+  }
+  return parameters;
 }
 
 CreationSettings read_creation_settings(const ParameterValues& values) {

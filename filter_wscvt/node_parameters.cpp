@@ -8,28 +8,28 @@ namespace wscvt::filter {
 FilterParameter node_count_parameter() {
   return option_parameter(
       "NodeCount", RemeshOptions().node_count, node_count_option, "Number of nodes",
-      "Vertices of the result. It has exactly this many, and twice as many faces less four. The "
-      "chords lose about 660/N % of the volume, unless the nodes are placed by least squares.");
+      "Vertices of the result, exactly. Flat triangles lose about 660/N % of the volume, unless "
+      "nodes are placed by least squares.");
 }
 
 FilterParameter sampling_parameter() {
   return table_parameter(
       "Sampling", RemeshOptions().seeding.sampling, "Sampling",
-      "Where the directions of the nodes come from. All but the first are there to be compared "
-      "with and ignore the weighting.");
+      "Where the nodes' directions come from. All but the first are for comparison and ignore the "
+      "weighting.");
 }
 
 FilterParameter weighting_parameter() {
   return table_parameter("Weighting", RemeshOptions().weighting.kind, "Weighting",
-                         "What decides how large the cell of a node is.");
+                         "How large the nodes' cells are.");
 }
 
 FilterParameter curvature_alpha_parameter() {
   return option_parameter(
       "CurvatureAlpha", RemeshOptions().weighting.curvature_alpha, curvature_alpha_option,
       "Curvature strength alpha",
-      "Strength of the curvature weighting (WSCVT-C only), no unit. 0 ignores curvature, larger "
-      "gathers more nodes at edges and corners, negative keeps them away.");
+      "Strength of WSCVT-C: 0 ignores curvature, larger gathers nodes at edges and corners, "
+      "negative keeps them away.");
 }
 
 FilterParameter metric_parameter() {
@@ -52,15 +52,13 @@ FilterParameter random_seed_parameter() {
                                     random_seed_option.meaning};
   return option_parameter("RandomSeed", static_cast<int>(RemeshOptions().seeding.random_seed),
                           option, "Random seed",
-                          "Start of the random directions; has no effect unless the start is "
-                          "random. The same seed gives the same mesh.");
+                          "Of the random start only; the same seed gives the same mesh.");
 }
 
 FilterParameter maximum_iterations_parameter() {
   return option_parameter("MaxIterations", RemeshOptions().relaxation.maximum_iterations,
                           maximum_iterations_option, "Largest number of iterations",
-                          "Relaxation stops here if it has not converged before; the log says "
-                          "which.");
+                          "Relaxation stops here at the latest.");
 }
 
 FilterParameter colour_by_quality_parameter() {

@@ -46,7 +46,7 @@ struct wscvt::EnumerationTable<wscvt::filter::VertexQuality> {
        "the largest absolute principal curvature, 1/unit"},
       {Quality::CellArea, "cell-area", "cell area", "surface area of the node's cell, unit^2"},
       {Quality::OriginalDistance, "original-distance", "distance to the original",
-       "from each node to the surface it was made from, in units of the mesh"},
+       "from each node to its surface, in units of the mesh"},
   };
 };
 

@@ -78,7 +78,7 @@ ParameterList remesh_parameters() {
                      "Measures the one- and two-sided Hausdorff, rms and mean distance between "
                      "result and original, for the log and the report; takes about a second."),
       table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
-                      "What the vertex quality of the result holds."),
+                      "What each vertex of the result holds."),
       colour_by_quality_parameter(),
       report_file_parameter(),
       output_file_parameter(

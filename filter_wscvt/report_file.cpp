@@ -36,9 +36,8 @@ std::string extension_of(const std::string& path) {
 FilterParameter report_file_parameter() {
   return output_file_parameter(
       "ReportFile", report_endings(), "Report file",
-      "File for the report, or nothing. Its extension decides what it becomes: .html (a page with "
-      "pictures), .json (everything) or .csv (a row more of a table). Without a folder it lands "
-      "beside the scan; the log says where. It is written whole or not at all.");
+      "For the report, or nothing: .html (a page with pictures), .json (everything) or .csv (a row "
+      "more of a table). The log says where.");
 }
 
 void check_remesh_report_file(const std::string& path) {

@@ -42,7 +42,7 @@ struct Api {
                   const Arguments&... arguments) {
     QString label = QString::fromStdString(parameter.label);
     // What is typed into the field of a file has no effect in this version.
-    if (holds_file(parameter.kind)) label += QStringLiteral(" (choose by the button)");
+    if (holds_file(parameter.kind)) label += QStringLiteral(" (by button)");
     list.addParam(Rich(QString::fromStdString(parameter.name), arguments..., label,
                        shown_tooltip(parameter)));
   }

@@ -21,6 +21,7 @@
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/radial_samples.h"
 #include "wscvt/tessellation/power_cells.h"
+#include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/relaxation.h"
 #include "wscvt/tessellation/weights.h"
 

@@ -240,6 +240,19 @@ TEST(EverydayFilter, HasAtMostTenOfTheRemeshersParameters) {
   }
 }
 
+TEST(CreationFilter, FoldsAwayWhatIsSeldomNeeded) {
+  LoadedFilter loaded(creation_menu_text);
+  MeshDocument document;
+  std::size_t shown = 0;
+  for (const RichParameter& parameter : loaded.parameters(document)) {
+    if (!is_advanced(parameter)) ++shown;
+    if (parameter.name() == "NodeCount" || parameter.name() == "ReportFile") {
+      EXPECT_FALSE(is_advanced(parameter));
+    }
+  }
+  EXPECT_EQ(shown, host_folds_parameters ? 13U : loaded.parameters(document).size());
+}
+
 TEST(EverydayFilter, GivesWhatTheRemesherGives) {
   MeshDocument document;
   MeshModel& scan = add_layer(document, grain());

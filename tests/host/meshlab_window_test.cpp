@@ -8,6 +8,7 @@
 #include <QRect>
 #include <QThread>
 
+#include "creation_filter.h"
 #include "descriptor_filter.h"
 #include "everyday_filter.h"
 #include "programs.h"
@@ -201,7 +202,8 @@ TEST_P(WindowHelp, StaysOnTheScreen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTheShorterFilters, WindowHelp,
-                         testing::Values(filter::everyday_name(), filter::descriptor_name()));
+                         testing::Values(filter::everyday_name(), filter::creation_name(),
+                                         filter::descriptor_name()));
 
 TEST(Window, FilterAddsALayerThatIsSavedWithTheProject) {
   const QString scan = sample("sand_7228.ply");

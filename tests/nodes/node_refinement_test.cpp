@@ -118,7 +118,8 @@ TEST(NodeRefinement, MendsTheAnglesOfABadStart) {
     start.positions[i] = start.original.radius(directions[i]) * directions[i];
   }
   ASSERT_LT(measure_quality(start.mesh()).smallest_angle, 5.0);
-  const RefinedNodes refined = refine(start, rounds(20));
+  // In the first round: in twenty the moves and relocations happen to get rid of most of them too.
+  const RefinedNodes refined = refine(start, rounds(1));
   expect_promises(refined, 200);
   EXPECT_GE(measure_quality(mesh_of(refined)).smallest_angle, 15.5 - 1e-9);
 }

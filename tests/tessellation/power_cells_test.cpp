@@ -107,6 +107,45 @@ TEST(PowerCells, DensityPullsTheCentroidTowardsIt) {
   }
 }
 
+// The same by another quadrature: a product of two linear functions over a triangle is a third of
+// the area times the sum of its values in the middles of the sides.
+TEST(PowerCells, CentroidsAreThoseOfADensityLinearOverEachFan) {
+  const std::vector<Vector3> seeds = fibonacci_lattice(60);
+  const SphereTriangulation triangulation(seeds);
+  std::vector<double> densities;
+  for (const Vector3& p : seeds) densities.push_back(std::exp(3.0 * p.z()));
+  PowerCells cells;
+  compute_power_cells(triangulation, seeds, {}, densities, CellGeometry::UnitSphere, Execution(1),
+                      cells);
+  const auto density_at = [&](std::int32_t t) {
+    const auto& [a, b, c] = triangulation.triangles()[t];
+    return (densities[a] + densities[b] + densities[c]) / 3.0;
+  };
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    double mass = 0.0;
+    Vector3 moment = Vector3::Zero();
+    const std::int32_t first = triangulation.first_half_edge()[i];
+    std::int32_t h = first;
+    do {
+      const std::int32_t next = triangulation.opposite()[SphereTriangulation::previous(h)];
+      const Vector3 corners[] = {seeds[i], cells.vertices[h / 3], cells.vertices[next / 3]};
+      const double at_corners[] = {densities[i], density_at(h / 3), density_at(next / 3)};
+      const double area =
+          0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(seeds[i]);
+      for (int k = 0; k < 3; ++k) {
+        const double density = 0.5 * (at_corners[k] + at_corners[(k + 1) % 3]);
+        mass += area / 3.0 * density;
+        moment += area / 3.0 * density * 0.5 * (corners[k] + corners[(k + 1) % 3]);
+      }
+      h = next;
+    } while (h != first);
+    Vector3 shift = moment / mass - seeds[i];
+    shift -= shift.dot(seeds[i]) * seeds[i];
+    // Coordinates of 1 and some ten terms: rounding stays below 1e-14.
+    EXPECT_NEAR((cells.centroids[i] - seeds[i] - shift).norm(), 0.0, 1e-14);
+  }
+}
+
 TEST(PowerCells, AreasAndCentroidsAreThoseOfThePointsNearestToEachSite) {
   // By brute force: every one of many points on the sphere belongs to the site with the least
   // |x - site|^2 - w. Needs none of the cells' geometry.
