@@ -22,7 +22,9 @@ std::string everyday_name() { return "Remeshing: Grain to a Number of Nodes"; }
 std::string everyday_help() {
   return "Turns the scan of a grain into a closed mesh of <b>exactly the number of nodes asked "
          "for</b> and of even triangles, which becomes a new layer. Start with the number; the "
-         "rest can stay. The filter 'Weighted Spherical Centroidal Voronoi' is the same with all "
+         "rest can stay. On the scan suits contact laws that take the deepest node; as published, "
+         "those that sum over nodes by area, and figures beside the paper's. 'Weighted Spherical "
+         "Centroidal Voronoi' is the same with all "
          "parameters.";
 }
 
