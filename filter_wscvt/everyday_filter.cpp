@@ -21,11 +21,10 @@ std::string everyday_name() { return "Remeshing: Grain to a Number of Nodes"; }
 
 std::string everyday_help() {
   return "Turns the scan of a grain into a closed mesh of <b>exactly the number of nodes asked "
-         "for</b> and of even triangles, which becomes a new layer. Start with the number; the "
-         "rest can stay. On the scan suits contact laws that take the deepest node; as published, "
-         "those that sum over nodes by area, and figures beside the paper's. 'Weighted Spherical "
-         "Centroidal Voronoi' is the same with all "
-         "parameters.";
+         "for</b> and of even triangles, as a new layer. Start with the number; the rest can "
+         "stay. <i>On the scan</i> suits contact laws of the deepest node, <i>as published</i> "
+         "those that sum over nodes by area. All parameters: Weighted Spherical Centroidal "
+         "Voronoi";
 }
 
 ParameterList everyday_parameters() {
