@@ -2,6 +2,7 @@
 // The plugin as it was built, loaded into this process, which plays the host.
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QFileInfo>
 #include <QPluginLoader>
 #include <QTemporaryDir>
@@ -666,11 +667,11 @@ TEST(Filter, SurvivesTheScanBeingDeletedDuringTheRun) {
     deed_during_the_run = [&] { remove_layer(document, scan); };
     EXPECT_EQ(loaded.apply(document, parameters, acting_callback), new_layer) << loaded.message();
     if (new_layer) {
-      ASSERT_EQ(document.size(), 2);
+      ASSERT_EQ(layers_of(document).size(), 2U);
       EXPECT_EQ(document.mm()->cm.vn, 60);
       EXPECT_TRUE(document.mm()->cm.Tr == transform);
     } else {
-      ASSERT_EQ(document.size(), 1);
+      ASSERT_EQ(layers_of(document).size(), 1U);
       EXPECT_EQ(document.mm()->cm.vn, static_cast<int>(sphere().points.size()));
       EXPECT_NE(loaded.message().find("not there any more"), std::string::npos) << loaded.message();
     }
@@ -692,7 +693,7 @@ TEST(Filter, RefusesToBeAppliedDuringARun) {
   EXPECT_TRUE(loaded.apply(document, parameters, acting_callback));
   EXPECT_FALSE(second);
   EXPECT_NE(message.find("still running"), std::string::npos) << message;
-  EXPECT_EQ(document.size(), 2);
+  EXPECT_EQ(layers_of(document).size(), 2U);
   // The advice: after the first one is done, also when it was refused or failed.
   document.setCurrentMesh(scan.id());
   EXPECT_TRUE(loaded.apply(document, parameters));
