@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "wscvt/base/error.h"
@@ -11,6 +12,7 @@
 #include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_units.h"
 #include "wscvt/report/remesh_warnings.h"
+#include "wscvt/scan/coordinates.h"
 #include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/scan/point_cloud.h"
 #include "wscvt/tessellation/seeding.h"
@@ -28,6 +30,7 @@ struct PreparedGrain {
   /// To the grain's mesh. It takes longer to make ready than to ask on a dense scan, so it is made
   /// once for all node counts that are tried.
   std::optional<MeshDistance> distance;
+  std::string precision_warning;  ///< see precision_warning
 };
 
 bool measures_distances(const RemeshOptions& options) {
@@ -49,20 +52,30 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   if (radial && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
-  if (measures_distances(options)) prepared.distance.emplace(grain.mesh);
+  if (measures_distances(options)) prepared.distance.emplace(grain.mesh, execution.part(0.9, 1.0));
 }
 
 PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
   PreparedGrain prepared;
   const std::size_t points = scan.points.size();
-  const bool without_faces = scan.triangles.empty() && points > 0;
-  if (without_faces) scan = mesh_of_points(std::move(scan.points));
+  const std::size_t faces = scan.triangles.size();
+  if (faces == 0 && points > 0 && !options.points) {
+    throw Error(ErrorCode::InvalidInput,
+                "The scan has " + std::to_string(points) +
+                    " points and no faces. If it was exported without its faces, export it again; "
+                    "if its points are all there is, choose to make a surface of them: --points in "
+                    "the program, Points in the filter \"Remeshing: Weighted Spherical Centroidal "
+                    "Voronoi\", RemeshOptions::points in the library. Nothing was changed.");
+  }
+  if (options.points) scan = mesh_of_points(std::move(scan.points), execution.part(0.0, 0.4));
   const std::size_t different = scan.points.size();
-  CheckedMesh checked = check_mesh(std::move(scan), options.check, execution.part(0.0, 0.5));
+  prepared.precision_warning = precision_warning(scan);
+  CheckedMesh checked =
+      check_mesh(std::move(scan), options.check, execution.part(options.points ? 0.4 : 0.0, 0.5));
   prepared.input = checked.report;
-  if (without_faces) {  // what was given, not what was made of it
+  if (options.points) {  // what was given, not what was made of it
     prepared.input.input_vertices = points;
-    prepared.input.input_faces = 0;
+    prepared.input.input_faces = faces;
     prepared.input.welded_vertices = points - different;
   }
   SurfaceOptions surface = options.surface;
@@ -83,6 +96,7 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
 PreparedGrain prepare(const RadialSurface& surface, const RemeshOptions& options,
                       const Execution& execution) {
   PreparedGrain prepared;
+  execution.report(0.0, "Integrating the surface");
   const SurfaceIntegrals integrals = integrate(surface, execution);
   prepared.grain = grain_of_surface(surface, integrals, execution);
   prepared.input.volume = integrals.volume;
@@ -227,6 +241,9 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
                             ? remesh_to_target(prepared, options, execution)
                             : remesh_prepared(prepared, options, execution);
   result.warnings = remesh_warnings(result);
+  if (!prepared.precision_warning.empty()) {
+    result.warnings.insert(result.warnings.begin(), prepared.precision_warning);
+  }
   execution.report(1.0, "Done");
   return result;
 }

@@ -292,14 +292,14 @@ QString listed_parameters(const QString& menu_text) {
 
 TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
   const QStringList remesh{
-      "NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",    "TargetMeasure RichEnum 4",
-      "Sampling RichEnum 0",        "Weighting RichEnum 1",       "HarmonicDegree RichInt 20",
-      "CurvatureAlpha RichFloat 1", "CurvatureSource RichEnum 0", "Placement RichEnum 0",
-      "RefinementRounds RichInt 0", "Parametrization RichEnum 0", "FoldLimit RichFloat 5",
-      "MendLimit RichFloat 5",      "Metric RichEnum 0",          "SeedStart RichEnum 0",
-      "RandomSeed RichInt 1",       "MaxIterations RichInt 1000", "NewLayer RichBool true",
-      "Distances RichBool false",   "Quality RichEnum 0",         "ColorByQuality RichBool false",
-      "ReportFile OutputFile",      "CoefficientsFile OutputFile"};
+      "NodeCount RichInt 1000",        "ErrorTarget RichFloat 0",    "TargetMeasure RichEnum 4",
+      "Sampling RichEnum 0",           "Weighting RichEnum 1",       "HarmonicDegree RichInt 20",
+      "CurvatureAlpha RichFloat 1",    "CurvatureSource RichEnum 0", "Placement RichEnum 0",
+      "RefinementRounds RichInt 0",    "Parametrization RichEnum 0", "FoldLimit RichFloat 5",
+      "MendLimit RichFloat 5",         "Points RichBool false",      "Metric RichEnum 0",
+      "SeedStart RichEnum 0",          "RandomSeed RichInt 1",       "MaxIterations RichInt 1000",
+      "NewLayer RichBool true",        "Distances RichBool false",   "Quality RichEnum 0",
+      "ColorByQuality RichBool false", "ReportFile OutputFile",      "CoefficientsFile OutputFile"};
   EXPECT_EQ(listed_parameters(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
   const QStringList create{"Surface RichEnum 0",
                            "SemiAxisX RichFloat 1",

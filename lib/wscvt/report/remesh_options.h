@@ -25,6 +25,9 @@ struct MeasureOptions {
 struct RemeshOptions {
   int node_count = 1000;  ///< N; with an error target the first N tried
   ErrorTarget target;
+  /// Take the scan's points alone and make its surface anew from them (see mesh_of_points); faces
+  /// that it has are not used. Without it a scan without faces is refused.
+  bool points = false;
   MeshCheckOptions check;
   SurfaceOptions surface;
   SeedingOptions seeding;
@@ -35,6 +38,9 @@ struct RemeshOptions {
   MeasureOptions measures;
 };
 
+inline constexpr FlagOption points_option = {
+    "points", "points of the scan",
+    "taken alone, and a surface made of them; without it a scan without faces is refused"};
 inline constexpr FlagOption distances_option = {"distances", "distances to the scan",
                                                 "measured and reported"};
 
@@ -55,6 +61,7 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.surface.degree, harmonic_degree_option);
   visitor(options.surface.parametrization);
   visitor(options.surface.fold_limit_percent, fold_limit_option);
+  visitor(options.points, points_option);
   visitor(options.relaxation.metric);
   visitor(options.placement.kind);
   visitor(options.placement.refuse_self_intersections, refuse_self_intersections_option);

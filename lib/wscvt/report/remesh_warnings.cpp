@@ -10,6 +10,14 @@ namespace {
 using Sentences = std::vector<std::string>;
 
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
+  if (result.options.points) {
+    const std::size_t faces = result.input.input_faces;
+    warnings.push_back(
+        "The scan was taken as points" +
+        (faces > 0 ? ", its " + std::to_string(faces) + " faces were not used" : std::string()) +
+        ": volume, area and folds of the original are those of the surface that was made for them, "
+        "with one radius in each direction, not those of the body. Check the result against it.");
+  }
   const bool radial = result.parametrization == Parametrization::Radial;
   if (radial && result.folded_share > fold_warning_limit) {
     warnings.push_back(

@@ -47,7 +47,7 @@ class OptionRows {
 /// The scan as it was used; nothing for a surface from a formula.
 IndexedMesh used_scan(IndexedMesh scan, const MeshCheckOptions& options,
                       const Execution& execution) {
-  if (scan.triangles.empty() && !scan.points.empty()) scan = mesh_of_points(std::move(scan.points));
+  if (result.options.points) scan = mesh_of_points(std::move(scan.points));
   if (scan.triangles.empty()) return scan;
   return check_mesh(std::move(scan), options, execution).mesh;
 }
