@@ -59,25 +59,13 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   PreparedGrain prepared;
   const std::size_t points = scan.points.size();
   const std::size_t faces = scan.triangles.size();
-  if (faces == 0 && points > 0 && !options.points) {
-    throw Error(ErrorCode::InvalidInput,
-                "The scan has " + std::to_string(points) +
-                    " points and no faces. If it was exported without its faces, export it again; "
-                    "if its points are all there is, choose to make a surface of them: --points in "
-                    "the program, Points in the filter \"Remeshing: Weighted Spherical Centroidal "
-                    "Voronoi\", RemeshOptions::points in the library. Nothing was changed.");
-  }
-  if (options.points) scan = mesh_of_points(std::move(scan.points), execution.part(0.0, 0.4));
+  scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.4));
   const std::size_t different = scan.points.size();
   prepared.precision_warning = precision_warning(scan);
   CheckedMesh checked =
       check_mesh(std::move(scan), options.check, execution.part(options.points ? 0.4 : 0.0, 0.5));
   prepared.input = checked.report;
-  if (options.points) {  // what was given, not what was made of it
-    prepared.input.input_vertices = points;
-    prepared.input.input_faces = faces;
-    prepared.input.welded_vertices = points - different;
-  }
+  if (options.points) count_given(points, faces, different, prepared.input);
   SurfaceOptions surface = options.surface;
   // The series and refinement are those of the radial map, so a grain that has one keeps it.
   const bool asks_for_radial =
@@ -96,7 +84,6 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
 PreparedGrain prepare(const RadialSurface& surface, const RemeshOptions& options,
                       const Execution& execution) {
   PreparedGrain prepared;
-  execution.report(0.0, "Integrating the surface");
   const SurfaceIntegrals integrals = integrate(surface, execution);
   prepared.grain = grain_of_surface(surface, integrals, execution);
   prepared.input.volume = integrals.volume;
@@ -240,10 +227,7 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
   RemeshResult result = options.target.percent > 0.0
                             ? remesh_to_target(prepared, options, execution)
                             : remesh_prepared(prepared, options, execution);
-  result.warnings = remesh_warnings(result);
-  if (!prepared.precision_warning.empty()) {
-    result.warnings.insert(result.warnings.begin(), prepared.precision_warning);
-  }
+  result.warnings = remesh_warnings(result, prepared.precision_warning);
   execution.report(1.0, "Done");
   return result;
 }

@@ -154,8 +154,10 @@ void warn_of_search(const RemeshResult& result, Sentences& warnings) {
 
 }  // namespace
 
-std::vector<std::string> remesh_warnings(const RemeshResult& result) {
+std::vector<std::string> remesh_warnings(const RemeshResult& result,
+                                         const std::string& of_precision) {
   Sentences warnings;
+  if (!of_precision.empty()) warnings.push_back(of_precision);
   warn_of_scan(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_space(result, warnings);

@@ -14,7 +14,9 @@ inline constexpr double fold_warning_limit = 0.01;
 /// Residual of the fit / equivalent radius above which the result carries a warning.
 inline constexpr double residual_warning_limit = 0.05;
 
-/// What the user of a result ought to know, a sentence each, the scan's faults first.
-std::vector<std::string> remesh_warnings(const RemeshResult& result);
+/// What the user of a result ought to know, a sentence each, the scan's faults first. The first of
+/// all is `of_precision`, if it is not empty (see precision_warning).
+std::vector<std::string> remesh_warnings(const RemeshResult& result,
+                                         const std::string& of_precision = "");
 
 }  // namespace wscvt

@@ -84,4 +84,22 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
   return mesh;
 }
 
+IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution) {
+  if (points_only) return mesh_of_points(std::move(scan.points), execution);
+  if (!scan.triangles.empty() || scan.points.empty()) return scan;
+  throw Error(ErrorCode::InvalidInput,
+              "The scan has " + std::to_string(scan.points.size()) +
+                  " points and no faces. If it was exported without its faces, export it again; if "
+                  "its points are all there is, choose to make a surface of them: --points in the "
+                  "program, Points in the filter \"Remeshing: Weighted Spherical Centroidal "
+                  "Voronoi\", RemeshOptions::points in the library. Nothing was changed.");
+}
+
+void count_given(std::size_t points, std::size_t faces, std::size_t different,
+                 MeshCheckReport& report) {
+  report.input_vertices = points;
+  report.input_faces = faces;
+  report.welded_vertices = points - different;
+}
+
 }  // namespace wscvt
