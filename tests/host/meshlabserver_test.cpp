@@ -4,9 +4,6 @@
 
 #include <QFile>
 #include <QRegularExpression>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "calls.h"
 #include "programs.h"
@@ -151,78 +148,6 @@ TEST(Server, RefusesANodeCountThatCannotBeRead) {
     EXPECT_TRUE(outcome.output.contains("NodeCount is missing"));
   }
 }
-
-/// A refusal, and what MeshLab does when its advice is followed.
-struct Advice {
-  std::string name;
-  Call refused;   ///< with words of the advice
-  QString steps;  ///< filters of MeshLab to apply first, as a script holds them
-  std::map<std::string, std::string> parameters;  ///< of the remesher, the second time
-};
-
-std::vector<Advice> all_advice() {
-  const auto filter = [](const QString& name, const QString& parameters) {
-    return QStringLiteral(" <filter name=\"%1\">\n%2 </filter>\n").arg(name, parameters);
-  };
-  const IndexedMesh points{sphere().points, {}};
-  return {
-      {"SplitTheBodies",
-       {"", two_grains(), {}, {"Filters > Mesh Layer > Split in Connected Components"}},
-       filter("Split in Connected Components", ""),
-       {}},
-      {"ResampleTheBand",
-       {"", band_with_one_side(), {}, {"Uniform Mesh Resampling", "Absolute Distance", "Offset"}},
-       // The band leaves an opening of radius 1.4.
-       filter(
-           "Uniform Mesh Resampling",
-           "  <Param name=\"CellSize\" type=\"RichAbsPerc\" value=\"0.1\" min=\"0\" max=\"9\"/>\n"
-           "  <Param name=\"Offset\" type=\"RichAbsPerc\" value=\"1.7\" min=\"-9\" max=\"9\"/>\n"
-           "  <Param name=\"mergeCloseVert\" type=\"RichBool\" value=\"true\"/>\n"
-           "  <Param name=\"discretize\" type=\"RichBool\" value=\"false\"/>\n"
-           "  <Param name=\"multisample\" type=\"RichBool\" value=\"false\"/>\n"
-           "  <Param name=\"absDist\" type=\"RichBool\" value=\"true\"/>\n"),
-       {}},
-      {"RaiseTheMendLimit",
-       {"", without_a_patch(), {}, {"raise the limit of the area that may be mended"}},
-       "",
-       {{"MendLimit", "100"}}},
-      {"TakeThePoints", {"", points, {}, {"Points in the filter"}}, "", {{"Points", "true"}}},
-  };
-}
-
-class ServerAdvises : public ::testing::TestWithParam<Advice> {};
-
-TEST_P(ServerAdvises, WhatLeadsToARemesh) {
-  const Advice& advice = GetParam();
-  QTemporaryDir folder;
-  const QString output = folder.filePath("remeshed.ply");
-  const Outcome refusal = run_call(advice.refused, folder, output);
-  EXPECT_EQ(refusal.exit_code, refused);
-  EXPECT_FALSE(QFile::exists(output));
-  for (const std::string& word : advice.refused.words) {
-    EXPECT_TRUE(refusal.output.contains(QString::fromStdString(word)))
-        << word << "\n"
-        << refusal.output.toStdString();
-  }
-
-  const QString script = folder.filePath("script.mlx");
-  write_script(advice.parameters, script);
-  QFile file(script);
-  ASSERT_TRUE(file.open(QIODevice::ReadWrite));
-  QString text = QString::fromUtf8(file.readAll());
-  text.insert(text.indexOf(" <filter"), advice.steps);
-  file.seek(0);
-  file.write(text.toUtf8());
-  file.close();
-  const Outcome outcome = run_meshlabserver(
-      {"-i", folder.filePath("input.ply"), "-s", script, "-o", output}, folder.path());
-  SCOPED_TRACE(outcome.output.toStdString());
-  ASSERT_TRUE(QFile::exists(output));
-  EXPECT_EQ(read_mesh(output.toStdString()).points.size(), 1000U);
-}
-
-INSTANTIATE_TEST_SUITE_P(, ServerAdvises, ::testing::ValuesIn(all_advice()),
-                         [](const auto& test) { return test.param.name; });
 
 class ServerCopesWith : public ::testing::TestWithParam<Call> {};
 
