@@ -85,13 +85,15 @@ fi
 done
 
 in_private() {
+  # shellcheck disable=SC2086
   "$@" -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$scratch/parts" \
     -o Dir::State::Lists="$scratch/lists" -o Dir::Cache="$scratch" -o APT::Sandbox::User="$sandbox" \
-    -o Acquire::Check-Valid-Until="$valid_until"
+    $lagging
 }
-# The index of sid on a mirror that lags is out of date, but signed.
-valid_until=true
-[ "$suite" != sid ] || valid_until=false
+# The index of sid on a mirror that lags is out of date, but signed. Of the machine's own suite its
+# own settings say whether that is allowed.
+lagging=
+[ "$suite" != sid ] || lagging="-o Acquire::Check-Valid-Until=false"
 in_private apt-get update
 (cd "$scratch" && in_private apt-get source --download-only --tar-only "$package")
 mkdir "$scratch/unpacked"

@@ -66,6 +66,11 @@ ParameterList remesh_parameters() {
           "Holes are filled, and flaps and walls where more than two faces meet in an edge are "
           "dropped. Largest share of the scan's area that this may change, in %; above it the "
           "filter refuses."),
+      flag_parameter(
+          "Points", defaults.points, "Take points only",
+          "Checked: the points of the layer are taken and a surface is made of them, with one "
+          "radius in each direction from their centre; faces are not used, and folds go unseen. "
+          "Unchecked: a layer without faces is refused."),
       metric_parameter(),
       seed_start_parameter(),
       random_seed_parameter(),
@@ -108,6 +113,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.surface.parametrization = checked.choice<Parametrization>("Parametrization");
   options.surface.fold_limit_percent = checked.real("FoldLimit");
   options.check.mended_area_limit_percent = checked.real("MendLimit");
+  options.points = checked.flag("Points");
   options.measures.distances = checked.flag("Distances");
   settings.new_layer = checked.flag("NewLayer");
   settings.result.quality = checked.choice<VertexQuality>("Quality");

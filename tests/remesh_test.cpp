@@ -611,16 +611,112 @@ TEST(Remesh, SamplingsOfFigure1AreTriangulatedTheSameWay) {
   EXPECT_EQ(nodes_of(Sampling::Icosahedron, 642, 0), 642U);
 }
 
-TEST(Remesh, PointsWithoutFacesAreFitted) {
+bool has_warning(const RemeshResult& result, const std::string& part) {
+  return std::any_of(
+      result.warnings.begin(), result.warnings.end(),
+      [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+}
+
+TEST(Remesh, PointsAreFittedWhenChosen) {
   IndexedMesh points;
   points.points = sand().points;
-  const RemeshResult cloud = remesh(points, options_of(500, Weighting::Area), Execution(1));
+  RemeshOptions chosen = options_of(500, Weighting::Area);
+  try {
+    remesh(points, chosen, Execution(1));
+    FAIL() << "points were taken for a scan";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    EXPECT_NE(std::string(error.what()).find("RemeshOptions::points"), std::string::npos);
+  }
+  chosen.points = true;  // the advice
+  const RemeshResult cloud = remesh(points, chosen, Execution(1));
+  EXPECT_TRUE(has_warning(cloud, "taken as points"));
+  // Faces are not used, and it is said.
+  const RemeshResult of_scan = remesh(sand(), chosen, Execution(1));
+  EXPECT_EQ(of_scan.mesh.points, cloud.mesh.points);
+  EXPECT_TRUE(
+      has_warning(of_scan, std::to_string(sand().triangles.size()) + " faces were not used"));
   const RemeshResult scan = remesh(sand(), options_of(500, Weighting::Area), Execution(1));
   expect_promises(cloud, 500);
   EXPECT_EQ(cloud.input.input_vertices, points.points.size());
   EXPECT_EQ(cloud.input.input_faces, 0U);
   EXPECT_NEAR(cloud.remesh.volume / scan.remesh.volume, 1.0, 2e-3);
   EXPECT_NEAR(cloud.remesh.area / scan.remesh.area, 1.0, 5e-3);
+  EXPECT_FALSE(has_warning(scan, "points"));
+}
+
+TEST(Remesh, ProgressNeverGoesBackNorFallsSilent) {
+  const IndexedMesh scan = test::lumpy(5);
+  const auto progress_of = [&](RemeshOptions options) {
+    std::vector<double> fractions;
+    remesh(scan, options, Execution(1, [&](double fraction, const std::string&) {
+             fractions.push_back(fraction);
+             return true;
+           }));
+    EXPECT_EQ(fractions.front(), 0.0);
+    EXPECT_EQ(fractions.back(), 1.0);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    return fractions.size();
+  };
+  const std::size_t plain = progress_of(options_of(200, Weighting::Area));
+  // Each loop over the scan calls between its blocks of 1,024; 10,242 vertices have eleven.
+  EXPECT_GT(plain, 100U);
+  RemeshOptions with_target = options_of(100, Weighting::Area);
+  with_target.target.percent = 3.0;
+  EXPECT_GT(progress_of(with_target), plain);
+  // Stages that take seconds at a million vertices, each with calls of its own.
+  RemeshOptions with_distances = options_of(200, Weighting::Area);
+  with_distances.measures.distances = true;
+  with_distances.measures.distance_sampling.samples = 20000;
+  EXPECT_GT(progress_of(with_distances), plain + 2 * 20000 / 256);
+  RemeshOptions with_quadrics = options_of(200, Weighting::Curvature);
+  with_quadrics.weighting.curvature_source = CurvatureSource::QuadricFit;
+  EXPECT_GT(progress_of(with_quadrics), plain);
+  RemeshOptions with_points = options_of(200, Weighting::Area);
+  with_points.points = true;
+  EXPECT_GT(progress_of(with_points), plain);
+}
+
+TEST(Remesh, RefusesScansBeyondTheRangeOfNumbers) {
+  for (const bool points : {false, true}) {
+    for (const double size : {1e-130, 1e-61, 1e61, 1e80, 1e300}) {
+      IndexedMesh scan = test::lumpy(3);
+      for (Vector3& p : scan.points) p *= size;
+      RemeshOptions options = options_of(100, Weighting::Area);
+      options.points = points;
+      try {
+        remesh(scan, options, Execution(1));
+        ADD_FAILURE() << size;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+        EXPECT_NE(std::string(error.what()).find("scale it"), std::string::npos) << error.what();
+      }
+    }
+    // The advice: within the limits it comes out.
+    for (const double size : {1e-59, 1e59}) {
+      IndexedMesh scan = test::lumpy(3);
+      for (Vector3& p : scan.points) p *= size;
+      RemeshOptions options = options_of(100, Weighting::Area);
+      options.points = points;
+      expect_promises(remesh(scan, options, Execution(1)), 100);
+    }
+  }
+}
+
+TEST(Remesh, WarnsOfCoordinatesThatTheFileHasSpoilt) {
+  IndexedMesh scan = test::lumpy(5);
+  EXPECT_FALSE(
+      has_warning(remesh(scan, options_of(100, Weighting::Area), Execution(1)), "precision"));
+  for (Vector3& p : scan.points) {
+    p += Vector3(3e4, 0, 0);
+    for (int axis = 0; axis < 3; ++axis) {
+      // Volatile: optimised, GCC 12 leaves the rounding to single precision out.
+      volatile const auto single = static_cast<float>(p[axis]);
+      p[axis] = single;
+    }
+  }
+  EXPECT_TRUE(
+      has_warning(remesh(scan, options_of(100, Weighting::Area), Execution(1)), "precision"));
 }
 
 TEST(Remesh, HalfEdgeMeshesGoInAndOut) {

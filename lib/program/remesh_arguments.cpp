@@ -32,6 +32,7 @@ constexpr Everyday everyday[] = {
     {EnumerationTable<ErrorMeasure>::key, 0},
     {largest_node_count_option.key, 0},
     {fold_limit_option.key, 0},
+    {points_option.key, 0},
     {distances_option.key, 0},
 };
 

@@ -76,6 +76,7 @@ std::vector<TriedChange> try_changes(const PreparedGrain& prepared, const Remesh
   RemeshOptions plain = options;
   plain.target.percent = 0.0;
   plain.measures = MeasureOptions();
+  plain.points = false;  // a surface was made of them already
   if (options.placement.kind != NodePlacement::LeastSquares) {
     add("nodes fitted to the scan by least squares, in the surface metric", [&] {
       RemeshOptions fitted = plain;
@@ -108,7 +109,7 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
     used.node_count = static_cast<int>(result.mesh.points.size());
     result.tried = try_changes(prepared, used, execution.part(0.9, 1.0));
   }
-  result.warnings = remesh_warnings(result);
+  result.warnings = remesh_warnings(result, prepared.precision_warning);
   execution.report(1.0, "Done");
   return result;
 }

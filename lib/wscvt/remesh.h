@@ -16,8 +16,9 @@ class RadialSurface;
 /// for options out of range and meshes that cannot be mended (see check_mesh), NotStarShaped when
 /// the folded share exceeds the limit, NumericalFailure, Cancelled.
 ///
-/// A scan of points without faces is triangulated first (see mesh_of_points, which also says what
-/// it throws).
+/// With the option `points` the scan's points are triangulated first (see mesh_of_points, which
+/// also says what it throws): `original` and `folded_share` are then those of the surface made for
+/// them, and the result carries a warning.
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
 

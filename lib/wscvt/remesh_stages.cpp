@@ -7,6 +7,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_units.h"
+#include "wscvt/scan/coordinates.h"
 #include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/scan/point_cloud.h"
 #include "wscvt/surface/harmonic_map.h"
@@ -35,7 +36,7 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   if (radial && !grain.rays && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
-  if (measures_distances(options)) prepared.distance.emplace(grain.mesh);
+  if (measures_distances(options)) prepared.distance.emplace(grain.mesh, execution.part(0.9, 1.0));
 }
 
 RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
@@ -65,10 +66,12 @@ RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
 PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
   PreparedGrain prepared;
   const std::size_t points = scan.points.size();
-  const bool without_faces = scan.triangles.empty() && points > 0;
-  if (without_faces) scan = mesh_of_points(std::move(scan.points));
+  const std::size_t faces = scan.triangles.size();
+  scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.3));
   const std::size_t different = scan.points.size();
-  CheckedMesh checked = check_mesh(std::move(scan), options.check, execution.part(0.0, 0.4));
+  prepared.precision_warning = precision_warning(scan);
+  CheckedMesh checked =
+      check_mesh(std::move(scan), options.check, execution.part(options.points ? 0.3 : 0.0, 0.4));
   SurfaceOptions surface = options.surface;
   // The series and refinement are those of the radial map, so a grain that has one keeps it.
   const bool asks_for_radial =
@@ -83,11 +86,7 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
     prepared.handles = cut_handles(checked, options.handles, execution.part(0.4, 0.5));
   }
   prepared.input = checked.report;
-  if (without_faces) {  // what was given, not what was made of it
-    prepared.input.input_vertices = points;
-    prepared.input.input_faces = 0;
-    prepared.input.welded_vertices = points - different;
-  }
+  if (options.points) count_given(points, faces, different, prepared.input);
   prepared.grain =
       grain_of_scan(std::move(checked), surface, options.node_count, execution.part(0.5, 0.9));
   make_ready(prepared, options, execution.part(0.9, 1.0));

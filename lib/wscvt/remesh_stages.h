@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
@@ -27,6 +28,7 @@ struct PreparedGrain {
   /// To the grain's mesh. It takes longer to make ready than to ask on a dense scan, so it is made
   /// once for all node counts that are tried.
   std::optional<MeshDistance> distance;
+  std::string precision_warning;  ///< see precision_warning
 };
 
 /// Checks, mends, centres and maps a scan. Throws as remesh does.

@@ -2,6 +2,7 @@
 // The plugin as it was built, loaded into this process, which plays the host.
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QFileInfo>
 #include <QPluginLoader>
 #include <QTemporaryDir>
@@ -291,15 +292,15 @@ QString listed_parameters(const QString& menu_text) {
 
 TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
   const QStringList remesh{
-      "NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",       "TargetMeasure RichEnum 4",
-      "Method RichEnum 0",          "Sampling RichEnum 0",           "Weighting RichEnum 1",
-      "HarmonicDegree RichInt 0",   "CurvatureAlpha RichFloat 1",    "CurvatureSource RichEnum 0",
-      "Placement RichEnum 2",       "RefinementRounds RichInt 0",    "SmallestAngle RichFloat 30",
-      "Parametrization RichEnum 0", "FoldLimit RichFloat 5",         "MendLimit RichFloat 5",
-      "Metric RichEnum 1",          "SeedStart RichEnum 0",          "RandomSeed RichInt 1",
-      "MaxIterations RichInt 1000", "NewLayer RichBool true",        "Distances RichBool false",
-      "Quality RichEnum 0",         "ColorByQuality RichBool false", "ReportFile OutputFile",
-      "CoefficientsFile OutputFile"};
+      "NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",    "TargetMeasure RichEnum 4",
+      "Method RichEnum 0",          "Sampling RichEnum 0",        "Weighting RichEnum 1",
+      "HarmonicDegree RichInt 0",   "CurvatureAlpha RichFloat 1", "CurvatureSource RichEnum 0",
+      "Placement RichEnum 2",       "RefinementRounds RichInt 0", "SmallestAngle RichFloat 30",
+      "Parametrization RichEnum 0", "FoldLimit RichFloat 5",      "MendLimit RichFloat 5",
+      "Points RichBool false",      "Metric RichEnum 1",          "SeedStart RichEnum 0",
+      "RandomSeed RichInt 1",       "MaxIterations RichInt 1000", "NewLayer RichBool true",
+      "Distances RichBool false",   "Quality RichEnum 0",         "ColorByQuality RichBool false",
+      "ReportFile OutputFile",      "CoefficientsFile OutputFile"};
   EXPECT_EQ(listed_parameters(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
   const QStringList create{"Surface RichEnum 0",
                            "SemiAxisX RichFloat 1",
@@ -668,11 +669,11 @@ TEST(Filter, SurvivesTheScanBeingDeletedDuringTheRun) {
     deed_during_the_run = [&] { remove_layer(document, scan); };
     EXPECT_EQ(loaded.apply(document, parameters, acting_callback), new_layer) << loaded.message();
     if (new_layer) {
-      ASSERT_EQ(document.size(), 2);
+      ASSERT_EQ(layers_of(document).size(), 2U);
       EXPECT_EQ(document.mm()->cm.vn, 60);
       EXPECT_TRUE(document.mm()->cm.Tr == transform);
     } else {
-      ASSERT_EQ(document.size(), 1);
+      ASSERT_EQ(layers_of(document).size(), 1U);
       EXPECT_EQ(document.mm()->cm.vn, static_cast<int>(sphere().points.size()));
       EXPECT_NE(loaded.message().find("not there any more"), std::string::npos) << loaded.message();
     }
@@ -694,7 +695,7 @@ TEST(Filter, RefusesToBeAppliedDuringARun) {
   EXPECT_TRUE(loaded.apply(document, parameters, acting_callback));
   EXPECT_FALSE(second);
   EXPECT_NE(message.find("still running"), std::string::npos) << message;
-  EXPECT_EQ(document.size(), 2);
+  EXPECT_EQ(layers_of(document).size(), 2U);
   // The advice: after the first one is done, also when it was refused or failed.
   document.setCurrentMesh(scan.id());
   EXPECT_TRUE(loaded.apply(document, parameters));

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "support/expect_error.h"
 #include "support/seeds.h"
@@ -57,17 +61,49 @@ TEST(FormAxes, NeverLargerThanTheAxisAlignedBox) {
   EXPECT_LE(axes.intermediate, axes.longest);
 }
 
-TEST(FormAxes, SameBitsEveryTime) {
-  const IndexedMesh mesh = test::lumpy(2);
-  const FormAxes first = oriented_box_axes(mesh.points);
-  const FormAxes second = oriented_box_axes(mesh.points);
-  EXPECT_EQ(first.shortest, second.shortest);
-  EXPECT_EQ(first.intermediate, second.intermediate);
-  EXPECT_EQ(first.longest, second.longest);
+/// Points of a lattice in a pose: many lie on the edges and sides of their hull, which has more
+/// than one triangulation.
+std::vector<Vector3> turned_lattice() {
+  std::vector<Vector3> points;
+  const Eigen::Matrix3d turn = test::random_rotation(test::announced(3));
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      for (int k = 0; k < 4; ++k) points.emplace_back(turn * Vector3(i, j, k));
+    }
+  }
+  return points;
 }
 
-TEST(FormAxes, RefusesTooFewPoints) {
+TEST(FormAxes, SameBitsEveryTimeWhereverMemoryLies) {
+  for (const std::vector<Vector3>& points : {test::lumpy(2).points, turned_lattice()}) {
+    const FormAxes first = oriented_box_axes(points);
+    std::mt19937 random(5);
+    std::vector<std::unique_ptr<char[]>> blocks(2000);
+    for (int time = 0; time < 3; ++time) {
+      // Free blocks of all sizes in no order: what is allocated next lies in none either.
+      for (auto& block : blocks) {
+        if (random() % 2 == 0) block = std::make_unique<char[]>(8 + random() % 600);
+      }
+      for (auto& block : blocks) {
+        if (random() % 2 == 0) block.reset();
+      }
+      const FormAxes again = oriented_box_axes(points);
+      EXPECT_EQ(first.shortest, again.shortest);
+      EXPECT_EQ(first.intermediate, again.intermediate);
+      EXPECT_EQ(first.longest, again.longest);
+    }
+  }
+}
+
+TEST(FormAxes, RefusesWhatHasNoBox) {
   EXPECT_ERROR(oriented_box_axes({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), InvalidInput);
+  // The exact numbers in CGAL ended the program at these.
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
+    std::vector<Vector3> points = test::lumpy(1).points;
+    points[5].y() = bad;
+    EXPECT_ERROR(oriented_box_axes(points), InvalidInput);
+  }
 }
 
 TEST(FormRatios, FollowTheirFormulas) {

@@ -162,6 +162,18 @@ TEST_F(CommandLine, QuietHidesNoWarning) {
   EXPECT_EQ(outcome.errors.find('\r'), std::string::npos) << "progress went into a file";
 }
 
+TEST_F(CommandLine, TakesPointsOnlyWhenTold) {
+  IndexedMesh points = read_mesh(WSCVT_MESHES_DIR "/sand_7228.ply");
+  points.triangles.clear();
+  write_mesh(points, (folder_ / "points.ply").string());
+  const Outcome refused = run("points.ply remesh.ply -n 100");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.errors.find("--points"), std::string::npos) << refused.errors;
+  const Outcome told = run("points.ply remesh.ply -n 100 --points");  // the advice
+  EXPECT_EQ(told.exit_code, 0) << told.errors;
+  EXPECT_NE(told.errors.find("taken as points"), std::string::npos) << told.errors;
+}
+
 TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
   // The program waits for a scan from a pipe, gets the signal, then the scan, and cancels.
   ASSERT_EQ(mkfifo((folder_ / "scan.ply").c_str(), 0600), 0);

@@ -41,6 +41,7 @@ const std::vector<OptionCase>& option_cases() {
       {"adaptive-exponent", 0.25, "1.6", "from 0 to 1.5"},
       {"degree", 4, "61", "from 0 to 60"},
       {"fold-limit", 1.5, "100", "from 0 to 99"},
+      {"points", true, "perhaps", "points"},
       {"parametrization", "radial", "cubic", "auto, radial or spherical"},
       {"refuse-self-intersections", true, "perhaps", "refuse-self-intersections"},
       {"metric", "sphere", "plane", "sphere or surface"},

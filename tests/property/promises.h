@@ -130,6 +130,15 @@ inline std::string broken_check(const IndexedMesh& input, const MeshCheckOptions
   return "";
 }
 
+/// Any options of the check within their ranges.
+inline MeshCheckOptions random_check_options(Choices& choices) {
+  MeshCheckOptions options;
+  options.mended_area_limit_percent = choices.one_in(2) ? 100.0 : choices.real(0.0, 100.0);
+  options.weld_tolerance = choices.one_in(2) ? 1e-12 : choices.real(0.0, 0.01);
+  options.dropped_volume_limit = 0.99;
+  return options;
+}
+
 /// Any options within their ranges.
 inline RemeshOptions random_options(Choices& choices) {
   RemeshOptions o;
@@ -160,6 +169,7 @@ inline RemeshOptions random_options(Choices& choices) {
   o.measures.distance_sampling.samples = static_cast<std::size_t>(choices.whole(1, 3000));
   o.measures.node_curvatures = choices.one_in(2);
   o.measures.advice = choices.one_in(8);
+  o.points = choices.one_in(16);
   o.check.mended_area_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 100.0);
   o.check.weld_tolerance = choices.one_in(4) ? std::pow(10.0, choices.real(-16.0, -2.0)) : 1e-12;
   o.check.dropped_volume_limit = choices.one_in(2) ? 0.25 : choices.real(0.01, 0.99);

@@ -198,4 +198,14 @@ inline IndexedMesh random_soup(Choices& choices) {
   return mesh;
 }
 
+/// What a check may be given at its worst: a soup, or a body with several faults.
+inline RandomBody random_scan(Choices& choices) {
+  if (choices.one_in(2)) return {random_soup(choices), "soup"};
+  RandomBody body = random_body(choices);
+  for (int i = choices.whole(0, 6); i > 0; --i) {
+    body.description += ", " + damage(choices, body.mesh);
+  }
+  return body;
+}
+
 }  // namespace wscvt::test

@@ -57,19 +57,8 @@ TEST_P(Promises, AreKeptByWholeRemeshes) {
 TEST_P(Promises, AreKeptByTheCheckOfDamagedBodiesAndSoups) {
   for_each_seed(5000, [&](std::uint64_t seed) {
     test::Choices choices(seed + 1000000007U);
-    MeshCheckOptions options;
-    options.mended_area_limit_percent = choices.one_in(2) ? 100.0 : choices.real(0.0, 100.0);
-    options.weld_tolerance = choices.one_in(2) ? 1e-12 : choices.real(0.0, 0.01);
-    options.dropped_volume_limit = 0.99;
-    test::RandomBody body;
-    if (choices.one_in(2)) {
-      body = {test::random_soup(choices), "soup"};
-    } else {
-      body = test::random_body(choices);
-      for (int i = choices.whole(0, 6); i > 0; --i) {
-        body.description += ", " + test::damage(choices, body.mesh);
-      }
-    }
+    const MeshCheckOptions options = test::random_check_options(choices);
+    const test::RandomBody body = test::random_scan(choices);
     std::string broken;
     try {
       broken = test::broken_check(body.mesh, options);

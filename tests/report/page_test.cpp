@@ -208,7 +208,9 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_EQ(page, report_html(plain, scan, {"<sand>.ply", "2026-11-21"}, Execution(2)));
 
   // Points alone are triangulated; of a formula there is nothing to compare with.
-  EXPECT_EQ(count_of(report_html(plain, {scan.points, {}}, {}, Execution(1)), "<img"), 3U);
+  RemeshResult of_points = plain;
+  of_points.options.points = true;
+  EXPECT_EQ(count_of(report_html(of_points, {scan.points, {}}, {}, Execution(1)), "<img"), 3U);
   const std::string alone = report_html(plain, IndexedMesh(), {}, Execution(1));
   EXPECT_EQ(count_of(alone, "<img"), 1U);
   EXPECT_EQ(count_of(alone, "<svg"), 3U);

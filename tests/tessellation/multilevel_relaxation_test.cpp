@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "support/expect_error.h"
+#include "support/seeds.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
@@ -51,6 +54,32 @@ TEST(MultilevelRelaxation, LevelsLeadToExactlyTheCount) {
       ASSERT_TRUE(extra >= 0 && extra <= 3) << count;
     }
   }
+}
+
+TEST(MultilevelRelaxation, SeedsThatAreMissingAreAddedWhereThereIsMostRoom) {
+  // Random seeds have triangles of all sizes. Nothing is moved, so the three seeds added stand
+  // last.
+  const int coarse = 50;
+  const int count = 4 * coarse - 6 + 3;
+  MultilevelOptions levels;
+  levels.coarsest_seeds = coarse;
+  RelaxationOptions options;
+  options.maximum_iterations = 0;
+  const RelaxationResult result =
+      relax_multilevel(random_directions(coarse, test::announced(4)), count,
+                       model_of(Weighting::Constant, count), options, levels, Execution(1));
+  ASSERT_EQ(static_cast<int>(result.seeds.size()), count);
+  std::vector<double> nearest;
+  for (const Vector3& u : result.seeds) {
+    double smallest = 4.0;
+    for (const Vector3& v : result.seeds) {
+      if (&u != &v) smallest = std::min(smallest, (u - v).norm());
+    }
+    nearest.push_back(smallest);
+  }
+  std::vector<double> sorted = nearest;
+  std::sort(sorted.begin(), sorted.end());
+  for (int k = 1; k <= 3; ++k) EXPECT_GT(nearest[count - k], sorted[count / 2]);
 }
 
 TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeightingAndMetric) {

@@ -11,6 +11,7 @@
 #include "support/expect_error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
@@ -126,6 +127,24 @@ TEST(Weights, ErrorAdaptiveLeavesNodesOnFlatFaces) {
   model.surface_densities(fibonacci_lattice(1000), Execution(1), densities);
   std::sort(densities.begin(), densities.end());
   EXPECT_GT(densities.front(), 0.15 * densities[500]);
+}
+
+TEST(Weights, CurvatureFinerThanTheCellsIsSmoothedAway) {
+  // Waves of 12 degrees on a ball, whose curvature they change by a few times its own, under cells
+  // of 20 degrees.
+  std::vector<double> coefficients(31 * 31, 0.0);
+  coefficients[0] = std::sqrt(4.0 * pi);
+  coefficients[30 * 30 + 30 + 17] = 0.01;
+  const HarmonicSurface rippled(coefficients);
+  const std::vector<Vector3> seeds = fibonacci_lattice(100);
+  const auto spread = [&](Weighting weighting) {
+    const std::vector<double> densities =
+        model_of(rippled, weighting, 100).number_densities(seeds, Execution(1));
+    const auto [low, high] = std::minmax_element(densities.begin(), densities.end());
+    return *high / *low;
+  };
+  // It is 2.05, since there are no waves about the poles, and would be 3.26 without smoothing.
+  EXPECT_LT(spread(Weighting::ErrorAdaptive), 2.6);
 }
 
 TEST(Weights, CurvatureOnASphereLeavesAllSeedsEqual) {

@@ -22,11 +22,13 @@ foreach(text ${texts})
   get_filename_component(folder ${source_dir}/${text} DIRECTORY)
   file(READ ${source_dir}/${text} content)
   # Links within the project, and names in code that begin with one of its folders.
-  string(REGEX MATCHALL "\\]\\([^)#]+\\)" links "${content}")
+  # Brackets that do not match would join the entries of a list.
+  string(REPLACE "](" "link:(" linked "${content}")
+  string(REGEX MATCHALL "link:\\([^)#]+\\)" links "${linked}")
   string(REGEX MATCHALL
     "(^|[` \n])(\\.\\./)*(lib|tests|filter_wscvt|meshes)/[A-Za-z0-9_./-]*[A-Za-z0-9_/]" names "${content}")
   foreach(name ${links} ${names})
-    string(REGEX REPLACE "^\\]\\(|\\)$|^[` \n]" "" path "${name}")
+    string(REGEX REPLACE "^link:\\(|\\)$|^[` \n]" "" path "${name}")
     if(path MATCHES "^https?:")
       continue()
     endif()

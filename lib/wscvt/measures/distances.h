@@ -17,9 +17,9 @@ struct MeshPlace;
 /// a tree of bounding boxes (CGAL's AABB tree). Const calls may come from several threads.
 class MeshDistance {
  public:
-  /// Copies what it needs of the mesh; about 300 bytes a face. Throws Error(InvalidInput) if the
-  /// mesh has no faces.
-  explicit MeshDistance(const IndexedMesh& mesh);
+  /// Copies what it needs of the mesh; about 300 bytes a face. `execution` is for progress and
+  /// cancel; the work runs on one thread. Throws Error(InvalidInput) if the mesh has no faces.
+  explicit MeshDistance(const IndexedMesh& mesh, const Execution& execution = Execution(1));
   ~MeshDistance();
   MeshDistance(MeshDistance&&) noexcept;
   MeshDistance& operator=(MeshDistance&&) noexcept;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/scan/coordinates.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
@@ -51,6 +52,14 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points) {
     throw Error(ErrorCode::InvalidInput, "A box about " + std::to_string(points.size()) +
                                              " points has no volume; give at least four points.");
   }
+  // The exact numbers behind CGAL's predicates end the program at what is not a number.
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].allFinite()) continue;
+    throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
+                                             " has a coordinate that is not a finite number, so "
+                                             "there is no box about it; remove it.");
+  }
+  check_scan_size(points);
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Vector3> local(points);
   for (Vector3& p : local) p -= points.front();
@@ -59,8 +68,11 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points) {
     candidates.emplace_back(p.x(), p.y(), p.z());
   }
   CGAL::Aff_transformation_3<Kernel> turn;
-  // CGAL's own default is one generator for the whole program, whose state other calls change.
-  CGAL::oriented_bounding_box(candidates, turn, CGAL::parameters::random_seed(1U));
+  // CGAL's own default is one generator for the whole program, whose state other calls change. Its
+  // convex hull gives the points in an order that goes by addresses, and with it the last digits
+  // would change from call to call.
+  CGAL::oriented_bounding_box(candidates, turn,
+                              CGAL::parameters::random_seed(1U).use_convex_hull(false));
 
   std::array<double, 3> edges{};
   for (int k = 0; k < 3; ++k) {

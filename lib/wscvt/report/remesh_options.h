@@ -51,6 +51,9 @@ struct RemeshOptions {
   int node_count = 1000;  ///< N; with an error target the first N tried
   Method method = Method::OnScan;
   ErrorTarget target;
+  /// Take the scan's points alone and make its surface anew from them (see mesh_of_points); faces
+  /// that it has are not used. Without it a scan without faces is refused.
+  bool points = false;
   MeshCheckOptions check;
   HandleOptions handles;
   SurfaceOptions surface;
@@ -62,6 +65,9 @@ struct RemeshOptions {
   MeasureOptions measures;
 };
 
+inline constexpr FlagOption points_option = {
+    "points", "points of the scan",
+    "taken alone, and a surface made of them; without it a scan without faces is refused"};
 inline constexpr FlagOption distances_option = {"distances", "distances to the scan",
                                                 "measured and reported"};
 
@@ -87,6 +93,7 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.surface.degree, harmonic_degree_option);
   visitor(options.surface.parametrization);
   visitor(options.surface.fold_limit_percent, fold_limit_option);
+  visitor(options.points, points_option);
   visitor(options.relaxation.metric);
   visitor(options.placement.kind);
   visitor(options.placement.refuse_self_intersections, refuse_self_intersections_option);

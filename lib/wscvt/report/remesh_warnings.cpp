@@ -13,6 +13,14 @@ namespace {
 using Sentences = std::vector<std::string>;
 
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
+  if (result.options.points) {
+    const std::size_t faces = result.input.input_faces;
+    warnings.push_back(
+        "The scan was taken as points" +
+        (faces > 0 ? ", its " + std::to_string(faces) + " faces were not used" : std::string()) +
+        ": volume, area and folds of the original are those of the surface that was made for them, "
+        "with one radius in each direction, not those of the body. Check the result against it.");
+  }
   const bool radial = result.parametrization == Parametrization::Radial;
   if (radial && result.folded_share > fold_warning_limit) {
     warnings.push_back(
@@ -172,8 +180,10 @@ bool misses_the_scan(const RemeshResult& result) {
          std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
 }
 
-std::vector<std::string> remesh_warnings(const RemeshResult& result) {
+std::vector<std::string> remesh_warnings(const RemeshResult& result,
+                                         const std::string& of_precision) {
   Sentences warnings;
+  if (!of_precision.empty()) warnings.push_back(of_precision);
   warn_of_scan(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_misfit(result, warnings);

@@ -21,7 +21,9 @@ inline constexpr double area_warning_limit = 0.02;
 /// Whether the remesh is farther from the scan than either limit.
 bool misses_the_scan(const RemeshResult& result);
 
-/// What the user of a result ought to know, a sentence each, the scan's faults first.
-std::vector<std::string> remesh_warnings(const RemeshResult& result);
+/// What the user of a result ought to know, a sentence each, the scan's faults first. The first of
+/// all is `of_precision`, if it is not empty (see precision_warning).
+std::vector<std::string> remesh_warnings(const RemeshResult& result,
+                                         const std::string& of_precision = "");
 
 }  // namespace wscvt

@@ -45,11 +45,10 @@ class OptionRows {
 };
 
 /// The scan as it was used; nothing for a surface from a formula.
-IndexedMesh used_scan(IndexedMesh scan, const MeshCheckOptions& options,
-                      const Execution& execution) {
-  if (scan.triangles.empty() && !scan.points.empty()) scan = mesh_of_points(std::move(scan.points));
+IndexedMesh used_scan(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
+  if (options.points && !scan.points.empty()) scan = mesh_of_points(std::move(scan.points));
   if (scan.triangles.empty()) return scan;
-  return check_mesh(std::move(scan), options, execution).mesh;
+  return check_mesh(std::move(scan), options.check, execution).mesh;
 }
 
 Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
@@ -67,7 +66,7 @@ Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
 
 std::string report_html(const RemeshResult& result, IndexedMesh scan, const ReportOrigin& origin,
                         const Execution& execution) {
-  scan = used_scan(std::move(scan), result.options.check, execution);
+  scan = used_scan(std::move(scan), result.options, execution);
   std::optional<ShownMesh> reference;
   if (!scan.triangles.empty()) reference.emplace(ShownMesh{scan, "original"});
   const PageFigures figures = page_figures(reference, {result.mesh, "remesh"}, execution);

@@ -323,7 +323,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
            " is not orientable: its faces cannot all be turned to face outward, so they enclose "
            "nothing; make a surface of two sides of it first, e.g. Filters > Remeshing, "
            "Simplification and Reconstruction > Uniform Mesh Resampling with Absolute Distance "
-           "checked and an Offset above 0.");
+           "checked and an Offset that closes its openings, above half their width.");
   }
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;

@@ -17,23 +17,29 @@ namespace wscvt {
 
 namespace {
 
+constexpr const char* stage = "Making a surface of the points";
+
 /// As SphereTriangulation, but with progress: a million points take seconds.
 std::vector<Triangle> triangulate(const std::vector<Vector3>& directions,
                                   const Execution& execution) {
   const bool finite = std::all_of(directions.begin(), directions.end(),
                                   [](const Vector3& direction) { return direction.allFinite(); });
   std::vector<Triangle> triangles;
-  if (finite) triangles = sphere_delaunay(directions, execution);
+  if (finite) triangles = sphere_delaunay(directions, execution.part(0.0, 0.8));
+  execution.report(0.8, stage);
   const bool covers =
       triangles.size() == 2 * directions.size() - 4 &&
       std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
         return counter_clockwise(directions[t[0]], directions[t[1]], directions[t[2]]);
       });
   if (!covers) return SphereTriangulation(directions).triangles();
+  execution.report(0.85, stage);
   SphereTriangulation triangulation(directions, std::move(triangles));
+  execution.report(0.9, stage);
   if (!triangulation.restore_regular(directions, {}, execution).complete()) {
     return SphereTriangulation(directions).triangles();
   }
+  execution.report(0.95, stage);
   // In the order that does not depend on CGAL's.
   return SphereTriangulation(directions, triangulation.triangles()).triangles();
 }
@@ -41,7 +47,7 @@ std::vector<Triangle> triangulate(const std::vector<Vector3>& directions,
 }  // namespace
 
 IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution) {
-  execution.report(0.0, "Making a surface of the points");
+  execution.report(0.0, stage);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
       throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
@@ -53,6 +59,7 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   };
   std::sort(points.begin(), points.end(), less);
+  execution.report(0.0, stage);  // a million points take tenths of a second to sort
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 4) {
     throw Error(ErrorCode::InvalidInput, "The scan has " + std::to_string(points.size()) +
@@ -75,6 +82,24 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
     centre += mesh_sums(mesh.points, mesh.triangles, centre, Execution(1)).centroid();
   }
   return mesh;
+}
+
+IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution) {
+  if (points_only) return mesh_of_points(std::move(scan.points), execution);
+  if (!scan.triangles.empty() || scan.points.empty()) return scan;
+  throw Error(ErrorCode::InvalidInput,
+              "The scan has " + std::to_string(scan.points.size()) +
+                  " points and no faces. If it was exported without its faces, export it again; if "
+                  "its points are all there is, choose to make a surface of them: --points in the "
+                  "program, Points in the filter \"Remeshing: Weighted Spherical Centroidal "
+                  "Voronoi\", RemeshOptions::points in the library. Nothing was changed.");
+}
+
+void count_given(std::size_t points, std::size_t faces, std::size_t different,
+                 MeshCheckReport& report) {
+  report.input_vertices = points;
+  report.input_faces = faces;
+  report.welded_vertices = points - different;
 }
 
 }  // namespace wscvt

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt {
 
@@ -19,5 +21,15 @@ namespace wscvt {
 /// a size outside of the limits of check_scan_size, Error(NumericalFailure) when the points do not
 /// surround their centre or two lie on one ray, Error(Cancelled).
 IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution = Execution(1));
+
+/// The scan itself, or, with `points_only`, mesh_of_points of its points. Throws
+/// Error(InvalidInput), which says how to choose points, for points without faces that were not
+/// chosen: a scan that has lost its faces must not pass for a cloud.
+IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution);
+
+/// Puts into the report on a surface made of points what was given: so many points, of which so
+/// many were different, and faces that were not used.
+void count_given(std::size_t points, std::size_t faces, std::size_t different,
+                 MeshCheckReport& report);
 
 }  // namespace wscvt

@@ -23,6 +23,8 @@ using ExactPoint = Kernel::Point_3;
 
 ExactPoint exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
+constexpr const char* stage = "Triangulating the sphere";
+
 /// A few hundredths of a second.
 constexpr std::size_t insertions_a_report = 8192;
 
@@ -43,6 +45,7 @@ std::vector<Triangle> sphere_delaunay(const std::vector<Vector3>& seeds,
   std::vector<std::size_t> order(seeds.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   using Map = CGAL::Pointer_property_map<ExactPoint>::const_type;
+  execution.report(0.0, stage);
   CGAL::spatial_sort(order.begin(), order.end(),
                      CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(
                          CGAL::make_property_map(std::as_const(points))));
@@ -52,14 +55,14 @@ std::vector<Triangle> sphere_delaunay(const std::vector<Vector3>& seeds,
   std::size_t inserted = 0;
   for (const std::size_t i : order) {
     if (inserted++ % insertions_a_report == 0) {
-      execution.report(static_cast<double>(inserted) / static_cast<double>(order.size()),
-                       "Triangulating the sphere");
+      execution.report(static_cast<double>(inserted) / static_cast<double>(order.size()), stage);
     }
     const auto vertex = triangulation.insert(points[i], hint);
     if (vertex == nullptr || triangulation.number_of_vertices() == 0) return {};
     vertex->info() = static_cast<std::int32_t>(i);
     hint = vertex->face();
   }
+  execution.report(1.0, stage);
   std::vector<Triangle> triangles;
   if (triangulation.number_of_vertices() != seeds.size()) return triangles;
   if (triangulation.number_of_ghost_faces() != 0) return triangles;

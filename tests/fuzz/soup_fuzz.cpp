@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Soups of faces and damaged bodies for the check: what it lets through is a surface, what it
+// refuses it refuses with a sentence.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "fuzz/promise.h"
+#include "property/promises.h"
+#include "property/random_bodies.h"
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  wscvt::test::Choices choices(data, size);
+  const wscvt::MeshCheckOptions options = wscvt::test::random_check_options(choices);
+  const wscvt::test::RandomBody scan = wscvt::test::random_scan(choices);
+  const std::string broken = wscvt::test::broken_check(scan.mesh, options);
+  promise(broken.empty(), (scan.description + ": " + broken).c_str());
+  return 0;
+}
