@@ -20,8 +20,8 @@
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/radial_samples.h"
-#include "wscvt/tessellation/power_cells.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
+#include "wscvt/tessellation/power_cells.h"
 #include "wscvt/tessellation/relaxation.h"
 #include "wscvt/tessellation/weights.h"
 
