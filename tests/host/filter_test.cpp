@@ -504,10 +504,10 @@ TEST(Filter, GivesWhatTheLibraryGives) {
     ASSERT_EQ(actual.face.size(), mesh.triangles.size());
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
       for (int k = 0; k < 3; ++k) {
-        EXPECT_EQ(actual.vert[v].cP()[k], static_cast<float>(mesh.points[v][k]));
+        EXPECT_EQ(actual.vert[v].cP()[k], static_cast<Scalarm>(mesh.points[v][k]));
       }
       EXPECT_EQ(actual.vert[v].cQ(),
-                static_cast<float>((*qualities(expected)[static_cast<std::size_t>(quality)])[v]));
+                static_cast<Scalarm>((*qualities(expected)[static_cast<std::size_t>(quality)])[v]));
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {

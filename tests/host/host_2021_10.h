@@ -17,13 +17,9 @@ namespace wscvt::host_test {
 using Plugin = FilterPlugin;
 using EnumValue = IntValue;
 
-#ifdef WSCVT_MESHLAB_NAMES_FILES_FIRST
-inline const char* const output_file_type = "RichFileSave";
-inline const char* const input_file_type = "RichFileOpen";
-#else
+// Scripts keep these names also where the classes have others.
 inline const char* const output_file_type = "RichSaveFile";
 inline const char* const input_file_type = "RichOpenFile";
-#endif
 
 inline void set_text(RichParameter& parameter, const QString& text) {
   parameter.setValue(StringValue(text));
