@@ -39,6 +39,7 @@ TEST(CountingSort, PutsEveryItemIntoItsGroups) {
   const auto visit_groups = [&](std::size_t item, const auto& visit) {
     for (const std::size_t group : groups_of[item]) visit(group);
   };
+  EXPECT_EQ(sets_of(counting_sort(groups_of.size(), groups, visit_groups)), expected);
   for (const int threads : {1, 4}) {
     const Groups sorted = counting_sort(groups_of.size(), groups, visit_groups, Execution(threads));
     EXPECT_EQ(sets_of(sorted), expected) << threads << " threads";
@@ -50,6 +51,8 @@ TEST(CountingSort, LeavesGroupsEmpty) {
   EXPECT_EQ(sets_of(counting_sort(2, 5, into_three, Execution(1))), (Sets{{}, {}, {}, {0, 1}, {}}));
   EXPECT_EQ(sets_of(counting_sort(0, 2, into_three, Execution(1))), (Sets{{}, {}}));
   EXPECT_EQ(counting_sort(0, 0, into_three, Execution(1)).starts, std::vector<std::size_t>{0});
+  EXPECT_EQ(sets_of(counting_sort(2, 5, into_three)), (Sets{{}, {}, {}, {0, 1}, {}}));
+  EXPECT_EQ(counting_sort(0, 0, into_three).starts, std::vector<std::size_t>{0});
 }
 
 }  // namespace

@@ -8,8 +8,7 @@ namespace wscvt {
 HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices) {
   const std::size_t count = 3 * triangles.size();
   const Groups outgoing = counting_sort(
-      count, vertices, [&](std::size_t h, const auto& visit) { visit(triangles[h / 3][h % 3]); },
-      Execution(1));
+      count, vertices, [&](std::size_t h, const auto& visit) { visit(triangles[h / 3][h % 3]); });
   HalfEdges result;
   result.opposite.assign(count, -1);
   result.first.assign(vertices, -1);

@@ -23,13 +23,11 @@ std::vector<std::int32_t> edge_rings(const IndexedMesh& mesh, const Execution& e
   // Sorting all half-edges by both their vertices is what the stage costs. A counting sort by the
   // lower vertex leaves buckets of about three, which are sorted in parallel by the higher one: no
   // hash table, hence the same order on any machine, and memory is read nearly in its order.
-  const Groups buckets = counting_sort(
-      3 * triangles.size(), vertices,
-      [&](std::size_t h, const auto& visit) {
+  const Groups buckets =
+      counting_sort(3 * triangles.size(), vertices, [&](std::size_t h, const auto& visit) {
         const Triangle& t = triangles[h / 3];
         visit(index(std::min(t[h % 3], t[following(h % 3)])));
-      },
-      execution);
+      });
   std::vector<std::int32_t> rings(3 * triangles.size());
   // Each half-edge lies in one bucket, so no two blocks write to the same place.
   execution.parallel_for(vertices, block_size, [&](std::size_t begin, std::size_t end) {

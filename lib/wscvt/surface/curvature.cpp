@@ -27,14 +27,12 @@ constexpr double rank_tolerance = 1e-10;
 /// so the corners of a vertex give both its faces and its neighbours.
 class VertexCorners {
  public:
-  VertexCorners(const IndexedMesh& mesh, const Execution& execution)
+  explicit VertexCorners(const IndexedMesh& mesh)
       : mesh_(mesh),
-        corners_(counting_sort(
-            3 * mesh.triangles.size(), mesh.points.size(),
-            [&](std::size_t corner, const auto& visit) {
-              visit(index(mesh.triangles[corner / 3][corner % 3]));
-            },
-            execution)) {}
+        corners_(counting_sort(3 * mesh.triangles.size(), mesh.points.size(),
+                               [&](std::size_t corner, const auto& visit) {
+                                 visit(index(mesh.triangles[corner / 3][corner % 3]));
+                               })) {}
 
   /// Calls visit(next, previous), the two other vertices of each face around v.
   template <class Visit>
@@ -127,7 +125,7 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
     throw Error(ErrorCode::InvalidInput, "The number of rings for the curvature fit is " +
                                              std::to_string(rings) + "; give 1 or more, e.g. 2.");
   }
-  const VertexCorners corners(mesh, execution);
+  const VertexCorners corners(mesh);
   std::vector<PrincipalCurvatures> result(mesh.points.size());
   execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> vertices;
