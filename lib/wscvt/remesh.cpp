@@ -104,7 +104,9 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
   const Execution working = execution.part(0.0, 0.9);
   RemeshResult result = options.target.percent > 0.0 ? remesh_to_target(prepared, options, working)
                                                      : remesh_prepared(prepared, options, working);
-  if (options.measures.advice && prepared.grain.is_scan && misses_the_scan(result)) {
+  // Where the nodes are too few for the shape it is known already how many would do.
+  if (options.measures.advice && prepared.grain.is_scan && result.space.enough_nodes == 0 &&
+      misses_the_scan(result)) {
     RemeshOptions used = options;
     used.node_count = static_cast<int>(result.mesh.points.size());
     result.tried = try_changes(prepared, used, execution.part(0.9, 1.0));

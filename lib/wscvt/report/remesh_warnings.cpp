@@ -123,6 +123,15 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
         "The relaxation stopped after " + std::to_string(result.relaxation.iterations) +
         " iterations, because a further step would have torn the triangulation; the result keeps "
         "every promise but may be less even. Another start of the seeds may go further.");
+  } else if (result.relaxation.outcome == RelaxationOutcome::IterationLimit &&
+             result.relaxation.iterations < result.options.relaxation.maximum_iterations) {
+    // Of a repair, whose limit is its own: five times as many made no difference on a rough scan.
+    warnings.push_back(
+        "The relaxation that gave more nodes to places where triangles had met did not come to "
+        "rest "
+        "within " +
+        std::to_string(result.relaxation.iterations) +
+        " iterations; triangles there are less even. More nodes follow such places better.");
   } else if (result.relaxation.outcome == RelaxationOutcome::IterationLimit) {
     warnings.push_back(
         "The relaxation stopped at its limit of " + std::to_string(result.relaxation.iterations) +
