@@ -239,15 +239,20 @@ TEST(RemeshSpherical, CoefficientsOfAMapGiveTheBodyAgain) {
 }
 
 TEST(RemeshSpherical, AMissedScanIsSaidWithTheChangeThatHelpsMost) {
-  const RemeshResult few = remesh(body("hook"), options_of(60, NodePlacement::LeastSquares));
+  const RemeshResult few = remesh(body("mushroom"), options_of(80, NodePlacement::LeastSquares));
   ASSERT_TRUE(misses_the_scan(few));
+  ASSERT_EQ(few.space.enough_nodes, 0);
   ASSERT_EQ(few.tried.size(), 1U);
   EXPECT_LT(few.tried[0].misfit, few.misfit / few.input.equivalent_radius);
   EXPECT_TRUE(says(few.warnings, "misses the scan: rms distance"));
-  EXPECT_TRUE(says(few.warnings, "With 120 nodes: rms distance"));
+  EXPECT_TRUE(says(few.warnings, "With 160 nodes: rms distance"));
   // Followed, the advice gives what it promises.
-  const RemeshResult more = remesh(body("hook"), options_of(120, NodePlacement::LeastSquares));
+  const RemeshResult more = remesh(body("mushroom"), options_of(160, NodePlacement::LeastSquares));
   EXPECT_DOUBLE_EQ(more.misfit / more.input.equivalent_radius, few.tried[0].misfit);
+  // Where the nodes are too few for the shape, how many would do is said instead.
+  const RemeshResult too_few = remesh(body("hook"), options_of(60, NodePlacement::LeastSquares));
+  EXPECT_NE(too_few.space.enough_nodes, 0);
+  EXPECT_TRUE(too_few.tried.empty());
   // As published on a body of fine detail: the scan itself helps.
   RemeshOptions published = options_of(800);
   published.method = Method::AsPublished;
