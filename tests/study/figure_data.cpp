@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "wscvt/measures/mesh_quality.h"
+#include "wscvt/nodes/placed_nodes.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/radial_surface.h"
 
