@@ -48,6 +48,19 @@ TEST(DescriptorReport, JsonHoldsTheNumbersToTheLastBit) {
             pair.distances->hausdorff);
 }
 
+TEST(DescriptorReport, HoldsTheMassProperties) {
+  const auto alone = nlohmann::json::parse(descriptor_json(one())).at("mass");
+  const GrainMeasures pair = two();
+  const auto both = nlohmann::json::parse(descriptor_json(pair)).at("mass");
+  EXPECT_EQ(both.at("value"), alone);
+  const double larger = both.at("reference").at("principal_moments").at("middle").get<double>();
+  EXPECT_NEAR(larger / both.at("value").at("principal_moments").at("middle").get<double>(),
+              std::pow(1.1, 5), 1e-9);
+  std::string text;
+  for (const std::string& line : descriptor_lines(pair)) text += line + "\n";
+  EXPECT_NE(text.find("principal moments"), std::string::npos);
+}
+
 TEST(DescriptorReport, CsvIsTheJsonWithoutItsLists) {
   for (const GrainMeasures& measures : {one(), two()}) {
     test::expect_csv_is_flat_json(descriptor_csv(measures), descriptor_json(measures));

@@ -205,6 +205,7 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_EQ(page.find("\"nan"), std::string::npos);
   EXPECT_EQ(page.find(">-0<"), std::string::npos);
   EXPECT_NE(page.find("<td>--weighting=radial-distance</td>"), std::string::npos);
+  EXPECT_NE(page.find("principal moments"), std::string::npos);
   EXPECT_EQ(page, report_html(plain, scan, {"<sand>.ply", "2026-11-21"}, Execution(2)));
 
   // Points alone are triangulated; of a formula there is nothing to compare with.

@@ -13,6 +13,7 @@
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptor_table.h"
+#include "wscvt/measures/mass_properties.h"
 
 namespace wscvt {
 namespace {
@@ -193,6 +194,27 @@ TEST(Report, JsonHoldsTheNumbersToTheLastBit) {
             relative_error_percent(result.remesh.volume, result.original.volume));
   EXPECT_EQ(json.at("relaxation").at("history").at("flips"), nlohmann::json({30, 1}));
   EXPECT_TRUE(json.at("warnings").empty());
+}
+
+TEST(Report, HoldsTheMassPropertiesOfBothBodies) {
+  RemeshResult result = example();
+  result.original = describe_shape(
+      test::transformed(test::box(1, 2, 3), test::random_rotation(2), {7, 8, 9}), Execution(1));
+  const auto mass = nlohmann::json::parse(report_json(result)).at("mass");
+  const MassProperties original = mass_properties(result.original);
+  EXPECT_EQ(mass.at("original").at("volume").get<double>(), original.volume);
+  EXPECT_EQ(mass.at("original").at("centroid").at("z").get<double>(), original.centroid.z());
+  const auto& tensor = mass.at("original").at("inertia_tensor");
+  EXPECT_EQ(tensor.at("xx").get<double>(), original.inertia_tensor(0, 0));
+  EXPECT_EQ(tensor.at("xz").get<double>(), original.inertia_tensor(0, 2));
+  EXPECT_NEAR(mass.at("original").at("principal_moments").at("least").get<double>(), 2.5, 1e-10);
+  EXPECT_EQ(mass.at("original").at("principal_axes").at("w").get<double>(),
+            original.principal_axes.w());
+  EXPECT_EQ(mass.at("remesh").at("volume").get<double>(), result.remesh.volume);
+  const std::string text = text_of(result);
+  for (const char* part : {"principal axes, quaternion w, x, y, z", "7, 8, 9", "2.5, 5, 6.5"}) {
+    EXPECT_TRUE(contains(text, part)) << part;
+  }
 }
 
 TEST(Report, JsonStaysValidWithNumbersAndBytesItCannotHold) {

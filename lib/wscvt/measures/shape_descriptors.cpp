@@ -9,6 +9,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/principal_axes.h"
 
 namespace wscvt {
 
@@ -126,6 +127,7 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(second, Eigen::EigenvaluesOnly);
   result.inertia_semi_axes = (5.0 * solver.eigenvalues().cwiseMax(0.0)).cwiseSqrt();
   result.inertia_tensor = moments.volume * (second.trace() * Matrix3::Identity() - second);
+  result.principal_axes = principal_axes(mesh, result.centroid, result.inertia_tensor, execution);
   result.aspect_ratio = result.inertia_semi_axes[0] / result.inertia_semi_axes[2];
 
   result.sdq = std::sqrt(gradient_square(mesh, result.centroid, execution) / moments.area);

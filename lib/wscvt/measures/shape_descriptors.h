@@ -38,6 +38,8 @@ struct ShapeDescriptors {
   Vector3 inertia_semi_axes = Vector3::Zero();
   /// Tensor of inertia about the centroid at unit density (Lien and Kajiya; Mirtich); length^5.
   Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();
+  /// Turns the principal axes into the mesh's (see principal_axes()); no unit.
+  Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
 };
 
 /// Measures a closed outward mesh, as accurately far from the origin as near it. Throws

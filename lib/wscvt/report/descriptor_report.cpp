@@ -7,11 +7,22 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
+#include "wscvt/report/mass_table.h"
 #include "wscvt/report/page_figures.h"
 
 namespace wscvt {
 
 namespace {
+
+std::vector<NamedMass> masses(const GrainMeasures& measures) {
+  std::vector<NamedMass> bodies;
+  if (measures.reference) {
+    bodies.push_back(
+        {measures.reference->name, mass_properties(measures.reference->descriptors.basic)});
+  }
+  bodies.push_back({measures.grain.name, mass_properties(measures.grain.descriptors.basic)});
+  return bodies;
+}
 
 Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
   Json report = {{"format", "wscvt-descriptors"},
@@ -29,6 +40,12 @@ Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
     report["descriptors"] = json_of(values);
   }
   report["descriptor_names"] = json_names_of(values);
+  const std::vector<NamedMass> bodies = masses(measures);
+  report["mass"] = json_of(bodies.back().mass);
+  if (measures.reference) {
+    report["mass"] = {{"reference", json_of(bodies.front().mass)},
+                      {"value", json_of(bodies.back().mass)}};
+  }
   report["remarks"] = remarks(measures);
   return report;
 }
@@ -81,6 +98,7 @@ std::vector<std::string> descriptor_lines(const GrainMeasures& measures) {
   } else {
     append(table_lines(list_descriptors(measures.grain.descriptors)));
   }
+  append(aligned_lines(mass_rows(masses(measures))));
   return lines;
 }
 
@@ -115,6 +133,8 @@ std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& o
   } else {
     page.add_table(list_descriptors(grain.descriptors));
   }
+  page.add_heading("Mass properties");
+  page.add_rows(mass_rows(masses(measures)));
   page.add_heading("Distributions");
   page.add_figures(figures.distributions);
   return page.text();

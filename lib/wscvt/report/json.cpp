@@ -80,6 +80,24 @@ Json json_of(const OneSidedDistance& distance) {
           {"mean", distance.mean}};
 }
 
+Json json_of(const MassProperties& mass) {
+  const Eigen::Matrix3d& tensor = mass.inertia_tensor;
+  const Vector3& moments = mass.principal_moments;
+  const Eigen::Quaterniond& axes = mass.principal_axes;
+  return {{"volume", mass.volume},
+          {"centroid", json_of(mass.centroid)},
+          {"inertia_tensor",
+           {{"xx", tensor(0, 0)},
+            {"yy", tensor(1, 1)},
+            {"zz", tensor(2, 2)},
+            {"xy", tensor(0, 1)},
+            {"xz", tensor(0, 2)},
+            {"yz", tensor(1, 2)}}},
+          {"principal_moments",
+           {{"least", moments[0]}, {"middle", moments[1]}, {"greatest", moments[2]}}},
+          {"principal_axes", {{"w", axes.w()}, {"x", axes.x()}, {"y", axes.y()}, {"z", axes.z()}}}};
+}
+
 Json json_of(const std::vector<DescriptorValue>& values) {
   Json table = Json::object();
   for (const DescriptorValue& row : values) table[row.key] = row.value;

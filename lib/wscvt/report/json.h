@@ -8,6 +8,7 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/measures/mass_properties.h"
 #include "wscvt/measures/mesh_quality.h"
 
 // Reports as trees of values, from which their files are written. Not one of the library's public
@@ -24,6 +25,7 @@ Json json_of(const Vector3& vector);
 Json json_of(const Statistics& statistics);
 Json json_of(const MeshQuality& quality);
 Json json_of(const OneSidedDistance& distance);
+Json json_of(const MassProperties& mass);
 
 /// The value of each descriptor under its key.
 Json json_of(const std::vector<DescriptorValue>& values);

@@ -8,6 +8,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
+#include "wscvt/report/mass_table.h"
 #include "wscvt/report/page_figures.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_check.h"
@@ -81,6 +82,9 @@ std::string report_html(const RemeshResult& result, IndexedMesh scan, const Repo
   page.add_table(
       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh)),
       ComparisonNames());
+  page.add_heading("Mass properties");
+  page.add_rows(mass_rows({{"original", mass_properties(result.original)},
+                           {"remesh", mass_properties(result.remesh)}}));
   page.add_heading("Distributions");
   page.add_figures(figures.distributions);
   if (result.search) {

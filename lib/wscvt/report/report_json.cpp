@@ -238,6 +238,9 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
       {"distances", json_of(result.distances)},
       {"descriptors", json_of(comparison, ComparisonNames())},
       {"descriptor_names", json_names_of(comparison)},
+      {"mass",
+       {{"original", json_of(mass_properties(result.original))},
+        {"remesh", json_of(mass_properties(result.remesh))}}},
       {"warnings", result.warnings},
   };
 }

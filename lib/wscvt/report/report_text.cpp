@@ -5,6 +5,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
+#include "wscvt/report/mass_table.h"
 #include "wscvt/report/report.h"
 #include "wscvt/tessellation/space_weights.h"
 
@@ -309,6 +310,10 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   append_distances(result, lines);
   append_quality(result, lines);
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
+    lines.push_back(std::move(text));
+  }
+  for (std::string& text : aligned_lines(mass_rows({{"original", mass_properties(result.original)},
+                                                    {"remesh", mass_properties(result.remesh)}}))) {
     lines.push_back(std::move(text));
   }
   for (const std::string& warning : result.warnings) lines.push_back(line("Warning", warning));
