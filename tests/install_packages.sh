@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what the library, the plugin and their tests need on Debian 12. As root or with sudo;
-# when everything is there already, neither is needed. May be killed and run again.
+# when everything is there already, neither is needed. May be killed and run again. Packages named
+# as arguments are installed in place of these.
 set -eu
 
 packages="
@@ -11,6 +12,8 @@ packages="
   meshlab qtbase5-dev libqt5xmlpatterns5-dev libqt5opengl5-dev
   libglew-dev libglu1-mesa-dev
   xvfb xauth xdotool imagemagick"
+
+[ $# -eq 0 ] || packages=$*
 
 find_missing() {
   missing=

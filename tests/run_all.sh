@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [hosts] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [engines] [hosts] [debian13] [sid]
 # Without arguments: install and release. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -44,6 +44,10 @@ for step in "$@"; do
     page)
       # After release. A step of its own, because a browser is 300 MB.
       tests/page_in_browser.sh build/release/lib/wscvt build/page ;;
+    engines)
+      # After release. Yade, LIGGGHTS, Gmsh and VTK are 1 GB, so a step of its own.
+      tests/install_packages.sh yade liggghts gmsh python3-vtk9 python3-numpy
+      tests/engines/run.sh build/release/lib/wscvt build/engines ;;
     hosts)
       # The plugin for versions of MeshLab that are not installed, with the tests that need no
       # program of theirs. A step of its own: parts of two MeshLabs are compiled.

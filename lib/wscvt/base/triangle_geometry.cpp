@@ -17,6 +17,20 @@ MeshSums mesh_sums(const std::vector<Vector3>& points, const std::vector<Triangl
       });
 }
 
+std::vector<Vector3> vertex_normals(const std::vector<Vector3>& points,
+                                    const std::vector<Triangle>& triangles) {
+  std::vector<Vector3> normals(points.size(), Vector3::Zero());
+  for (const Triangle& t : triangles) {
+    const Vector3 normal = doubled_area_normal(points[t[0]], points[t[1]], points[t[2]]);
+    for (const std::int32_t v : t) normals[v] += normal;
+  }
+  for (Vector3& normal : normals) {
+    const double length = normal.norm();
+    if (length > 0.0) normal /= length;
+  }
+  return normals;
+}
+
 std::vector<double> vertex_areas(const IndexedMesh& mesh) {
   std::vector<double> areas(mesh.points.size(), 0.0);
   for (const auto& [a, b, c] : mesh.triangles) {

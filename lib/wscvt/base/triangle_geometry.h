@@ -66,6 +66,11 @@ struct MeshSums {
 MeshSums mesh_sums(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                    const Vector3& origin, const Execution& execution);
 
+/// Unit normals at the points, outward for an outward mesh: the mean of those of the triangles
+/// about, by area. Zero where no triangle with an area is.
+std::vector<Vector3> vertex_normals(const std::vector<Vector3>& points,
+                                    const std::vector<Triangle>& triangles);
+
 /// A third of the area of its triangles for each vertex; they add up to the mesh's area.
 std::vector<double> vertex_areas(const IndexedMesh& mesh);
 

@@ -64,20 +64,6 @@ Vector3 face_normal(const std::vector<Vector3>& points, const Triangle& t) {
   return doubled_area_normal(points[t[0]], points[t[1]], points[t[2]]);
 }
 
-std::vector<Vector3> node_normals(const std::vector<Vector3>& positions,
-                                  const std::vector<Triangle>& triangles) {
-  std::vector<Vector3> normals(positions.size(), Vector3::Zero());
-  for (const Triangle& t : triangles) {
-    const Vector3 normal = face_normal(positions, t);
-    for (const std::int32_t v : t) normals[v] += normal;
-  }
-  for (Vector3& normal : normals) {
-    const double length = normal.norm();
-    if (length > 0.0) normal /= length;
-  }
-  return normals;
-}
-
 /// The triangle of the nodes that a sample belongs to, and the row it gives.
 struct Row {
   Triangle corners{};
@@ -333,7 +319,7 @@ NormalFit fit_along_normals(const std::vector<Vector3>& positions,
                                              " vertices of the triangulation; give one each.");
   }
   const std::vector<Triangle>& triangles = triangulation.triangles();
-  const std::vector<Vector3> normals = node_normals(positions, triangles);
+  const std::vector<Vector3> normals = vertex_normals(positions, triangles);
   const Eigen::VectorXd steps =
       solve_steps(rows_of(samples, positions, seeds, normals, triangulation, execution), count);
 

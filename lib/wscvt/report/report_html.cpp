@@ -11,8 +11,7 @@
 #include "wscvt/report/mass_table.h"
 #include "wscvt/report/page_figures.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/point_cloud.h"
+#include "wscvt/report/used_scan.h"
 
 namespace wscvt {
 
@@ -44,13 +43,6 @@ class OptionRows {
 
   std::vector<std::vector<std::string>> rows_ = {{"option", "meaning"}};
 };
-
-/// The scan as it was used; nothing for a surface from a formula.
-IndexedMesh used_scan(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
-  if (options.points && !scan.points.empty()) scan = mesh_of_points(std::move(scan.points));
-  if (scan.triangles.empty()) return scan;
-  return check_mesh(std::move(scan), options.check, execution).mesh;
-}
 
 Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
   std::vector<CurvePoint> points;

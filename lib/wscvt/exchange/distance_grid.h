@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
+
+namespace wscvt {
+
+/// Signed distances to a closed surface at the points of a grid along the axes: a level set.
+struct DistanceGrid {
+  Vector3 origin = Vector3::Zero();        ///< its first point
+  double spacing = 0.0;                    ///< along each axis; length
+  std::array<std::size_t, 3> counts = {};  ///< of points along x, y and z
+  /// Negative inside; length. The point at origin + spacing (i, j, k) is number
+  /// (i counts[1] + j) counts[2] + k.
+  std::vector<double> values;
+};
+
+struct GridOptions {
+  double spacing = 0.0;  ///< length; 0: a fiftieth of the equivalent diameter
+  int margin = 4;        ///< cells between the surface's box and the edge of the grid
+};
+
+inline constexpr NumberOption<double> grid_spacing_option = {
+    "sdf-spacing", "spacing of the grid of distances",
+    0.0,           std::numeric_limits<double>::infinity(),
+    Ends::Both,    "in the unit written; 0 takes a fiftieth of the equivalent diameter"};
+inline constexpr NumberOption<int> grid_margin_option = {
+    "sdf-margin",
+    "margin of the grid of distances",
+    1,
+    1000,
+    Ends::Both,
+    "cells between the grain's box and the grid's edge"};
+
+/// Distances are exact at the points (see MeshDistance), and so is their sign, which is that of a
+/// ray's crossings or, where the surface lies too far to come between, of a point beside. The grid
+/// starts at a multiple of the spacing, so that grids of one body fit each other.
+///
+/// Throws Error(InvalidInput) for a mesh without faces or volume, for options out of range and for
+/// grids of more than 500 million points, Error(Cancelled).
+DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options,
+                           const Execution& execution);
+
+/// The bytes of a NumPy file (.npy, version 1.0): doubles, little-endian, [x][y][z] in C's order.
+std::string grid_npy(const DistanceGrid& grid);
+
+/// The bytes of VTK's XML ImageData (.vti), for ParaView: the array "distance", appended raw.
+std::string grid_vti(const DistanceGrid& grid);
+
+/// A level set of NetDEM as one of its published examples has it (apaam/examples,
+/// netdem/data/ls_shape.json): corner, spacing, dim and signed_distance_table[x][y][z], positive
+/// inside. Not tried: NetDEM is not to be had.
+std::string grid_netdem(const DistanceGrid& grid);
+
+}  // namespace wscvt

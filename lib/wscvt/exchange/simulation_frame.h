@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
+#include "wscvt/measures/mass_properties.h"
+
+namespace wscvt {
+
+/// Which coordinates files for a simulation hold.
+enum class Frame {
+  Input,      ///< the scan's
+  Centred,    ///< the scan's, about the grain's volume centroid
+  Principal,  ///< the grain's principal axes, about its volume centroid
+};
+
+template <>
+struct EnumerationTable<Frame> {
+  static constexpr std::string_view key = "frame";
+  static constexpr std::string_view subject = "frame of what is written";
+  static constexpr Enumerator<Frame> rows[] = {
+      {Frame::Input, "input", "the scan's"},
+      {Frame::Centred, "centred", "the scan's axes about the grain's centroid"},
+      {Frame::Principal, "principal", "the grain's principal axes about its centroid",
+       "the grain's principal axes about its centroid, the longest along x, in which its tensor of "
+       "inertia is diagonal"},
+  };
+};
+
+enum class LengthUnit { Metre, Centimetre, Millimetre, Micrometre, Nanometre, Inch };
+
+/// What the keys of a unit are, whatever it is the unit of.
+inline constexpr Enumerator<LengthUnit> length_unit_rows[] = {
+    {LengthUnit::Metre, "m", "metre"},
+    {LengthUnit::Centimetre, "cm", "centimetre"},
+    {LengthUnit::Millimetre, "mm", "millimetre"},
+    {LengthUnit::Micrometre, "um", "micrometre"},
+    {LengthUnit::Nanometre, "nm", "nanometre"},
+    {LengthUnit::Inch, "inch", "inch"},
+};
+
+template <>
+struct EnumerationTable<LengthUnit> {
+  static constexpr std::string_view key = "unit";
+  static constexpr std::string_view subject = "unit of length";
+  static constexpr const auto& rows = length_unit_rows;
+};
+
+/// Metres in a unit.
+double metres_in(LengthUnit unit);
+
+struct FrameOptions {
+  Frame frame = Frame::Input;
+  /// What lengths are multiplied with, beside what the units ask for.
+  double scale = 1.0;
+  /// Equivalent diameter that the grain is brought to, in the unit written; 0: as it is scaled.
+  double size = 0.0;
+  LengthUnit input_unit = LengthUnit::Metre;   ///< of the scan
+  LengthUnit output_unit = LengthUnit::Metre;  ///< of what is written
+};
+
+inline constexpr NumberOption<double> scale_option = {
+    "scale",
+    "factor of lengths",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::NotMinimum,
+    "what is written is so many times as large as the scan"};
+inline constexpr NumberOption<double> size_option = {
+    "size",     "equivalent diameter",
+    0.0,        std::numeric_limits<double>::infinity(),
+    Ends::Both, "that the grain is written with, in place of a scale; 0 leaves it"};
+
+/// Throws Error(InvalidInput) for options out of range, and for a size beside a scale.
+void check_frame_options(const FrameOptions& options);
+
+/// From the scan's coordinates to those that are written.
+struct SimulationFrame {
+  Vector3 origin = Vector3::Zero();  ///< of the frame, in the scan's coordinates
+  Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();  ///< turns the frame's into the scan's
+  double scale = 1.0;  ///< length written / length of the scan
+
+  Vector3 point(const Vector3& p) const { return scale * (axes.conjugate() * (p - origin)); }
+  Vector3 direction(const Vector3& v) const { return axes.conjugate() * v; }
+};
+
+/// The frame of a grain: of the scan, so that remeshes with any number of nodes share it. Throws as
+/// check_frame_options.
+SimulationFrame simulation_frame(const ShapeDescriptors& grain, const FrameOptions& options);
+
+/// The mesh, and what a simulation asks of the body, in the frame.
+IndexedMesh in_frame(IndexedMesh mesh, const SimulationFrame& frame);
+MassProperties in_frame(const MassProperties& mass, const SimulationFrame& frame);
+
+}  // namespace wscvt

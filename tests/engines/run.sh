@@ -1,0 +1,51 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Loads a grain into the engines that Debian has: Yade (level sets), LIGGGHTS (surface mesh), Gmsh
+# (tetrahedra) and VTK, whose readers are ParaView's.
+#   tests/engines/run.sh PROGRAM FOLDER
+# PROGRAM is wscvt. The files are left in FOLDER. Run by tests/run_all.sh engines, because of the
+# packages' size.
+set -eu
+program=$(realpath "${1:?usage: run.sh PROGRAM FOLDER}")
+folder=$(realpath -m "${2:?usage: run.sh PROGRAM FOLDER}")
+here=$(realpath "$(dirname "$0")")
+for command in yade liggghts gmsh; do
+  command -v "$command" > /dev/null || {
+    echo "$command is not installed; run: apt-get install --no-install-recommends yade liggghts" \
+      "gmsh python3-vtk9 python3-numpy" >&2
+    exit 1
+  }
+done
+mkdir -p "$folder"
+cd "$folder"
+
+for nodes in 200 1000; do
+  "$program" -q "$here/../../meshes/sand_7228.ply" "grain_$nodes.stl" -n "$nodes" \
+    --frame principal --size 0.1 --sdf-surface remesh \
+    --nodes "nodes_$nodes.csv" --nodes "nodes_$nodes.vtp" --nodes "grain_$nodes.shp" \
+    --sdf "grid_$nodes.npy" --sdf "grid_$nodes.vti"
+  python3 "$here/vtk_test.py" "nodes_$nodes.csv" "nodes_$nodes.vtp" "grid_$nodes.npy" \
+    "grid_$nodes.vti"
+  yade -n -x "$here/yade_test.py" "nodes_$nodes.csv" "grid_$nodes.npy" > "yade_$nodes.log" 2>&1 || {
+    tail -n 30 "yade_$nodes.log" >&2
+    exit 1
+  }
+  grep '^Yade:' "yade_$nodes.log"
+
+  # Gmsh fills the closed surface with tetrahedra; their volume must be the body's.
+  cat > "grain_$nodes.geo" << END
+Merge "grain_$nodes.stl";
+Surface Loop(1) = {1};
+Volume(1) = {1};
+Mesh.MeshSizeExtendFromBoundary = 1;
+Plugin(NewView).Value = 1;
+END
+  gmsh -3 -format msh2 -o "grain_$nodes.msh" "grain_$nodes.geo" > "gmsh_$nodes.log" 2>&1
+  python3 "$here/gmsh_test.py" "grain_$nodes.msh" "grid_$nodes.npy.json"
+
+  # LIGGGHTS reads the surface as a mesh of walls, and refuses one with holes or slivers.
+  sed "s/GRAIN/grain_$nodes.stl/" "$here/liggghts_test.in" > "liggghts_$nodes.in"
+  liggghts -in "liggghts_$nodes.in" -log "liggghts_$nodes.log" -screen none
+  python3 "$here/liggghts_test.py" "liggghts_$nodes.log" "$((2 * nodes - 4))"
+done
+echo "The engines take the grain."

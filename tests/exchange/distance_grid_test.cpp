@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/exchange/distance_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/expect_error.h"
+#include "support/test_shapes.h"
+#include "wscvt/measures/distances.h"
+
+namespace wscvt {
+namespace {
+
+/// Calls `visit(point, value)` for every point.
+template <class Visit>
+void for_each_point(const DistanceGrid& grid, const Visit& visit) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < grid.counts[0]; ++i) {
+    for (std::size_t j = 0; j < grid.counts[1]; ++j) {
+      for (std::size_t k = 0; k < grid.counts[2]; ++k) {
+        const Vector3 step(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+        visit(Vector3(grid.origin + grid.spacing * step), grid.values[next++]);
+      }
+    }
+  }
+}
+
+double number_at(const std::string& bytes, std::size_t place) {
+  double number = 0.0;
+  std::memcpy(&number, &bytes[place], sizeof number);
+  return number;
+}
+
+TEST(DistanceGrid, OfABoxIsItsClosedForm) {
+  const Vector3 half(0.5, 1.0, 1.5);
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.17, 3}, Execution(2));
+  int inside = 0;
+  for_each_point(grid, [&](const Vector3& p, double value) {
+    const Vector3 beyond = p.cwiseAbs() - half;
+    const double exact = beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+    EXPECT_NEAR(value, exact, 1e-12) << p.transpose();
+    if (value < 0.0) ++inside;
+  });
+  EXPECT_EQ(inside, 5 * 11 * 17);  // the multiples of 0.17 below half the edges
+  // Three cells beyond the box on every side, and not four.
+  for (int k = 0; k < 3; ++k) {
+    const double last =
+        grid.origin[k] + 0.17 * static_cast<double>(grid.counts[static_cast<std::size_t>(k)] - 1);
+    EXPECT_LE(grid.origin[k], -half[k] - 3 * 0.17 + 1e-9);
+    EXPECT_GT(grid.origin[k], -half[k] - 4 * 0.17 - 1e-9);
+    EXPECT_GE(last, half[k] + 3 * 0.17 - 1e-9);
+    EXPECT_LT(last, half[k] + 4 * 0.17 + 1e-9);
+  }
+}
+
+// A torus is no star: rays and rows cross it several times.
+TEST(DistanceGrid, SignIsThatOfEveryPointAlone) {
+  const IndexedMesh torus = test::torus(1.0, 0.3, 48);
+  const MeshDistance surface(torus);
+  const DistanceGrid grid = distance_grid(torus, {0.06, 2}, Execution(2));
+  std::size_t inside = 0;
+  for_each_point(grid, [&](const Vector3& p, double value) {
+    EXPECT_EQ(value < 0.0, surface.contains(p)) << p.transpose();
+    if (value < 0.0) ++inside;
+  });
+  EXPECT_GT(inside, 1000U);
+}
+
+TEST(DistanceGrid, SpacingFollowsTheSizeUnlessGiven) {
+  const IndexedMesh sphere = test::sphere(4);
+  EXPECT_NEAR(distance_grid(sphere, {}, Execution(2)).spacing, 2.0 / 50.0, 1e-3);
+  EXPECT_EQ(distance_grid(sphere, {0.2, 4}, Execution(2)).spacing, 0.2);
+}
+
+TEST(DistanceGrid, SameBytesOnAnyNumberOfThreads) {
+  const IndexedMesh mesh = test::lumpy(3);
+  EXPECT_EQ(distance_grid(mesh, {0.1, 2}, Execution(1)).values,
+            distance_grid(mesh, {0.1, 2}, Execution(3)).values);
+}
+
+TEST(DistanceGrid, NumPyFileHoldsEveryNumber) {
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4, 1}, Execution(1));
+  const std::string bytes = grid_npy(grid);
+  ASSERT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\1\0", 8));
+  const std::size_t header =
+      static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
+  EXPECT_EQ((10 + header) % 64, 0U);
+  EXPECT_EQ(bytes[10 + header - 1], '\n');
+  const std::string shape = "(" + std::to_string(grid.counts[0]) + ", " +
+                            std::to_string(grid.counts[1]) + ", " + std::to_string(grid.counts[2]) +
+                            ")";
+  EXPECT_NE(bytes.substr(10, header).find("'descr': '<f8'"), std::string::npos);
+  EXPECT_NE(bytes.substr(10, header).find("'shape': " + shape), std::string::npos);
+  ASSERT_EQ(bytes.size(), 10 + header + 8 * grid.values.size());
+  for (std::size_t i = 0; i < grid.values.size(); ++i) {
+    EXPECT_EQ(number_at(bytes, 10 + header + 8 * i), grid.values[i]);
+  }
+}
+
+TEST(DistanceGrid, ImageDataRunsAlongXFirst) {
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4, 1}, Execution(1));
+  const std::string bytes = grid_vti(grid);
+  const auto& [nx, ny, nz] = grid.counts;
+  const std::size_t begin = bytes.find("\n_") + 2;
+  std::uint64_t length = 0;
+  std::memcpy(&length, &bytes[begin], sizeof length);
+  EXPECT_EQ(length, 8 * grid.values.size());
+  EXPECT_EQ(number_at(bytes, begin + 8), grid.values[0]);
+  EXPECT_EQ(number_at(bytes, begin + 8 + 8 * 1), grid.values[ny * nz]);
+  EXPECT_EQ(number_at(bytes, begin + 8 + 8 * nx), grid.values[nz]);
+  EXPECT_EQ(number_at(bytes, begin + 8 + 8 * nx * ny), grid.values[1]);
+}
+
+TEST(DistanceGrid, NetdemTableIsPositiveInside) {
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.25, 1}, Execution(1));
+  const auto table = nlohmann::json::parse(grid_netdem(grid));
+  EXPECT_EQ(table.at("dim")[1].get<std::size_t>(), grid.counts[1]);
+  EXPECT_EQ(table.at("spacing").get<double>(), 0.25);
+  EXPECT_EQ(table.at("corner")[2].get<double>(), grid.origin.z());
+  const auto& values = table.at("signed_distance_table");
+  ASSERT_EQ(values.size(), grid.counts[0]);
+  ASSERT_EQ(values[0].size(), grid.counts[1]);
+  ASSERT_EQ(values[0][0].size(), grid.counts[2]);
+  EXPECT_NEAR(values[grid.counts[0] / 2][grid.counts[1] / 2][grid.counts[2] / 2].get<double>(), 0.5,
+              1e-12);
+  EXPECT_LT(values[0][0][0].get<double>(), 0.0);
+}
+
+TEST(DistanceGrid, RefusesWhatHasNoInsideOrNoEnd) {
+  EXPECT_ERROR(distance_grid(IndexedMesh(), {}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {1e-4, 1}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {-0.1, 1}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {0.1, 0}, Execution(1)), InvalidInput);
+  IndexedMesh inward = test::box(1, 2, 3);
+  for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
+  EXPECT_ERROR(distance_grid(inward, {}, Execution(1)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/exchange/simulation_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "support/expect_error.h"
+#include "support/flat_json.h"
+#include "support/test_shapes.h"
+#include "wscvt/remesh.h"
+
+namespace wscvt {
+namespace {
+
+class SimulationFiles : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scan = new IndexedMesh(test::transformed(test::scaled(test::lumpy(4), {1.0, 1.4, 0.7}),
+                                             test::random_rotation(5), {10, 20, 30}));
+    RemeshOptions remesh_options;
+    remesh_options.node_count = 120;
+    result = new RemeshResult(remesh(*scan, remesh_options, Execution(2)));
+  }
+  static void TearDownTestSuite() {
+    delete scan;
+    delete result;
+  }
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "wscvt_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder = pattern;
+    options.frame.frame = Frame::Principal;
+    options.frame.size = 0.1;
+    options.grid.spacing = 0.01;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder / name, std::ios::binary).rdbuf();
+    return text.str();
+  }
+
+  static IndexedMesh* scan;
+  static RemeshResult* result;
+  SimulationOptions options;
+  std::filesystem::path folder;
+};
+
+IndexedMesh* SimulationFiles::scan = nullptr;
+RemeshResult* SimulationFiles::result = nullptr;
+
+// Engine by engine one grain: what the files say of it is the same body in the same place.
+TEST_F(SimulationFiles, NodesLieWhereTheGridIsZero) {
+  options.surface = GridSurface::Remesh;
+  write_nodes(path("nodes.csv"), *result, options);
+  write_distance_grid(path("grid.npy"), *result, *scan, options, {}, Execution(2));
+  const auto description = nlohmann::json::parse(content("grid.npy.json"));
+  const double spacing = description.at("spacing").get<double>();
+  EXPECT_EQ(spacing, 0.01);
+  const auto count = [&](const char* axis) {
+    return description.at("counts").at(axis).get<std::size_t>();
+  };
+  const std::string npy = content("grid.npy");
+  const std::size_t numbers = 8 * count("x") * count("y") * count("z");
+  ASSERT_GT(npy.size(), numbers);
+  const auto value = [&](std::size_t i, std::size_t j, std::size_t k) {
+    double number = 0.0;
+    const std::size_t place = (i * count("y") + j) * count("z") + k;
+    std::memcpy(&number, &npy[npy.size() - numbers + 8 * place], sizeof number);
+    return number;
+  };
+  const auto records = test::csv_records(content("nodes.csv"));
+  ASSERT_EQ(records.size(), 121U);
+  for (std::size_t r = 1; r < records.size(); ++r) {
+    std::array<std::size_t, 3> cell{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const char* axis = k == 0 ? "x" : k == 1 ? "y" : "z";
+      const double from = description.at("origin").at(axis).get<double>();
+      cell[k] = static_cast<std::size_t>((std::stod(records[r][k]) - from) / spacing);
+    }
+    // A node lies within a cell of each of its corners.
+    EXPECT_LE(std::abs(value(cell[0], cell[1], cell[2])), std::sqrt(3.0) * spacing);
+    EXPECT_LE(std::abs(value(cell[0] + 1, cell[1] + 1, cell[2] + 1)), std::sqrt(3.0) * spacing);
+  }
+}
+
+TEST_F(SimulationFiles, DescriptionHoldsTheMassOfTheScanInTheFrame) {
+  write_distance_grid(path("grid.npy"), *result, *scan, options, {"sand.ply", ""}, Execution(2));
+  const auto description = nlohmann::json::parse(content("grid.npy.json"));
+  EXPECT_EQ(description.at("source"), "sand.ply");
+  EXPECT_EQ(description.at("frame").at("name"), "principal");
+  const auto& mass = description.at("mass");
+  EXPECT_NEAR(mass.at("volume").get<double>(), test::pi / 6.0 * 1e-3, 1e-12);
+  const double least = mass.at("principal_moments").at("least").get<double>();
+  EXPECT_NEAR(mass.at("inertia_tensor").at("xx").get<double>() / least, 1.0, 1e-9);
+  EXPECT_NEAR(mass.at("inertia_tensor").at("xy").get<double>() / least, 0.0, 1e-9);
+  EXPECT_NEAR(mass.at("principal_axes").at("w").get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(mass.at("centroid").at("y").get<double>(), 0.0, 1e-12);
+}
+
+TEST_F(SimulationFiles, GridIsOfTheScanUnlessTheRemeshIsAsked) {
+  write_distance_grid(path("scan.npy"), *result, *scan, options, {}, Execution(2));
+  options.surface = GridSurface::Remesh;
+  write_distance_grid(path("remesh.npy"), *result, {}, options, {}, Execution(2));
+  EXPECT_NE(content("scan.npy"), content("remesh.npy"));
+  const SimulationFrame frame = simulation_frame(result->original, options.frame);
+  EXPECT_EQ(content("scan.npy"),
+            grid_npy(distance_grid(in_frame(*scan, frame), options.grid, Execution(2))));
+}
+
+TEST_F(SimulationFiles, FollowTheirEndings) {
+  write_nodes(path("nodes.VTP"), *result, options);
+  EXPECT_NE(content("nodes.VTP").find("PolyData"), std::string::npos);
+  write_nodes(path("a grain.shp"), *result, options);
+  EXPECT_NE(content("a grain.shp").find("name a_grain\n"), std::string::npos);
+  write_distance_grid(path("grid.vti"), *result, *scan, options, {}, Execution(2));
+  EXPECT_NE(content("grid.vti").find("ImageData"), std::string::npos);
+  write_distance_grid(path("grid.json"), *result, *scan, options, {}, Execution(2));
+  EXPECT_TRUE(nlohmann::json::parse(content("grid.json")).contains("signed_distance_table"));
+  EXPECT_EQ(grid_description_path("grid.vti"), "");
+  EXPECT_EQ(grid_description_path("grid.NPY"), "grid.NPY.json");
+}
+
+TEST_F(SimulationFiles, RefuseWhatTheyCannotWrite) {
+  EXPECT_ERROR(write_nodes(path("nodes.txt"), *result, options), InvalidInput);
+  EXPECT_ERROR(write_distance_grid(path("grid.csv"), *result, *scan, options, {}, Execution(1)),
+               InvalidInput);
+  // A surface from a formula has no scan.
+  EXPECT_ERROR(write_distance_grid(path("grid.npy"), *result, {}, options, {}, Execution(1)),
+               InvalidInput);
+  options.frame.frame = Frame::Centred;
+  EXPECT_ERROR(write_nodes(path("nodes.shp"), *result, options), InvalidInput);
+  options.grid.margin = 0;
+  EXPECT_ERROR(check_simulation_options(options), InvalidInput);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+}  // namespace
+}  // namespace wscvt
