@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "creation_filter.h"
 
-#include <QFileInfo>
 #include <algorithm>
 #include <vector>
 
 #include "report_file.h"
 #include "wscvt/base/error.h"
-#include "wscvt/surface/harmonic_io.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt::filter {
 
 namespace {
-
-/// What floats, which a host's meshes are made of, hold with room for areas and volumes.
-constexpr NumberOption<double> semi_axis_option = {"semi-axis", "semi-axis", 1e-6, 1e6};
-/// -1 keeps all.
-constexpr NumberOption<int> coefficient_degree_option = {
-    "coefficient-degree", "degree at which the series is cut", -1, maximum_harmonic_degree};
 
 FilterParameter semi_axis(const std::string& name, double default_value, const std::string& axis) {
   // Said once, because the dialog is long.
@@ -36,10 +28,6 @@ FilterParameter exponent(const std::string& name, const NumberOption<double>& op
                               ". 0.1 nearly a box, 1 round as the ellipsoid, 2 a bevelled edge.");
 }
 
-bool is_json(const std::string& path) {
-  return QFileInfo(QString::fromStdString(path)).suffix().toLower() == QLatin1String("json");
-}
-
 }  // namespace
 
 std::string creation_name() { return "Create: grain from ellipsoid, superellipsoid or harmonics"; }
@@ -54,8 +42,7 @@ std::string creation_help() {
 
 ParameterList creation_parameters() {
   ParameterList parameters = {
-      table_parameter("Surface", CreationSettings().surface, "Surface",
-                      "What is made into a mesh."),
+      table_parameter("Surface", SurfaceKind::Ellipsoid, "Surface", "What is made into a mesh."),
       semi_axis("SemiAxisX", 1.0, "x"),
       semi_axis("SemiAxisY", 1.0, "y"),
       semi_axis("SemiAxisZ", 1.0, "z"),
@@ -99,20 +86,21 @@ ParameterList creation_parameters() {
 CreationSettings read_creation_settings(const ParameterValues& values) {
   const CheckedValues checked(creation_parameters(), values);
   CreationSettings settings;
-  settings.surface = checked.choice<GrainSurface>("Surface");
-  settings.semi_axes =
+  GrainSurface& surface = settings.surface;
+  surface.kind = checked.choice<SurfaceKind>("Surface");
+  surface.semi_axes =
       Vector3(checked.real("SemiAxisX"), checked.real("SemiAxisY"), checked.real("SemiAxisZ"));
-  settings.polar_exponent = checked.real("PolarExponent");
-  settings.azimuthal_exponent = checked.real("AzimuthalExponent");
-  settings.coefficients_file = checked.text("CoefficientsFile");
-  settings.coefficient_degree = checked.whole("CoefficientDegree");
-  if (settings.surface == GrainSurface::Harmonics) {
-    if (settings.coefficients_file.empty()) {
+  surface.polar_exponent = checked.real("PolarExponent");
+  surface.azimuthal_exponent = checked.real("AzimuthalExponent");
+  surface.coefficients_file = checked.text("CoefficientsFile");
+  surface.coefficient_degree = checked.whole("CoefficientDegree");
+  if (surface.kind == SurfaceKind::Harmonics) {
+    if (surface.coefficients_file.empty()) {
       throw Error(ErrorCode::InvalidInput,
                   "Parameter CoefficientsFile is empty; name the .dat or .json file that holds "
                   "the coefficients of the harmonics. Nothing was changed.");
     }
-    check_extension(settings.coefficients_file, {".dat", ".json"}, "CoefficientsFile");
+    check_extension(surface.coefficients_file, {".dat", ".json"}, "CoefficientsFile");
   }
   settings.options = read_node_options(checked);
   settings.options.placement.kind =
@@ -122,44 +110,9 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   settings.result.colour_by_quality = checked.flag("ColorByQuality");
   settings.result.report_file = checked.text("ReportFile");
   check_remesh_report_file(settings.result.report_file);
-  check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,
+  check_different_files(settings.result.report_file, "ReportFile", surface.coefficients_file,
                         "CoefficientsFile");
   return settings;
-}
-
-bool holds_map(const CreationSettings& settings) {
-  return settings.surface == GrainSurface::Harmonics && is_json(settings.coefficients_file) &&
-         read_harmonic_kind(settings.coefficients_file) == HarmonicKind::Map;
-}
-
-std::unique_ptr<const RadialSurface> make_surface(const CreationSettings& settings) {
-  switch (settings.surface) {
-    case GrainSurface::Ellipsoid:
-      break;
-    case GrainSurface::Superellipsoid:
-      return std::make_unique<Superellipsoid>(settings.semi_axes, settings.polar_exponent,
-                                              settings.azimuthal_exponent);
-    case GrainSurface::Harmonics:
-      return std::make_unique<HarmonicSurface>(
-          is_json(settings.coefficients_file)
-              ? read_harmonics(settings.coefficients_file)
-              : read_complex_harmonics(settings.coefficients_file, settings.coefficient_degree));
-  }
-  return std::make_unique<Ellipsoid>(settings.semi_axes);
-}
-
-std::string surface_name(const CreationSettings& settings) {
-  switch (settings.surface) {
-    case GrainSurface::Ellipsoid:
-      break;
-    case GrainSurface::Superellipsoid:
-      return "Superellipsoid";
-    case GrainSurface::Harmonics:
-      return QFileInfo(QString::fromStdString(settings.coefficients_file))
-          .completeBaseName()
-          .toStdString();
-  }
-  return "Ellipsoid";
 }
 
 }  // namespace wscvt::filter

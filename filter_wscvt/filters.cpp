@@ -21,7 +21,6 @@
 #include "wscvt/remesh.h"
 #include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report_file.h"
-#include "wscvt/surface/harmonic_io.h"
 
 namespace wscvt::filter {
 
@@ -173,14 +172,11 @@ FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
   const Stopwatch stopwatch;
   const CreationSettings settings = read_creation_settings(
       with_full_names(creation_parameters(), values, folder_at_hand(layers)));
-  const RemeshResult result =
-      holds_map(settings)
-          ? remesh(read_harmonic_map(settings.coefficients_file), settings.options, execution)
-          : remesh(*make_surface(settings), settings.options, execution);
-  save_report(settings.result.report_file, surface_name(settings), result, IndexedMesh());
-  layers.add(
-      remesh_label(surface_name(settings), nodes_name(result.options), result.mesh.points.size()),
-      content_of(result, settings.result), Eigen::Matrix4d::Identity());
+  const RemeshResult result = remesh(settings.surface, settings.options, execution);
+  const std::string name = surface_name(settings.surface);
+  save_report(settings.result.report_file, name, result, IndexedMesh());
+  layers.add(remesh_label(name, nodes_name(result.options), result.mesh.points.size()),
+             content_of(result, settings.result), Eigen::Matrix4d::Identity());
 
   FilterOutcome outcome;
   outcome.log = log_lines(result, stopwatch.seconds());

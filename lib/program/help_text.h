@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 #include <string>
 #include <string_view>
 
@@ -11,30 +14,53 @@ namespace wscvt::program {
 /// Columns of the help that hold the options' names; their texts follow.
 inline constexpr int help_column = 30;
 
+/// Under this heading stand options that only --help-all shows.
+inline constexpr const char* finer_settings = "Finer settings";
+
 /// Breaks a text between words so that it fits beside the names on a line of 100 characters.
 std::string wrapped(std::string_view text);
+
+/// Lays out the help: --help-all says everything; --help fits on a screen, without the finer
+/// settings, and of each option the first paragraph.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  enum class Extent { Brief, Full };
+  explicit HelpFormatter(Extent extent = Extent::Brief);
+
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override;
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override;
+  std::string make_option_desc(const CLI::Option* option) const override;
+
+ private:
+  Extent extent_;
+};
+
+// Descriptions of options, of one paragraph or more; HelpFormatter breaks their lines.
 
 /// "Number of nodes, of the remesh: 4 to 1000000. Default: 1000".
 template <class Number>
 std::string help_of(Number value, const NumberOption<Number>& option) {
   std::string text = capitalised(option.subject) + ", " + range_text(option);
   if (!option.meaning.empty()) text += ": " + std::string(option.meaning);
-  return wrapped(text + ". Default: " + typed_text(value));
+  return text + ". Default: " + typed_text(value);
 }
 
 inline std::string help_of(bool value, const FlagOption& option) {
-  return wrapped(capitalised(option.subject) + " " + std::string(option.meaning) +
-                 (value ? ". Default: on" : ""));
+  return capitalised(option.subject) + " " + std::string(option.meaning) +
+         (value ? ". Default: on" : "");
 }
 
-/// The subject, the default, and every value with its meaning on a line of its own.
+/// The subject, the choices and the default, then every value with its meaning on a line of its
+/// own.
 template <class Enumeration>
 std::string help_of(Enumeration value) {
   std::string text = capitalised(EnumerationTable<Enumeration>::subject);
-  text += ". Default: " + key_of(value);
+  text += ": " + keys_of<Enumeration>() + ". Default: " + key_of(value);
   for (const Enumerator<Enumeration>& row : enumerators<Enumeration>()) {
     const std::string_view meaning = row.meaning.empty() ? row.label : row.meaning;
-    text.append("\n").append(wrapped(std::string(row.key) + ": " + std::string(meaning)));
+    text.append("\n").append(row.key).append(": ").append(meaning);
   }
   return text;
 }

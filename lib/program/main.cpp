@@ -1,83 +1,98 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The remesher without a display: one scan in, one remesh and its report out.
+// The remesher without a display: finds the command that a call names, and runs it.
+#include <CLI/App.hpp>
+#include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <exception>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "arguments.h"
-#include "output_paths.h"
-#include "progress_line.h"
+#include "command.h"
+#include "compare_command.h"
+#include "create_command.h"
+#include "describe_command.h"
+#include "exit_code.h"
+#include "remesh_command.h"
 #include "signals.h"
 #include "standard_streams.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/output_file.h"
-#include "wscvt/remesh.h"
-#include "wscvt/report/coefficients_file.h"
-#include "wscvt/report/report.h"
-#include "wscvt/report/report_file.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/base/version.h"
 
 namespace {
 
 namespace program = wscvt::program;
 
-/// "2026-11-21", where the program runs; empty when the clock does not say.
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  char text[sizeof "2026-11-21"];
-  if (::localtime_r(&now, &local) == nullptr) return "";
-  return std::strftime(text, sizeof text, "%Y-%m-%d", &local) == 0 ? "" : text;
+struct Command {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+template <class Arguments>
+Command make_command(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  return {&program::add_command(app, *arguments), [arguments] { return run(*arguments); }};
+}
+
+/// What comes before any command.
+bool is_of_the_program(const std::string& word) {
+  return word == "--help" || word == "-h" || word == "--version";
+}
+
+/// The words of a call. `wscvt SCAN OUTPUT`, from before there were commands, is a remesh. Throws
+/// CLI::ParseError for a word that is no command and no file.
+std::vector<std::string> words_of(int argc, char** argv, const std::vector<Command>& commands) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const std::string first = words.empty() ? "" : words.front();
+  std::string names;
+  for (const Command& one : commands) {
+    if (one.app->get_name() == first) return words;
+    names += (names.empty() ? "" : &one == &commands.back() ? " or " : ", ") + one.app->get_name();
+  }
+  if (is_of_the_program(first)) return words;
+  // A file has a point for its ending, or a slash.
+  if (first.find_first_of("-./") == std::string::npos) {
+    throw CLI::ParseError(
+        (first.empty() ? "No command is given" : "There is no command \"" + first + "\"") +
+            "; give " + names + ".",
+        CLI::ExitCodes::InvalidError);
+  }
+  words.insert(words.begin(), "remesh");
+  return words;
 }
 
 int run(int argc, char** argv) {
-  int exit_code = -1;
-  const program::Arguments call = program::read_arguments(argc, argv, exit_code);
-  if (exit_code >= 0) return exit_code;
-
-  std::vector<program::NamedFile> outputs = {{"the remesh", call.output},
-                                             {"the report", call.json},
-                                             {"the coefficients", call.coefficients}};
-  for (const std::string& report : call.reports) outputs.push_back({"a report", report});
-  program::check_output_paths({"the scan", call.input}, outputs, call.overwrite);
-  for (const std::string& report : call.reports) wscvt::check_remesh_report(report);
-  wscvt::check_mesh_format(call.output);
-  if (!call.quiet) wscvt::check_writable("/dev/stdout");
-  program::note_signals();
-  program::ProgressLine line(!call.quiet);
-  const wscvt::Execution execution(call.threads, [&](double fraction, const std::string& stage) {
-    line.show(fraction, stage);
-    return program::noted_signal() == 0;
-  });
-  execution.report(0.0, "Reading the scan");
-  wscvt::IndexedMesh scan = wscvt::read_mesh(call.input);
-  wscvt::IndexedMesh shown;  // on a page
-  if (!call.reports.empty()) shown = scan;
-  const wscvt::RemeshResult result = wscvt::remesh(std::move(scan), call.options, execution);
-  execution.report(1.0, "Writing");  // the last chance to cancel
-  line.clear();
-
-  wscvt::write_mesh(result.mesh, call.output);
-  const wscvt::ReportOrigin origin = {call.input, today()};
-  if (!call.json.empty()) wscvt::write_file(call.json, wscvt::report_json(result, origin));
-  for (const std::string& report : call.reports) {
-    wscvt::write_report(report, result, shown, origin, wscvt::Execution(call.threads));
+  CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
+  app.formatter(std::make_shared<program::HelpFormatter>());
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.footer(std::string("\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\". Of a command:\n"
+                         "  wscvt remesh --help\n"
+                         "  wscvt remesh --help-all\n") +
+             program::exit_code_text);
+  app.set_version_flag("--version", std::string("wscvt ") + wscvt::version());
+  app.require_subcommand(1);
+  const std::vector<Command> commands = {
+      make_command<program::RemeshArguments>(app),
+      make_command<program::DescribeArguments>(app),
+      make_command<program::CompareArguments>(app),
+      make_command<program::CreateArguments>(app),
+  };
+  try {
+    std::vector<std::string> words = words_of(argc, argv, commands);
+    std::reverse(words.begin(), words.end());  // as CLI11 wants them
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    if (app.exit(error) != 0) return program::WrongArguments;
+    if (!std::cout.flush()) throw std::runtime_error("The help could not be written.");
+    return program::Done;
   }
-  if (!call.coefficients.empty()) {
-    wscvt::write_coefficients(call.coefficients, result);
+  for (const Command& command : commands) {
+    if (command.app->parsed()) return command.run();
   }
-  for (const std::string& warning : result.warnings) {
-    std::fprintf(stderr, "Warning: %s\n", warning.c_str());
-  }
-  if (!call.quiet) {
-    std::string text;
-    for (const std::string& report_line : wscvt::report_lines(result)) text += report_line + "\n";
-    wscvt::write_file("/dev/stdout", text);
-  }
-  return program::Done;
+  return program::WrongArguments;
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace wscvt::program {
 
-void check_output_paths(const NamedFile& scan, const std::vector<NamedFile>& outputs,
+void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                         bool overwrite) {
   const auto refuse = [](const std::string& sentence) {
     throw wscvt::Error(wscvt::ErrorCode::InvalidInput, sentence);
@@ -19,12 +19,19 @@ void check_output_paths(const NamedFile& scan, const std::vector<NamedFile>& out
       refuse("\"" + output.path + "\" is named for " + outputs[k].meaning + " and for " +
              output.meaning + "; give two names.");
     }
-    if (!overwrite && wscvt::same_file(output.path, scan.path)) {
-      refuse("\"" + output.path + "\", named for " + output.meaning + ", is " + scan.meaning +
+    for (const NamedFile& input : inputs) {
+      if (overwrite || !wscvt::same_file(output.path, input.path)) continue;
+      refuse("\"" + output.path + "\", named for " + output.meaning + ", is " + input.meaning +
              " itself; give another name, or --overwrite to replace it.");
     }
     wscvt::check_writable(output.path);
   }
+}
+
+std::vector<NamedFile> named_reports(const std::vector<std::string>& reports) {
+  std::vector<NamedFile> files;
+  for (const std::string& report : reports) files.push_back({"a report", report});
+  return files;
 }
 
 }  // namespace wscvt::program

@@ -13,8 +13,11 @@ struct NamedFile {
 };
 
 /// Throws wscvt::Error when an output cannot be written, when two outputs are one file, or when one
-/// of them is the scan and `overwrite` is not given; before any work is done.
-void check_output_paths(const NamedFile& scan, const std::vector<NamedFile>& outputs,
+/// of them is an input and `overwrite` is not given; before any work is done.
+void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                         bool overwrite);
+
+/// "a report" for each of them.
+std::vector<NamedFile> named_reports(const std::vector<std::string>& reports);
 
 }  // namespace wscvt::program

@@ -7,9 +7,13 @@
 
 namespace wscvt::program {
 
+/// What is remeshed: some options mean nothing for a surface that is known exactly.
+enum class Remeshed { Scan, Surface };
+
 /// Gives `app` an argument for every option of a remesh, under the option's key: what a report
 /// prints as an option is what one types here. Reading a call changes `options`, which must outlive
 /// `app`. Help texts are made of the options' tables and ranges.
-void add_remesh_arguments(CLI::App& app, RemeshOptions& options);
+void add_remesh_arguments(CLI::App& app, RemeshOptions& options,
+                          Remeshed remeshed = Remeshed::Scan);
 
 }  // namespace wscvt::program

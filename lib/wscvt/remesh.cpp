@@ -13,6 +13,8 @@
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/grain_surface.h"
+#include "wscvt/surface/harmonic_io.h"
 #include "wscvt/surface/harmonic_map.h"
 
 namespace wscvt {
@@ -143,6 +145,14 @@ RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
   RemeshOptions on_map = options;
   if (on_map.placement.kind == NodePlacement::Series) on_map.placement.kind = NodePlacement::Scan;
   return remesh(std::move(mesh), on_map, execution);
+}
+
+RemeshResult remesh(const GrainSurface& surface, const RemeshOptions& options,
+                    const Execution& execution) {
+  check_grain_surface(surface);
+  return holds_map(surface)
+             ? remesh(read_harmonic_map(surface.coefficients_file), options, execution)
+             : remesh(*make_surface(surface), options, execution);
 }
 
 }  // namespace wscvt

@@ -10,6 +10,7 @@ namespace wscvt {
 
 class HarmonicMap;
 class RadialSurface;
+struct GrainSurface;
 
 /// Remeshes a dense scan to exactly N nodes. The scan is taken by value, since it is mended and
 /// centred; a caller that needs it no more moves it in. Throws Error: InvalidInput
@@ -35,6 +36,11 @@ RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
 /// degree turns some of its area inside out at edges and limbs, which no formula of it helps.
 /// Throws the same as for a scan.
 RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
+                    const Execution& execution = Execution());
+
+/// One of the two above: of the formula or the coefficients that `surface` names. Reads their file.
+/// Throws as those and make_surface do.
+RemeshResult remesh(const GrainSurface& surface, const RemeshOptions& options,
                     const Execution& execution = Execution());
 
 }  // namespace wscvt

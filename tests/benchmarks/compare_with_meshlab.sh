@@ -35,7 +35,7 @@ cat > "$work/collapse.mlx" <<XML
 </FilterScript>
 XML
 # The edge length at which a surface of this area has about that many vertices: the remesh's own.
-"$program" "$scan" "$work/ours.ply" -n "$nodes" -w area -j "$work/ours.json" -q
+"$program" "$scan" "$work/ours.ply" -n "$nodes" -w area --report "$work/ours.json" -q
 edge=$(sed -n 's/^ *"mean": \([0-9.e+-]*\),*$/\1/p' "$work/ours.json" | sed -n 3p)
 cat > "$work/isotropic.mlx" <<XML
 <!DOCTYPE FilterScript>

@@ -28,7 +28,7 @@ class CommandLine : public test::ProgramRun {
 };
 
 TEST_F(CommandLine, RemeshesToTheExactCount) {
-  const Outcome outcome = run(sand_ + " remesh.ply -n 300 --json report.json");
+  const Outcome outcome = run(sand_ + " remesh.ply -n 300 --report report.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   const IndexedMesh mesh = read_mesh(path("remesh.ply"));
@@ -85,7 +85,7 @@ TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
         BadCall{sand_ + " remesh.ply --nodse 100", 2, "nodse"},
         BadCall{sand_ + " remesh.ply more.ply", 2, "more.ply"}, BadCall{sand_, 2, "output"}}) {
     SCOPED_TRACE(call.arguments);
-    const Outcome outcome = run(call.arguments + " -j report.json");
+    const Outcome outcome = run(call.arguments + " --report report.json");
     EXPECT_EQ(outcome.exit_code, call.exit_code);
     EXPECT_NE(outcome.errors.find(call.part_of_the_sentence), std::string::npos) << outcome.errors;
     EXPECT_EQ(outcome.output, "");
@@ -105,7 +105,8 @@ TEST_F(CommandLine, ReplacesTheScanOnlyWhenTold) {
     EXPECT_NE(outcome.errors.find("--overwrite"), std::string::npos) << outcome.errors;
     EXPECT_EQ(content("scan.ply"), before);
   }
-  EXPECT_EQ(run("scan.ply remesh.ply -n 100 -j scan.ply").exit_code, 1);
+  fs::create_symlink("scan.ply", folder_ / "scan.json");
+  EXPECT_EQ(run("scan.ply remesh.ply -n 100 --report scan.json").exit_code, 1);
   EXPECT_EQ(content("scan.ply"), before);
   EXPECT_EQ(run("scan.ply link.ply -n 100 --overwrite").exit_code, 0);  // the advice
   EXPECT_EQ(read_mesh((folder_ / "hard.ply").string()).points.size(), 100U);
@@ -115,16 +116,19 @@ TEST_F(CommandLine, ReplacesTheScanOnlyWhenTold) {
 TEST_F(CommandLine, WritesWhereItsPathsLead) {
   // A report through a dangling link must not overwrite the mesh it points to.
   fs::create_symlink("remesh.ply", folder_ / "link.json");
-  const Outcome dangling = run(sand_ + " remesh.ply -n 100 -j link.json");
+  const Outcome dangling = run(sand_ + " remesh.ply -n 100 --report link.json");
   EXPECT_EQ(dangling.exit_code, 1);
   EXPECT_NE(dangling.errors.find("two names"), std::string::npos) << dangling.errors;
-  const Outcome null = run(sand_ + " remesh.ply -n 100 -q -j /dev/null --coefficients /dev/null");
+  fs::create_symlink("/dev/null", folder_ / "null.json");
+  const Outcome null =
+      run(sand_ + " remesh.ply -n 100 -q --report null.json --coefficients /dev/null");
   EXPECT_EQ(null.exit_code, 0) << null.errors;
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  const Outcome out = run(sand_ + " remesh.ply -n 100 -q -j /dev/stdout");
+  fs::create_symlink("/dev/stdout", folder_ / "out.json");
+  const Outcome out = run(sand_ + " remesh.ply -n 100 -q --report out.json");
   EXPECT_EQ(out.exit_code, 0) << out.errors;
   EXPECT_EQ(out.output.front(), '{');
-  const Outcome both = run(sand_ + " remesh.ply -n 100 -j /dev/stdout");
+  const Outcome both = run(sand_ + " remesh.ply -n 100 --report out.json");
   EXPECT_EQ(both.exit_code, 0) << both.errors;
   EXPECT_EQ(both.output.front(), '{');
   EXPECT_NE(both.output.find("100 nodes, 196 faces"), std::string::npos);
@@ -132,8 +136,8 @@ TEST_F(CommandLine, WritesWhereItsPathsLead) {
 
 TEST_F(CommandLine, ChecksItsPathsBeforeTheWork) {
   // A million nodes would take long.
-  for (const std::string bad : {"remesh.vtk", "remesh.ply -j no/folder/report.json",
-                                "no/folder/remesh.ply", "remesh.ply -j ."}) {
+  for (const std::string bad : {"remesh.vtk", "remesh.ply --report no/folder/report.json",
+                                "no/folder/remesh.ply", "remesh.ply --coefficients ."}) {
     SCOPED_TRACE(bad);
     const Outcome outcome = run("missing.ply " + bad + " -n 1000000");
     EXPECT_EQ(outcome.exit_code, 1);

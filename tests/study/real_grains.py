@@ -27,7 +27,7 @@ def remesh(program, scan, nodes, options):
         command = [program, scan, pathlib.Path(folder) / "remesh.ply", "-q", "-n", str(nodes)]
         start = time.monotonic()
         run = subprocess.run(
-            [str(part) for part in command + ["--distances", "--json", report] + options],
+            [str(part) for part in command + ["--distances", "--report", report] + options],
             capture_output=True, text=True, check=False)
         seconds = time.monotonic() - start
         if run.returncode != 0:

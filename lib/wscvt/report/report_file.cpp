@@ -2,9 +2,9 @@
 #include "wscvt/report/report_file.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/report/csv_table.h"
 #include "wscvt/report/descriptor_report.h"
@@ -37,12 +37,8 @@ const std::vector<std::string>& report_endings() {
 }
 
 ReportFormat report_format(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
   const auto& endings = report_endings();
-  const auto found = std::find(endings.begin(), endings.end(), ending);
+  const auto found = std::find(endings.begin(), endings.end(), ending_of(path));
   if (found == endings.end()) {
     throw Error(ErrorCode::InvalidInput,
                 "\"" + path +

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/endian/conversion.hpp>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/scan/byte_reader.h"
 #include "wscvt/scan/obj_reader.h"
@@ -39,12 +39,9 @@ enum class Format { Ply, Stl, Obj, Off };
 }
 
 Format format_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   static const std::map<std::string, Format> formats{
       {".ply", Format::Ply}, {".stl", Format::Stl}, {".obj", Format::Obj}, {".off", Format::Off}};
-  const auto found = formats.find(extension);
+  const auto found = formats.find(ending_of(path));
   if (found == formats.end()) {
     fail(path, "does not end in .ply, .stl, .obj or .off; convert the mesh to one of these.");
   }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.h"
+
+namespace wscvt::program {
+
+const char* const exit_code_text =
+    "Exit codes: 0 done, 1 the work failed, 2 wrong arguments; 130 and 143 cancelled by SIGINT "
+    "and\n"
+    "SIGTERM. A sentence on the standard error says what is wrong and what to do.";
+
+CLI::App& add_command(CLI::App& program, const CommandText& text) {
+  CLI::App& app = *program.add_subcommand(text.name, text.purpose);
+  app.group("Commands");
+  if (text.has_finer_settings) app.set_help_all_flag("--help-all", "Print all options and exit");
+  std::string footer = "Examples:\n";
+  for (const std::string& example : text.examples) {
+    footer += "  wscvt " + text.name + " " + example + "\n";
+  }
+  if (!text.notes.empty()) footer += text.notes + "\n";
+  app.footer(footer + exit_code_text);
+  return app;
+}
+
+CLI::Option* add_typed(CLI::App& app, const std::string& names,
+                       const std::function<void(std::string_view)>& read) {
+  const std::size_t long_name = names.find("--");
+  const std::string name = long_name == std::string::npos ? names : names.substr(long_name);
+  return app
+      .add_option_function<std::string>(names,
+                                        [name, read](const std::string& text) {
+                                          try {
+                                            read(text);
+                                          } catch (const Error& error) {
+                                            throw CLI::ValidationError(name, error.what());
+                                          }
+                                        })
+      ->take_last();  // so that one can be added behind those of a report
+}
+
+}  // namespace wscvt::program

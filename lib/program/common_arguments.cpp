@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common_arguments.h"
+
+#include <limits>
+
+#include "command.h"
+
+namespace wscvt::program {
+
+namespace {
+
+constexpr NumberOption<int> threads_option = {
+    "threads", "number of threads", 0, std::numeric_limits<int>::max(), Ends::Both, "0 for all"};
+
+}  // namespace
+
+void add_threads_argument(CLI::App& app, int& threads) {
+  add_number(app, "-t,--threads", threads, threads_option);
+}
+
+CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,
+                               const std::string& description) {
+  return app.add_option(names, file, description)->type_name("FILE");
+}
+
+void add_common_arguments(CLI::App& app, CommonArguments& arguments) {
+  app.add_option("--report", arguments.reports,
+                 "Write the report to this file, by its ending .html (a page with pictures and "
+                 "histograms), .json (everything) or .csv (a row more of a table); may be given "
+                 "more than once")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  // What --report was called when it could only be JSON; old scripts use it.
+  app.add_option_function<std::string>(
+         "-j,--json", [&arguments](const std::string& file) { arguments.reports.push_back(file); })
+      ->group("");
+  add_threads_argument(app, arguments.threads);
+  app.add_flag("--overwrite", arguments.overwrite, "Let an output replace an input");
+  app.add_flag("-q,--quiet", arguments.quiet,
+               "No report on the standard output, no progress; warnings stay");
+}
+
+}  // namespace wscvt::program

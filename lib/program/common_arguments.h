@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+namespace wscvt::program {
+
+/// What every command that works on a grain takes.
+struct CommonArguments {
+  std::vector<std::string> reports;  ///< files; the ending says what each becomes
+  int threads = 0;                   ///< 0: all
+  bool overwrite = false;            ///< an output may replace an input
+  bool quiet = false;
+};
+
+/// Adds them. Reading a call changes `arguments`, which must outlive `app`.
+void add_common_arguments(CLI::App& app, CommonArguments& arguments);
+
+/// Adds the number of threads alone.
+void add_threads_argument(CLI::App& app, int& threads);
+
+/// Adds one file; it is empty where it is not given.
+CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,
+                               const std::string& description);
+
+}  // namespace wscvt::program

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compare_command.h"
+
+#include "command.h"
+#include "exit_code.h"
+
+namespace wscvt::program {
+
+CLI::App& add_command(CLI::App& program, CompareArguments& arguments) {
+  CLI::App& app =
+      add_command(program, {"compare",
+                            "Measure a grain against another: errors of shape, distances",
+                            {"remesh.ply scan.ply", "remesh.ply scan.ply --report difference.html"},
+                            "Both must stand in the same place: nothing is moved to fit."});
+  add_file_argument(app, "grain", arguments.measure.grain, "Closed mesh: PLY, STL, OBJ or OFF")
+      ->required();
+  add_file_argument(app, "reference", arguments.reference,
+                    "The original, which errors and distances are taken against")
+      ->required();
+  add_measure_arguments(app, arguments.measure);
+  return app;
+}
+
+int run(const CompareArguments& arguments) {
+  measure(arguments.measure, arguments.reference);
+  return Done;
+}
+
+}  // namespace wscvt::program

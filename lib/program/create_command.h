@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "common_arguments.h"
+#include "wscvt/report/remesh_options.h"
+#include "wscvt/surface/grain_surface.h"
+
+namespace wscvt::program {
+
+/// `wscvt create`: a mesh of a surface that is known exactly.
+struct CreateArguments {
+  CreateArguments();
+
+  GrainSurface surface;
+  std::string output;
+  CommonArguments common;
+  RemeshOptions options;  ///< nodes on the surface unless told otherwise
+};
+
+/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+CLI::App& add_command(CLI::App& program, CreateArguments& arguments);
+
+/// Does what the call says; gives the exit code. Throws wscvt::Error.
+int run(const CreateArguments& arguments);
+
+}  // namespace wscvt::program

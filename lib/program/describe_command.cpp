@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "describe_command.h"
+
+#include "command.h"
+#include "exit_code.h"
+
+namespace wscvt::program {
+
+CLI::App& add_command(CLI::App& program, DescribeArguments& arguments) {
+  CLI::App& app =
+      add_command(program, {"describe",
+                            "Measure the shape of a grain: size, form, roundness, roughness",
+                            {"grain.ply", "grain.stl --report grain.html --report grains.csv"}});
+  add_file_argument(app, "grain", arguments.measure.grain, "Closed mesh: PLY, STL, OBJ or OFF")
+      ->required();
+  add_measure_arguments(app, arguments.measure);
+  return app;
+}
+
+int run(const DescribeArguments& arguments) {
+  measure(arguments.measure, {});
+  return Done;
+}
+
+}  // namespace wscvt::program

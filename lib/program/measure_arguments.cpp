@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "measure_arguments.h"
+
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "output_paths.h"
+#include "work.h"
+#include "wscvt/measures/grain_measures.h"
+#include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/report_file.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt::program {
+
+void add_measure_arguments(CLI::App& app, MeasureArguments& arguments) {
+  const auto add = [&](int& value, const NumberOption<int>& option) {
+    add_number(app, "--" + std::string(option.key), value, option);
+  };
+  add(arguments.options.roundness_degree, roundness_degree_option);
+  add(arguments.options.roughness_degree, roughness_degree_option);
+  add_common_arguments(app, arguments.common);
+}
+
+void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference) {
+  const CommonArguments& common = arguments.common;
+  check_output_paths({{"the grain", arguments.grain}, {"the reference", reference.value_or("")}},
+                     named_reports(common.reports), common.overwrite);
+  for (const std::string& report : common.reports) {
+    check_descriptor_report(report, reference.has_value());
+  }
+  Work work(common);
+  work.execution().report(0.0, "Reading");
+  NamedMesh grain = {arguments.grain, read_mesh(arguments.grain)};
+  std::optional<NamedMesh> compared;
+  if (reference) compared = NamedMesh{*reference, read_mesh(*reference)};
+  const GrainMeasures measures =
+      measure_grain(std::move(grain), std::move(compared), arguments.options, work.execution());
+  work.end();
+  for (const std::string& report : common.reports) {
+    write_report(report, measures, origin_of(arguments.grain), Execution(common.threads));
+  }
+  work.print(remarks(measures), descriptor_lines(measures));
+}
+
+}  // namespace wscvt::program

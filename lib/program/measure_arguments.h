@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+
+#include "common_arguments.h"
+#include "wscvt/measures/detailed_descriptors.h"
+
+namespace wscvt::program {
+
+/// What `describe` and `compare` share.
+struct MeasureArguments {
+  std::string grain;  ///< file
+  CommonArguments common;
+  DetailedOptions options;
+};
+
+/// Adds them. Reading a call changes `arguments`, which must outlive `app`.
+void add_measure_arguments(CLI::App& app, MeasureArguments& arguments);
+
+/// Measures the grain, against the mesh in the file `reference` if there is one, writes the reports
+/// and prints. Throws wscvt::Error.
+void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference);
+
+}  // namespace wscvt::program

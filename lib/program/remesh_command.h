@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "common_arguments.h"
+#include "wscvt/report/remesh_options.h"
+
+namespace wscvt::program {
+
+/// `wscvt remesh`: one scan in, one remesh and its reports out.
+struct RemeshArguments {
+  std::string scan;
+  std::string output;
+  std::string coefficients;  ///< file; empty: none
+  CommonArguments common;
+  RemeshOptions options;
+};
+
+/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+CLI::App& add_command(CLI::App& program, RemeshArguments& arguments);
+
+/// Does what the call says; gives the exit code. Throws wscvt::Error.
+int run(const RemeshArguments& arguments);
+
+}  // namespace wscvt::program

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "work.h"
+
+#include <cstdio>
+#include <ctime>
+
+#include "signals.h"
+#include "wscvt/base/output_file.h"
+
+namespace wscvt::program {
+
+namespace {
+
+/// "2026-11-21", where the program runs; empty when the clock does not say.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  char text[sizeof "2026-11-21"];
+  if (::localtime_r(&now, &local) == nullptr) return "";
+  return std::strftime(text, sizeof text, "%Y-%m-%d", &local) == 0 ? "" : text;
+}
+
+}  // namespace
+
+Work::Work(const CommonArguments& arguments)
+    : quiet_(arguments.quiet),
+      line_(!arguments.quiet),
+      execution_(arguments.threads, [this](double fraction, const std::string& stage) {
+        line_.show(fraction, stage);
+        return noted_signal() == 0;
+      }) {
+  if (!quiet_) check_writable("/dev/stdout");
+  note_signals();
+}
+
+void Work::end() {
+  execution_.report(1.0, "Writing");
+  line_.clear();
+}
+
+void Work::print(const std::vector<std::string>& warnings,
+                 const std::vector<std::string>& lines) const {
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "Warning: %s\n", warning.c_str());
+  }
+  if (quiet_) return;
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  write_file("/dev/stdout", text);
+}
+
+ReportOrigin origin_of(const std::string& source) { return {source, today()}; }
+
+}  // namespace wscvt::program

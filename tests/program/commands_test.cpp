@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The commands of the program: what their helps promise, and that each does what the library does.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "program_run.h"
+#include "support/flat_json.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/measures/grain_measures.h"
+#include "wscvt/report/descriptor_report.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+const std::vector<std::string>& commands() {
+  static const std::vector<std::string> names = {"remesh", "describe", "compare", "create"};
+  return names;
+}
+
+class Commands : public test::ProgramRun {
+ protected:
+  void SetUp() override {
+    ProgramRun::SetUp();
+    write_mesh(test::transformed(test::sphere(3), Vector3(1.0, 0.8, 0.7).asDiagonal()),
+               path("scan.ply"));
+  }
+  /// Of a report in JSON; `arguments` writes report.json.
+  Json report_of(const std::string& arguments) const {
+    const Outcome outcome = run(arguments + " -q --report report.json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return outcome.exit_code == 0 ? Json::parse(content("report.json")) : Json();
+  }
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
+  std::vector<std::string> all = commands();
+  all.push_back("");
+  for (const std::string& command : all) {
+    SCOPED_TRACE(command);
+    const Outcome help = run(command + " --help");
+    EXPECT_EQ(help.exit_code, 0);
+    const std::vector<std::string> lines = lines_of(help.output);
+    EXPECT_LE(lines.size(), 45U) << help.output;
+    for (const std::string& line : lines) EXPECT_LE(line.size(), 100U) << line;
+    EXPECT_NE(help.output.find("Exit codes: 0 done"), std::string::npos);
+    const auto examples = std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
+      return line.rfind("  wscvt " + command, 0) == 0;
+    });
+    EXPECT_GE(examples, 2);
+  }
+  const std::string main_help = run("--help").output;
+  for (const std::string& command : commands()) {
+    EXPECT_NE(main_help.find("\n  " + command + " "), std::string::npos) << main_help;
+  }
+}
+
+TEST_F(Commands, ExamplesOfTheHelpsWork) {
+  ASSERT_EQ(run("scan.ply first.ply -q -n 100 -d 6 --coefficients grain.json").exit_code, 0);
+  for (const char* name : {"grain.ply", "grain.stl", "remesh.ply"}) {
+    write_mesh(read_mesh(path("first.ply")), path(name));
+  }
+  for (const std::string& command : commands()) {
+    for (const std::string& line : lines_of(run(command + " --help").output)) {
+      const std::string program = "  wscvt ";
+      if (line.rfind(program, 0) != 0) continue;
+      SCOPED_TRACE(line);
+      const Outcome outcome = run(line.substr(program.size()));
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    }
+  }
+  for (const char* made : {"remesh.html", "table.csv", "grain.html", "grains.csv", "rod.stl"}) {
+    EXPECT_TRUE(exists(made)) << made;
+  }
+}
+
+TEST_F(Commands, RemeshIsWhatACallWithoutOneMeans) {
+  ASSERT_EQ(run("scan.ply old.ply -q -n 60").exit_code, 0);
+  ASSERT_EQ(run("-n 60 scan.ply first.ply -q").exit_code, 0);
+  ASSERT_EQ(run("remesh scan.ply new.ply -q -n 60").exit_code, 0);
+  EXPECT_FALSE(content("new.ply").empty());
+  EXPECT_EQ(content("new.ply"), content("old.ply"));
+  EXPECT_EQ(content("new.ply"), content("first.ply"));
+  // What the program was called before reports had endings.
+  for (const std::string option : {"-j", "--json"}) {
+    const Outcome outcome = run("scan.ply old.ply -q -n 60 " + option + " old.json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(Json::parse(content("old.json")).at("result").at("vertices"), 60);
+    fs::remove(folder_ / "old.json");
+  }
+  EXPECT_EQ(run("remesh --help-all").output.find("--json"), std::string::npos);
+}
+
+TEST_F(Commands, AMisspeltOneIsNamedWithTheChoices) {
+  const Outcome outcome = run("remehs scan.ply new.ply");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("\"remehs\"; give remesh, "), std::string::npos) << outcome.errors;
+  EXPECT_EQ(run("").exit_code, 2);
+  for (const std::string& command : commands()) {
+    SCOPED_TRACE(command);
+    EXPECT_EQ(run(command).exit_code, 2);
+    const Outcome unknown = run(command + " scan.ply scan.ply --nodse 5");
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_EQ(unknown.output, "");
+  }
+  EXPECT_FALSE(exists("new.ply"));
+}
+
+TEST_F(Commands, DescribeMeasuresAsTheLibraryDoes) {
+  const Json report = report_of("describe scan.ply --report table.csv --report page.html");
+  DetailedOptions options;
+  const NamedMesh grain = {"scan.ply", read_mesh(path("scan.ply"))};
+  const GrainMeasures measures = measure_grain(grain, {}, options, Execution());
+  Json expected = Json::parse(descriptor_json(measures, {"scan.ply", ""}));
+  Json made = report;
+  expected.erase("date");
+  made.erase("date");
+  EXPECT_EQ(made, expected);
+  EXPECT_EQ(test::csv_records(content("table.csv")).size(), 2U);
+  EXPECT_NE(content("page.html").find("<svg"), std::string::npos);
+
+  const Outcome loud = run("describe scan.ply --roundness-degree 4 --roughness-degree 3");
+  EXPECT_EQ(loud.exit_code, 0) << loud.errors;
+  options.roundness_degree = 4;
+  options.roughness_degree = 3;
+  std::string text;
+  for (const std::string& line : descriptor_lines(measure_grain(grain, {}, options, Execution()))) {
+    text += line + "\n";
+  }
+  EXPECT_EQ(loud.output, text);
+  const Outcome refused = run("describe scan.ply --roundness-degree 0");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("degree for roundness"), std::string::npos) << refused.errors;
+}
+
+TEST_F(Commands, CompareMeasuresAgainstTheReference) {
+  ASSERT_EQ(run("scan.ply remesh.ply -q -n 60").exit_code, 0);
+  const Json report = report_of("compare remesh.ply scan.ply --report table.csv");
+  const GrainMeasures measures = measure_grain({"remesh.ply", read_mesh(path("remesh.ply"))},
+                                               NamedMesh{"scan.ply", read_mesh(path("scan.ply"))},
+                                               DetailedOptions(), Execution());
+  Json expected = Json::parse(descriptor_json(measures, {"remesh.ply", ""}));
+  Json made = report;
+  expected.erase("date");
+  made.erase("date");
+  EXPECT_EQ(made, expected);
+  EXPECT_GT(measures.distances->hausdorff, 0.0);
+  // A table of grains without a reference has other columns, and no input is written over.
+  ASSERT_EQ(run("describe scan.ply -q --report single.csv").exit_code, 0);
+  EXPECT_EQ(run("compare remesh.ply scan.ply --report single.csv").exit_code, 1);
+  fs::create_symlink("scan.ply", folder_ / "link.json");
+  const Outcome over = run("compare remesh.ply scan.ply --report link.json");
+  EXPECT_EQ(over.exit_code, 1);
+  EXPECT_NE(over.errors.find("the reference itself"), std::string::npos) << over.errors;
+}
+
+TEST_F(Commands, CreateMakesTheSurfaceOfItsFormula) {
+  const Json ellipsoid = report_of(
+      "create ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 200 -p least-squares --report t.csv");
+  const Json& volume = ellipsoid.at("descriptors").at("volume");
+  EXPECT_NEAR(volume.at("original").get<double>(), 4.0 / 3.0 * pi * 0.48, 1e-9);
+  EXPECT_NEAR(volume.at("remesh").get<double>(), 4.0 / 3.0 * pi * 0.48, 1e-9);
+  EXPECT_EQ(ellipsoid.at("source"), "Ellipsoid");
+  // On the surface unless told otherwise.
+  ASSERT_EQ(run("create ellipsoid on.off --semi-axes 1 0.8 0.6 -n 200 -q").exit_code, 0);
+  const IndexedMesh on = read_mesh(path("on.off"));
+  ASSERT_EQ(on.points.size(), 200U);
+  for (const Vector3& p : on.points) {
+    EXPECT_NEAR(p.cwiseQuotient(Vector3(1.0, 0.8, 0.6)).norm(), 1.0, 1e-12);
+  }
+  const auto volume_of = [&](const std::string& arguments) {
+    return report_of("create " + arguments + " any.ply -n 100")
+        .at("descriptors")
+        .at("volume")
+        .at("original")
+        .get<double>();
+  };
+  const double block =
+      volume_of("superellipsoid --semi-axes 1 1 1 --polar-exponent 0.3 --azimuthal-exponent 0.3");
+  EXPECT_GT(block, 6.0);
+  EXPECT_LT(volume_of("superellipsoid --polar-exponent 0.3"), block);
+  EXPECT_NEAR(volume_of("superellipsoid --semi-axes 2 2 2"), 8.0 * 4.0 / 3.0 * pi, 1e-6);
+}
+
+TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
+  ASSERT_EQ(run("scan.ply remesh.ply -q -n 60 -d 6 --coefficients series.json").exit_code, 0);
+  ASSERT_EQ(run("scan.ply remesh.ply -q -n 60 --parametrization spherical --coefficients map.json")
+                .exit_code,
+            0);
+  for (const std::string file : {"series.json", "map.json"}) {
+    const Json report = report_of("create harmonics grain.ply -n 150 --coefficients " + file);
+    EXPECT_EQ(read_mesh(path("grain.ply")).points.size(), 150U);
+    EXPECT_NEAR(report.at("descriptors").at("volume").at("original").get<double>(),
+                4.0 / 3.0 * pi * 0.56, 0.05);
+    EXPECT_EQ(report.at("source"), file.substr(0, file.find('.')));
+  }
+  {
+    std::ofstream text(folder_ / "text.dat");
+    text << "0 0 10.0 0.0\n1 0 0.1 0\n1 1 0 0\n2 0 0.5 0\n2 1 0 0\n2 2 0 0\n";
+  }
+  const Json all = report_of("create harmonics grain.ply -n 60 --coefficients text.dat");
+  const Json cut =
+      report_of("create harmonics grain.ply -n 60 --coefficients text.dat --coefficient-degree 0");
+  EXPECT_NE(all.at("descriptors").at("area"), cut.at("descriptors").at("area"));
+}
+
+TEST_F(Commands, CreateRefusesWhatIsNoSurface) {
+  struct BadCall {
+    std::string arguments;
+    int exit_code;
+    std::string part_of_the_sentence;
+  };
+  for (const BadCall& call :
+       {BadCall{"cube grain.ply", 2, "ellipsoid, superellipsoid or harmonics"},
+        BadCall{"ellipsoid grain.ply --semi-axes 1 0 1", 2, "semi-axis is \"0\""},
+        BadCall{"ellipsoid grain.ply --semi-axes 1 1", 2, "--semi-axes"},
+        BadCall{"superellipsoid grain.ply --polar-exponent 3", 2, "from 0.1 to 2"},
+        BadCall{"ellipsoid grain.ply --points", 2, "--points"},
+        BadCall{"harmonics grain.ply", 1, ".dat or .json"},
+        BadCall{"harmonics grain.ply --coefficients no.json", 1, "no.json"},
+        BadCall{"ellipsoid grain.vtk", 1, ".ply"}}) {
+    SCOPED_TRACE(call.arguments);
+    const Outcome outcome = run("create " + call.arguments);
+    EXPECT_EQ(outcome.exit_code, call.exit_code);
+    EXPECT_NE(outcome.errors.find(call.part_of_the_sentence), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(exists("grain.ply"));
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
