@@ -110,7 +110,7 @@ class RunOnDocument {
 };
 
 FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValues& values,
-                           Layers& layers, const Execution& execution) {
+                           Layers& layers, const ProgressCallback& progress) {
   const Stopwatch stopwatch;
   const Layer current = current_layer(layers);
   // A remesh of a remesh has errors that nobody asks for: the scan it came from is remeshed again.
@@ -120,6 +120,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
       read_remesh_settings(with_full_names(parameters, values, folder_of(scan)));
   const IndexedMesh mesh = layers.mesh(scan.number);
   const Eigen::Matrix4d transform = layers.transform(scan.number);
+  const Execution execution(settings.threads, progress);
   const RemeshResult result = remesh(mesh, settings.options, execution);
   // Files first: when they cannot be written the document stays as it was.
   save_report(settings.result.report_file, scan.label, result, mesh);
@@ -245,7 +246,7 @@ FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers&
       break;
   }
   return remesh_layer(filter_with_number(static_cast<int>(filter)).parameters, values, layers,
-                      execution);
+                      progress);
 }
 
 std::string sentence_of_current_exception() {

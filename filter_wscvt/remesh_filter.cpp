@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "report_file.h"
+#include "wscvt/base/threads_option.h"
 
 namespace wscvt::filter {
 
@@ -75,6 +76,8 @@ ParameterList remesh_parameters() {
       seed_start_parameter(),
       random_seed_parameter(),
       maximum_iterations_parameter(),
+      option_parameter("Threads", 0, threads_option, "Threads",
+                       "How many threads the remesher takes; 0 takes all. They change no result."),
       flag_parameter(
           "NewLayer", true, "Result as a new layer",
           "Checked: the scan is kept and the result becomes a new, current layer. Unchecked: the "
@@ -115,6 +118,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.check.mended_area_limit_percent = checked.real("MendLimit");
   options.points = checked.flag("Points");
   options.measures.distances = checked.flag("Distances");
+  settings.threads = checked.whole("Threads");
   settings.new_layer = checked.flag("NewLayer");
   settings.result.quality = checked.choice<VertexQuality>("Quality");
   request_quality(options, settings.result.quality);

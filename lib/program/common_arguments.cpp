@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common_arguments.h"
 
-#include <limits>
-
 #include "command.h"
+#include "wscvt/base/threads_option.h"
 
 namespace wscvt::program {
-
-namespace {
-
-constexpr NumberOption<int> threads_option = {
-    "threads", "number of threads", 0, std::numeric_limits<int>::max(), Ends::Both, "0 for all"};
-
-}  // namespace
 
 void add_threads_argument(CLI::App& app, int& threads) {
   add_number(app, "-t,--threads", threads, threads_option);

@@ -62,6 +62,7 @@ std::vector<Call> refused_calls() {
       {"MethodOutOfRange", grain(), {{"Method", "2"}}, {"Method", "As published"}},
       {"SmallestAngleTooLarge", grain(), {{"SmallestAngle", "41"}}, {"SmallestAngle", "40"}},
       {"SeedNegative", grain(), {{"RandomSeed", "-1"}}, {"RandomSeed"}},
+      {"ThreadsNegative", grain(), {{"Threads", "-1"}}, {"Threads"}},
       {"IterationsNegative", grain(), {{"MaxIterations", "-1"}}, {"MaxIterations"}},
   };
 }
@@ -96,6 +97,7 @@ std::vector<Call> extreme_calls() {
       {"AMicrometreAcross", scaled(grain(), 0.5e-6), {{"NodeCount", "300"}}, {}},
       {"FourNodes", grain(), {{"NodeCount", "4"}}, {}},
       {"RandomSeeds", grain(), {{"NodeCount", "200"}, {"SeedStart", "2"}, {"RandomSeed", "7"}}, {}},
+      {"OneThread", grain(), {{"NodeCount", "200"}, {"Threads", "1"}}, {}},
       {"PointsWithoutFaces",
        IndexedMesh{sphere().points, {}},
        {{"NodeCount", "300"}, {"Points", "true"}},

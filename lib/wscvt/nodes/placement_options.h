@@ -10,7 +10,7 @@ namespace wscvt {
 
 /// Where the nodes are put along their directions.
 enum class NodePlacement {
-  Series,        ///< on the fitted harmonic series
+  Series,        ///< on the fitted series
   Scan,          ///< on the scan itself, by rays
   LeastSquares,  ///< off it, so that the triangles fit the scan best and the volume is the scan's
 };
@@ -20,7 +20,7 @@ struct EnumerationTable<NodePlacement> {
   static constexpr std::string_view key = "placement";
   static constexpr std::string_view subject = "placement of the nodes";
   static constexpr Enumerator<NodePlacement> rows[] = {
-      {NodePlacement::Series, "series", "harmonic series",
+      {NodePlacement::Series, "series", "series",
        "on the fitted surface, which is free of scanning noise"},
       {NodePlacement::Scan, "scan", "scan",
        "on the scan itself, with its noise, where rays from the centroid leave it"},
