@@ -24,7 +24,8 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
        "Remesh a dense scan of a grain to exactly N nodes",
        {"scan.ply remesh.ply -n 1000 --report remesh.html",
         "scan.ply remesh.ply -w error-adaptive -r 60 --report table.csv",
-        "scan.ply remesh.ply --target 0.5"},
+        "scan.ply remesh.ply --target 0.5",
+        "scan.ply remesh.ply --frame principal --node-table nodes.csv --sdf grid.npy"},
        "A remesh of the same scan, options and version has the same bytes on any number of "
        "threads.\n"
        "What a report prints as an option is what one types: \"weighting\": \"area\" is "
@@ -33,6 +34,7 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   add_file_argument(app, "scan", arguments.scan, "Scan: PLY, STL, OBJ or OFF")->required();
   add_file_argument(app, "output", arguments.output, "Remesh: PLY, STL, OBJ or OFF")->required();
   add_remesh_arguments(app, arguments.options);
+  add_simulation_arguments(app, arguments.simulation);
   add_common_arguments(app, arguments.common);
   add_file_argument(app, "--coefficients", arguments.coefficients,
                     "Write the fitted series to this file as JSON");
@@ -44,6 +46,10 @@ int run(const RemeshArguments& arguments) {
   std::vector<NamedFile> outputs = named_reports(common.reports);
   outputs.insert(outputs.begin(),
                  {{"the remesh", arguments.output}, {"the coefficients", arguments.coefficients}});
+  const SimulationArguments& simulation = arguments.simulation;
+  const std::vector<NamedFile> simulation_files = named_simulation_files(simulation);
+  outputs.insert(outputs.end(), simulation_files.begin(), simulation_files.end());
+  check_simulation_arguments(simulation);
   check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
   for (const std::string& report : common.reports) check_remesh_report(report);
   check_mesh_format(arguments.output);
@@ -53,12 +59,18 @@ int run(const RemeshArguments& arguments) {
   Work work(common);
   work.execution().report(0.0, "Reading the scan");
   IndexedMesh scan = read_mesh(arguments.scan);
-  IndexedMesh shown;  // on a page
-  if (!common.reports.empty()) shown = scan;
+  IndexedMesh shown;  // on a page, and in signed distances
+  if (!common.reports.empty() || !simulation.grids.empty()) shown = scan;
   const RemeshResult result = remesh(std::move(scan), options, work.execution());
   work.end();
 
-  write_mesh(result.mesh, arguments.output);
+  const SimulationFrame frame = simulation_frame(result.original, simulation.options.frame);
+  write_mesh(in_frame(result.mesh, frame), arguments.output);
+  for (const std::string& path : simulation.nodes) write_nodes(path, result, simulation.options);
+  for (const std::string& path : simulation.grids) {
+    write_distance_grid(path, result, shown, simulation.options, origin_of(arguments.scan),
+                        Execution(common.threads));
+  }
   for (const std::string& report : common.reports) {
     write_report(report, result, shown, origin_of(arguments.scan), Execution(common.threads));
   }

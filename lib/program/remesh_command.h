@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common_arguments.h"
+#include "simulation_arguments.h"
 #include "wscvt/report/remesh_options.h"
 
 namespace wscvt::program {
@@ -16,6 +17,7 @@ struct RemeshArguments {
   std::string coefficients;  ///< file; empty: none
   CommonArguments common;
   RemeshOptions options;
+  SimulationArguments simulation;
 };
 
 /// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.

@@ -16,15 +16,17 @@ for command in yade liggghts gmsh; do
     exit 1
   }
 done
+# Debian's own, for whose version its modules are.
+python=/usr/bin/python3
 mkdir -p "$folder"
 cd "$folder"
 
 for nodes in 200 1000; do
-  "$program" -q "$here/../../meshes/sand_7228.ply" "grain_$nodes.stl" -n "$nodes" \
+  "$program" remesh -q "$here/../../meshes/sand_7228.ply" "grain_$nodes.stl" -n "$nodes" \
     --frame principal --size 0.1 --sdf-surface remesh \
-    --nodes "nodes_$nodes.csv" --nodes "nodes_$nodes.vtp" --nodes "grain_$nodes.shp" \
+    --node-table "nodes_$nodes.csv" --node-table "nodes_$nodes.vtp" --node-table "grain_$nodes.shp" \
     --sdf "grid_$nodes.npy" --sdf "grid_$nodes.vti"
-  python3 "$here/vtk_test.py" "nodes_$nodes.csv" "nodes_$nodes.vtp" "grid_$nodes.npy" \
+  "$python" "$here/vtk_test.py" "nodes_$nodes.csv" "nodes_$nodes.vtp" "grid_$nodes.npy" \
     "grid_$nodes.vti"
   yade -n -x "$here/yade_test.py" "nodes_$nodes.csv" "grid_$nodes.npy" > "yade_$nodes.log" 2>&1 || {
     tail -n 30 "yade_$nodes.log" >&2
@@ -37,15 +39,14 @@ for nodes in 200 1000; do
 Merge "grain_$nodes.stl";
 Surface Loop(1) = {1};
 Volume(1) = {1};
-Mesh.MeshSizeExtendFromBoundary = 1;
-Plugin(NewView).Value = 1;
 END
   gmsh -3 -format msh2 -o "grain_$nodes.msh" "grain_$nodes.geo" > "gmsh_$nodes.log" 2>&1
-  python3 "$here/gmsh_test.py" "grain_$nodes.msh" "grid_$nodes.npy.json"
+  "$python" "$here/gmsh_test.py" "grain_$nodes.msh" "grid_$nodes.npy.json"
 
   # LIGGGHTS reads the surface as a mesh of walls, and refuses one with holes or slivers.
   sed "s/GRAIN/grain_$nodes.stl/" "$here/liggghts_test.in" > "liggghts_$nodes.in"
-  liggghts -in "liggghts_$nodes.in" -log "liggghts_$nodes.log" -screen none
-  python3 "$here/liggghts_test.py" "liggghts_$nodes.log" "$((2 * nodes - 4))"
+  # With its output in a file: without any (-screen none) it reads from no pointer and crashes.
+  liggghts -in "liggghts_$nodes.in" -log "liggghts_$nodes.log" > "liggghts_$nodes.out" 2>&1
+  "$python" "$here/liggghts_test.py" "liggghts_$nodes.out" "$((2 * nodes - 4))"
 done
 echo "The engines take the grain."

@@ -2,7 +2,7 @@
 """A grain of wscvt in Yade: one shape, with the nodes and the distances of two files, for any number
 of bodies. In a script of your own: from yade_grain import Grain. Lengths are those of the files.
 
-    wscvt scan.ply remesh.ply -n 200 --frame principal --size 0.1 --nodes nodes.csv --sdf grid.npy
+    wscvt scan.ply remesh.ply -n 200 --frame principal --size 0.1 --node-table nodes.csv --sdf grid.npy
 """
 import json
 
@@ -30,6 +30,7 @@ class Grain:
         table = numpy.genfromtxt(nodes_csv, delimiter=",", names=True)
         self.nodes = [Vector3(float(r["x"]), float(r["y"]), float(r["z"])) for r in table]
         self.shape.updateAttrs({"surfNodes": self.nodes})
+        self.spacing = description["spacing"]
         mass = description["mass"]
         self.volume = mass["volume"]
         self.inertia = Vector3(*[mass["principal_moments"][k] for k in ("least", "middle", "greatest")])

@@ -9,6 +9,7 @@
 
 #include "program_run.h"
 #include "support/test_shapes.h"
+#include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"
 
@@ -91,9 +92,11 @@ class ProgramOptions : public test::ProgramRun {
 };
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
-  std::set<std::string> tested = {"help",      "help-all", "threads",         "coefficients",
-                                  "overwrite", "quiet",    "no-acceleration", "no-advice",
-                                  "report"};
+  std::set<std::string> tested = {
+      "help",        "help-all",        "threads",     "coefficients", "overwrite",
+      "quiet",       "no-acceleration", "no-advice",   "report",       "node-table",
+      "sdf",         "frame",           "size",        "scale",        "input-unit",
+      "output-unit", "sdf-surface",     "sdf-spacing", "sdf-margin"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("remesh --help-all");
   EXPECT_EQ(help.exit_code, 0);
@@ -212,6 +215,46 @@ TEST_F(ProgramOptions, QuietThreadsAndCoefficientsDoAsTheySay) {
   EXPECT_EQ(run("scan.ply bad.ply -t many").exit_code, 2);
   EXPECT_EQ(run("scan.ply bad.ply -t -1").exit_code, 2);
   EXPECT_FALSE(exists("bad.ply"));
+}
+
+TEST_F(ProgramOptions, FilesForASimulationLieInOneFrame) {
+  // The scan has the axes 1, 0.8 and 0.7; as a remesh of volume 1 in its principal frame.
+  const Outcome outcome =
+      run("remesh scan.ply framed.ply -q -n 60 -d 6 --frame principal --size 2 --sdf-spacing 0.2 "
+          "--sdf-margin 2 --sdf-surface remesh --node-table nodes.csv --node-table nodes.vtp "
+          "--node-table grain.shp --sdf grid.npy --sdf grid.vti --sdf grid.json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const ShapeDescriptors framed = describe_shape(read_mesh(path("framed.ply")), Execution(1));
+  EXPECT_NEAR(framed.volume, 4.0 / 3.0 * test::pi, 1e-9);
+  EXPECT_LT(framed.centroid.norm(), 0.02);
+  const Json description = Json::parse(content("grid.npy.json"));
+  EXPECT_EQ(description.at("spacing"), 0.2);
+  EXPECT_EQ(description.at("surface"), "remesh");
+  EXPECT_EQ(description.at("frame").at("name"), "principal");
+  for (const char* name : {"nodes.csv", "nodes.vtp", "grain.shp", "grid.vti", "grid.json"}) {
+    EXPECT_NE(content(name), "") << name;
+  }
+  // The same grain told in other units.
+  ASSERT_EQ(run("remesh scan.ply mm.ply -q -n 60 -d 6 --input-unit m --output-unit mm").exit_code,
+            0);
+  ASSERT_EQ(run("remesh scan.ply plain.ply -q -n 60 -d 6").exit_code, 0);
+  ASSERT_EQ(run("remesh scan.ply large.ply -q -n 60 -d 6 --scale 1000").exit_code, 0);
+  EXPECT_EQ(content("mm.ply"), content("large.ply"));
+  const Vector3 plain = read_mesh(path("plain.ply")).points[7];
+  EXPECT_LT((read_mesh(path("mm.ply")).points[7] - 1000.0 * plain).norm(), 1e-9);
+}
+
+TEST_F(ProgramOptions, RefuseFilesForASimulationBeforeTheWork) {
+  for (const char* wrong :
+       {"--node-table nodes.txt", "--sdf grid.csv", "--node-table grain.shp", "--frame middle",
+        "--scale 0", "--size -1", "--input-unit mile", "--sdf-margin 0", "--size 1 --scale 2",
+        "--node-table a.csv --node-table a.csv", "--sdf a.npy --report a.npy.json"}) {
+    SCOPED_TRACE(wrong);
+    const Outcome outcome = run(std::string("remesh scan.ply bad.ply -n 60 ") + wrong);
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_NE(outcome.errors, "");
+    EXPECT_FALSE(exists("bad.ply"));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulation_arguments.h"
+
+#include "command.h"
+
+namespace wscvt::program {
+
+namespace {
+
+void add_files(CLI::App& app, const std::string& name, std::vector<std::string>& files,
+               const std::string& description) {
+  app.add_option(name, files, description)->type_name("FILE")->allow_extra_args(false);
+}
+
+/// Two options share the table of units, so each says its own purpose.
+void add_unit(CLI::App& app, std::string_view key, LengthUnit& unit, const std::string& purpose) {
+  add_typed(app, "--" + std::string(key),
+            [&unit](std::string_view text) { unit = from_key<LengthUnit>(text); })
+      ->description(purpose + ": " + keys_of<LengthUnit>() + ". Default: " + key_of(unit))
+      ->type_name("NAME")
+      ->group(finer_settings);
+}
+
+}  // namespace
+
+void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
+  add_files(
+      app, "--node-table", arguments.nodes,
+      "Write position, normal and area of every node to this .csv or .vtp\n"
+      "The ending .vtp makes a file for ParaView, .shp a shape for Rockable. May be given more "
+      "than once");
+  add_files(app, "--sdf", arguments.grids,
+            "Write signed distances on a grid to this .npy or .vti\n"
+            "They are negative inside. The ending .npy makes a NumPy array with a description in "
+            "FILE.json, .vti a file for ParaView, .json a level set for NetDEM. May be given more "
+            "than once");
+  SimulationOptions& options = arguments.options;
+  add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), options.frame.frame);
+  add_number(app, "--" + std::string(size_option.key), options.frame.size, size_option)
+      ->group(finer_settings);
+  add_number(app, "--" + std::string(scale_option.key), options.frame.scale, scale_option)
+      ->group(finer_settings);
+  add_unit(app, input_unit_key, options.frame.input_unit, "Unit of the scan");
+  add_unit(app, output_unit_key, options.frame.output_unit, "Unit of what is written");
+  add_choice(app, "--" + std::string(EnumerationTable<GridSurface>::key), options.surface)
+      ->group(finer_settings);
+  add_number(app, "--" + std::string(grid_spacing_option.key), options.grid.spacing,
+             grid_spacing_option)
+      ->group(finer_settings);
+  add_number(app, "--" + std::string(grid_margin_option.key), options.grid.margin,
+             grid_margin_option)
+      ->group(finer_settings);
+}
+
+std::vector<NamedFile> named_simulation_files(const SimulationArguments& arguments) {
+  std::vector<NamedFile> files;
+  for (const std::string& path : arguments.nodes) files.push_back({"the nodes", path});
+  for (const std::string& path : arguments.grids) {
+    files.push_back({"the signed distances", path});
+    files.push_back({"a description of the signed distances", grid_description_path(path)});
+  }
+  return files;
+}
+
+void check_simulation_arguments(const SimulationArguments& arguments) {
+  check_simulation_options(arguments.options);
+  for (const std::string& path : arguments.nodes) check_nodes_path(path, arguments.options);
+  for (const std::string& path : arguments.grids) check_grid_path(path);
+}
+
+}  // namespace wscvt::program
