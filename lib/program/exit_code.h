@@ -7,8 +7,9 @@ namespace wscvt::program {
 /// shell branches on it; the help and lib/README.md name the codes.
 enum ExitCode {
   Done = 0,
-  Failed = 1,         ///< the work could not be done: a sentence says why
-  WrongArguments = 2  ///< the call makes no sense: nothing was begun
+  Failed = 1,          ///< the work could not be done: a sentence says why
+  WrongArguments = 2,  ///< the call makes no sense: nothing was begun
+  SomeFailed = 3       ///< of a batch: it is whole, but grains of it failed
 };
 
 }  // namespace wscvt::program

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "batch_command.h"
+#include "collect_command.h"
 #include "command.h"
 #include "compare_command.h"
 #include "create_command.h"
@@ -75,10 +77,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("wscvt ") + wscvt::version());
   app.require_subcommand(1);
   const std::vector<Command> commands = {
-      make_command<program::RemeshArguments>(app),
-      make_command<program::DescribeArguments>(app),
-      make_command<program::CompareArguments>(app),
-      make_command<program::CreateArguments>(app),
+      make_command<program::RemeshArguments>(app),  make_command<program::DescribeArguments>(app),
+      make_command<program::CompareArguments>(app), make_command<program::CreateArguments>(app),
+      make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
   };
   try {
     std::vector<std::string> words = words_of(argc, argv, commands);

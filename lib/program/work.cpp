@@ -43,7 +43,11 @@ void Work::print(const std::vector<std::string>& warnings,
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "Warning: %s\n", warning.c_str());
   }
-  if (quiet_) return;
+  program::print(lines, quiet_);
+}
+
+void print(const std::vector<std::string>& lines, bool quiet) {
+  if (quiet) return;
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
   write_file("/dev/stdout", text);

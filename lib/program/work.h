@@ -31,6 +31,9 @@ class Work {
   Execution execution_;
 };
 
+/// Prints lines to the standard output, unless quiet.
+void print(const std::vector<std::string>& lines, bool quiet);
+
 /// What a report says of where it comes from: the source, today.
 ReportOrigin origin_of(const std::string& source);
 

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 const std::vector<std::string>& commands() {
-  static const std::vector<std::string> names = {"remesh", "describe", "compare", "create"};
+  static const std::vector<std::string> names = {"remesh", "describe", "compare",
+                                                 "create", "batch",    "collect"};
   return names;
 }
 
@@ -73,6 +74,11 @@ TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
 
 TEST_F(Commands, ExamplesOfTheHelpsWork) {
   ASSERT_EQ(run("scan.ply first.ply -q -n 100 -d 6 --coefficients grain.json").exit_code, 0);
+  fs::create_directory(folder_ / "scans");
+  write_mesh(read_mesh(path("first.ply")), path("scans/a.ply"));
+  write_mesh(read_mesh(path("scan.ply")), path("scans/b.stl"));
+  std::ofstream(folder_ / "more.txt") << "first.ply\n";
+  ASSERT_EQ(run("batch scans -o out -q --shard 2/2").exit_code, 0);
   for (const char* name : {"grain.ply", "grain.stl", "remesh.ply"}) {
     write_mesh(read_mesh(path("first.ply")), path(name));
   }

@@ -78,4 +78,18 @@ void write_report(const std::string& path, const GrainMeasures& measures,
   }
 }
 
+void write_summary(const std::string& path, const SampleSummary& summary) {
+  write_file(path, report_format(path) == ReportFormat::Html ? summary_html(summary)
+                                                             : summary_json(summary));
+}
+
+void check_summary(const std::string& path) {
+  if (report_format(path) == ReportFormat::Csv) {
+    throw Error(ErrorCode::InvalidInput, "\"" + path +
+                                             "\" is to hold a summary, which is a page or JSON; "
+                                             "give a name that ends in .html or .json.");
+  }
+  check_writable(path);
+}
+
 }  // namespace wscvt

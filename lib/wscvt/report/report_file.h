@@ -9,6 +9,7 @@
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/report/remesh_result.h"
 #include "wscvt/report/report_origin.h"
+#include "wscvt/report/sample_summary.h"
 
 namespace wscvt {
 
@@ -37,5 +38,12 @@ void write_report(const std::string& path, const RemeshResult& result, const Ind
 /// The same for descriptors.
 void write_report(const std::string& path, const GrainMeasures& measures,
                   const ReportOrigin& origin, const Execution& execution);
+
+/// Writes the summary as a page or as JSON, by the ending of the name. Throws Error: InvalidInput
+/// for another ending, InputOutput.
+void write_summary(const std::string& path, const SampleSummary& summary);
+
+/// Refuses before the work what write_summary would refuse after it.
+void check_summary(const std::string& path);
 
 }  // namespace wscvt

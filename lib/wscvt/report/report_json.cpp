@@ -251,6 +251,8 @@ std::string report_json(const RemeshResult& result, const ReportOrigin& origin) 
   return json_document(report_of(result, origin));
 }
 
+std::string options_json(const RemeshOptions& options) { return json_document(json_of(options)); }
+
 std::string report_csv(const RemeshResult& result, const ReportOrigin& origin) {
   return csv_of(report_of(result, origin));
 }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+#include "batch_inputs.h"
+#include "wscvt/report/remesh_options.h"
+
+namespace wscvt::program {
+
+/// `wscvt batch`: the grains of a sample, one a thread, and a table and a summary of them.
+struct BatchArguments {
+  BatchArguments();
+
+  std::vector<std::string> inputs;
+  std::string folder;          ///< of the output
+  std::string format = "ply";  ///< ending of the meshes
+  Shard shard;
+  bool seconds = false;  ///< a column of the table says how long each grain took
+  int threads = 0;       ///< 0: all
+  bool quiet = false;
+  RemeshOptions options;  ///< without advice, which is for a person at one grain
+};
+
+/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+CLI::App& add_command(CLI::App& program, BatchArguments& arguments);
+
+/// Does what the call says; gives the exit code. Throws wscvt::Error.
+int run(const BatchArguments& arguments);
+
+}  // namespace wscvt::program

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "batch_inputs.h"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
+#include "wscvt/base/option.h"
+
+namespace wscvt::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& sentence) {
+  throw Error(ErrorCode::InvalidInput, sentence);
+}
+
+bool is_mesh(const fs::path& path) {
+  static const std::vector<std::string> endings = {".ply", ".stl", ".obj", ".off"};
+  return std::find(endings.begin(), endings.end(), ending_of(path.string())) != endings.end();
+}
+
+void add_folder(const std::string& folder, std::vector<std::string>& files) {
+  const std::size_t before = files.size();
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (is_mesh(entry.path()) && !entry.is_directory()) files.push_back(entry.path().string());
+  }
+  if (files.size() == before) {
+    refuse("The folder \"" + folder + "\" holds no .ply, .stl, .obj or .off file; check its name.");
+  }
+  std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+}
+
+void add_matches(const std::string& pattern, std::vector<std::string>& files) {
+  glob_t found{};
+  // Sorted by bytes in the program's locale, which is the classic one.
+  const int outcome = ::glob(pattern.c_str(), 0, nullptr, &found);
+  if (outcome == 0) files.insert(files.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  ::globfree(&found);
+  if (outcome != 0) refuse("No file matches \"" + pattern + "\"; check the pattern.");
+}
+
+void add_input(const std::string& input, std::vector<std::string>& files);
+
+void add_list(const std::string& list, std::vector<std::string>& files) {
+  std::ifstream lines(list);
+  if (!lines.is_open()) {
+    throw Error(ErrorCode::InputOutput,
+                "The list \"" + list + "\" cannot be opened; check that the file is there.");
+  }
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    // A list of lists could name itself.
+    if (!line.empty() && line.front() == '@') {
+      refuse("The list \"" + list + "\" names the list \"" + line + "\"; name it in the call.");
+    }
+    if (!line.empty()) add_input(line, files);
+  }
+}
+
+void add_input(const std::string& input, std::vector<std::string>& files) {
+  std::error_code ignored;
+  if (fs::is_directory(input, ignored)) return add_folder(input, files);
+  if (input.find_first_of("*?[") != std::string::npos && !fs::exists(input, ignored)) {
+    return add_matches(input, files);
+  }
+  files.push_back(input);
+}
+
+}  // namespace
+
+std::vector<std::string> grain_files(const std::vector<std::string>& inputs) {
+  std::vector<std::string> files;
+  for (const std::string& input : inputs) {
+    if (!input.empty() && input.front() == '@') {
+      add_list(input.substr(1), files);
+    } else {
+      add_input(input, files);
+    }
+  }
+  return files;
+}
+
+Shard shard_of(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) {
+    refuse("The part is \"" + std::string(text) + "\"; give it as I/N, the I-th of N.");
+  }
+  constexpr int most = std::numeric_limits<int>::max();
+  const NumberOption<int> count = {"shard", "number of parts", 1, most};
+  Shard shard;
+  shard.count = from_typed(text.substr(slash + 1), count);
+  const NumberOption<int> index = {"shard", "number of the part", 1, shard.count};
+  shard.index = from_typed(text.substr(0, slash), index);
+  return shard;
+}
+
+std::uint64_t stable_hash(std::string_view bytes) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : bytes) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+std::vector<std::string> files_of(const Shard& shard, const std::vector<std::string>& files) {
+  const auto count = static_cast<std::uint64_t>(shard.count);
+  const auto index = static_cast<std::uint64_t>(shard.index - 1);
+  std::vector<std::string> part;
+  for (const std::string& file : files) {
+    if (stable_hash(fs::path(file).filename().string()) % count == index) part.push_back(file);
+  }
+  return part;
+}
+
+}  // namespace wscvt::program

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wscvt::program {
+
+/// The files that the inputs of a batch name, in their order: files; the meshes in folders, and
+/// what patterns (*, ?, [...]) match, by name; of "@list" the lines of the file, each an input. A
+/// file need not be there. Throws wscvt::Error for folders without meshes, patterns that match
+/// nothing and lists that cannot be read.
+std::vector<std::string> grain_files(const std::vector<std::string>& inputs);
+
+/// A part of a sample: the `index`-th, from 1, of `count`.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+/// Of "I/N". Throws wscvt::Error(InvalidInput).
+Shard shard_of(std::string_view text);
+
+/// FNV-1a of 64 bits (Fowler, Noll, Vo): the same on every machine.
+std::uint64_t stable_hash(std::string_view bytes);
+
+/// The files of a part, by the hash of their names without folders: on every machine, and whatever
+/// else is in the sample, a grain is in the same part.
+std::vector<std::string> files_of(const Shard& shard, const std::vector<std::string>& files);
+
+}  // namespace wscvt::program

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "collect_command.h"
+
+#include "command.h"
+#include "common_arguments.h"
+#include "exit_code.h"
+#include "output_paths.h"
+#include "work.h"
+#include "wscvt/report/report_file.h"
+#include "wscvt/report/sample_table.h"
+
+namespace wscvt::program {
+
+CLI::App& add_command(CLI::App& program, CollectArguments& arguments) {
+  CLI::App& app = add_command(
+      program, {"collect",
+                "Join the tables of the parts of a sample",
+                {"out/grains-*-of-2.csv -o grains.csv",
+                 "out/grains-*-of-2.csv -o grains.csv --report summary.html"},
+                "Rows are in the order of the grains' names, however the sample was parted."});
+  app.add_option("tables", arguments.tables, "Tables that wscvt batch --shard wrote")
+      ->type_name("FILE")
+      ->required();
+  add_file_argument(app, "-o,--output", arguments.output, "The whole table")->required();
+  app.add_option("--report", arguments.summaries,
+                 "Write the summary to this file, by its ending .html or .json; may be given more "
+                 "than once")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_flag("-q,--quiet", arguments.quiet, "No summary on the standard output");
+  return app;
+}
+
+int run(const CollectArguments& arguments) {
+  std::vector<NamedFile> outputs = named_reports(arguments.summaries);
+  outputs.insert(outputs.begin(), {"the table", arguments.output});
+  std::vector<NamedFile> inputs;
+  for (const std::string& table : arguments.tables) inputs.push_back({"a part", table});
+  check_output_paths(inputs, outputs, false);
+  for (const std::string& summary : arguments.summaries) check_summary(summary);
+  join_tables(arguments.tables, arguments.output);
+  const SampleSummary summary = summarise_table(arguments.output);
+  for (const std::string& file : arguments.summaries) write_summary(file, summary);
+  print(summary_lines(summary), arguments.quiet);
+  return summary.failed == 0 ? Done : SomeFailed;
+}
+
+}  // namespace wscvt::program

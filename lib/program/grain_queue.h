@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace wscvt::program {
+
+/// What became of a grain.
+struct GrainRow {
+  std::string record;  ///< of the table
+  std::string error;   ///< the sentence of a failure; empty: none
+};
+
+/// Works on the grains of a batch, one a thread, and hands on the row of each in the order of the
+/// grains. Rows that wait for an earlier one are few: grains far ahead of it are not begun.
+class GrainQueue {
+ public:
+  /// Called on several threads at once.
+  using Work = std::function<GrainRow(std::size_t grain)>;
+  /// Takes the row of the next grain. Called on one thread at a time.
+  using Take = std::function<void(const GrainRow& row)>;
+  /// Called every now and then while grains are worked on; false stops.
+  using Watch = std::function<bool()>;
+
+  GrainQueue(std::size_t first, std::size_t count, Work work, Take take);
+
+  /// Works until all rows are taken, or until told to stop: then grains that are being worked on
+  /// are left to `work`, whose rows after the first missing one are lost. Throws what `work` and
+  /// `take` throw.
+  void run(int threads, const Watch& watch);
+
+ private:
+  void work_on_grains();
+
+  std::size_t next_;   ///< to be begun
+  std::size_t taken_;  ///< rows
+  std::size_t count_;
+  Work work_;
+  Take take_;
+  std::size_t most_ahead_ = 0;
+  std::map<std::size_t, GrainRow> waiting_;
+  bool stopped_ = false;
+  int working_ = 0;  ///< threads
+  std::exception_ptr failure_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+}  // namespace wscvt::program

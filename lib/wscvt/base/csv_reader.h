@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace wscvt {
+
+/// Reads a CSV file after RFC 4180 record by record, as csv_record writes them. Memory follows the
+/// longest record.
+class CsvReader {
+ public:
+  /// The stream must outlive the reader.
+  explicit CsvReader(std::istream& stream) : stream_(stream) {}
+
+  /// The fields of the next record; false, and nothing changed, where no whole one follows.
+  bool next(std::vector<std::string>& fields);
+
+  /// The last record as it stands, with its CR LF.
+  const std::string& text() const { return text_; }
+
+  /// Bytes of all whole records so far.
+  std::size_t size() const { return size_; }
+
+  /// Whether the stream ended within a record.
+  bool is_cut() const { return is_cut_; }
+
+ private:
+  std::istream& stream_;
+  std::string text_;
+  std::size_t size_ = 0;
+  bool is_cut_ = false;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report/sample_summary.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "wscvt/base/csv_reader.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/report/figures.h"
+#include "wscvt/report/html_document.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/report_origin.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr const char* colour = "#0a58b4";
+
+/// A number of a grain: a column of the table, or the quotient of two.
+struct Source {
+  const char* key;
+  const char* label;
+  const char* unit;
+  const char* column;
+  const char* divisor;  ///< null: none
+};
+constexpr Source sources[] = {
+    {"equivalent_radius", "equivalent radius", "length", "input.equivalent_radius", nullptr},
+    {"volume", "volume", "length^3", "descriptors.volume.original", nullptr},
+    {"aspect_ratio", "aspect ratio S / L", "", "descriptors.aspect_ratio_inertia.original",
+     nullptr},
+    {"elongation", "elongation I / L", "", "descriptors.axis_i_inertia.original",
+     "descriptors.axis_l_inertia.original"},
+    {"flatness", "flatness S / I", "", "descriptors.axis_s_inertia.original",
+     "descriptors.axis_i_inertia.original"},
+    {"sphericity", "sphericity (Wadell)", "", "descriptors.sphericity_wadell.original", nullptr},
+    {"volume_error", "error of the volume", "%", "descriptors.volume.error_percent", nullptr},
+    {"area_error", "error of the area", "%", "descriptors.area.error_percent", nullptr},
+    {"sphericity_error", "error of the sphericity", "%",
+     "descriptors.sphericity_wadell.error_percent", nullptr},
+    {"misfit", "rms distance, of the equivalent radius", "%", "misfit.percent_of_equivalent_radius",
+     nullptr},
+    {"edge_ratio", "mean longest / shortest edge of a triangle", "",
+     "quality.remesh.edge_ratio.mean", nullptr},
+    {"smallest_angle", "smallest angle", "degrees", "quality.remesh.smallest_angle_degrees",
+     nullptr},
+};
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw Error(ErrorCode::InvalidInput, "\"" + path + "\" " + what);
+}
+
+/// The columns of a table by name.
+class Header {
+ public:
+  Header(const std::string& path, std::vector<std::string> names)
+      : path_(path), names_(std::move(names)) {}
+
+  std::size_t place(std::string_view name) const {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    if (found == names_.end()) {
+      refuse(path_, "has no column " + std::string(name) +
+                        ": it is no table of a sample; give one that a batch wrote.");
+    }
+    return static_cast<std::size_t>(found - names_.begin());
+  }
+  std::size_t size() const { return names_.size(); }
+
+ private:
+  const std::string& path_;
+  std::vector<std::string> names_;
+};
+
+double number_of(const std::string& field) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(field.data(), field.data() + field.size(), value);
+  return value;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double deviation_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double sum = 0.0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double first_of(const std::vector<double>& values) { return quantile(values, 0.0); }
+double last_of(const std::vector<double>& values) { return quantile(values, 1.0); }
+
+std::string with_unit(const SampleDistribution& one) {
+  return one.unit.empty() ? one.label : one.label + ", " + one.unit;
+}
+
+Histogram histogram_of(const std::vector<double>& values) {
+  // Square-root rule, with bins that can be told apart on a page.
+  const auto bins = static_cast<std::size_t>(
+      std::clamp(std::sqrt(static_cast<double>(values.size())), 8.0, 60.0));
+  Histogram histogram{first_of(values), last_of(values), std::vector<std::size_t>(bins, 0)};
+  if (!(histogram.lower < histogram.upper)) {
+    // All are equal: a bin about them.
+    const double half = std::max(std::abs(histogram.lower) * 0.01, 1e-300);
+    histogram.lower -= half;
+    histogram.upper += half;
+  }
+  const double width = (histogram.upper - histogram.lower) / static_cast<double>(bins);
+  for (const double value : values) {
+    const double bin = std::floor((value - histogram.lower) / width);
+    ++histogram
+          .counts[static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(bins - 1)))];
+  }
+  return histogram;
+}
+
+std::vector<std::vector<std::string>> table_of(const SampleSummary& summary) {
+  std::vector<std::vector<std::string>> rows = {
+      {"of the grains", "mean", "std. dev.", "smallest", "10 %", "50 %", "90 %", "largest"}};
+  for (const SampleDistribution& one : summary.distributions) {
+    if (one.values.empty()) continue;
+    rows.push_back(
+        {with_unit(one), format_number(mean_of(one.values), 4),
+         format_number(deviation_of(one.values), 4), format_number(first_of(one.values), 4),
+         format_number(quantile(one.values, 0.1), 4), format_number(quantile(one.values, 0.5), 4),
+         format_number(quantile(one.values, 0.9), 4), format_number(last_of(one.values), 4)});
+  }
+  return rows;
+}
+
+std::string count_line(const SampleSummary& summary) {
+  return std::to_string(summary.grains) + (summary.grains == 1 ? " grain: " : " grains: ") +
+         std::to_string(summary.grains - summary.failed) + " remeshed, " +
+         std::to_string(summary.with_warnings) + " of them with warnings, " +
+         std::to_string(summary.failed) + " failed";
+}
+
+}  // namespace
+
+SampleSummary summarise_table(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream.is_open()) {
+    throw Error(ErrorCode::InputOutput,
+                "\"" + path + "\" cannot be opened; check that the file is there.");
+  }
+  CsvReader reader(stream);
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) refuse(path, "is empty; give a table that a batch wrote.");
+  const Header header(path, fields);
+  const std::size_t grain = header.place("grain");
+  const std::size_t status = header.place("status");
+  const std::size_t error = header.place("error");
+  const std::size_t warnings = header.place("warnings");
+  SampleSummary summary;
+  std::vector<std::pair<std::size_t, std::optional<std::size_t>>> places;
+  for (const Source& source : sources) {
+    places.emplace_back(header.place(source.column), std::nullopt);
+    if (source.divisor != nullptr) places.back().second = header.place(source.divisor);
+    summary.distributions.push_back({source.key, source.label, source.unit, {}});
+  }
+  while (reader.next(fields)) {
+    if (fields.size() != header.size()) {
+      refuse(path, "has " + std::to_string(fields.size()) + " fields in row " +
+                       std::to_string(summary.grains + 1) + " and " +
+                       std::to_string(header.size()) + " columns; make it again.");
+    }
+    ++summary.grains;
+    if (fields[status] != "done") {
+      ++summary.failed;
+      if (summary.failures.size() < most_failures_named) {
+        summary.failures.push_back({fields[grain], fields[error]});
+      }
+      continue;
+    }
+    if (!fields[warnings].empty()) ++summary.with_warnings;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto& [column, divisor] = places[k];
+      const double value =
+          number_of(fields[column]) / (divisor ? number_of(fields[*divisor]) : 1.0);
+      if (std::isfinite(value)) summary.distributions[k].values.push_back(value);
+    }
+  }
+  if (reader.is_cut()) {
+    refuse(path, "ends within a row; start its batch again, which goes on where it was.");
+  }
+  for (SampleDistribution& one : summary.distributions) {
+    std::sort(one.values.begin(), one.values.end());
+  }
+  return summary;
+}
+
+double quantile(const std::vector<double>& values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  const double part = place - static_cast<double>(below);
+  return values[below] + part * (values[above] - values[below]);
+}
+
+std::string summary_json(const SampleSummary& summary) {
+  Json distributions = Json::object();
+  for (const SampleDistribution& one : summary.distributions) {
+    distributions[one.key] = {{"label", one.label},
+                              {"unit", one.unit},
+                              {"count", one.values.size()},
+                              {"mean", mean_of(one.values)},
+                              {"standard_deviation", deviation_of(one.values)},
+                              {"minimum", first_of(one.values)},
+                              {"percent_10", quantile(one.values, 0.1)},
+                              {"median", quantile(one.values, 0.5)},
+                              {"percent_90", quantile(one.values, 0.9)},
+                              {"maximum", last_of(one.values)}};
+  }
+  Json failures = Json::array();
+  for (const SampleFailure& one : summary.failures) {
+    failures.push_back({{"grain", one.grain}, {"error", one.error}});
+  }
+  return json_document({{"format", "wscvt-sample"},
+                        {"version", 1},
+                        {"made_by", made_by()},
+                        {"grains", summary.grains},
+                        {"remeshed", summary.grains - summary.failed},
+                        {"with_warnings", summary.with_warnings},
+                        {"failed", summary.failed},
+                        {"distributions", distributions},
+                        {"failures", failures}});
+}
+
+std::string summary_html(const SampleSummary& summary) {
+  HtmlDocument page("A sample of " + std::to_string(summary.grains) + " grains");
+  page.add_paragraph(origin_sentence({}));
+  page.add_paragraph(count_line(summary) + ".");
+  std::vector<Figure> figures;
+  for (const SampleDistribution& one : summary.distributions) {
+    if (one.values.empty()) continue;
+    figures.push_back(
+        {histogram_figure(with_unit(one), "grains", {{"sample", colour, histogram_of(one.values)}}),
+         capitalised(one.label) + " of " + std::to_string(one.values.size()) +
+             " grains, half of them below " + format_number(quantile(one.values, 0.5), 4) + "."});
+  }
+  page.add_heading("Distributions");
+  page.add_rows(table_of(summary));
+  page.add_figures(figures);
+  if (!summary.failures.empty()) {
+    page.add_heading("Failures");
+    std::vector<std::vector<std::string>> rows = {{"grain", "what was wrong"}};
+    for (const SampleFailure& one : summary.failures) rows.push_back({one.grain, one.error});
+    page.add_rows(rows, RowKind::Typed);
+    if (summary.failed > summary.failures.size()) {
+      page.add_paragraph("And " + std::to_string(summary.failed - summary.failures.size()) +
+                         " more, which stand in the table.");
+    }
+  }
+  return page.text();
+}
+
+std::vector<std::string> summary_lines(const SampleSummary& summary) {
+  std::vector<std::string> lines = {count_line(summary)};
+  const auto table = table_of(summary);
+  if (table.size() == 1) return lines;
+  for (std::string& line : aligned_lines(table)) lines.push_back(std::move(line));
+  return lines;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wscvt/report/remesh_result.h"
+
+namespace wscvt {
+
+// The table of a sample, of many grains: CSV after RFC 4180 with a row a grain. Its columns are
+// "grain", the name of the scan's file; "status", "done" or "failed"; "error", the sentence of a
+// failure; "seconds", where asked for; then those of report_csv, empty for a grain that failed.
+
+/// How long a grain took; nothing where the table has no such column.
+using Seconds = std::optional<double>;
+
+/// The first record.
+std::string sample_header(bool with_seconds);
+
+/// The record of a grain that was remeshed.
+std::string sample_row(const std::string& grain, const RemeshResult& result, Seconds seconds);
+
+/// The record of a grain that was not.
+std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds);
+
+/// Such a table as a file that grows. A program that is killed leaves whole rows and at most a part
+/// of one, which the next one to open it takes off.
+class SampleTable {
+ public:
+  /// Opens the table of these grains, or begins it. Throws Error: InvalidInput when the file has
+  /// other columns or rows of other grains, or when another process has it open; InputOutput when
+  /// it cannot be read or written.
+  SampleTable(std::string path, const std::string& header, const std::vector<std::string>& grains);
+  SampleTable(const SampleTable&) = delete;
+  SampleTable& operator=(const SampleTable&) = delete;
+  ~SampleTable();
+
+  /// Rows that are there: those of the first so many grains.
+  std::size_t rows() const { return rows_; }
+  /// How many of them are of grains that failed.
+  std::size_t failed_rows() const { return failed_rows_; }
+
+  /// Adds the record of the next grain. Throws Error(InputOutput).
+  void append(const std::string& row);
+
+ private:
+  void read(const std::string& header, const std::vector<std::string>& grains);
+
+  std::string path_;
+  int descriptor_ = -1;
+  std::size_t rows_ = 0;
+  std::size_t failed_rows_ = 0;
+};
+
+/// Joins tables of parts of a sample, whole ones with the same columns, into one whose rows are in
+/// the order of the grains' names, so that it is the same however the sample was parted. Returns
+/// its text's size in rows. Throws Error: InvalidInput when columns differ, a table ends within a
+/// row, or a grain has two rows that differ; InputOutput.
+std::size_t join_tables(const std::vector<std::string>& tables, const std::string& joined);
+
+}  // namespace wscvt

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program on a whole sample.
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "program_run.h"
+#include "support/flat_json.h"
+#include "support/test_shapes.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Records = std::vector<std::vector<std::string>>;
+
+class Batch : public test::ProgramRun {
+ protected:
+  static constexpr const char* options_ = " -q -n 60 -d 6 ";
+
+  /// Scans of different bodies, scans/a.ply, scans/b.ply, ...
+  void write_scans(int count) const {
+    fs::create_directory(folder_ / "scans");
+    for (int k = 0; k < count; ++k) {
+      const Vector3 axes(1.0, 0.9 - 0.02 * k, 0.7);
+      write_mesh(test::transformed(test::sphere(3), axes.asDiagonal()), path(scan(k)));
+    }
+  }
+  static std::string scan(int k) {
+    return "scans/" + std::string(1, static_cast<char>('a' + k)) + ".ply";
+  }
+
+  Records records(const std::string& name) const { return test::csv_records(content(name)); }
+
+  std::vector<std::string> column(const std::string& table, const std::string& name) const {
+    const Records all = records(table);
+    std::size_t place = 0;
+    while (place < all.at(0).size() && all[0][place] != name) ++place;
+    std::vector<std::string> values;
+    for (std::size_t k = 1; k < all.size(); ++k) values.push_back(all[k].at(place));
+    return values;
+  }
+
+  /// Starts the program without waiting for it.
+  pid_t start(const std::vector<std::string>& words) const {
+    std::vector<char*> argv = {const_cast<char*>("wscvt")};
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    std::signal(SIGINT, SIG_DFL);
+    if (chdir(folder_.c_str()) != 0) _exit(99);
+    if (std::freopen("said.txt", "w", stderr) == nullptr) _exit(97);
+    execv(WSCVT_PROGRAM, argv.data());
+    _exit(98);
+  }
+
+  void wait_for_rows(const std::string& table, std::size_t lines) const {
+    for (int tries = 0; tries < 3000; ++tries) {
+      const std::string text = exists(table) ? content(table) : "";
+      if (static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= lines) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    FAIL() << "no " << lines << " lines in " << table;
+  }
+};
+
+TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
+  write_scans(6);
+  std::ofstream(folder_ / "scans/broken.ply") << "no mesh";
+  for (const std::string threads : {"1", "2", "5"}) {
+    const Outcome outcome = run("batch scans -o out" + threads + options_ + "-t " + threads);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("Failed: scans/broken.ply: "), std::string::npos);
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_EQ(content("out" + threads + "/grains.csv"), content("out1/grains.csv"));
+    EXPECT_EQ(content("out" + threads + "/summary.json"), content("out1/summary.json"));
+    EXPECT_EQ(content("out" + threads + "/e.ply"), content("out1/e.ply"));
+  }
+  EXPECT_EQ(column("out1/grains.csv", "grain"),
+            (std::vector<std::string>{scan(0), scan(1), "scans/broken.ply", scan(2), scan(3),
+                                      scan(4), scan(5)}));
+  EXPECT_EQ(column("out1/grains.csv", "status"),
+            (std::vector<std::string>{"done", "done", "failed", "done", "done", "done", "done"}));
+  EXPECT_NE(column("out1/grains.csv", "error")[2].find("PLY"), std::string::npos);
+  EXPECT_FALSE(exists("out1/broken.ply"));
+
+  // A row and a mesh are what the grain alone would have given.
+  ASSERT_EQ(
+      run("remesh " + scan(4) + " alone.ply --no-advice --report alone.csv" + options_).exit_code,
+      0);
+  EXPECT_EQ(content("alone.ply"), content("out1/e.ply"));
+  const Records alone = records("alone.csv");
+  for (std::size_t k = 0; k < alone[0].size(); ++k) {
+    if (alone[0][k] == "date") continue;
+    EXPECT_EQ(column("out1/grains.csv", alone[0][k])[5], alone[1][k]) << alone[0][k];
+  }
+}
+
+TEST_F(Batch, SumsUpTheSample) {
+  write_scans(5);
+  const Outcome outcome = run("batch scans -o out -n 60 -d 6 --seconds");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output.rfind("5 grains: 5 remeshed, ", 0), 0U) << outcome.output;
+  EXPECT_EQ(outcome.errors, "") << "progress went into a file";
+  const Json summary = Json::parse(content("out/summary.json"));
+  EXPECT_EQ(summary.at("grains"), 5);
+  EXPECT_EQ(summary.at("failed"), 0);
+  const Json& elongation = summary.at("distributions").at("elongation");
+  EXPECT_NEAR(elongation.at("minimum").get<double>(), 0.82, 0.01);
+  EXPECT_NEAR(elongation.at("median").get<double>(), 0.86, 0.01);
+  EXPECT_NEAR(elongation.at("maximum").get<double>(), 0.90, 0.01);
+  EXPECT_NEAR(summary.at("distributions").at("volume_error").at("maximum").get<double>(), 0.0,
+              1e-9);
+  const std::string page = content("out/summary.html");
+  for (const char* text : {"A sample of 5 grains", "equivalent radius", "<svg", "Sphericity"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+  for (const std::string& seconds : column("out/grains.csv", "seconds")) {
+    EXPECT_GT(std::stod(seconds), 0.0);
+  }
+}
+
+TEST_F(Batch, GoesOnWhereItWasKilled) {
+  write_scans(8);
+  ASSERT_EQ(run(std::string("batch scans -o whole") + options_).exit_code, 0);
+  // The fifth grain is a pipe that gives nothing: the batch waits there, and is killed.
+  const std::string kept = content(scan(4));
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    SCOPED_TRACE(signal);
+    const std::string out = "out" + std::to_string(signal);
+    const std::string table = out + "/grains.csv";
+    fs::remove(folder_ / scan(4));
+    ASSERT_EQ(mkfifo(path(scan(4)).c_str(), 0600), 0);
+    const pid_t child =
+        start({"batch", "scans", "-o", out, "-q", "-n", "60", "-d", "6", "-t", "2"});
+    wait_for_rows(table, 5);
+    if (signal == SIGTERM) {
+      ASSERT_EQ(kill(child, signal), 0);
+      std::ofstream(folder_ / scan(4), std::ios::binary) << kept;  // what the reader waits for
+    } else {
+      ASSERT_EQ(kill(child, signal), 0);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    if (signal == SIGTERM) {
+      ASSERT_TRUE(WIFEXITED(status));
+      EXPECT_EQ(WEXITSTATUS(status), 128 + SIGTERM);
+      EXPECT_NE(content("said.txt").find("Cancelled after 4 of 8 grains"), std::string::npos)
+          << content("said.txt");
+    }
+    fs::remove(folder_ / scan(4));
+    std::ofstream(folder_ / scan(4), std::ios::binary) << kept;
+    EXPECT_EQ(column(table, "grain").size(), 4U);
+    EXPECT_FALSE(exists(out + "/summary.json"));
+    // A row that was cut is made again; those before it are not, or this one would fail.
+    fs::resize_file(folder_ / table, content(table).size() - 100);
+    std::ofstream(folder_ / (out + "/d.ply.part")) << "half a mesh";
+    const std::string first = content(scan(0));
+    std::ofstream(folder_ / scan(0)) << "gone";
+    const Outcome again = run("batch scans -o " + out + options_);
+    EXPECT_EQ(again.exit_code, 0) << again.errors;
+    std::ofstream(folder_ / scan(0), std::ios::binary) << first;
+    for (const std::string name : {"/grains.csv", "/summary.json", "/h.ply"}) {
+      EXPECT_EQ(content(out + name), content("whole" + name)) << name;
+    }
+    EXPECT_FALSE(exists(out + "/d.ply.part"));
+  }
+}
+
+TEST_F(Batch, GoesOnOnlyWithWhatItBeganWith) {
+  write_scans(3);
+  ASSERT_EQ(run("batch " + scan(0) + " " + scan(1) + " -o out" + options_).exit_code, 0);
+  const std::string before = content("out/grains.csv");
+  const Outcome options = run("batch " + scan(0) + " " + scan(1) + " -o out -q -n 61 -d 6");
+  EXPECT_EQ(options.exit_code, 1);
+  EXPECT_NE(options.errors.find("out/call.json"), std::string::npos) << options.errors;
+  const Outcome inputs = run("batch " + scan(1) + " " + scan(2) + " -o out" + options_);
+  EXPECT_EQ(inputs.exit_code, 1);
+  EXPECT_NE(inputs.errors.find("other inputs"), std::string::npos) << inputs.errors;
+  EXPECT_EQ(run("batch scans -o out -q -n 60 -d 6 --seconds").exit_code, 1);
+  EXPECT_EQ(content("out/grains.csv"), before);
+  // More grains at the end are welcome.
+  EXPECT_EQ(run(std::string("batch scans -o out") + options_).exit_code, 0);
+  EXPECT_EQ(column("out/grains.csv", "grain"),
+            (std::vector<std::string>{scan(0), scan(1), scan(2)}));
+  EXPECT_EQ(content("out/grains.csv").rfind(before, 0), 0U);
+}
+
+TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
+  write_scans(4);
+  fs::create_directory(folder_ / "more");
+  write_mesh(test::sphere(3), path("more/x.STL"));
+  std::ofstream(folder_ / "more/notes.txt") << "no mesh";
+  write_mesh(test::sphere(3), path("y.obj"));
+  std::ofstream(folder_ / "list.txt") << "scans/c.ply\r\n\nscans/[d]*\n";
+  const Outcome outcome = run(
+      std::string("batch y.obj more 'scans/[ba].ply' @list.txt missing.off -o out --format off") +
+      options_);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_EQ(column("out/grains.csv", "grain"),
+            (std::vector<std::string>{"y.obj", "more/x.STL", scan(0), scan(1), scan(2), scan(3),
+                                      "missing.off"}));
+  EXPECT_EQ(column("out/grains.csv", "status").back(), "failed");
+  EXPECT_EQ(read_mesh(path("out/x.off")).points.size(), 60U);
+
+  struct BadCall {
+    std::string inputs;
+    std::string part_of_the_sentence;
+  };
+  for (const BadCall& call :
+       {BadCall{"-o out2 scans " + scan(1), "would both be remeshed"},
+        BadCall{"-o out2 'scans/z*'", "No file matches"}, BadCall{"-o out2 @no.txt", "no.txt"},
+        BadCall{"-o out2 out2", "out2"}, BadCall{"scans -o scans", "take its place"}}) {
+    SCOPED_TRACE(call.inputs);
+    fs::create_directory(folder_ / "out2");
+    const Outcome refused = run("batch " + call.inputs + options_);
+    EXPECT_NE(refused.exit_code, 0);
+    EXPECT_NE(refused.errors.find(call.part_of_the_sentence), std::string::npos) << refused.errors;
+    EXPECT_TRUE(fs::is_empty(folder_ / "out2"));
+  }
+  EXPECT_EQ(run("batch scans -o out2 --shard 3/2").exit_code, 2);
+  EXPECT_EQ(run("batch scans -o out2 --format vtk").exit_code, 1);
+}
+
+TEST_F(Batch, PartsAreStableAndJoinToTheWhole) {
+  write_scans(8);
+  std::ofstream(folder_ / "scans/broken.ply") << "no mesh";
+  ASSERT_EQ(run(std::string("batch scans -o whole") + options_).exit_code, 3);
+  for (const int count : {2, 3}) {
+    const std::string out = "out" + std::to_string(count);
+    std::string tables;
+    for (int index = 1; index <= count; ++index) {
+      const std::string part = std::to_string(index) + "/" + std::to_string(count);
+      run("batch scans -o " + out + options_ + "--shard " + part);
+      const std::string table =
+          out + "/grains-" + std::to_string(index) + "-of-" + std::to_string(count) + ".csv";
+      tables = table + " " + tables;  // in no order of theirs
+      for (const std::string& grain : column(table, "grain")) {
+        std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a, as its authors give it
+        for (const char c : grain.substr(6)) {
+          hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+        }
+        EXPECT_EQ(hash % static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(index - 1))
+            << grain;
+      }
+    }
+    const Outcome joined =
+        run("collect " + tables + "-o all.csv --report all.json --report all.html");
+    EXPECT_EQ(joined.exit_code, 3) << joined.errors;
+    EXPECT_EQ(content("all.csv"), content("whole/grains.csv"));
+    EXPECT_EQ(content("all.json"), content("whole/summary.json"));
+    EXPECT_EQ(content("all.html"), content("whole/summary.html"));
+    EXPECT_NE(joined.output.find("1 failed"), std::string::npos);
+  }
+  // The same rows twice are one; others are refused, and so is a table that is cut.
+  EXPECT_EQ(run("collect whole/grains.csv out2/grains-1-of-2.csv -q -o twice.csv").exit_code, 3);
+  EXPECT_EQ(content("twice.csv"), content("whole/grains.csv"));
+  ASSERT_EQ(run("batch " + scan(0) + " -o other -q -n 61 -d 6").exit_code, 0);
+  const Outcome other = run("collect whole/grains.csv other/grains.csv -o bad.csv");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.errors.find("different rows"), std::string::npos) << other.errors;
+  fs::resize_file(folder_ / "other/grains.csv", content("other/grains.csv").size() - 1);
+  EXPECT_EQ(run("collect other/grains.csv -o bad.csv").exit_code, 1);
+  EXPECT_EQ(run("collect whole/summary.json -o bad.csv").exit_code, 1);
+  EXPECT_EQ(run("collect whole/grains.csv -o whole/grains.csv").exit_code, 1);
+  EXPECT_EQ(run("collect whole/grains.csv -o bad.csv --report bad.pdf").exit_code, 1);
+  EXPECT_FALSE(exists("bad.csv"));
+}
+
+TEST_F(Batch, TwoDoNotWriteOneTable) {
+  write_scans(2);
+  fs::remove(folder_ / scan(1));
+  ASSERT_EQ(mkfifo(path(scan(1)).c_str(), 0600), 0);
+  const pid_t child = start({"batch", "scans", "-o", "out", "-q", "-n", "60", "-d", "6"});
+  wait_for_rows("out/grains.csv", 2);
+  const Outcome second = run(std::string("batch scans -o out") + options_);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_NE(second.errors.find("another batch"), std::string::npos) << second.errors;
+  kill(child, SIGKILL);
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+}
+
+TEST_F(Batch, MemoryDoesNotGrowWithTheNumberOfGrains) {
+  write_scans(1);
+  const auto peak = [&](int grains) {
+    const std::string name = "list" + std::to_string(grains);
+    {
+      fs::create_directory(folder_ / name);
+      std::ofstream list(folder_ / (name + ".txt"));
+      for (int k = 0; k < grains; ++k) {
+        const std::string link = name + "/" + std::to_string(k) + ".ply";
+        fs::create_symlink(folder_ / scan(0), folder_ / link);
+        list << link << "\n";
+      }
+    }
+    const pid_t child = start({"batch", "@" + name + ".txt", "-o", name + "_out", "-q", "-n", "60",
+                               "-d", "6", "-t", "2"});
+    int status = 0;
+    rusage used{};
+    EXPECT_EQ(wait4(child, &status, 0, &used), child);
+    EXPECT_EQ(status, 0);
+    return used.ru_maxrss;  // KiB
+  };
+  const long few = peak(20);
+  const long many = peak(200);
+  EXPECT_LT(many, few + 4096);
+}
+
+}  // namespace
+}  // namespace wscvt

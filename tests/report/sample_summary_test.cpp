@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/report/sample_summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/flat_json.h"
+#include "wscvt/report/report_file.h"
+#include "wscvt/report/sample_table.h"
+
+namespace wscvt {
+namespace {
+
+class SampleSummaryOfAFile : public testing::Test {
+ protected:
+  SampleSummaryOfAFile()
+      : path_(testing::TempDir() + "wscvt_sample_" +
+              testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv") {}
+  ~SampleSummaryOfAFile() override { std::remove(path_.c_str()); }
+  void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+
+  std::string path_;
+};
+
+RemeshResult grain_of(double radius, const std::vector<std::string>& warnings = {}) {
+  RemeshResult result;
+  result.input.equivalent_radius = radius;
+  result.original.inertia_semi_axes = Vector3(1.0, 2.0, 4.0);
+  result.warnings = warnings;
+  return result;
+}
+
+TEST(SampleTable, RowsHaveTheColumnsOfTheHeader) {
+  for (const Seconds seconds : {Seconds(), Seconds(0.25)}) {
+    const std::string table = sample_header(seconds.has_value()) +
+                              sample_row("a.ply", grain_of(2.0, {"Odd.", "Odder."}), seconds) +
+                              failed_row("b, c.ply", "It is \"broken\".", seconds);
+    const auto records = test::csv_records(table);
+    ASSERT_EQ(records.size(), 3U);
+    EXPECT_EQ(records[1].size(), records[0].size());
+    EXPECT_EQ(records[2].size(), records[0].size());
+    EXPECT_EQ(records[1][0], "a.ply");
+    EXPECT_EQ(records[1][1], "done");
+    EXPECT_EQ(records[1].back(), "Odd. Odder.");
+    EXPECT_EQ(records[2][0], "b, c.ply");
+    EXPECT_EQ(records[2][1], "failed");
+    EXPECT_EQ(records[2][2], "It is \"broken\".");
+    EXPECT_EQ(records[2].back(), "");
+    if (seconds) {
+      EXPECT_EQ(records[1][3], "0.25");
+    }
+  }
+}
+
+TEST(SampleSummary, QuantilesLieBetweenNeighbours) {
+  EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+  EXPECT_EQ(quantile({3.0}, 0.9), 3.0);
+  EXPECT_EQ(quantile({1.0, 2.0, 4.0}, 0.0), 1.0);
+  EXPECT_EQ(quantile({1.0, 2.0, 4.0}, 0.5), 2.0);
+  EXPECT_EQ(quantile({1.0, 2.0, 4.0}, 0.75), 3.0);
+  EXPECT_EQ(quantile({1.0, 2.0, 4.0}, 1.0), 4.0);
+}
+
+TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
+  std::string table = sample_header(false);
+  for (const double radius : {4.0, 1.0, 3.0, 2.0}) {
+    table += sample_row("grain", grain_of(radius), {});
+  }
+  table += sample_row("warned", grain_of(10.0, {"Odd."}), {}) + failed_row("bad", "Broken.", {});
+  write(table);
+  const SampleSummary summary = summarise_table(path_);
+  EXPECT_EQ(summary.grains, 6U);
+  EXPECT_EQ(summary.failed, 1U);
+  EXPECT_EQ(summary.with_warnings, 1U);
+  ASSERT_EQ(summary.failures.size(), 1U);
+  EXPECT_EQ(summary.failures[0].grain, "bad");
+  EXPECT_EQ(summary.failures[0].error, "Broken.");
+  const auto json = nlohmann::ordered_json::parse(summary_json(summary));
+  const auto& radius = json.at("distributions").at("equivalent_radius");
+  EXPECT_EQ(radius.at("count"), 5);
+  EXPECT_EQ(radius.at("mean"), 4.0);
+  EXPECT_EQ(radius.at("minimum"), 1.0);
+  EXPECT_EQ(radius.at("median"), 3.0);
+  EXPECT_EQ(radius.at("maximum"), 10.0);
+  EXPECT_NEAR(radius.at("standard_deviation").get<double>(), std::sqrt(10.0), 1e-12);
+  EXPECT_NEAR(json.at("distributions").at("elongation").at("mean").get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(json.at("distributions").at("flatness").at("mean").get<double>(), 0.5, 1e-12);
+  EXPECT_NE(summary_html(summary).find("Broken."), std::string::npos);
+  EXPECT_EQ(summary_lines(summary).front(),
+            "6 grains: 5 remeshed, 1 of them with warnings, 1 failed");
+}
+
+TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {
+  std::string table = sample_header(false);
+  for (std::size_t k = 0; k < most_failures_named + 7; ++k)
+    table += failed_row("bad", "Broken.", {});
+  write(table);
+  const SampleSummary summary = summarise_table(path_);
+  EXPECT_EQ(summary.failed, most_failures_named + 7);
+  EXPECT_EQ(summary.failures.size(), most_failures_named);
+  EXPECT_NE(summary_html(summary).find("And 7 more"), std::string::npos);
+}
+
+TEST_F(SampleSummaryOfAFile, RefusesWhatIsNoTableOfASample) {
+  for (const std::string& text :
+       {std::string(), std::string("a,b\r\n1,2\r\n"), sample_header(false) + "a,done\r\n",
+        sample_header(false) + "a,done"}) {
+    write(text);
+    EXPECT_ERROR(summarise_table(path_), InvalidInput);
+  }
+  std::remove(path_.c_str());
+  EXPECT_ERROR(summarise_table(path_), InputOutput);
+  EXPECT_ERROR(check_summary("table.csv"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt
