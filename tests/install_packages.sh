@@ -8,7 +8,7 @@ set -eu
 packages="
   g++ cmake ninja-build clang-format clang-tidy dpkg-dev
   libopenmesh-dev libeigen3-dev libcgal-dev libboost-dev libtbb-dev zlib1g-dev nlohmann-json3-dev
-  libcli11-dev libgtest-dev libbenchmark-dev gnuplot-nox time python3
+  libcli11-dev help2man libgtest-dev libbenchmark-dev gnuplot-nox time python3
   meshlab qtbase5-dev libqt5xmlpatterns5-dev libqt5opengl5-dev
   libglew-dev libglu1-mesa-dev
   xvfb xauth xdotool imagemagick"

@@ -11,7 +11,8 @@ const char* const exit_code_text =
 CLI::App& add_command(CLI::App& program, const CommandText& text) {
   CLI::App& app = *program.add_subcommand(text.name, text.purpose);
   app.group("Commands");
-  if (text.has_finer_settings) app.set_help_all_flag("--help-all", "Print all options and exit");
+  CLI::Option* help_all = app.set_help_all_flag("--help-all", "Print all options and exit");
+  if (!text.has_finer_settings) help_all->group("");
   std::string footer = "Examples:\n";
   for (const std::string& example : text.examples) {
     footer += "  wscvt " + text.name + " " + example + "\n";

@@ -18,7 +18,7 @@ struct CommandText {
   std::string purpose;                ///< one line
   std::vector<std::string> examples;  ///< calls, without "wscvt" and the name
   std::string notes = {};             ///< lines below the examples; may be empty
-  bool has_finer_settings = false;    ///< that --help-all shows
+  bool has_finer_settings = false;    ///< that only --help-all shows
 };
 
 /// What the exit codes are, in a line; every help ends with it.

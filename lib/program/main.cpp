@@ -2,6 +2,7 @@
 // The remesher without a display: finds the command that a call names, and runs it.
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -15,6 +16,7 @@
 #include "collect_command.h"
 #include "command.h"
 #include "compare_command.h"
+#include "completion.h"
 #include "create_command.h"
 #include "describe_command.h"
 #include "exit_code.h"
@@ -41,7 +43,7 @@ Command make_command(CLI::App& app) {
 
 /// What comes before any command.
 bool is_of_the_program(const std::string& word) {
-  return word == "--help" || word == "-h" || word == "--version";
+  return word == "--help" || word == "-h" || word == "--version" || word == "--completion";
 }
 
 /// The words of a call. `wscvt SCAN OUTPUT`, from before there were commands, is a remesh. Throws
@@ -81,6 +83,11 @@ int run(int argc, char** argv) {
       make_command<program::CompareArguments>(app), make_command<program::CreateArguments>(app),
       make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
   };
+  const auto print_completion = [&app](std::int64_t) {
+    throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is
+  };
+  app.add_flag_function("--completion", print_completion,
+                        "Print a script that completes commands and options in bash, and exit");
   try {
     std::vector<std::string> words = words_of(argc, argv, commands);
     std::reverse(words.begin(), words.end());  // as CLI11 wants them

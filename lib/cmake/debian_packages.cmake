@@ -1,0 +1,44 @@
+# cpack -G DEB in the build folder: Debian packages of the program, of the library for those who build
+# on it, and, where it is built, of the plugin for the MeshLab there.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME wscvt)
+set(CPACK_PACKAGE_VENDOR wscvt)
+set(CPACK_PACKAGE_CONTACT "The maintainers of wscvt <maintainers@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENTS_ALL development)
+
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Remeshing of scanned grains: library
+ A static library that remeshes dense scans of grains to an exact number of nodes, with its headers
+ and what find_package(wscvt) needs.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwscvt-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libopenmesh-dev, libeigen3-dev, libcgal-dev, libtbb-dev, zlib1g-dev")
+
+if(WSCVT_BUILD_PROGRAM)
+  list(APPEND CPACK_COMPONENTS_ALL program)
+  set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Remeshing of scanned grains: program
+ Remeshes dense scans of grains to an exact number of nodes, one or a whole sample, and measures their
+ shape.")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wscvt)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+endif()
+
+if(TARGET filter_wscvt)
+  list(APPEND CPACK_COMPONENTS_ALL meshlab_plugin)
+  set(CPACK_COMPONENT_MESHLAB_PLUGIN_DESCRIPTION "Remeshing of scanned grains: plugin for MeshLab
+ Filters that remesh dense scans of grains to an exact number of nodes and measure their shape.")
+  set(CPACK_DEBIAN_MESHLAB_PLUGIN_PACKAGE_NAME wscvt-meshlab-plugin)
+  set(CPACK_DEBIAN_MESHLAB_PLUGIN_PACKAGE_SECTION science)
+  # It loads into the version it was built for, and into no other.
+  set(CPACK_DEBIAN_MESHLAB_PLUGIN_PACKAGE_DEPENDS
+    "meshlab (>= ${wscvt_meshlab_version}), meshlab (<< ${wscvt_meshlab_version}.)")
+  get_filename_component(meshlab_library_dir ${MESHLAB_COMMON_LIBRARY} DIRECTORY)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${meshlab_library_dir})
+endif()
+include(CPack)

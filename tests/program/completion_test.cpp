@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What bash completes after the program's own script was read.
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "program_run.h"
+#include "wscvt/report/remesh_options.h"
+
+namespace wscvt {
+namespace {
+
+class Completion : public test::ProgramRun {
+ protected:
+  void SetUp() override {
+    ProgramRun::SetUp();
+    const Outcome script = run("--completion");
+    ASSERT_EQ(script.exit_code, 0) << script.errors;
+    std::ofstream(folder_ / "wscvt.bash") << script.output;
+  }
+  /// Of the last of the words, which may be empty.
+  std::set<std::string> completed(const std::string& words) const {
+    std::ofstream(folder_ / "complete.sh")
+        << "set -u\n. ./wscvt.bash\nCOMP_WORDS=(" << words
+        << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_wscvt\n"
+           "for one in \"${COMPREPLY[@]}\"; do echo \"$one\"; done >completed.txt\n";
+    EXPECT_EQ(std::system(("cd '" + folder_.string() + "' && bash complete.sh").c_str()), 0);
+    std::istringstream lines(content("completed.txt"));
+    std::set<std::string> result;
+    for (std::string line; std::getline(lines, line);) result.insert(line);
+    return result;
+  }
+};
+
+using Words = std::set<std::string>;
+
+TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
+  EXPECT_EQ(completed("wscvt c"), (Words{"compare", "create", "collect"}));
+  EXPECT_EQ(completed("wscvt --v"), Words{"--version"});
+  EXPECT_EQ(completed("wscvt remesh a.ply --refine-"),
+            (Words{"--refine-angle", "--refine-tolerance"}));
+  EXPECT_EQ(completed("wscvt a.ply b.ply --refine-a"), Words{"--refine-angle"});
+  EXPECT_EQ(completed("wscvt batch --sh"), Words{"--shard"});
+  EXPECT_EQ(completed("wscvt describe a.ply --ref"), Words());
+  Words weightings;
+  for (const auto& row : enumerators<Weighting>()) weightings.emplace(row.key);
+  EXPECT_EQ(completed("wscvt remesh --weighting ''"), weightings);
+  EXPECT_EQ(completed("wscvt a.ply b.ply -w er"), Words{"error-adaptive"});
+  EXPECT_EQ(completed("wscvt remesh scan"), Words()) << "files are bash's own";
+  EXPECT_EQ(completed("wscvt remesh --js"), Words()) << "that name is of old scripts";
+}
+
+}  // namespace
+}  // namespace wscvt
