@@ -120,6 +120,18 @@ TEST(RemeshSpherical, RadialDistanceIsTheAreaWeightingAndSaysSo) {
   EXPECT_FALSE(says(report_lines(area), "asked for"));
 }
 
+TEST(RemeshSpherical, WhatTheMapCannotFollowIsSaidAndReportedAsUsed) {
+  RemeshOptions options = options_of(300);
+  options.weighting.kind = Weighting::Curvature;
+  options.relaxation.metric = RelaxationMetric::Sphere;
+  const RemeshResult result = remesh(body("hook"), options, Execution(1));
+  EXPECT_TRUE(says(result.warnings, "take the radial parametrization for cells on the sphere"));
+  EXPECT_EQ(result.options.relaxation.metric, RelaxationMetric::Surface);
+  EXPECT_EQ(result.options.weighting.curvature_source, CurvatureSource::QuadricFit);
+  options.relaxation.metric = RelaxationMetric::Surface;
+  EXPECT_FALSE(says(remesh(body("hook"), options, Execution(1)).warnings, "cells on the sphere"));
+}
+
 TEST(RemeshSpherical, CurvatureWeightingsGatherNodesWhereItBends) {
   // A rod's caps are bent twice as much as its sides.
   const IndexedMesh scan = test::scaled(test::sphere(4), Vector3(3, 1, 1));

@@ -86,6 +86,7 @@ std::vector<TriedChange> try_changes(const PreparedGrain& prepared, const Remesh
       fitted.surface = SurfaceOptions();
       fitted.relaxation.metric = RelaxationMetric::Surface;
       fitted.placement.kind = NodePlacement::LeastSquares;
+      // Another map may be chosen, so the grain is prepared anew; its check costs a tenth of that.
       return remesh_prepared(prepare(prepared.grain.mesh, fitted, execution.part(0.0, 0.3)), fitted,
                              execution.part(0.3, 0.5));
     });
@@ -113,7 +114,7 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
     used.node_count = static_cast<int>(result.mesh.points.size());
     result.tried = try_changes(prepared, used, execution.part(0.9, 1.0));
   }
-  result.warnings = remesh_warnings(result, prepared.precision_warning);
+  result.warnings = remesh_warnings(result, options, prepared.precision_warning);
   execution.report(1.0, "Done");
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/remesh_stages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,9 +9,9 @@
 #include "wscvt/nodes/space_nodes.h"
 #include "wscvt/report/remesh_units.h"
 #include "wscvt/scan/coordinates.h"
-#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/scan/point_cloud.h"
 #include "wscvt/surface/harmonic_map.h"
+#include "wscvt/surface/parametrization_choice.h"
 #include "wscvt/tessellation/seeding.h"
 
 namespace wscvt {
@@ -20,6 +21,13 @@ namespace {
 bool measures_distances(const RemeshOptions& options) {
   return options.measures.distances ||
          (options.target.percent > 0.0 && options.target.measure == ErrorMeasure::Distance);
+}
+
+/// The largest number of nodes that will be asked of the prepared grain.
+int most_nodes(const RemeshOptions& options) {
+  return options.target.percent > 0.0
+             ? std::max(options.node_count, options.target.largest_node_count)
+             : options.node_count;
 }
 
 /// What the later stages read off the grain, made once.
@@ -36,7 +44,9 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   if (radial && !grain.rays && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
-  if (measures_distances(options)) prepared.distance.emplace(grain.mesh, execution.part(0.9, 1.0));
+  if (measures_distances(options) || grain.is_level) {
+    prepared.distance.emplace(grain.mesh, execution.part(0.9, 1.0));
+  }
 }
 
 RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
@@ -72,23 +82,20 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   prepared.precision_warning = precision_warning(scan);
   CheckedMesh checked =
       check_mesh(std::move(scan), options.check, execution.part(options.points ? 0.3 : 0.0, 0.4));
-  SurfaceOptions surface = options.surface;
   // The series and refinement are those of the radial map, so a grain that has one keeps it.
-  const bool asks_for_radial =
+  const bool needs_series =
       options.placement.kind == NodePlacement::Series || options.placement.refinement.rounds > 0;
-  if (asks_for_radial && surface.parametrization == Parametrization::Auto &&
-      folded_solid_angle(checked.mesh, checked.report.centroid, execution) <=
-          0.01 * surface.fold_limit_percent) {
-    surface.parametrization = Parametrization::Radial;
-  }
+  const ParametrizationChoice choice =
+      choose_parametrization(checked.mesh, checked.report.centroid, options.surface, needs_series,
+                             execution.part(0.4, 0.45));
   // Rays go past a tunnel, but no map to the sphere does.
-  if (checked.report.genus > 0 && surface.parametrization != Parametrization::Radial) {
-    prepared.handles = cut_handles(checked, options.handles, execution.part(0.4, 0.5));
+  if (choice.taken == Parametrization::Spherical && checked.report.genus > 0) {
+    prepared.handles = cut_handles(checked, options.handles, execution.part(0.45, 0.5));
   }
   prepared.input = checked.report;
   if (options.points) count_given(points, faces, different, prepared.input);
-  prepared.grain =
-      grain_of_scan(std::move(checked), surface, options.node_count, execution.part(0.5, 0.9));
+  prepared.grain = grain_of_scan(std::move(checked), choice, options.surface, most_nodes(options),
+                                 execution.part(0.5, 0.9));
   make_ready(prepared, options, execution.part(0.9, 1.0));
   return prepared;
 }
@@ -129,9 +136,13 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   PlacedNodes nodes;
   if (grain.parametrization == Parametrization::Spherical) {
     metric = RelaxationMetric::Surface;
-    SpaceNodes in_space = place_in_space(
-        grain, options.node_count, options.seeding, options.weighting, options.relaxation,
-        options.levels, options.placement, prepared.original.volume, execution.part(0.0, 0.9));
+    if (options.weighting.kind == Weighting::Curvature) {
+      result.options.weighting.curvature_source = CurvatureSource::QuadricFit;
+    }
+    SpaceNodes in_space =
+        place_in_space(grain, prepared.distance ? &*prepared.distance : nullptr, options.node_count,
+                       {options.seeding, options.weighting, options.relaxation, options.levels},
+                       options.placement, prepared.original.volume, execution.part(0.0, 0.9));
     result.relaxation = std::move(in_space.relaxation);
     result.space = in_space.report;
     nodes = std::move(in_space.placed);
@@ -153,17 +164,19 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   }
 
   execution.report(0.9, "Measuring the remesh");
-  // Few enough to cost a twentieth of a usual run, and to tell the rms to one per cent.
-  constexpr std::size_t misfit_samples = 20000;
-  result.misfit = rms_distance(grain.mesh, result.mesh, misfit_samples, execution);
   result.remesh = describe_shape(result.mesh, execution.part(0.9, 0.92));
   result.quality = measure_quality(result.mesh, execution);
-  if (prepared.distance) {
+  if (measures_distances(options)) {
     const Execution measuring = execution.part(0.92, 0.98);
     measuring.report(0.0, "Measuring distances");
     result.distances = measure_distances(result.mesh, grain.mesh, *prepared.distance,
                                          options.measures.distance_sampling, measuring);
     result.vertex_distances = prepared.distance->distances(result.mesh.points, execution);
+    result.misfit = result.distances->from_reference.root_mean_square;
+  } else {
+    // Few enough to cost a twentieth of a usual run, and to tell the rms to one per cent.
+    constexpr std::size_t misfit_samples = 20000;
+    result.misfit = rms_distance(grain.mesh, result.mesh, misfit_samples, execution);
   }
 
   if (grain.mapped && options.measures.coefficients) {

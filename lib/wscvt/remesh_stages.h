@@ -25,8 +25,9 @@ struct PreparedGrain {
   HandleReport handles;   ///< in the input's units
   ShapeDescriptors original;
   MeshQuality original_quality;
-  /// To the grain's mesh. It takes longer to make ready than to ask on a dense scan, so it is made
-  /// once for all node counts that are tried.
+  /// To the grain's mesh, where distances are measured or only a level of the scan is mapped. It
+  /// takes longer to make ready than to ask on a dense scan, so it is made once for all node counts
+  /// that are tried.
   std::optional<MeshDistance> distance;
   std::string precision_warning;  ///< see precision_warning
 };

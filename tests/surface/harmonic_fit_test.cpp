@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "support/seeds.h"
+#include "support/random_harmonics.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
@@ -21,18 +21,8 @@ namespace {
 
 MeshSurface rays_at(const IndexedMesh& mesh) { return {mesh, Vector3::Zero(), 1.0, Execution(1)}; }
 
-/// A grain about one unit across, positive, with harmonics to `degree`.
 HarmonicSurface grain(int degree, std::uint64_t seed) {
-  const std::vector<Vector3> random =
-      random_directions(static_cast<int>(harmonic_count(degree)), test::announced(seed));
-  std::vector<double> coefficients;
-  for (int l = 0; l <= degree; ++l) {
-    for (int m = -l; m <= l; ++m) {
-      coefficients.push_back(0.3 * random[coefficients.size()].x() / ((1.0 + l) * (1.0 + l)));
-    }
-  }
-  coefficients[0] = std::sqrt(4.0 * test::pi);
-  return HarmonicSurface(coefficients);
+  return HarmonicSurface(test::random_harmonics(degree, seed));
 }
 
 double rms_difference(const HarmonicSurface& a, const HarmonicSurface& b) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support/seeds.h"
+#include "support/random_harmonics.h"
 #include "wscvt/base/error.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
@@ -14,20 +14,6 @@ namespace wscvt {
 namespace {
 
 const double pi = std::acos(-1.0);
-
-/// A grain about one unit across, positive, with harmonics to `degree`.
-std::vector<double> grain_coefficients(int degree, std::uint64_t seed) {
-  const std::vector<Vector3> random =
-      random_directions(static_cast<int>(harmonic_count(degree)), test::announced(seed));
-  std::vector<double> coefficients;
-  for (int l = 0; l <= degree; ++l) {
-    for (int m = -l; m <= l; ++m) {
-      coefficients.push_back(0.3 * random[coefficients.size()].x() / ((1.0 + l) * (1.0 + l)));
-    }
-  }
-  coefficients[0] = std::sqrt(4.0 * pi);
-  return coefficients;
-}
 
 TEST(HarmonicSurface, RefusesBadCoefficients) {
   EXPECT_THROW(HarmonicSurface({}), Error);
@@ -38,7 +24,7 @@ TEST(HarmonicSurface, RefusesBadCoefficients) {
 
 TEST(HarmonicSurface, GradientEnergyFromCoefficients) {
   // Integral of |grad r|^2 = sum l (l + 1) a_lm^2 (Green), exact under the quadrature.
-  const std::vector<double> a = grain_coefficients(14, 8);
+  const std::vector<double> a = test::random_harmonics(14, 8);
   double expected = 0.0;
   for (int l = 0; l <= 14; ++l) {
     for (int m = -l; m <= l; ++m) expected += l * (l + 1.0) * std::pow(a[harmonic_index(l, m)], 2);
@@ -48,7 +34,7 @@ TEST(HarmonicSurface, GradientEnergyFromCoefficients) {
 }
 
 TEST(HarmonicSurface, JetsAgreeWithRadii) {
-  const HarmonicSurface surface(grain_coefficients(10, 4));
+  const HarmonicSurface surface(test::random_harmonics(10, 4));
   const std::vector<Vector3> u = random_directions(100, test::announced(12));
   const std::vector<double> radii = surface.radii(u, Execution(2));
   const std::vector<RadialJet> jets = surface.jets(u, Derivatives::Second, Execution(2));

@@ -37,10 +37,11 @@ MultilevelOptions levels_in_space(const MultilevelOptions& levels, SeedStart sta
   return result;
 }
 
-SpaceTessellation tessellate(const Grain& grain, int node_count, const SeedingOptions& seeding,
-                             const std::vector<double>& densities,
-                             const RelaxationOptions& relaxation, const MultilevelOptions& levels,
-                             const Execution& execution) {
+SpaceTessellation tessellate(const Grain& grain, int node_count,
+                             const SpaceTessellationOptions& options,
+                             const std::vector<double>& densities, const Execution& execution) {
+  const SeedingOptions& seeding = options.seeding;
+  const RelaxationOptions& relaxation = options.relaxation;
   const MappedSurface& surface = *grain.mapped;
   if (seeding.sampling != Sampling::Weighted) {
     RelaxationOptions none = relaxation;
@@ -50,7 +51,7 @@ SpaceTessellation tessellate(const Grain& grain, int node_count, const SeedingOp
     return relax_in_space(std::move(seeds), std::move(triangulation), surface, densities, none,
                           execution);
   }
-  const MultilevelOptions in_space = levels_in_space(levels, seeding.start, node_count);
+  const MultilevelOptions in_space = levels_in_space(options.levels, seeding.start, node_count);
   const int coarsest = level_sizes(node_count, in_space.coarsest_seeds).front();
   std::vector<Vector3> start = surviving_seeds(surface, grain.map.collapse_order, coarsest);
   if (seeding.start == SeedStart::Random && coarsest > 50) {
@@ -120,29 +121,34 @@ std::string advice(int enough_nodes) {
 
 }  // namespace
 
-SpaceNodes place_in_space(const Grain& grain, int node_count, const SeedingOptions& seeding,
-                          const WeightingOptions& weighting, const RelaxationOptions& relaxation,
-                          const MultilevelOptions& levels, const PlacementOptions& placement,
-                          double volume, const Execution& execution) {
+SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int node_count,
+                          const SpaceTessellationOptions& options,
+                          const PlacementOptions& placement, double volume,
+                          const Execution& execution) {
   check_placement_options(placement);
   if (!grain.mapped) {
     throw Error(ErrorCode::InvalidInput,
                 "The grain is not mapped to the sphere; take the spherical parametrization.");
   }
+  if (grain.is_level && to_scan == nullptr) {
+    throw Error(ErrorCode::InvalidInput,
+                "Only a level of the scan is mapped; give the distance to the scan, by which nodes "
+                "are put on to it.");
+  }
   execution.report(0.0, "Weighing the seeds");
   std::vector<double> densities =
-      densities_in_space(grain.mapped->mesh(), weighting, node_count, execution);
-  SpaceTessellation tessellation = tessellate(grain, node_count, seeding, densities, relaxation,
-                                              levels, execution.part(0.05, 0.7));
+      densities_in_space(grain.mapped->mesh(), options.weighting, node_count, execution);
+  SpaceTessellation tessellation =
+      tessellate(grain, node_count, options, densities, execution.part(0.05, 0.7));
   SpaceNodes result;
   Flaws flaws = flaws_of(tessellation, volume);
 
   constexpr int most_repairs = 3;
-  const bool relaxes = seeding.sampling == Sampling::Weighted;
+  const bool relaxes = options.seeding.sampling == Sampling::Weighted;
   while (relaxes && !flaws.pairs.empty() && result.report.repairs < most_repairs) {
     raise_densities(*grain.mapped, tessellation, flaws.pairs, densities, execution);
-    RelaxationOptions local = relaxation;
-    local.maximum_iterations = std::min(relaxation.maximum_iterations, 200);
+    RelaxationOptions local = options.relaxation;
+    local.maximum_iterations = std::min(local.maximum_iterations, 200);
     SpaceTessellation denser =
         relax_in_space(tessellation.seeds, tessellation.triangulation, *grain.mapped, densities,
                        local, execution.part(0.7, 0.8));
@@ -157,15 +163,16 @@ SpaceNodes place_in_space(const Grain& grain, int node_count, const SeedingOptio
   if (flaws.any() && relaxes) {
     // Twice as many until it does; a relaxation less strict says as much.
     constexpr int most_doublings = 4;
-    RelaxationOptions quick = relaxation;
-    quick.maximum_iterations = std::min(relaxation.maximum_iterations, 100);
+    SpaceTessellationOptions quick = options;
+    int& iterations = quick.relaxation.maximum_iterations;
+    iterations = std::min(iterations, 100);
     result.report.enough_nodes = too_many_nodes;
     for (int k = 1; k <= most_doublings && (node_count << k) <= 20000; ++k) {
       const int more = node_count << k;
       const SpaceTessellation trial =
-          tessellate(grain, more, seeding,
-                     densities_in_space(grain.mapped->mesh(), weighting, more, execution), quick,
-                     levels, execution.part(0.8, 0.85));
+          tessellate(grain, more, quick,
+                     densities_in_space(grain.mapped->mesh(), options.weighting, more, execution),
+                     execution.part(0.8, 0.85));
       if (flaws_of(trial, volume).any()) continue;
       result.report.enough_nodes = more;
       break;
@@ -181,19 +188,17 @@ SpaceNodes place_in_space(const Grain& grain, int node_count, const SeedingOptio
   execution.report(0.85, "Placing the nodes");
   PlacedNodes& nodes = result.placed;
   nodes.mesh = {tessellation.positions, tessellation.triangulation.triangles()};
-  std::optional<MeshDistance> to_scan;
-  if (grain.is_level) to_scan.emplace(grain.mesh);
   if (placement.kind == NodePlacement::LeastSquares) {
-    NormalFitOptions options;
+    const NormalFitOptions fitting;
     const std::vector<MappedSample> samples =
-        samples_of(grain, std::max(options.samples, 10 * tessellation.seeds.size()),
-                   to_scan ? &*to_scan : nullptr, execution);
+        samples_of(grain, std::max(fitting.samples, 10 * tessellation.seeds.size()),
+                   grain.is_level ? to_scan : nullptr, execution);
     NormalFit fit =
         fit_along_normals(tessellation.positions, tessellation.seeds, tessellation.triangulation,
-                          samples, volume, options, execution.part(0.85, 1.0));
+                          samples, volume, fitting, execution.part(0.85, 1.0));
     nodes.mesh.points = std::move(fit.positions);
     result.report.fit = fit.report;
-  } else if (to_scan) {
+  } else if (grain.is_level) {
     for (Vector3& point : nodes.mesh.points) point = to_scan->nearest_point(point);
   }
   result.report.self_intersections = self_intersections(nodes.mesh).size();

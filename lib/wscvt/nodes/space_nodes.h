@@ -2,6 +2,7 @@
 #pragma once
 
 #include "wscvt/base/execution.h"
+#include "wscvt/measures/distances.h"
 #include "wscvt/nodes/placed_nodes.h"
 #include "wscvt/nodes/space_report.h"
 #include "wscvt/surface/grain.h"
@@ -18,20 +19,30 @@ struct SpaceNodes {
   SpaceNodesReport report;
 };
 
+/// What the tessellation in space follows.
+struct SpaceTessellationOptions {
+  SeedingOptions seeding;
+  WeightingOptions weighting;
+  RelaxationOptions relaxation;  ///< in space whatever its metric
+  MultilevelOptions levels;
+};
+
 /// Tessellates a spherical grain in space and puts the nodes on the scan, or fits them to it along
-/// their normals. FittedSurface is on the scan too, since there is no series.
+/// their normals. Series is on the scan too, since there is none. `to_scan` measures the distance
+/// to `grain.mesh`; it is asked only where a level of the scan is what is mapped, and may be null
+/// elsewhere. `volume` is the scan's.
 ///
 /// Where triangles of the nodes on the surface meet, which sheets nearer to each other than the
 /// chords are deep bring about, up to three more relaxations give the places concerned more nodes,
 /// taken from everywhere else. A fit does not add to what is left.
 ///
-/// Throws Error: InvalidInput for options out of range and a grain that is not Spherical,
-/// NumericalFailure when the nodes enclose no volume, when the triangulation breaks down, or when
-/// triangles meet and `placement.refuse_self_intersections` is set, each time with the number of
-/// nodes that would do, Cancelled.
-SpaceNodes place_in_space(const Grain& grain, int node_count, const SeedingOptions& seeding,
-                          const WeightingOptions& weighting, const RelaxationOptions& relaxation,
-                          const MultilevelOptions& levels, const PlacementOptions& placement,
-                          double volume, const Execution& execution);
+/// Throws Error: InvalidInput for options out of range, a grain that is not Spherical and a level
+/// without `to_scan`, NumericalFailure when the nodes enclose no volume, when the triangulation
+/// breaks down, or when triangles meet and `placement.refuse_self_intersections` is set, each time
+/// with the number of nodes that would do, Cancelled.
+SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int node_count,
+                          const SpaceTessellationOptions& options,
+                          const PlacementOptions& placement, double volume,
+                          const Execution& execution);
 
 }  // namespace wscvt

@@ -57,7 +57,8 @@ struct RemeshResult {
   std::array<std::vector<double>, 3> map_coefficients;
   RelaxationReport relaxation;
   RefinementReport refinement;
-  /// Rms distance from the scan to the remesh, over 20,000 points of the scan; length.
+  /// Rms distance from the scan to the remesh; length. Over the samples of `distances`, or over
+  /// 20,000 points of the scan where those were not asked for.
   double misfit = 0.0;
   std::vector<TriedChange> tried;  ///< where the remesh misses the scan; see misses_the_scan
   std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for

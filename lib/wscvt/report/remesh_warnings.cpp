@@ -68,6 +68,8 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
                        ", because above it the series is not positive everywhere: the grain is "
                        "long, flat or sharp.");
   }
+  // Of nodes on the scan, or fitted to it, the series only decides the cells.
+  if (result.options.placement.kind != NodePlacement::Series) return;
   const double misfit = result.fit.residual / result.input.equivalent_radius;
   if (misfit > residual_warning_limit) {
     warnings.push_back(
@@ -78,13 +80,18 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
   }
 }
 
-void warn_of_space(const RemeshResult& result, Sentences& warnings) {
+void warn_of_space(const RemeshResult& result, const RemeshOptions& asked, Sentences& warnings) {
   if (result.parametrization != Parametrization::Spherical) return;
   const RemeshOptions& options = result.options;
   if (options.placement.refinement.rounds > 0) {
     warnings.push_back(
         "The nodes were not refined, because that needs the radial parametrization, which this "
         "grain's flanks are too steep for; take it all the same, or set the rounds to 0.");
+  }
+  if (asked.relaxation.metric != result.options.relaxation.metric) {
+    warnings.push_back(
+        "The cells are those on the surface, because on the sphere the cells of a grain that is "
+        "mapped whole say nothing; take the radial parametrization for cells on the sphere.");
   }
   const std::string nodes = std::to_string(result.mesh.points.size()) + " nodes";
   if (result.space.self_intersections > 0) {
@@ -189,14 +196,14 @@ bool misses_the_scan(const RemeshResult& result) {
          std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
 }
 
-std::vector<std::string> remesh_warnings(const RemeshResult& result,
+std::vector<std::string> remesh_warnings(const RemeshResult& result, const RemeshOptions& asked,
                                          const std::string& of_precision) {
   Sentences warnings;
   if (!of_precision.empty()) warnings.push_back(of_precision);
   warn_of_scan(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_misfit(result, warnings);
-  warn_of_space(result, warnings);
+  warn_of_space(result, asked, warnings);
   warn_of_relaxation(result, warnings);
   warn_of_search(result, warnings);
   return warnings;

@@ -22,8 +22,9 @@ inline constexpr double area_warning_limit = 0.02;
 bool misses_the_scan(const RemeshResult& result);
 
 /// What the user of a result ought to know, a sentence each, the scan's faults first. The first of
-/// all is `of_precision`, if it is not empty (see precision_warning).
-std::vector<std::string> remesh_warnings(const RemeshResult& result,
+/// all is `of_precision`, if it is not empty (see precision_warning). `asked` are the options
+/// given, from which those of the result may differ.
+std::vector<std::string> remesh_warnings(const RemeshResult& result, const RemeshOptions& asked,
                                          const std::string& of_precision = "");
 
 }  // namespace wscvt

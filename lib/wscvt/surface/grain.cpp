@@ -9,7 +9,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_collapse.h"
@@ -87,8 +86,8 @@ void check_surface_options(const SurfaceOptions& options) {
   require_in_range(options.fold_limit_percent, fold_limit_option);
 }
 
-Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, int node_count,
-                    const Execution& execution) {
+Grain grain_of_scan(CheckedMesh scan, const ParametrizationChoice& choice,
+                    const SurfaceOptions& options, int node_count, const Execution& execution) {
   check_surface_options(options);
   Grain grain;
   grain.unit = scan.report.equivalent_radius;
@@ -99,22 +98,17 @@ Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, int node_co
     for (std::size_t i = begin; i < end; ++i) points[i] = (points[i] - grain.centre) / grain.unit;
   });
 
-  execution.report(0.0, "Looking for folds");
-  grain.steep_share = steep_share(grain.mesh, execution);
-  const bool spherical =
-      options.parametrization == Parametrization::Spherical ||
-      (options.parametrization == Parametrization::Auto && grain.steep_share > steep_share_limit);
-  if (spherical) {
-    grain.parametrization = Parametrization::Spherical;
-    grain.folded_share = folded_solid_angle(grain.mesh, Vector3::Zero(), execution);
-    map_scan(grain, node_count, execution.part(0.1, 1.0));
+  grain.parametrization = choice.taken;
+  grain.steep_share = choice.steep_share;
+  grain.folded_share = choice.folded_share;
+  if (choice.taken == Parametrization::Spherical) {
+    map_scan(grain, node_count, execution);
     return grain;
   }
-  grain.folded_share = folded_solid_angle(grain.mesh, Vector3::Zero(), execution);
   refuse_folds(grain.folded_share, 0.01 * options.fold_limit_percent);
-  execution.report(0.2, "Casting rays");
+  execution.report(0.0, "Casting rays");
   grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
-  const Execution fitting = execution.part(0.5, 1.0);
+  const Execution fitting = execution.part(0.4, 1.0);
   HarmonicFit fit = options.degree == automatic_degree
                         ? fit_harmonics_for_nodes(*grain.rays, node_count, fitting)
                         : fit_harmonics(*grain.rays, options.degree, fitting);

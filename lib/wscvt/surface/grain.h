@@ -12,7 +12,7 @@
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/mesh_surface.h"
-#include "wscvt/surface/parametrization.h"
+#include "wscvt/surface/parametrization_choice.h"
 #include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/sphere_map.h"
 #include "wscvt/surface/surface_options.h"
@@ -42,20 +42,20 @@ struct Grain {
   std::optional<CurvatureSamples> curvatures;  ///< of the scan itself, for who weighs by them
 };
 
-/// Centres a scan on its volume centroid and fits the series, or maps it to the sphere. Leaves
-/// `curvatures` empty.
+/// Centres a scan on its volume centroid and fits the series, or maps it to the sphere, as was
+/// chosen for it. Leaves `curvatures` empty.
 ///
 /// A dense scan need not be mapped whole: one with more than 50,000 vertices and more than 40 a
-/// node of the `node_count` is collapsed to that number first. The nodes are relaxed on that level
-/// and put on to the scan, or fitted to it, afterwards.
+/// node of the `largest_node_count` that will be asked for is collapsed to that number first. The
+/// nodes are relaxed on that level and put on to the scan, or fitted to it, afterwards.
 ///
 /// An automatic degree of the series is that of fit_harmonics_for_nodes for `node_count`.
 ///
 /// Throws Error: InvalidInput for options out of range and for a spherical map of a surface with
 /// handles, NotStarShaped when the folded share of a grain that is to be Radial exceeds the limit
 /// or the centroid is not inside, NumericalFailure, Cancelled.
-Grain grain_of_scan(CheckedMesh scan, const SurfaceOptions& options, int node_count,
-                    const Execution& execution);
+Grain grain_of_scan(CheckedMesh scan, const ParametrizationChoice& choice,
+                    const SurfaceOptions& options, int node_count, const Execution& execution);
 
 /// The grain of a surface given by a formula or by coefficients, about its own origin, whose
 /// `integrals` are given. Its mesh has 40,962 points. `surface` must outlive the grain.

@@ -9,6 +9,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_equations.h"
 #include "wscvt/surface/mapped_surface.h"
@@ -59,8 +60,7 @@ Quadrature quadrature_over(const MappedSurface& surface, int degree) {
   Quadrature result;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
-    const Vector3& a = mesh.points[t[0]];
-    const double area = 0.5 * (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
+    const double area = triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     if (!(area > 0.0)) continue;
     const std::int32_t count = pieces[f];
     const auto add = [&](int i, int j, double shift) {

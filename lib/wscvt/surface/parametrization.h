@@ -4,8 +4,6 @@
 #include <string_view>
 
 #include "wscvt/base/enumeration.h"
-#include "wscvt/base/execution.h"
-#include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
 
@@ -40,9 +38,5 @@ inline constexpr double steep_flank_angle = 75.0;
 /// (a^2 - b^2) / (2 a b)); the least rough scans of crushed rock, soil grains and stone tools
 /// tried have 0.006, others up to 0.08, and bodies with undercuts 0.1 and more.
 inline constexpr double steep_share_limit = 0.005;
-
-/// Share of the area of a closed, outward mesh whose flanks are steep as seen from the origin,
-/// or look back at it. A face is judged as a whole, at its middle.
-double steep_share(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

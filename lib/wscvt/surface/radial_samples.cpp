@@ -19,7 +19,7 @@ constexpr int fold_resolution = 64;
 /// Relative distance by which the sheet in front must be farther out.
 constexpr double hidden_tolerance = 1e-9;
 
-/// Sets the radius of every vertex behind the outermost sheet to zero.
+/// Takes the weight of every vertex behind the outermost sheet.
 void hide_vertices(const IndexedMesh& mesh, const std::vector<double>& angles,
                    const Execution& execution, RadialSamples& samples) {
   // A ray that meets more than one sheet passes through a face that looks back.
@@ -34,10 +34,10 @@ void hide_vertices(const IndexedMesh& mesh, const std::vector<double>& angles,
   const MeshSurface surface(mesh, Vector3::Zero(), 1.0, execution);
   execution.parallel_for(mesh.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      double& radius = samples.radii[i];
+      const double radius = mesh.points[i].norm();
       if (!(radius > 0.0) || !folded[cube.cell(samples.directions[i])]) continue;
       const double outermost = surface.outermost_hit(samples.directions[i]).radius;
-      if (outermost > radius * (1.0 + hidden_tolerance)) radius = 0.0;
+      if (outermost > radius * (1.0 + hidden_tolerance)) samples.weights[i] = 0.0;
     }
   });
 }
@@ -51,12 +51,8 @@ RadialSamples radial_samples(const IndexedMesh& mesh, const Execution& execution
   const std::size_t count = mesh.points.size();
   RadialSamples samples;
   samples.directions.resize(count);
-  samples.radii.resize(count);
   execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      samples.radii[i] = mesh.points[i].norm();
-      samples.directions[i] = mesh.points[i].normalized();
-    }
+    for (std::size_t i = begin; i < end; ++i) samples.directions[i] = mesh.points[i].normalized();
   });
   std::vector<double> angles(mesh.triangles.size());
   const SolidAngleSums sums = execution.parallel_sum(
@@ -70,12 +66,7 @@ RadialSamples radial_samples(const IndexedMesh& mesh, const Execution& execution
         }
         return part;
       });
-  if (sums.folded_share() >= 1.0) {
-    RadialSamples nothing;
-    nothing.folded_share = sums.folded_share();
-    return nothing;
-  }
-  samples.folded_share = sums.folded_share();
+  if (sums.folded_share() >= 1.0) return {};
   samples.weights.assign(count, 0.0);
   for (std::size_t f = 0; f < angles.size(); ++f) {
     if (!(angles[f] > 0.0)) continue;
@@ -85,15 +76,13 @@ RadialSamples radial_samples(const IndexedMesh& mesh, const Execution& execution
 
   samples.vertices.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (!(samples.radii[i] > 0.0 && samples.weights[i] > 0.0)) continue;
+    if (!(mesh.points[i].squaredNorm() > 0.0 && samples.weights[i] > 0.0)) continue;
     const std::size_t kept = samples.vertices.size();
     samples.directions[kept] = samples.directions[i];
-    samples.radii[kept] = samples.radii[i];
     samples.weights[kept] = samples.weights[i];
     samples.vertices.push_back(static_cast<std::int32_t>(i));
   }
   samples.directions.resize(samples.vertices.size());
-  samples.radii.resize(samples.vertices.size());
   samples.weights.resize(samples.vertices.size());
   return samples;
 }

@@ -56,7 +56,8 @@ struct WeightingOptions {
   Weighting kind = Weighting::RadialDistance;
   double curvature_alpha = 1.0;          ///< alpha of eq. 11
   double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive
-  CurvatureSource curvature_source = CurvatureSource::Series;  ///< a formula has its own only
+  /// A formula has its own only, and a grain that is mapped whole has no series: quadrics there.
+  CurvatureSource curvature_source = CurvatureSource::Series;
 };
 
 inline constexpr NumberOption<double> curvature_alpha_option = {
