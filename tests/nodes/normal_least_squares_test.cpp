@@ -42,10 +42,12 @@ Fitted fitted(const IndexedMesh& scan, int nodes, int threads = 1,
   const SpaceTessellation sites =
       relax_in_space(surviving_seeds(surface, map.collapse_order, nodes), nodes, surface, {},
                      RelaxationOptions(), MultilevelOptions(), execution);
-  const NormalFit fit = fit_along_normals(sites.positions, sites.seeds, sites.triangulation,
-                                          mapped_samples(surface, options.samples, execution),
-                                          volume_of(scan), options, execution);
   const std::vector<Triangle>& triangles = sites.triangulation.triangles();
+  const std::vector<FitSample> samples =
+      deal_out(mapped_samples(surface, options.samples, execution), sites.positions, sites.seeds,
+               triangles, execution);
+  const NormalFit fit =
+      fit_along_normals({sites.positions, triangles}, samples, volume_of(scan), options, execution);
   return {scan, {sites.positions, triangles}, {fit.positions, triangles}, fit.report};
 }
 

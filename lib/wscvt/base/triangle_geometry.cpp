@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/triangle_geometry.h"
 
+#include <algorithm>
+#include <array>
+
 namespace wscvt {
 
 MeshSums mesh_sums(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
@@ -40,6 +43,49 @@ std::vector<double> vertex_areas(const IndexedMesh& mesh) {
     areas[c] += third;
   }
   return areas;
+}
+
+Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p) {
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
+  const double d1 = ab.dot(p - a);
+  const double d2 = ac.dot(p - a);
+  if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
+  const double d3 = ab.dot(p - b);
+  const double d4 = ac.dot(p - b);
+  if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    const double v = d1 / (d1 - d3);
+    return {1.0 - v, v, 0.0};
+  }
+  const double d5 = ab.dot(p - c);
+  const double d6 = ac.dot(p - c);
+  if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    const double w = d2 / (d2 - d6);
+    return {1.0 - w, 0.0, w};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {0.0, 1.0 - w, w};
+  }
+  const double sum = va + vb + vc;
+  return {va / sum, vb / sum, vc / sum};
+}
+
+double largest_corner_cosine(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const std::array<Vector3, 3> sides{b - a, c - b, a - c};
+  double largest = -1.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3& out = sides[k];
+    const Vector3& in = sides[(k + 2) % 3];
+    const double lengths = out.norm() * in.norm();
+    largest = std::max(largest, lengths > 0.0 ? -out.dot(in) / lengths : 1.0);
+  }
+  return largest;
 }
 
 }  // namespace wscvt

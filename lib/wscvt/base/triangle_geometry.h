@@ -29,6 +29,14 @@ inline double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c
   return 0.5 * doubled_area_normal(a, b, c).norm();
 }
 
+/// Weights >= 0 of the corners, sum 1, for the point of the triangle a, b, c nearest to `p`
+/// (Ericson 2005, "Real-time collision detection", section 5.1.5).
+Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p);
+
+/// Cosine of the smallest angle of the triangle a, b, c, the largest of the three; 1 where two
+/// corners are one.
+double largest_corner_cosine(const Vector3& a, const Vector3& b, const Vector3& c);
+
 /// What adds up over the triangles of a closed, outward mesh to its volume, area and volume
 /// centroid, by the tetrahedra that they span with the origin (Lien and Kajiya 1984, IEEE Comput.
 /// Graph. Appl. 4 (10), 35-42).

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -27,39 +28,6 @@ constexpr std::size_t block_size = 256;
 /// and changes the others' steps by less than a thousandth.
 constexpr double tie = 5e-4;
 
-/// Weights of the corners for the point of a triangle nearest to `p` (Ericson 2005, "Real-time
-/// collision detection", section 5.1.5).
-Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p) {
-  const Vector3 ab = b - a;
-  const Vector3 ac = c - a;
-  const double d1 = ab.dot(p - a);
-  const double d2 = ac.dot(p - a);
-  if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
-  const double d3 = ab.dot(p - b);
-  const double d4 = ac.dot(p - b);
-  if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    const double v = d1 / (d1 - d3);
-    return {1.0 - v, v, 0.0};
-  }
-  const double d5 = ab.dot(p - c);
-  const double d6 = ac.dot(p - c);
-  if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-    const double w = d2 / (d2 - d6);
-    return {1.0 - w, 0.0, w};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0.0, 1.0 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
-
 Vector3 face_normal(const std::vector<Vector3>& points, const Triangle& t) {
   return doubled_area_normal(points[t[0]], points[t[1]], points[t[2]]);
 }
@@ -71,22 +39,19 @@ struct Row {
   double residual = 0.0;
 };
 
-/// Finds the triangle nearest to a sample, from the one that holds its direction downhill over the
-/// neighbours.
+/// Finds the triangle nearest to a sample, from a start downhill over the neighbours.
 class NearestTriangle {
  public:
-  NearestTriangle(const std::vector<Vector3>& positions, const SphereTriangulation& triangulation)
-      : positions_(positions), triangulation_(triangulation) {}
+  NearestTriangle(const IndexedMesh& nodes, const HalfEdges& half_edges)
+      : nodes_(nodes), half_edges_(half_edges) {}
 
   std::int32_t find(const Vector3& point, std::int32_t start, Vector3& weights) const {
     std::int32_t best = start;
     double smallest = distance(point, start, weights);
     while (true) {
       std::int32_t next = -1;
-      for (const std::int32_t v : triangulation_.triangles()[best]) {
-        const std::int32_t first = triangulation_.first_half_edge()[v];
-        std::int32_t h = first;
-        do {
+      for (const std::int32_t v : nodes_.triangles[best]) {
+        visit_outgoing(half_edges_.opposite, half_edges_.first[v], [&](std::int32_t h) {
           Vector3 other;
           const double d = distance(point, h / 3, other);
           if (d < smallest) {
@@ -94,8 +59,7 @@ class NearestTriangle {
             next = h / 3;
             weights = other;
           }
-          h = triangulation_.opposite()[SphereTriangulation::previous(h)];
-        } while (h != first);
+        });
       }
       if (next < 0) return best;
       best = next;
@@ -104,35 +68,31 @@ class NearestTriangle {
 
  private:
   double distance(const Vector3& point, std::int32_t triangle, Vector3& weights) const {
-    const auto& [i, j, k] = triangulation_.triangles()[triangle];
-    const Vector3 &a = positions_[i], &b = positions_[j], &c = positions_[k];
+    const auto& [i, j, k] = nodes_.triangles[triangle];
+    const Vector3 &a = nodes_.points[i], &b = nodes_.points[j], &c = nodes_.points[k];
     weights = nearest_weights(a, b, c, point);
     return (weights[0] * a + weights[1] * b + weights[2] * c - point).squaredNorm();
   }
 
-  const std::vector<Vector3>& positions_;
-  const SphereTriangulation& triangulation_;
+  const IndexedMesh& nodes_;
+  const HalfEdges& half_edges_;
 };
 
-std::vector<Row> rows_of(const std::vector<MappedSample>& samples,
-                         const std::vector<Vector3>& positions, const std::vector<Vector3>& seeds,
-                         const std::vector<Vector3>& normals,
-                         const SphereTriangulation& triangulation, const Execution& execution) {
-  const MappedSurface nodes({positions, triangulation.triangles()}, seeds, execution);
-  const NearestTriangle nearest(positions, triangulation);
+std::vector<Row> rows_of(const std::vector<FitSample>& samples, const IndexedMesh& nodes,
+                         const std::vector<Vector3>& normals, const HalfEdges& half_edges,
+                         const Execution& execution) {
+  const NearestTriangle nearest(nodes, half_edges);
   std::vector<Row> rows(samples.size());
   execution.parallel_for(samples.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    std::int32_t hint = -1;
     for (std::size_t s = begin; s < end; ++s) {
-      hint = nodes.locate(samples[s].direction, hint).triangle;
       Vector3 weights;
-      const std::int32_t triangle = nearest.find(samples[s].point, hint, weights);
+      const std::int32_t triangle = nearest.find(samples[s].point, samples[s].triangle, weights);
       Row& row = rows[s];
-      row.corners = triangulation.triangles()[triangle];
-      const Vector3 normal = face_normal(positions, row.corners).normalized();
+      row.corners = nodes.triangles[triangle];
+      const Vector3 normal = face_normal(nodes.points, row.corners).normalized();
       Vector3 foot = Vector3::Zero();
       for (int k = 0; k < 3; ++k) {
-        foot += weights[k] * positions[row.corners[k]];
+        foot += weights[k] * nodes.points[row.corners[k]];
         row.entries[k] = weights[k] * normal.dot(normals[row.corners[k]]);
       }
       row.residual = normal.dot(samples[s].point - foot);
@@ -174,18 +134,6 @@ Eigen::VectorXd solve_steps(const std::vector<Row>& rows, std::size_t nodes) {
   return steps;
 }
 
-/// Cosine of the largest corner angle is not asked for: of the smallest the largest cosine.
-double largest_cosine(const std::vector<Vector3>& points, const Triangle& t) {
-  double largest = -1.0;
-  for (int k = 0; k < 3; ++k) {
-    const Vector3 left = points[t[(k + 1) % 3]] - points[t[k]];
-    const Vector3 right = points[t[(k + 2) % 3]] - points[t[k]];
-    const double lengths = left.norm() * right.norm();
-    largest = std::max(largest, lengths > 0.0 ? left.dot(right) / lengths : 1.0);
-  }
-  return largest;
-}
-
 /// What the guards watch: the smallest angle of each triangle and the turn at each half-edge, as
 /// cosines.
 struct Shape {
@@ -193,21 +141,21 @@ struct Shape {
   std::vector<double> turns;
 };
 
-Shape shape_of(const std::vector<Vector3>& points, const SphereTriangulation& triangulation,
-               const Execution& execution) {
-  const std::vector<Triangle>& triangles = triangulation.triangles();
+Shape shape_of(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
+               const HalfEdges& half_edges, const Execution& execution) {
   Shape shape;
   shape.angles.resize(triangles.size());
   shape.turns.resize(3 * triangles.size());
   std::vector<Vector3> normals(triangles.size());
   execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      shape.angles[t] = largest_cosine(points, triangles[t]);
+      const auto& [a, b, c] = triangles[t];
+      shape.angles[t] = largest_corner_cosine(points[a], points[b], points[c]);
       normals[t] = face_normal(points, triangles[t]).normalized();
     }
   });
   for (std::size_t h = 0; h < shape.turns.size(); ++h) {
-    shape.turns[h] = normals[h / 3].dot(normals[triangulation.opposite()[h] / 3]);
+    shape.turns[h] = normals[h / 3].dot(normals[half_edges.opposite[h] / 3]);
   }
   return shape;
 }
@@ -305,28 +253,39 @@ std::vector<MappedSample> mapped_samples(const MappedSurface& surface, std::size
   return samples;
 }
 
-NormalFit fit_along_normals(const std::vector<Vector3>& positions,
-                            const std::vector<Vector3>& seeds,
-                            const SphereTriangulation& triangulation,
-                            const std::vector<MappedSample>& samples, double volume,
-                            const NormalFitOptions& options, const Execution& execution) {
+std::vector<FitSample> deal_out(const std::vector<MappedSample>& samples,
+                                const std::vector<Vector3>& positions,
+                                const std::vector<Vector3>& seeds,
+                                const std::vector<Triangle>& triangles,
+                                const Execution& execution) {
+  const MappedSurface nodes({positions, triangles}, seeds, execution);
+  std::vector<FitSample> result(samples.size());
+  execution.parallel_for(samples.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::int32_t hint = -1;
+    for (std::size_t s = begin; s < end; ++s) {
+      hint = nodes.locate(samples[s].direction, hint).triangle;
+      result[s] = {samples[s].point, hint};
+    }
+  });
+  return result;
+}
+
+NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSample>& samples,
+                            double volume, const NormalFitOptions& options,
+                            const Execution& execution) {
   check_normal_fit_options(options);
+  const std::vector<Vector3>& positions = nodes.points;
+  const std::vector<Triangle>& triangles = nodes.triangles;
   const std::size_t count = positions.size();
-  if (seeds.size() != count || triangulation.vertex_count() != count) {
-    throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(count) + " nodes, " +
-                                             std::to_string(seeds.size()) + " seeds and " +
-                                             std::to_string(triangulation.vertex_count()) +
-                                             " vertices of the triangulation; give one each.");
-  }
-  const std::vector<Triangle>& triangles = triangulation.triangles();
+  const HalfEdges half_edges = link_half_edges(triangles, count);
   const std::vector<Vector3> normals = vertex_normals(positions, triangles);
   const Eigen::VectorXd steps =
-      solve_steps(rows_of(samples, positions, seeds, normals, triangulation, execution), count);
+      solve_steps(rows_of(samples, nodes, normals, half_edges, execution), count);
 
   NormalFit fit;
   fit.report.samples = samples.size();
-  const Shape before = shape_of(positions, triangulation, execution);
-  const std::size_t crossings_before = self_intersections({positions, triangles}).size();
+  const Shape before = shape_of(positions, triangles, half_edges, execution);
+  const std::size_t crossings_before = self_intersections(nodes).size();
   const double widest_cosine = std::cos(options.smallest_angle * pi / 180.0);
   const double turned_cosine = std::cos(options.largest_turn * pi / 180.0);
   // Halvings of each node's step; beyond the last it takes none.
@@ -346,7 +305,7 @@ NormalFit fit_along_normals(const std::vector<Vector3>& positions,
           std::ldexp(steps[static_cast<Eigen::Index>(i)], -halvings[i]) * normals[i];
     }
     bool held = false;
-    const Shape shape = shape_of(fit.positions, triangulation, execution);
+    const Shape shape = shape_of(fit.positions, triangles, half_edges, execution);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       if (shape.angles[t] <= std::max(widest_cosine, before.angles[t])) continue;
       for (const std::int32_t v : triangles[t]) held |= hold_back(v);

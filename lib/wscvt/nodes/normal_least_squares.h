@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/nodes/space_report.h"
-#include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
@@ -28,6 +28,12 @@ struct MappedSample {
   Vector3 direction = Vector3::Zero();
 };
 
+/// A sample and a triangle of the nodes from which the search for the nearest one begins.
+struct FitSample {
+  Vector3 point = Vector3::Zero();
+  std::int32_t triangle = -1;
+};
+
 struct NormalFit {
   std::vector<Vector3> positions;
   NormalFitReport report;
@@ -38,31 +44,35 @@ struct NormalFit {
 std::vector<MappedSample> mapped_samples(const MappedSurface& surface, std::size_t count,
                                          const Execution& execution);
 
+/// The samples with the triangles of the nodes that hold their directions: a sheet of the scan is
+/// never taken for the one behind it.
+std::vector<FitSample> deal_out(const std::vector<MappedSample>& samples,
+                                const std::vector<Vector3>& positions,
+                                const std::vector<Vector3>& seeds,
+                                const std::vector<Triangle>& triangles, const Execution& execution);
+
 /// Moves nodes once along their normals, to where their triangles fit the samples best, and then
 /// all by one offset along the same normals, so that the closed mesh encloses `volume` (> 0,
 /// length^3) to rounding.
 ///
 /// The step minimises the squared distances of the samples to the planes of the triangles nearest
 /// to them (Hoppe et al. 1993, "Mesh optimization", with one unknown a node), with a weak tie to
-/// zero that holds nodes which no sample reaches. A sample is dealt out by its place on the sphere:
-/// the search for its nearest triangle begins where its direction lies, and goes on from neighbour
-/// to neighbour, so that a sheet of the scan is never taken for the one behind it. Further steps
-/// gained nothing on the scans tried, and cost angles.
+/// zero that holds nodes which no sample reaches. The search for a sample's nearest triangle begins
+/// at the one given and goes on from neighbour to neighbour. Further steps gained nothing on the
+/// scans tried, and cost angles.
 ///
-/// Seeds do not move, so no triangle turns on the sphere. Where a guard of the options is violated,
-/// the nodes concerned take a half, a quarter, ... of their step, and at last none.
+/// Where a guard of the options is violated, the nodes concerned take a half, a quarter, ... of
+/// their step, and at last none.
 ///
 /// The volume as a function of the offset is a polynomial of third degree, whose root next to zero
 /// is found by Newton's method. Where it has none within half the mean edge, which a handful of
 /// nodes on a thin body may bring about, the mesh is scaled about its centroid instead.
 ///
-/// Throws Error(InvalidInput) for options out of range or other numbers of nodes,
+/// `nodes` is a closed, oriented 2-manifold. Throws Error(InvalidInput) for options out of range,
 /// Error(NumericalFailure) when the nodes enclose no volume or the system cannot be solved.
-NormalFit fit_along_normals(const std::vector<Vector3>& positions,
-                            const std::vector<Vector3>& seeds,
-                            const SphereTriangulation& triangulation,
-                            const std::vector<MappedSample>& samples, double volume,
-                            const NormalFitOptions& options, const Execution& execution);
+NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSample>& samples,
+                            double volume, const NormalFitOptions& options,
+                            const Execution& execution);
 
 /// Throws Error(InvalidInput), with the range, for options out of range.
 void check_normal_fit_options(const NormalFitOptions& options);

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/self_intersections.h"
+#include "wscvt/nodes/triangle_mending.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/tessellation/space_relaxation.h"
 #include "wscvt/tessellation/space_weights.h"
@@ -114,6 +117,44 @@ std::vector<MappedSample> samples_of(const Grain& grain, std::size_t count,
   return samples;
 }
 
+/// The places on the map of a tessellation's nodes.
+std::vector<MeshPlace> places_of(const MappedSurface& surface, const std::vector<Vector3>& seeds,
+                                 const Execution& execution) {
+  std::vector<MeshPlace> places(seeds.size());
+  execution.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::int32_t hint = -1;
+    for (std::size_t i = begin; i < end; ++i) {
+      places[i] = surface.locate(seeds[i], hint);
+      hint = places[i].triangle;
+    }
+  });
+  return places;
+}
+
+/// Samples dealt out to triangles before mending go on to one of those about the same nodes; none
+/// where all three nodes were relocated.
+std::vector<FitSample> handed_on(const std::vector<FitSample>& samples,
+                                 const std::vector<Triangle>& before,
+                                 const MendedTriangles& mended) {
+  const std::vector<Triangle>& after = mended.mesh.triangles;
+  const HalfEdges half_edges = link_half_edges(after, mended.mesh.points.size());
+  std::vector<FitSample> result;
+  result.reserve(samples.size());
+  for (const FitSample& sample : samples) {
+    double smallest = std::numeric_limits<double>::infinity();
+    std::int32_t triangle = -1;
+    for (const std::int32_t v : before[sample.triangle]) {
+      if (std::binary_search(mended.relocated.begin(), mended.relocated.end(), v)) continue;
+      const double distance = (mended.mesh.points[v] - sample.point).squaredNorm();
+      if (!(distance < smallest)) continue;
+      smallest = distance;
+      triangle = half_edges.first[v] / 3;
+    }
+    if (triangle >= 0) result.push_back({sample.point, triangle});
+  }
+  return result;
+}
+
 std::string advice(int enough_nodes) {
   return enough_nodes > 0 ? "; " + std::to_string(enough_nodes) + " would do."
                           : "; ask for many more.";
@@ -187,20 +228,30 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
 
   execution.report(0.85, "Placing the nodes");
   PlacedNodes& nodes = result.placed;
-  nodes.mesh = {tessellation.positions, tessellation.triangulation.triangles()};
+  const std::vector<Triangle>& triangles = tessellation.triangulation.triangles();
+  MendedTriangles mended;
+  mended.mesh = {tessellation.positions, triangles};
+  if (relaxes) {
+    mended = mend_triangles(mended.mesh, places_of(*grain.mapped, tessellation.seeds, execution),
+                            *grain.mapped, TriangleMendingOptions(), execution.part(0.85, 0.87));
+  }
+  const bool changed = mended.report.flips + mended.report.moves + mended.report.relocations > 0;
+  result.report.mending = mended.report;
   if (placement.kind == NodePlacement::LeastSquares) {
     const NormalFitOptions fitting;
-    const std::vector<MappedSample> samples =
-        samples_of(grain, std::max(fitting.samples, 10 * tessellation.seeds.size()),
-                   grain.is_level ? to_scan : nullptr, execution);
+    std::vector<FitSample> samples =
+        deal_out(samples_of(grain, std::max(fitting.samples, 10 * tessellation.seeds.size()),
+                            grain.is_level ? to_scan : nullptr, execution),
+                 tessellation.positions, tessellation.seeds, triangles, execution);
+    if (changed) samples = handed_on(samples, triangles, mended);
     NormalFit fit =
-        fit_along_normals(tessellation.positions, tessellation.seeds, tessellation.triangulation,
-                          samples, volume, fitting, execution.part(0.85, 1.0));
-    nodes.mesh.points = std::move(fit.positions);
+        fit_along_normals(mended.mesh, samples, volume, fitting, execution.part(0.87, 1.0));
+    mended.mesh.points = std::move(fit.positions);
     result.report.fit = fit.report;
   } else if (grain.is_level) {
-    for (Vector3& point : nodes.mesh.points) point = to_scan->nearest_point(point);
+    for (Vector3& point : mended.mesh.points) point = to_scan->nearest_point(point);
   }
+  nodes.mesh = std::move(mended.mesh);
   result.report.self_intersections = self_intersections(nodes.mesh).size();
   if (result.report.self_intersections > 0 && placement.refuse_self_intersections) {
     throw Error(ErrorCode::NumericalFailure,
@@ -217,7 +268,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     nodes.radii.push_back(radius);
     nodes.directions.push_back(radius > 0.0 ? Vector3(point / radius) : Vector3::UnitX());
   }
-  nodes.cell_areas = std::move(tessellation.cell_areas);
+  // A node that was moved or relocated has no power cell, so all get their share of the triangles.
+  nodes.cell_areas = changed ? vertex_areas(nodes.mesh) : std::move(tessellation.cell_areas);
   result.relaxation = std::move(tessellation.report);
   return result;
 }

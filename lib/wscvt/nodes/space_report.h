@@ -12,6 +12,14 @@ struct NormalFitReport {
   double offset = 0.0;  ///< along all normals, that made the volume exact; length
 };
 
+/// What mending of triangles did (triangle_mending.h).
+struct TriangleMendingReport {
+  int flips = 0;        ///< of edges
+  int moves = 0;        ///< of nodes along the surface
+  int relocations = 0;  ///< of nodes, from where they crowd to where they are sparse
+  int left = 0;         ///< triangles that still have a smaller angle
+};
+
 /// What became of nodes on a mapped surface.
 struct SpaceNodesReport {
   std::size_t self_intersections = 0;  ///< pairs of triangles of the mesh that meet, exactly
@@ -21,7 +29,8 @@ struct SpaceNodesReport {
   /// volume, or their triangles meet), and so many would do; too_many_nodes where none of the
   /// numbers tried does.
   int enough_nodes = 0;
-  NormalFitReport fit;  ///< of a least-squares placement
+  TriangleMendingReport mending;  ///< of triangles that the sphere had jammed
+  NormalFitReport fit;            ///< of a least-squares placement
 };
 
 /// No number of nodes up to sixteen times that asked for would do.

@@ -96,6 +96,10 @@ Json json_of(const SpaceNodesReport& space) {
           {"repairs", space.repairs},
           {"volume_loss_on_surface", space.volume_loss},
           {"enough_nodes", space.enough_nodes},
+          {"mending_flips", space.mending.flips},
+          {"mending_moves", space.mending.moves},
+          {"mending_relocations", space.mending.relocations},
+          {"mending_left", space.mending.left},
           {"fit_samples", space.fit.samples},
           {"fit_held_back", space.fit.held_back},
           {"fit_offset", space.fit.offset}};

@@ -150,6 +150,16 @@ void append_space(const RemeshResult& result, std::vector<std::string>& lines) {
   if (result.options.placement.kind == NodePlacement::Series) {
     lines.push_back(line("Placement", "on the scan; a spherical map has no fitted series"));
   }
+  const TriangleMendingReport& mending = space.mending;
+  if (mending.flips + mending.moves + mending.relocations > 0) {
+    lines.push_back(line(
+        "Mended",
+        "triangles with angles below 35 degrees, by " +
+            counted(static_cast<std::size_t>(mending.flips), "flip", "flips") + ", " +
+            counted(static_cast<std::size_t>(mending.moves), "move", "moves") + " and " +
+            counted(static_cast<std::size_t>(mending.relocations), "relocation", "relocations") +
+            " of nodes; " + std::to_string(mending.left) + " left"));
+  }
   if (space.fit.samples > 0) {
     lines.push_back(line(
         "Placement",

@@ -1,0 +1,525 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/triangle_mending.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/mesh.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/nodes/self_intersections.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Cosines and dot products that differ by less count as equal, so that rounding makes no changes.
+constexpr double least_gain = 1e-6;
+
+/// Angles below 8 degrees, and turns above 130.
+const double sliver_cosine = std::cos(8.0 * pi / 180.0);
+const double folded_cosine = std::cos(130.0 * pi / 180.0);
+
+/// Rings about a small angle in which nodes may move and edges flip.
+constexpr int active_rings = 2;
+
+/// Of a node of a closed mesh; the angles decide whether so few are wanted.
+constexpr unsigned fewest_neighbours = 3;
+
+/// Finds the nearest point of the scan without leaving its sheet: over the faces that hang together
+/// within the ball that reaches from the target to the place the search begins at.
+class SheetSearch {
+ public:
+  explicit SheetSearch(const MappedSurface& surface)
+      : surface_(surface), visited_(surface.mesh().triangles.size(), 0) {}
+
+  MeshPlace nearest(const Vector3& target, const MeshPlace& from) {
+    const std::vector<Triangle>& triangles = surface_.mesh().triangles;
+    const std::vector<Vector3>& points = surface_.mesh().points;
+    ++round_;
+    MeshPlace best = from;
+    double smallest = (surface_.position(from) - target).squaredNorm();
+    const double reach = smallest;
+    faces_.assign(1, from.triangle);
+    visited_[from.triangle] = round_;
+    for (std::size_t next = 0; next < faces_.size() && next < most_faces; ++next) {
+      const std::int32_t face = faces_[next];
+      const auto& [a, b, c] = triangles[face];
+      const Vector3 weights = nearest_weights(points[a], points[b], points[c], target);
+      const MeshPlace place{face, weights};
+      const double distance = (surface_.position(place) - target).squaredNorm();
+      if (distance < smallest) {
+        smallest = distance;
+        best = place;
+      }
+      if (next > 0 && distance > reach) continue;
+      for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
+        const std::int32_t other = surface_.opposite()[h] / 3;
+        if (visited_[other] == round_) continue;
+        visited_[other] = round_;
+        faces_.push_back(other);
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// A step is a part of a cell, and a cell has some tens of faces of the scan.
+  static constexpr std::size_t most_faces = 20000;
+
+  const MappedSurface& surface_;
+  std::vector<std::int32_t> visited_;  ///< the search in which a face was last looked at
+  std::vector<std::int32_t> faces_;
+  std::int32_t round_ = 0;
+};
+
+/// The worst of some triangles: of their angles the smallest, of their edges the one that turns
+/// most, as cosines.
+struct Worst {
+  double angle = -1.0;  ///< largest cosine
+  double turn = 1.0;    ///< smallest cosine
+  int small = 0;        ///< triangles with an angle below the limit
+};
+
+class Mender {
+ public:
+  Mender(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
+         const MappedSurface& surface, const TriangleMendingOptions& options)
+      : surface_(surface),
+        search_(surface),
+        mesh_(to_mesh(nodes)),
+        points_(nodes.points),
+        places_(places),
+        origin_(nodes.points.size()),
+        angle_limit_(std::cos(options.smallest_angle * pi / 180.0)),
+        turn_limit_(std::cos(options.largest_turn * pi / 180.0)) {
+    mesh_.request_vertex_status();
+    mesh_.request_edge_status();
+    mesh_.request_face_status();
+    mesh_.request_halfedge_status();
+    for (std::size_t i = 0; i < origin_.size(); ++i) origin_[i] = static_cast<std::int32_t>(i);
+  }
+
+  int small_angles() const {
+    int count = 0;
+    for (const auto face : mesh_.faces()) count += angle_of(face) > angle_limit_ ? 1 : 0;
+    return count;
+  }
+
+  /// Flips and moves about the small angles; returns how many.
+  int improve(TriangleMendingReport& report) {
+    mark_active();
+    const int before = report.flips + report.moves;
+    for (const auto edge : mesh_.edges()) report.flips += try_flip(edge) ? 1 : 0;
+    for (const auto vertex : mesh_.vertices()) {
+      if (active_[vertex.idx()] != 0) report.moves += try_move(vertex) ? 1 : 0;
+    }
+    return report.flips + report.moves - before;
+  }
+
+  /// Takes a node out of every triangle with a small angle where that helps, and puts it into the
+  /// edge that is longest beside its neighbours; returns how many.
+  int relocate(TriangleMendingReport& report) {
+    int count = 0;
+    const auto faces = static_cast<int>(mesh_.n_faces());
+    for (int f = 0; f < faces; ++f) {
+      const OpenMesh::FaceHandle face(f);
+      if (mesh_.status(face).deleted() || !(angle_of(face) > angle_limit_)) continue;
+      OpenMesh::HalfedgeHandle shortest;
+      double length = std::numeric_limits<double>::infinity();
+      for (const auto h : mesh_.fh_range(face)) {
+        if (const double l = length_of(h); l < length) {
+          length = l;
+          shortest = h;
+        }
+      }
+      const OpenMesh::HalfedgeHandle back = mesh_.opposite_halfedge_handle(shortest);
+      for (const OpenMesh::HalfedgeHandle h : {shortest, back}) {
+        const std::int32_t removed = mesh_.from_vertex_handle(h).idx();
+        if (!try_collapse(h)) continue;
+        insert(origin_[removed]);
+        ++count;
+        break;
+      }
+    }
+    if (count > 0) compact();
+    report.relocations += count;
+    return count;
+  }
+
+  IndexedMesh result(std::vector<std::int32_t>& relocated) const {
+    IndexedMesh mesh;
+    mesh.points.resize(points_.size());
+    relocated.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const std::int32_t node = number_of(static_cast<std::int32_t>(i));
+      mesh.points[node] = points_[i];
+      if (origin_[i] < 0) relocated.push_back(node);
+    }
+    std::sort(relocated.begin(), relocated.end());
+    for (const auto face : mesh_.faces()) {
+      Triangle t;
+      std::size_t k = 0;
+      for (const auto v : mesh_.fv_range(face)) t[k++] = number_of(v.idx());
+      mesh.triangles.push_back(t);
+    }
+    return mesh;
+  }
+
+ private:
+  /// The node that a vertex stands for: its own, or, of one that was put in, that of the one taken
+  /// out for it.
+  std::int32_t number_of(std::int32_t vertex) const {
+    return origin_[vertex] >= 0 ? origin_[vertex] : -1 - origin_[vertex];
+  }
+
+  double length_of(OpenMesh::HalfedgeHandle h) const {
+    return (points_[mesh_.from_vertex_handle(h).idx()] - points_[mesh_.to_vertex_handle(h).idx()])
+        .norm();
+  }
+
+  Triangle corners_of(OpenMesh::FaceHandle face) const {
+    const OpenMesh::HalfedgeHandle h = mesh_.halfedge_handle(face);
+    const OpenMesh::HalfedgeHandle next = mesh_.next_halfedge_handle(h);
+    return {mesh_.from_vertex_handle(h).idx(), mesh_.from_vertex_handle(next).idx(),
+            mesh_.to_vertex_handle(next).idx()};
+  }
+
+  double angle_of(OpenMesh::FaceHandle face) const {
+    const Triangle t = corners_of(face);
+    return largest_corner_cosine(points_[t[0]], points_[t[1]], points_[t[2]]);
+  }
+
+  Vector3 normal_of(OpenMesh::FaceHandle face) const {
+    const Triangle t = corners_of(face);
+    return doubled_area_normal(points_[t[0]], points_[t[1]], points_[t[2]]).normalized();
+  }
+
+  void count_angle(OpenMesh::FaceHandle face, Worst& worst) const {
+    const double angle = angle_of(face);
+    worst.angle = std::max(worst.angle, angle);
+    worst.small += angle > angle_limit_ ? 1 : 0;
+  }
+
+  /// Of the triangles around a vertex, their edges and the edges around them.
+  Worst worst_around(OpenMesh::VertexHandle vertex) const {
+    Worst worst;
+    for (const auto h : mesh_.voh_range(vertex)) {
+      const OpenMesh::FaceHandle face = mesh_.face_handle(h);
+      count_angle(face, worst);
+      const Vector3 normal = normal_of(face);
+      for (const OpenMesh::HalfedgeHandle edge :
+           {OpenMesh::HalfedgeHandle(h), OpenMesh::HalfedgeHandle(mesh_.next_halfedge_handle(h))}) {
+        worst.turn = std::min(worst.turn, normal.dot(normal_of(mesh_.opposite_face_handle(edge))));
+      }
+    }
+    return worst;
+  }
+
+  /// Of the two triangles at an edge, it and the four edges around them.
+  Worst worst_at(OpenMesh::HalfedgeHandle h) const {
+    Worst worst;
+    for (const OpenMesh::HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
+      const OpenMesh::FaceHandle face = mesh_.face_handle(side);
+      worst.angle = std::max(worst.angle, angle_of(face));
+      const Vector3 normal = normal_of(face);
+      for (const auto edge : mesh_.fh_range(face)) {
+        worst.turn = std::min(worst.turn, normal.dot(normal_of(mesh_.opposite_face_handle(edge))));
+      }
+    }
+    return worst;
+  }
+
+  /// The normal of a sliver says nothing about the surface, so the way out of one is free up to
+  /// where triangles would lie back on each other.
+  bool turns_less(const Worst& after, const Worst& before) const {
+    const bool sliver = before.angle > sliver_cosine;
+    return after.turn >= std::min(sliver ? folded_cosine : turn_limit_, before.turn - least_gain);
+  }
+
+  void mark_active() {
+    active_.assign(points_.size(), 0);
+    for (const auto face : mesh_.faces()) {
+      if (!(angle_of(face) > angle_limit_)) continue;
+      for (const std::int32_t v : corners_of(face)) active_[v] = 1;
+    }
+    for (int ring = 1; ring <= active_rings; ++ring) {
+      std::vector<char> grown = active_;
+      for (const auto h : mesh_.halfedges()) {
+        if (active_[h.from().idx()] != 0) grown[h.to().idx()] = 1;
+      }
+      active_ = std::move(grown);
+    }
+  }
+
+  bool try_flip(OpenMesh::EdgeHandle edge) {
+    const OpenMesh::HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
+    if (active_[mesh_.from_vertex_handle(h).idx()] == 0 ||
+        active_[mesh_.to_vertex_handle(h).idx()] == 0 || !mesh_.is_flip_ok(edge)) {
+      return false;
+    }
+    if (mesh_.valence(mesh_.from_vertex_handle(h)) <= fewest_neighbours ||
+        mesh_.valence(mesh_.to_vertex_handle(h)) <= fewest_neighbours) {
+      return false;
+    }
+    const Worst before = worst_at(h);
+    mesh_.flip(edge);
+    const Worst after = worst_at(h);
+    if (after.angle < before.angle - least_gain && turns_less(after, before)) return true;
+    mesh_.flip(edge);
+    return false;
+  }
+
+  /// Middle of the triangles around a vertex, by area.
+  Vector3 ring_centroid(OpenMesh::VertexHandle vertex) const {
+    Vector3 sum = Vector3::Zero();
+    double area = 0.0;
+    for (const auto face : mesh_.vf_range(vertex)) {
+      const Triangle t = corners_of(face);
+      const double part = triangle_area(points_[t[0]], points_[t[1]], points_[t[2]]);
+      sum += part / 3.0 * (points_[t[0]] + points_[t[1]] + points_[t[2]]);
+      area += part;
+    }
+    return area > 0.0 ? Vector3(sum / area) : points_[vertex.idx()];
+  }
+
+  bool try_move(OpenMesh::VertexHandle vertex) {
+    const std::int32_t v = vertex.idx();
+    const Vector3 start = points_[v];
+    const Worst before = worst_around(vertex);
+    const Vector3 target = ring_centroid(vertex);
+    for (const double share : {1.0, 0.5, 0.25}) {
+      const MeshPlace place = search_.nearest(start + share * (target - start), places_[v]);
+      points_[v] = surface_.position(place);
+      const Worst after = worst_around(vertex);
+      const bool better = before.angle > angle_limit_ ? after.angle < before.angle - least_gain
+                                                      : after.angle < angle_limit_;
+      // Steps of a thousandth of the way would go on for ever.
+      const bool moves = (points_[v] - start).norm() > 1e-3 * shortest_about(vertex);
+      if (better && moves && turns_less(after, before)) {
+        places_[v] = place;
+        return true;
+      }
+    }
+    points_[v] = start;
+    return false;
+  }
+
+  double shortest_about(OpenMesh::VertexHandle vertex) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const auto h : mesh_.voh_range(vertex)) shortest = std::min(shortest, length_of(h));
+    return shortest;
+  }
+
+  /// Whether the vertex that the half-edge starts at goes into the one it ends at, which stays.
+  bool try_collapse(OpenMesh::HalfedgeHandle h) {
+    const OpenMesh::VertexHandle from = mesh_.from_vertex_handle(h);
+    const OpenMesh::VertexHandle to = mesh_.to_vertex_handle(h);
+    if (!mesh_.is_collapse_ok(h) ||
+        mesh_.valence(from) + mesh_.valence(to) < fewest_neighbours + 4) {
+      return false;
+    }
+    for (const OpenMesh::HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
+      if (mesh_.valence(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side))) <=
+          fewest_neighbours) {
+        return false;
+      }
+    }
+    const Worst at_from = worst_around(from);
+    Worst before = worst_around(to);
+    before.angle = std::max(before.angle, at_from.angle);
+    before.turn = std::min(before.turn, at_from.turn);
+    before.small += at_from.small;
+    // Those at the edge were counted at both its ends.
+    Worst twice;
+    for (const OpenMesh::HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
+      count_angle(mesh_.face_handle(side), twice);
+    }
+    before.small -= twice.small;
+    const Worst after = worst_without(h);
+    // In a crowd one small angle is as bad as the next; there the fewer of them the better.
+    const bool better = after.angle < before.angle - least_gain ||
+                        (after.angle <= before.angle && after.small < before.small);
+    if (!better || !turns_less(after, before)) return false;
+    mesh_.collapse(h);
+    return true;
+  }
+
+  /// What worst_around `to` would be after the collapse.
+  Worst worst_without(OpenMesh::HalfedgeHandle h) {
+    const OpenMesh::VertexHandle from = mesh_.from_vertex_handle(h);
+    const OpenMesh::VertexHandle to = mesh_.to_vertex_handle(h);
+    const Vector3 place = points_[from.idx()];
+    points_[from.idx()] = points_[to.idx()];
+    Worst worst;
+    const auto look_at = [&](OpenMesh::VertexHandle vertex) {
+      for (const auto out : mesh_.voh_range(vertex)) {
+        const OpenMesh::FaceHandle face = mesh_.face_handle(out);
+        if (goes(face, from, to)) continue;
+        count_angle(face, worst);
+        const Vector3 normal = normal_of(face);
+        for (const auto edge : mesh_.fh_range(face)) {
+          OpenMesh::FaceHandle other = mesh_.opposite_face_handle(edge);
+          // Across a triangle that vanishes lies the one beyond it.
+          if (goes(other, from, to)) {
+            const OpenMesh::HalfedgeHandle inner = mesh_.opposite_halfedge_handle(edge);
+            const OpenMesh::HalfedgeHandle next = mesh_.next_halfedge_handle(inner);
+            const OpenMesh::HalfedgeHandle last = mesh_.next_halfedge_handle(next);
+            const auto joins = [&](OpenMesh::HalfedgeHandle e) {
+              const auto a = mesh_.from_vertex_handle(e);
+              const auto b = mesh_.to_vertex_handle(e);
+              return (a == from && b == to) || (a == to && b == from);
+            };
+            other = mesh_.opposite_face_handle(joins(next) ? last : next);
+            if (goes(other, from, to)) continue;
+          }
+          worst.turn = std::min(worst.turn, normal.dot(normal_of(other)));
+        }
+      }
+    };
+    look_at(from);
+    look_at(to);
+    points_[from.idx()] = place;
+    return worst;
+  }
+
+  bool goes(OpenMesh::FaceHandle face, OpenMesh::VertexHandle a, OpenMesh::VertexHandle b) const {
+    const Triangle t = corners_of(face);
+    return std::count(t.begin(), t.end(), a.idx()) + std::count(t.begin(), t.end(), b.idx()) == 2;
+  }
+
+  /// Puts the node that was taken out into the middle of the edge that is longest beside the other
+  /// edges of its two triangles.
+  void insert(std::int32_t node) {
+    OpenMesh::EdgeHandle longest;
+    double largest = 0.0;
+    for (const auto edge : mesh_.edges()) {
+      const OpenMesh::HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
+      double others = 0.0;
+      for (const OpenMesh::HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
+        const OpenMesh::HalfedgeHandle next = mesh_.next_halfedge_handle(side);
+        others += length_of(next) + length_of(mesh_.next_halfedge_handle(next));
+      }
+      const double ratio = length_of(h) / others;
+      if (ratio > largest) {
+        largest = ratio;
+        longest = edge;
+      }
+    }
+    const OpenMesh::HalfedgeHandle h = mesh_.halfedge_handle(longest, 0);
+    const std::int32_t a = mesh_.from_vertex_handle(h).idx();
+    const std::int32_t b = mesh_.to_vertex_handle(h).idx();
+    const MeshPlace place = search_.nearest(0.5 * (points_[a] + points_[b]), places_[a]);
+    const OpenMesh::VertexHandle added = mesh_.add_vertex(Mesh::Point(0.0, 0.0, 0.0));
+    points_.push_back(surface_.position(place));
+    places_.push_back(place);
+    origin_.push_back(-1 - (node >= 0 ? node : -1 - node));
+    mesh_.split(longest, added);
+  }
+
+  /// Closes the gaps in the arrays that collapses left.
+  void compact() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (mesh_.status(OpenMesh::VertexHandle(static_cast<int>(i))).deleted()) continue;
+      mesh_.set_point(OpenMesh::VertexHandle(static_cast<int>(i)),
+                      Mesh::Point(static_cast<double>(i), 0.0, 0.0));
+      ++kept;
+    }
+    mesh_.garbage_collection();
+    std::vector<Vector3> points(kept);
+    std::vector<MeshPlace> places(kept);
+    std::vector<std::int32_t> origin(kept);
+    for (std::size_t i = 0; i < kept; ++i) {
+      // Garbage collection moves vertices about; their old numbers went with them as coordinates.
+      const auto old =
+          static_cast<std::size_t>(mesh_.point(OpenMesh::VertexHandle(static_cast<int>(i)))[0]);
+      points[i] = points_[old];
+      places[i] = places_[old];
+      origin[i] = origin_[old];
+    }
+    points_ = std::move(points);
+    places_ = std::move(places);
+    origin_ = std::move(origin);
+  }
+
+  const MappedSurface& surface_;
+  SheetSearch search_;
+  Mesh mesh_;  ///< only how the triangles hang together; the positions are in points_
+  std::vector<Vector3> points_;
+  std::vector<MeshPlace> places_;
+  std::vector<std::int32_t> origin_;  ///< node of each vertex; -1 - node of one that was put in
+  std::vector<char> active_;
+  double angle_limit_;
+  double turn_limit_;
+};
+
+void check_options(const TriangleMendingOptions& options) {
+  const auto refuse = [](const std::string& what, double value, const std::string& range) {
+    throw Error(ErrorCode::InvalidInput,
+                what + " is " + format_number(value) + "; give " + range + ".");
+  };
+  if (!(options.smallest_angle >= 0.0 && options.smallest_angle < 60.0)) {
+    refuse("The smallest angle of mending", options.smallest_angle,
+           "at least 0 and less than 60 degrees");
+  }
+  if (!(options.largest_turn > 0.0 && options.largest_turn <= 180.0)) {
+    refuse("The largest turn of mending", options.largest_turn,
+           "more than 0 and at most 180 degrees");
+  }
+  if (options.rounds < 0) refuse("The number of rounds", options.rounds, "0 or more");
+}
+
+}  // namespace
+
+MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
+                               const MappedSurface& surface, const TriangleMendingOptions& options,
+                               const Execution& execution) {
+  check_options(options);
+  if (places.size() != nodes.points.size()) {
+    throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(nodes.points.size()) +
+                                             " nodes, but " + std::to_string(places.size()) +
+                                             " places; give one each.");
+  }
+  MendedTriangles unchanged;
+  unchanged.mesh = nodes;
+  Mender mender(nodes, places, surface, options);
+  unchanged.report.left = mender.small_angles();
+  if (unchanged.report.left == 0) return unchanged;
+
+  // Relocations may leave more small angles for a while, so the best of all rounds is looked for.
+  std::vector<MendedTriangles> better;
+  TriangleMendingReport report = unchanged.report;
+  int fewest = report.left;
+  for (int round = 0; round < options.rounds && report.left > 0; ++round) {
+    execution.report(0.0, "Mending triangles");
+    int changes = mender.improve(report);
+    // Moves come first: most angles need no more.
+    constexpr int rounds_a_relocation = 4;
+    if (changes == 0 || round % rounds_a_relocation == rounds_a_relocation - 1) {
+      changes += mender.relocate(report);
+    }
+    if (changes == 0) break;
+    report.left = mender.small_angles();
+    if (report.left < fewest) {
+      fewest = report.left;
+      MendedTriangles mended;
+      mended.mesh = mender.result(mended.relocated);
+      mended.report = report;
+      better.push_back(std::move(mended));
+    }
+  }
+  const std::size_t crossings = better.empty() ? 0 : self_intersections(nodes).size();
+  for (; !better.empty(); better.pop_back()) {
+    execution.report(0.5, "Mending triangles");
+    if (self_intersections(better.back().mesh).size() <= crossings) return std::move(better.back());
+  }
+  return unchanged;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/nodes/space_report.h"
+#include "wscvt/surface/mapped_surface.h"
+
+namespace wscvt {
+
+struct TriangleMendingOptions {
+  /// Triangles with a smaller angle are mended; degrees, in [0, 60).
+  double smallest_angle = 35.0;
+  /// No edge is made to turn further than this, or than it did before; degrees, in (0, 180]. On a
+  /// rough scan with five handles 70 left an angle of 20 degrees, 90 none below 35, and 110 and 130
+  /// cut corners: 28 and 31 degrees, at a larger distance from the scan.
+  double largest_turn = 90.0;
+  int rounds = 40;  ///< at most; >= 0
+};
+
+struct MendedTriangles {
+  IndexedMesh mesh;                     ///< as many points and triangles as before
+  std::vector<std::int32_t> relocated;  ///< nodes that were relocated, ascending, each once
+  TriangleMendingReport report;
+};
+
+/// Mends the triangles of nodes on a mapped surface that the relaxation left with small angles.
+///
+/// The relaxation moves nodes only as far as the sphere's triangles stay counter-clockwise. Where a
+/// limb of the scan is squeezed to a thread there, nodes jam: they are free in space, but not on
+/// the sphere. Around each such triangle edges are flipped, nodes moved towards the centroid of
+/// their ring along the scan, and nodes that crowd taken out and put into the longest edges
+/// elsewhere (Botsch and Kobbelt 2004, "A remeshing approach to multiresolution modeling", with
+/// the number of nodes kept), each only where it raises the smallest angle of the triangles it
+/// touches, or keeps it above the limit, and turns no edge further than the options allow. The
+/// sphere is not asked: the result has places on the scan, but no longer directions. Every other
+/// triangle stays as it is.
+///
+/// `nodes` is a closed mesh, its points at `places`. In fixed order on one thread: the same input
+/// gives the same bytes. If more pairs of triangles meet afterwards than before, everything is as
+/// it was. Throws Error: InvalidInput for options out of range or other numbers of places,
+/// Cancelled.
+MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
+                               const MappedSurface& surface, const TriangleMendingOptions& options,
+                               const Execution& execution);
+
+}  // namespace wscvt
