@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE ${work_dir})
 set(absent)
-foreach(package GTest CLI11 Qt5 benchmark)
+foreach(package GTest CLI11 Qt5 benchmark pybind11)
   list(APPEND absent -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 execute_process(

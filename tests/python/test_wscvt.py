@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python module: arrays in and out, options by name, reports, progress, errors."""
+import ast
+import gc
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import wscvt
+
+MESHES = pathlib.Path(os.environ["WSCVT_MESHES_DIR"])
+
+
+@pytest.fixture(scope="module")
+def scan():
+    return wscvt.read_mesh(str(MESHES / "sand_7228.ply"))
+
+
+def volume(vertices, faces):
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    return np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0
+
+
+def test_remesh_gives_arrays_of_exactly_n_nodes(scan):
+    vertices, faces = scan
+    result = wscvt.remesh(vertices, faces, nodes=300, distances=True, source="sand")
+    assert result.vertices.shape == (300, 3) and result.vertices.dtype == np.float64
+    assert result.faces.shape == (596, 3) and result.faces.dtype == np.int32
+    assert volume(result.vertices, result.faces) == pytest.approx(volume(vertices, faces), rel=1e-9)
+    assert result.cell_areas.shape == result.vertex_distances.shape == (300,)
+    np.testing.assert_allclose(np.linalg.norm(result.vertices - result.centre, axis=1),
+                               result.radial_distances, rtol=1e-12)
+    assert result.report["source"] == "sand"
+    assert result.report["result"] == {"vertices": 300, "faces": 596}
+    assert result.report["distances"]["hausdorff"] >= result.vertex_distances.max() > 0.0
+    assert "300 nodes, 596 faces" in str(result)
+
+
+def test_arrays_outlive_what_they_came_from(scan):
+    result = wscvt.remesh(*scan, nodes=60)
+    vertices, copy = result.vertices, result.vertices.copy()
+    del result
+    gc.collect()
+    np.testing.assert_array_equal(vertices, copy)
+
+
+def test_it_is_the_remesh_of_the_program(scan, tmp_path):
+    wscvt.write_mesh(str(tmp_path / "ours.ply"), *(lambda r: (r.vertices, r.faces))(
+        wscvt.remesh(*scan, nodes=100, weighting="area", threads=1)))
+    program = pathlib.Path(wscvt.__file__).parents[2] / "wscvt"
+    subprocess.run([program, MESHES / "sand_7228.ply", tmp_path / "its.ply", "-q", "-n", "100",
+                    "-w", "area"], check=True)
+    assert (tmp_path / "ours.ply").read_bytes() == (tmp_path / "its.ply").read_bytes()
+
+
+def test_inputs_of_other_libraries(scan):
+    vertices, faces = scan
+    expected = wscvt.remesh(vertices, faces, nodes=60).vertices
+    for given in [(np.asfortranarray(vertices), np.asfortranarray(faces.astype(np.uint64))),
+                  (vertices.tolist(), faces.tolist()),
+                  (vertices[::1], faces[:, ::-1][:, ::-1].astype(np.int64))]:
+        np.testing.assert_array_equal(wscvt.remesh(*given, nodes=60).vertices, expected)
+    floats = vertices.astype(np.float32)  # as PyVista has them
+    np.testing.assert_allclose(wscvt.remesh(floats, faces, nodes=60).vertices.mean(axis=0),
+                               expected.mean(axis=0), atol=1e-2)
+    points = wscvt.remesh(vertices, None, nodes=60, points=True)
+    assert any("points" in warning for warning in points.warnings)
+
+
+
+def test_every_option_reaches_the_report():
+    report = wscvt.create("ellipsoid", nodes=60).report["options"]
+    defaults = wscvt.options()
+    assert [name.replace("_", "-") for name in defaults] == list(report)
+    choices = {name: keywords_of_the_stub("remesh")[name] for name in defaults}
+    for name, value in defaults.items():
+        if isinstance(value, bool):
+            other = not value
+        elif isinstance(value, str):
+            other = next(c for c in re.findall(r"'([^']+)'", choices[name]) if c != value)
+        else:
+            other = {"target": 30.0, "seed": 7, "refine": 1, "degree": 4, "nodes": 61,
+                     "refine_angle": 20.0, "over_relaxation": 1.1, "coarsest_seeds": 30,
+                     "fold_limit": 1.5, "mend_limit": 12.5}.get(name, value / 2)
+            other = type(value)(other)
+        try:
+            made = wscvt.create("ellipsoid", **{"nodes": 60, "placement": "least-squares", name: other})
+        except wscvt.Error as error:  # nodes that stay on the surface are not refined
+            pytest.fail(f"{name}={other}: {error}")
+        assert made.report["options"][name.replace("_", "-")] == other, name
+
+
+def keywords_of_the_stub(function):
+    stub = pathlib.Path(wscvt.__file__).with_name("__init__.pyi").read_text()
+    node = next(n for n in ast.parse(stub).body if getattr(n, "name", "") == function)
+    return {a.arg: ast.unparse(a.annotation) for a in node.args.kwonlyargs}
+
+
+@pytest.mark.parametrize("function", ["remesh", "create"])
+def test_the_stub_has_all_options_with_their_types(function):
+    keywords = keywords_of_the_stub(function)
+    for name, value in wscvt.options().items():
+        if isinstance(value, str):
+            for choice in re.findall(r"'([^']+)'", keywords[name]):
+                assert f"{choice}" in str(pytest.raises(
+                    wscvt.Error, wscvt.create, "ellipsoid", **{name: "no such"}).value)
+            assert repr(value) in keywords[name]
+        else:
+            assert keywords[name] == type(value).__name__, name
+    signature = getattr(wscvt, function).__doc__
+    for name in set(keywords) - set(wscvt.options()):
+        assert f"{name}:" in signature
+
+
+def test_what_is_refused(scan):
+    vertices, faces = scan
+    for call, code, part in [
+            (lambda: wscvt.remesh(vertices, faces, nodes=3), "invalid-input", "4 to 1000000"),
+            (lambda: wscvt.remesh(vertices, faces, weighting="no"), "invalid-input", "constant"),
+            (lambda: wscvt.remesh(vertices, faces + 1), "invalid-input", "7228"),
+            (lambda: wscvt.remesh(vertices, faces - 1), "invalid-input", "-1"),
+            (lambda: wscvt.remesh(vertices.ravel(), faces), "invalid-input", "(n, 3)"),
+            (lambda: wscvt.remesh(vertices, faces.ravel()), "invalid-input", "regular_faces"),
+            (lambda: wscvt.remesh(vertices * np.nan, faces), "invalid-input", "finite"),
+            (lambda: wscvt.remesh(vertices, faces, threads=-1), "invalid-input", "thread"),
+            (lambda: wscvt.read_mesh("no.ply"), "input-output", "no.ply"),
+            (lambda: wscvt.create("cube"), "invalid-input", "superellipsoid")]:
+        with pytest.raises(wscvt.Error) as refused:
+            call()
+        assert refused.value.code == code
+        assert part in str(refused.value)
+        assert isinstance(refused.value, RuntimeError)
+    for call, part in [(lambda: wscvt.remesh(vertices, faces, nodse=3), "nodse"),
+                       (lambda: wscvt.remesh(vertices, faces, nodes=2.5), "whole number"),
+                       (lambda: wscvt.remesh(vertices, faces, nodes="many"), "many"),
+                       (lambda: wscvt.remesh(vertices, faces, nodes=10**30), "4 to 1000000"),
+                       (lambda: wscvt.remesh(vertices, faces.astype(float)), "whole numbers"),
+                       (lambda: wscvt.remesh(vertices, faces, weighting=3), "constant")]:
+        with pytest.raises(TypeError, match=part):
+            call()
+
+
+def test_progress_tells_and_cancels(scan):
+    told = []
+    wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: told.append((fraction, stage)))
+    assert told[-1] == (1.0, "Done")
+    assert all(0.0 <= fraction <= 1.0 for fraction, _ in told)
+    with pytest.raises(wscvt.Error) as cancelled:
+        wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: fraction < 0.2)
+    assert cancelled.value.code == "cancelled"
+    with pytest.raises(ZeroDivisionError):
+        wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: 1 / 0)
+
+
+def test_ctrl_c_ends_the_work():
+    code = ("import os, signal, threading, wscvt\n"
+            "threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
+            "wscvt.create('ellipsoid', nodes=200000)\n")
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert "KeyboardInterrupt" in ended.stderr
+
+
+def test_other_threads_run_meanwhile(scan):
+    stages = []
+    start = threading.Event()
+
+    def work():
+        stages.append("begun")
+        start.set()
+        wscvt.remesh(*scan, nodes=2000)
+        stages.append("done")
+
+    worker = threading.Thread(target=work)
+    worker.start()
+    start.wait()
+    ran = sum(1 for _ in range(1000))
+    stages.append(ran)
+    worker.join()
+    assert stages == ["begun", 1000, "done"]
+
+
+def test_create_and_describe_know_an_ellipsoid():
+    made = wscvt.create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=2000,
+                        placement="least-squares")
+    exact = 4.0 / 3.0 * math.pi * 0.48
+    assert volume(made.vertices, made.faces) == pytest.approx(exact, rel=1e-9)
+    on = wscvt.create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=100).vertices
+    np.testing.assert_allclose(((on / [1.0, 0.8, 0.6]) ** 2).sum(axis=1), 1.0, rtol=1e-12)
+    shape = wscvt.describe(made.vertices, made.faces)
+    assert shape["descriptors"]["axis_l_box"] == pytest.approx(2.0, rel=1e-2)
+    larger = wscvt.describe(1.1 * made.vertices, made.faces, (made.vertices, made.faces))
+    assert larger["descriptors"]["volume"]["error_percent"] == pytest.approx(33.1, abs=1e-6)
+
+
+def test_the_readme_works(scan, tmp_path, monkeypatch, capsys):
+    readme = pathlib.Path(os.environ["WSCVT_README"]).read_text()
+    code, = re.findall(r"```python\n(.*?)```", readme, re.S)
+    monkeypatch.chdir(tmp_path)
+    wscvt.write_mesh("scan.ply", *scan)
+    exec(code, {})
+    vertices, faces = wscvt.read_mesh("remesh.stl")
+    assert len(faces) == 996
+    assert len(capsys.readouterr().out.splitlines()) == 2
