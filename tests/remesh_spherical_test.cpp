@@ -78,6 +78,20 @@ TEST(RemeshSpherical, BentBodiesKeepTheirShape) {
   }
 }
 
+TEST(RemeshSpherical, ContactNodesKeepTheMeshWhole) {
+  for (const char* name : {"hook", "mushroom"}) {
+    const RemeshResult fitted =
+        remesh(body(name), options_of(400, NodePlacement::LeastSquares), Execution(2));
+    const RemeshResult contact =
+        remesh(body(name), options_of(400, NodePlacement::Contact), Execution(2));
+    expect_valid(contact, 400, name);
+    EXPECT_EQ(contact.mesh.triangles, fitted.mesh.triangles) << name;
+    EXPECT_GT(contact.remesh.volume, 1.001 * fitted.remesh.volume) << name;
+    EXPECT_LT(contact.remesh.volume, 1.1 * fitted.remesh.volume) << name;
+    EXPECT_EQ(contact.space.self_intersections, 0U) << name;
+  }
+}
+
 TEST(RemeshSpherical, AHandfulOfNodesIsValidOrRefusedWithAReason) {
   for (const char* name : {"hook", "mushroom", "crescent"}) {
     const IndexedMesh scan = test::bent_grain_mesh(test::bent_grain(name), 3000);

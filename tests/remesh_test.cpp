@@ -744,6 +744,29 @@ RemeshOptions fitted_options(int nodes, int rounds = 0) {
   return options;
 }
 
+// Where they lie, and what contacts make of it, is tested beside fit_to_contacts and in the study.
+TEST(RemeshContact, NodesLieFartherOutTheSmallerTheBallsAndAdviceIsNotGiven) {
+  double volume = 0.98;
+  for (const double radius : {20.0, 1.3, 0.4}) {
+    RemeshOptions options = options_of(200, Weighting::RadialDistance);
+    options.placement.kind = NodePlacement::Contact;
+    options.placement.contact_radius = radius;
+    const RemeshResult result = remesh(sand(), options, Execution(2));
+    expect_promises(result, 200);
+    EXPECT_GT(result.remesh.volume / result.original.volume, volume) << radius;
+    volume = result.remesh.volume / result.original.volume;
+    EXPECT_TRUE(result.tried.empty());
+    EXPECT_TRUE(result.warnings.empty());
+    double area = 0.0;
+    for (const double cell : result.cell_areas) area += cell;
+    EXPECT_NEAR(area / result.remesh.area, 1.0, 1e-12);
+  }
+  EXPECT_LT(volume, 1.06);
+  RemeshOptions wrong = options_of(200, Weighting::RadialDistance);
+  wrong.placement.contact_radius = 0.0;
+  EXPECT_ERROR(remesh(sand(), wrong, Execution(1)), InvalidInput);
+}
+
 TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
   for (const int nodes : {4, 8, 10, 12, 60, 400}) {
     SCOPED_TRACE(nodes);

@@ -154,8 +154,8 @@ inline RemeshOptions random_options(Choices& choices) {
   o.surface.parametrization = static_cast<Parametrization>(choices.whole(0, 2));
   o.surface.degree = choices.whole(1, 30);
   o.surface.fold_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 99.0);
-  o.placement.kind = static_cast<NodePlacement>(choices.whole(0, 2));
-  if (o.placement.kind == NodePlacement::LeastSquares && choices.one_in(2)) {
+  o.placement.kind = static_cast<NodePlacement>(choices.whole(0, 3));
+  if (is_fitted(o.placement.kind) && choices.one_in(2)) {
     o.placement.refinement.rounds = choices.whole(1, 12);
     o.placement.refinement.smallest_angle = choices.one_in(2) ? 15.5 : choices.real(0.0, 40.0);
     o.placement.refinement.tolerance = choices.one_in(2) ? 2e-3 : choices.real(0.0, 0.99);

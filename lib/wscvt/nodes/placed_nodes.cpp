@@ -7,6 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/nodes/contact_fit.h"
 #include "wscvt/nodes/node_placement.h"
 #include "wscvt/nodes/node_refinement.h"
 
@@ -18,6 +19,14 @@ void put_on_radii(PlacedNodes& nodes) {
   nodes.mesh.points.resize(nodes.directions.size());
   for (std::size_t i = 0; i < nodes.directions.size(); ++i) {
     nodes.mesh.points[i] = nodes.radii[i] * nodes.directions[i];
+  }
+}
+
+/// Back from the points.
+void take_polar_coordinates(PlacedNodes& nodes) {
+  for (std::size_t i = 0; i < nodes.radii.size(); ++i) {
+    nodes.radii[i] = nodes.mesh.points[i].norm();
+    nodes.directions[i] = nodes.mesh.points[i] / nodes.radii[i];
   }
 }
 
@@ -37,18 +46,16 @@ void place_by_least_squares(const MeshSurface& scan, SphereTriangulation triangu
     nodes.refinement = std::move(refined.report);
   }
   scale_to_volume(nodes.mesh.triangles, volume, nodes.mesh.points, execution);
-  for (std::size_t i = 0; i < nodes.radii.size(); ++i) {
-    nodes.radii[i] = nodes.mesh.points[i].norm();
-    nodes.directions[i] = nodes.mesh.points[i] / nodes.radii[i];
-  }
+  take_polar_coordinates(nodes);
   if (refinement.rounds > 0) nodes.cell_areas = vertex_areas(nodes.mesh);
 }
 
 }  // namespace
 
 void check_placement_options(const PlacementOptions& options) {
+  require_in_range(options.contact_radius, contact_radius_option);
   check_refinement_options(options.refinement);
-  if (options.refinement.rounds > 0 && options.kind != NodePlacement::LeastSquares) {
+  if (options.refinement.rounds > 0 && !is_fitted(options.kind)) {
     throw Error(ErrorCode::InvalidInput,
                 "Refinement takes the nodes off the surface they were to be placed on; place them "
                 "by least squares, or set the rounds of the refinement to 0.");
@@ -56,8 +63,7 @@ void check_placement_options(const PlacementOptions& options) {
 }
 
 bool needs_rays(const PlacementOptions& options, bool is_scan) {
-  return options.kind == NodePlacement::LeastSquares ||
-         (options.kind == NodePlacement::Scan && is_scan);
+  return is_fitted(options.kind) || (options.kind == NodePlacement::Scan && is_scan);
 }
 
 PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, RelaxationMetric metric,
@@ -86,9 +92,15 @@ PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, Relaxation
   put_on_radii(nodes);
   triangulation.restore_surface_delaunay(nodes.directions, nodes.mesh.points, execution);
   nodes.mesh.triangles = triangulation.triangles();
-  if (options.kind == NodePlacement::LeastSquares) {
+  if (is_fitted(options.kind)) {
     place_by_least_squares(*grain.rays, std::move(triangulation), volume, options.refinement, nodes,
                            execution);
+  }
+  if (options.kind == NodePlacement::Contact) {
+    nodes.mesh.points =
+        fit_to_contacts(nodes.mesh, grain.mesh, options.contact_radius, execution.part(0.5, 1.0));
+    take_polar_coordinates(nodes);
+    nodes.cell_areas = vertex_areas(nodes.mesh);
   }
   return nodes;
 }

@@ -11,6 +11,7 @@
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/nodes/contact_fit.h"
 #include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/nodes/triangle_mending.h"
@@ -237,7 +238,7 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   }
   const bool changed = mended.report.flips + mended.report.moves + mended.report.relocations > 0;
   result.report.mending = mended.report;
-  if (placement.kind == NodePlacement::LeastSquares) {
+  if (is_fitted(placement.kind)) {
     const NormalFitOptions fitting;
     std::vector<FitSample> samples =
         deal_out(samples_of(grain, std::max(fitting.samples, 10 * tessellation.seeds.size()),
@@ -252,6 +253,11 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     for (Vector3& point : mended.mesh.points) point = to_scan->nearest_point(point);
   }
   nodes.mesh = std::move(mended.mesh);
+  const bool for_contacts = placement.kind == NodePlacement::Contact;
+  if (for_contacts) {
+    nodes.mesh.points = fit_to_contacts(nodes.mesh, grain.mesh, placement.contact_radius,
+                                        execution.part(0.95, 1.0));
+  }
   result.report.self_intersections = self_intersections(nodes.mesh).size();
   if (result.report.self_intersections > 0 && placement.refuse_self_intersections) {
     throw Error(ErrorCode::NumericalFailure,
@@ -269,7 +275,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     nodes.directions.push_back(radius > 0.0 ? Vector3(point / radius) : Vector3::UnitX());
   }
   // A node that was moved or relocated has no power cell, so all get their share of the triangles.
-  nodes.cell_areas = changed ? vertex_areas(nodes.mesh) : std::move(tessellation.cell_areas);
+  nodes.cell_areas =
+      changed || for_contacts ? vertex_areas(nodes.mesh) : std::move(tessellation.cell_areas);
   result.relaxation = std::move(tessellation.report);
   return result;
 }

@@ -96,6 +96,7 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.points, points_option);
   visitor(options.relaxation.metric);
   visitor(options.placement.kind);
+  visitor(options.placement.contact_radius, contact_radius_option);
   visitor(options.placement.refuse_self_intersections, refuse_self_intersections_option);
   visitor(options.placement.refinement.rounds, refinement_rounds_option);
   visitor(options.placement.refinement.smallest_angle, refinement_angle_option);

@@ -192,6 +192,8 @@ void warn_of_search(const RemeshResult& result, Sentences& warnings) {
 }  // namespace
 
 bool misses_the_scan(const RemeshResult& result) {
+  // What contact nodes are fitted to is not the scan's shape.
+  if (result.options.placement.kind == NodePlacement::Contact) return false;
   return result.misfit > misfit_warning_limit * result.input.equivalent_radius ||
          std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
 }
