@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [engines] [packages] [hosts] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [engines] [package] [slurm] [hosts] [debian13] [sid]
 # Without arguments: install and release. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -48,9 +48,13 @@ for step in "$@"; do
       # After release. Yade, LIGGGHTS, Gmsh and VTK are 1 GB, so a step of its own.
       tests/install_packages.sh yade liggghts gmsh python3-vtk9 python3-numpy
       tests/engines/run.sh build/release/lib/wscvt build/engines ;;
-    packages)
+    package)
       # After release. A step of its own, because it installs and removes packages of the system.
       tests/packages.sh build/release build/packages ;;
+    slurm)
+      # After release; as root.
+      tests/install_packages.sh slurm-wlm parallel
+      tests/slurm.sh build/release/lib/wscvt build/slurm ;;
     hosts)
       # The plugin for versions of MeshLab that are not installed, with the tests that need no
       # program of theirs. A step of its own: parts of two MeshLabs are compiled.
