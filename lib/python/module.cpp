@@ -149,6 +149,21 @@ class OptionsToDict {
   py::dict options_;
 };
 
+/// The names that the values of an option have, by the option.
+class ChoicesToDict {
+ public:
+  template <class Number>
+  void operator()(const Number&, const wscvt::NumberOption<Number>&) {}
+  void operator()(const bool&, const wscvt::FlagOption&) {}
+  template <class Enumeration>
+  void operator()(const Enumeration&) {
+    py::list names;
+    for (const auto& row : wscvt::enumerators<Enumeration>()) names.append(std::string(row.key));
+    choices_[keyword_of(wscvt::EnumerationTable<Enumeration>::key).c_str()] = names;
+  }
+  py::dict choices_;
+};
+
 // Meshes.
 
 std::vector<Vector3> points_of(const Points& vertices) {
@@ -378,6 +393,12 @@ PYBIND11_MODULE(_wscvt, module) {
       "All options of remesh and create with their defaults: the names that one types for the "
       "program, "
       "with _ for -.");
+  module.def("_choices", [] {
+    ChoicesToDict dict;
+    const wscvt::RemeshOptions options;
+    for_each_option(options, dict);
+    return dict.choices_;
+  });
   module.def(
       "remesh", &remesh, py::arg("vertices"), py::arg("faces"), py::kw_only(),
       py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("source") = "",

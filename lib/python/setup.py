@@ -24,6 +24,7 @@ class CMakeBuild(build_ext):
                         str(os.cpu_count())], check=True)
         made, = (built / "lib" / "python" / "wscvt").glob("_wscvt*.so")
         folder.mkdir(parents=True, exist_ok=True)
+        self.copy_file(str(made.with_name("__init__.pyi")), str(folder))
         self.copy_file(str(made), str(folder / pathlib.Path(self.get_ext_filename(ext.name)).name))
 
 

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the stub of the module beside it, with every option that it has and its type.
+
+    make_stub.py TEMPLATE STUB
+"""
+import pathlib
+import sys
+
+template, stub = map(pathlib.Path, sys.argv[1:])
+sys.path.insert(0, str(stub.parent.parent))
+import wscvt  # noqa: E402: the one that was built
+
+choices = wscvt._wscvt._choices()
+
+
+def annotation(name, default):
+    if name in choices:
+        return "Literal[" + ", ".join(f'"{choice}"' for choice in choices[name]) + "]"
+    return type(default).__name__
+
+
+options = "".join(f"    {name}: {annotation(name, default)} = ...,\n"
+                  for name, default in wscvt.options().items())
+stub.write_text(template.read_text().replace("    # options\n", options))
