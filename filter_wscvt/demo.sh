@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the plugin and remeshes a sample with it, from nothing but a bare Debian 12 or 13. On 12
+# Builds the plugin and the program and remeshes a sample with it, from nothing but a bare Debian 12 or 13. On 12
 # through meshlabserver, whose log is printed; on 13, whose MeshLab has none, the program remeshes and
 # MeshLab's window shows the filter, in pictures beside the mesh.
 #   filter_wscvt/demo.sh [MESH [SCRIPT [OUTPUT]]]     (SCRIPT: for meshlabserver)
@@ -18,10 +18,7 @@ tests/install_packages.sh
 filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source"
 cmake --preset release -DMESHLAB_SOURCE_DIR="$PWD/build/meshlab-source"
 stage=$PWD/build/release/filter_wscvt/stage
-targets=wscvt_stage
-command -v meshlabserver > /dev/null || targets="$targets wscvt_program"
-# shellcheck disable=SC2086
-cmake --build --preset release --target $targets
+cmake --build --preset release --target wscvt_stage wscvt_program
 
 # The file appears under its name when it is whole; what was there until then stays. The folder
 # beside it has one name, so that what a killed run left is found.
@@ -53,4 +50,4 @@ else
   echo "The filter's dialog and its result are in $pictures-filter.png and $pictures-result.png."
 fi
 mv -T "$made" "$output"
-echo "The mesh is in $output."
+echo "The mesh is in $output; the program is build/release/lib/wscvt."

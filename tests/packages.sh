@@ -46,6 +46,9 @@ cd /
 wscvt "$root/meshes/sand_7228.ply" "$work/remesh.ply" -q -n 200
 grep -aq "element vertex 200" "$work/remesh.ply"
 bash -c '. /usr/share/bash-completion/completions/wscvt && complete -p wscvt' > /dev/null
+for command in $(wscvt --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
+  [ -e "/usr/share/man/man1/wscvt-$command.1" ] || fail "There is no manual page of $command."
+done
 # The library, by a project that knows nothing of this folder.
 cmake -S "$root/tests/consumer" -B "$work/consumer" > "$work/consumer.txt"
 cmake --build "$work/consumer" >> "$work/consumer.txt"

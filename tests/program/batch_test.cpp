@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program on a whole sample.
+#include <poll.h>
+#include <pty.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -9,6 +11,7 @@
 #include <csignal>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <string>
 #include <thread>
@@ -278,6 +281,41 @@ TEST_F(Batch, PartsAreStableAndJoinToTheWhole) {
   EXPECT_EQ(run("collect whole/grains.csv -o whole/grains.csv").exit_code, 1);
   EXPECT_EQ(run("collect whole/grains.csv -o bad.csv --report bad.pdf").exit_code, 1);
   EXPECT_FALSE(exists("bad.csv"));
+}
+
+TEST_F(Batch, TellsRateAndTimeLeftOnATerminal) {
+  write_scans(2);
+  // It waits for the second grain, a pipe, with one done and one to come.
+  const std::string kept = content(scan(1));
+  fs::remove(folder_ / scan(1));
+  ASSERT_EQ(mkfifo(path(scan(1)).c_str(), 0600), 0);
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    if (chdir(folder_.c_str()) != 0) _exit(99);
+    execl(WSCVT_PROGRAM, "wscvt", "batch", "scans", "-o", "out", "-n", "60", "-d", "6", nullptr);
+    _exit(98);
+  }
+  std::string seen;
+  const auto read_until = [&](const std::regex& wanted) {
+    for (int tries = 0; tries < 300 && !std::regex_search(seen, wanted); ++tries) {
+      pollfd waiting = {terminal, POLLIN, 0};
+      char bytes[4096];
+      const ssize_t count = poll(&waiting, 1, 100) > 0 ? read(terminal, bytes, sizeof bytes) : 0;
+      if (count < 0) break;  // the program has ended
+      seen.append(bytes, static_cast<std::size_t>(count));
+    }
+    return std::regex_search(seen, wanted);
+  };
+  EXPECT_TRUE(read_until(std::regex(
+      "50 %  1 of 2 grains, [0-9.e-]+ a second, ([0-9]+ h )?([0-9]+ min )?([0-9]+ s )?left")))
+      << seen;
+  std::ofstream(folder_ / scan(1), std::ios::binary) << kept;
+  EXPECT_TRUE(read_until(std::regex("2 grains: 2 remeshed"))) << seen;
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  close(terminal);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
 TEST_F(Batch, TwoDoNotWriteOneTable) {
