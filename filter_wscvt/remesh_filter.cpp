@@ -72,6 +72,11 @@ ParameterList remesh_parameters() {
           "Checked: the points of the layer are taken and a surface is made of them, with one "
           "radius in each direction from their centre; faces are not used, and folds go unseen. "
           "Unchecked: a layer without faces is refused."),
+      option_parameter(
+          "Envelope", defaults.envelope.opening_percent, envelope_option, "Envelope (%)",
+          "For a scan that is refused for its flaws or pores: it is taken by its envelope, which "
+          "closes what is narrower than so much of its bounding box, in %; 5 is a start. 0 takes "
+          "the scan itself."),
       metric_parameter(),
       seed_start_parameter(),
       random_seed_parameter(),
@@ -117,6 +122,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.surface.fold_limit_percent = checked.real("FoldLimit");
   options.check.mended_area_limit_percent = checked.real("MendLimit");
   options.points = checked.flag("Points");
+  options.envelope.opening_percent = checked.real("Envelope");
   options.measures.distances = checked.flag("Distances");
   settings.threads = checked.whole("Threads");
   settings.new_layer = checked.flag("NewLayer");

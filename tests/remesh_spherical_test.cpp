@@ -250,6 +250,27 @@ TEST(RemeshSpherical, ARingIsRefusedWithAdviceThatWorks) {
   EXPECT_EQ(cut.handles.cut.size(), 1U);
 }
 
+TEST(RemeshSpherical, APorousScanIsRefusedWithAdviceThatWorks) {
+  const IndexedMesh drilled = test::ball_with_a_tunnel();
+  RemeshOptions options = options_of(300);
+  options.surface.parametrization = Parametrization::Spherical;
+  options.handles.count_limit = 0;
+  try {
+    remesh(drilled, options, Execution(1));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    EXPECT_NE(std::string(error.what()).find("Take its envelope"), std::string::npos)
+        << error.what();
+  }
+  options.envelope.opening_percent = 20.0;
+  const RemeshResult wrapped = remesh(drilled, options, Execution(1));
+  expect_valid(wrapped, 300, "an envelope");
+  EXPECT_TRUE(says(wrapped.warnings, "taken by its envelope"));
+  EXPECT_EQ(wrapped.input.input_vertices, drilled.points.size());
+  EXPECT_EQ(wrapped.input.genus, 0);
+}
+
 TEST(RemeshSpherical, CoefficientsOfAMapGiveTheBodyAgain) {
   RemeshOptions options = options_of(400);
   options.measures.coefficients = true;

@@ -43,11 +43,13 @@ constexpr std::string_view of_a_scan[] = {
     harmonic_degree_option.key,
     fold_limit_option.key,
     points_option.key,
+    envelope_option.key,
     advice_option.key,
     weld_tolerance_option.key,
     mended_area_limit_option.key,
     dropped_volume_limit_option.key,
     handle_length_option.key,
+    handle_count_option.key,
 };
 
 class AddArgument {

@@ -79,6 +79,7 @@ std::vector<TriedChange> try_changes(const PreparedGrain& prepared, const Remesh
   plain.target.percent = 0.0;
   plain.measures = MeasureOptions();
   plain.points = false;  // a surface was made of them already
+  plain.envelope = EnvelopeOptions();
   if (!is_fitted(options.placement.kind)) {
     add("nodes fitted to the scan by least squares, in the surface metric", [&] {
       RemeshOptions fitted = plain;

@@ -80,8 +80,10 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.3));
   const std::size_t different = scan.points.size();
   prepared.precision_warning = precision_warning(scan);
-  CheckedMesh checked =
-      check_mesh(std::move(scan), options.check, execution.part(options.points ? 0.3 : 0.0, 0.4));
+  const bool wraps = options.envelope.opening_percent > 0.0;
+  if (wraps) scan = envelope_of(scan, options.envelope, execution.part(0.3, 0.35));
+  CheckedMesh checked = check_mesh(std::move(scan), options.check,
+                                   execution.part(options.points || wraps ? 0.35 : 0.0, 0.4));
   // The series and refinement are those of the radial map, so a grain that has one keeps it.
   const bool needs_series =
       options.placement.kind == NodePlacement::Series || options.placement.refinement.rounds > 0;
@@ -93,7 +95,7 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
     prepared.handles = cut_handles(checked, options.handles, execution.part(0.45, 0.5));
   }
   prepared.input = checked.report;
-  if (options.points) count_given(points, faces, different, prepared.input);
+  if (options.points || wraps) count_given(points, faces, different, prepared.input);
   prepared.grain = grain_of_scan(std::move(checked), choice, options.surface, most_nodes(options),
                                  execution.part(0.5, 0.9));
   make_ready(prepared, options, execution.part(0.9, 1.0));

@@ -39,6 +39,7 @@ void check_options(const RemeshOptions& options) {
   for_each_option(options, check);
   check_relaxation_options(options.relaxation);
   check_placement_options(options.placement);
+  check_envelope_options(options.envelope);
   if (options.target.percent > 0.0 && !takes_any_count(options.seeding.sampling)) {
     throw Error(ErrorCode::InvalidInput,
                 "An error target needs a sampling with any number of nodes; take the weighted one "

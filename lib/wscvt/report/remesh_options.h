@@ -8,6 +8,7 @@
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_count_search.h"
 #include "wscvt/nodes/placement_options.h"
+#include "wscvt/scan/envelope.h"
 #include "wscvt/scan/handles.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/surface/harmonic_surface.h"
@@ -54,6 +55,7 @@ struct RemeshOptions {
   /// Take the scan's points alone and make its surface anew from them (see mesh_of_points); faces
   /// that it has are not used. Without it a scan without faces is refused.
   bool points = false;
+  EnvelopeOptions envelope;
   MeshCheckOptions check;
   HandleOptions handles;
   SurfaceOptions surface;
@@ -94,6 +96,7 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.surface.parametrization);
   visitor(options.surface.fold_limit_percent, fold_limit_option);
   visitor(options.points, points_option);
+  visitor(options.envelope.opening_percent, envelope_option);
   visitor(options.relaxation.metric);
   visitor(options.placement.kind);
   visitor(options.placement.contact_radius, contact_radius_option);
@@ -118,6 +121,7 @@ void for_each_option(Options& options, Visitor& visitor) {
   visitor(options.check.mended_area_limit_percent, mended_area_limit_option);
   visitor(options.check.dropped_volume_limit, dropped_volume_limit_option);
   visitor(options.handles.length_limit, handle_length_option);
+  visitor(options.handles.count_limit, handle_count_option);
 }
 
 /// The options with what their method sets. AsPublished: a series of degree 20 (where the degree is

@@ -21,6 +21,13 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
         ": volume, area and folds of the original are those of the surface that was made for them, "
         "with one radius in each direction, not those of the body. Check the result against it.");
   }
+  if (result.options.envelope.opening_percent > 0.0) {
+    warnings.push_back(
+        "The scan was taken by its envelope: volume, area and distances of the original are those "
+        "of the envelope, in which what is narrower than " +
+        format_percent(0.01 * result.options.envelope.opening_percent) +
+        " of the bounding box is filled. Check the result against the scan.");
+  }
   const bool radial = result.parametrization == Parametrization::Radial;
   if (radial && result.folded_share > fold_warning_limit) {
     warnings.push_back(

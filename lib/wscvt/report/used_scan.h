@@ -7,9 +7,10 @@
 
 namespace wscvt {
 
-/// The scan as a remesh with these options uses it: with a surface where it is points, checked and
-/// mended, in its own coordinates; with its handles. Nothing for a scan without points, which a
-/// surface from a formula has. Throws Error as check_mesh does.
+/// The scan as a remesh with these options uses it: with a surface where it is points, by its
+/// envelope where one is asked for, checked and mended, in its own coordinates; with its handles.
+/// Nothing for a scan without points, which a surface from a formula has. Throws Error as
+/// check_mesh does.
 IndexedMesh used_scan(IndexedMesh scan, const RemeshOptions& options, const Execution& execution);
 
 }  // namespace wscvt

@@ -269,9 +269,19 @@ HalfEdges linked(const IndexedMesh& mesh) {
 HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                               const Execution& execution) {
   require_in_range(options.length_limit, handle_length_option);
+  require_in_range(options.count_limit, handle_count_option);
   HalfEdges links = linked(mesh);
   HandleFreeMesh result;
   const std::size_t genus = genus_of(mesh);
+  if (genus > static_cast<std::size_t>(options.count_limit)) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "The scan has " + std::to_string(genus) + " handles, more than the limit of " +
+            std::to_string(options.count_limit) +
+            ": it is porous, and no map to the sphere follows its pores. Take its envelope, "
+            "which closes them; 5 % of the bounding box is a start. Or allow more "
+            "handles.");
+  }
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
   for (std::size_t left = genus; left > 0; --left) {

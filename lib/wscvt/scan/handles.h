@@ -16,7 +16,15 @@ struct HandleOptions {
   /// of a few voxels, up to half a radius on a rough scan; a ring, whose hole is real, has no loop
   /// below 0.7 radii unless its tube is 150 times thinner than the ring is wide.
   double length_limit = 0.7;
+  /// Scans with more handles are refused before one is cut: they are porous, and no sheet of nodes
+  /// that a simulation can afford follows their pores. Rough scans had up to 5, a coral 149.
+  int count_limit = 50;
 };
+
+inline constexpr NumberOption<int> handle_count_option{
+    "handles",  "largest number of handles",
+    0,          1000000,
+    Ends::Both, "that are cut; a scan with more is porous and refused"};
 
 inline constexpr NumberOption<double> handle_length_option{
     "handle-length",
@@ -54,9 +62,10 @@ struct HandleFreeMesh {
 /// "Greedy optimal homotopy and homology generators") about the places where a first one finds
 /// handles, the shortest first. A mesh of genus 0 comes back as it is.
 ///
-/// Throws Error(InvalidInput) when the option is out of range, the mesh is not closed, or the
-/// shortest loop left is above the limit: then the hole is real, as of a ring, and no map to the
-/// sphere exists; the sentence says how many are left, how long and where.
+/// Throws Error(InvalidInput) when an option is out of range, the mesh is not closed, it has more
+/// handles than the limit, or the shortest loop left is above its limit: then the hole is real, as
+/// of a ring, and no map to the sphere exists; the sentence says how many are left, how long and
+/// where.
 HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                               const Execution& execution);
 

@@ -221,7 +221,7 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
   refuse("The mesh has " + found + ". Mending that would change " + format_percent(mended) +
          " of its area, above the limit of " + format_percent(limit) +
          "; raise the limit of the area that may be mended above " + format_percent(mended) +
-         " and check the result against the scan, or scan the grain again.");
+         " and check the result against the scan, take its envelope, or scan the grain again.");
 }
 
 }  // namespace

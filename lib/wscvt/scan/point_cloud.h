@@ -27,8 +27,8 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
 /// chosen: a scan that has lost its faces must not pass for a cloud.
 IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution);
 
-/// Puts into the report on a surface made of points what was given: so many points, of which so
-/// many were different, and faces that were not used.
+/// Puts into the report on a surface made of points, or of an envelope, what was given: so many
+/// points, of which so many were different, and faces that were not used.
 void count_given(std::size_t points, std::size_t faces, std::size_t different,
                  MeshCheckReport& report);
 

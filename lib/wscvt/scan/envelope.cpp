@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/envelope.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Wrap = CGAL::Surface_mesh<Kernel::Point_3>;
+
+/// Of the opening: nearer to the scan the wrap takes several times as long, and the remesher brings
+/// the volume of what it is given back exactly.
+constexpr double offset_share = 0.1;
+
+}  // namespace
+
+void check_envelope_options(const EnvelopeOptions& options) {
+  require_in_range(options.opening_percent, envelope_option);
+  if (options.opening_percent > 0.0 && options.opening_percent < smallest_opening_percent) {
+    throw Error(ErrorCode::InvalidInput,
+                "The envelope in % is " + format_number(options.opening_percent) + "; give 0 or " +
+                    format_number(smallest_opening_percent) + " to " +
+                    format_number(envelope_option.maximum) + ".");
+  }
+}
+
+IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
+                        const Execution& execution) {
+  check_envelope_options(options);
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : scan.triangles) {
+    for (const std::int32_t v : t) box.extend(scan.points[v]);
+  }
+  if (!(options.opening_percent > 0.0) || box.isEmpty() || !(box.diagonal().norm() > 0.0)) {
+    throw Error(ErrorCode::InvalidInput,
+                "There is nothing to put an envelope about; give a mesh with faces and an opening "
+                "above 0.");
+  }
+  execution.report(0.0, "Wrapping the scan");
+  // In units of the diagonal about the middle: digits do not depend on where and how large it is.
+  const double unit = box.diagonal().norm();
+  const Vector3 middle = box.center();
+  std::vector<Kernel::Point_3> points;
+  points.reserve(scan.points.size());
+  for (const Vector3& p : scan.points) {
+    const Vector3 local = (p - middle) / unit;
+    points.emplace_back(local.x(), local.y(), local.z());
+  }
+  std::vector<std::array<std::size_t, 3>> faces;
+  faces.reserve(scan.triangles.size());
+  for (const Triangle& t : scan.triangles) {
+    faces.push_back({static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                     static_cast<std::size_t>(t[2])});
+  }
+  const double opening = 0.01 * options.opening_percent;
+  // CGAL's alpha is the radius of the empty balls that the outside is made of.
+  Wrap wrap;
+  CGAL::alpha_wrap_3(points, faces, 0.5 * opening, offset_share * opening, wrap);
+  execution.report(1.0, "Wrapping the scan");
+  IndexedMesh result;
+  std::vector<std::int32_t> number(wrap.number_of_vertices() + wrap.number_of_removed_vertices());
+  for (const auto v : wrap.vertices()) {
+    number[v] = static_cast<std::int32_t>(result.points.size());
+    const Kernel::Point_3& p = wrap.point(v);
+    result.points.push_back(middle + unit * Vector3(p.x(), p.y(), p.z()));
+  }
+  for (const auto face : wrap.faces()) {
+    Triangle t;
+    std::size_t k = 0;
+    for (const auto v : wrap.vertices_around_face(wrap.halfedge(face))) t[k++] = number[v];
+    result.triangles.push_back(t);
+  }
+  return result;
+}
+
+}  // namespace wscvt

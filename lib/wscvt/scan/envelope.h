@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
+
+namespace wscvt {
+
+struct EnvelopeOptions {
+  /// Openings up to this wide are closed, in % of the diagonal of the scan's bounding box; 0: the
+  /// scan itself is taken.
+  double opening_percent = 0.0;
+};
+
+inline constexpr NumberOption<double> envelope_option = {
+    "envelope",
+    "envelope in %",
+    0.0,
+    50.0,
+    Ends::Both,
+    "the scan is taken by its envelope, which closes pores, holes and gaps up to so much of the "
+    "bounding box's diagonal wide and has no flaws; 0: the scan itself. For scans that are refused "
+    "for their flaws or pores"};
+
+/// Smallest share that is not 0. The finer the envelope, the longer it takes: of a porous scan of
+/// 31,000 faces with its remesh 7 s at 5 %, 52 s at 2 %, 165 s at 1 %, on a busy machine.
+inline constexpr double smallest_opening_percent = 1.0;
+
+/// A closed, outward 2-manifold about the scan, whatever its flaws: a ball of that diameter rolls
+/// over it and does not enter what is narrower (Portaneri et al. 2022, "Alpha wrapping with an
+/// offset", ACM Trans. Graph. 41 (4); CGAL's implementation). It stands off from the scan by a
+/// tenth of the opening, and its faces are up to as large as the opening: it is coarser than the
+/// scan, and its volume larger. Handles wider than the opening stay.
+///
+/// Throws Error(InvalidInput) for an opening out of range, below smallest_opening_percent, or a
+/// scan without faces or extent; Error(Cancelled), but only before and after the wrapping.
+IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
+                        const Execution& execution);
+
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_envelope_options(const EnvelopeOptions& options);
+
+}  // namespace wscvt

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/envelope.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grains/handled_body.h"
+#include "support/expect_error.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/scan/mesh_check.h"
+
+namespace wscvt {
+namespace {
+
+EnvelopeOptions opening(double percent) {
+  EnvelopeOptions options;
+  options.opening_percent = percent;
+  return options;
+}
+
+double volume_of(const IndexedMesh& mesh) {
+  return mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), Execution(1)).volume();
+}
+
+/// Closed, oriented outward, nothing to mend.
+MeshCheckReport checked(const IndexedMesh& mesh) {
+  const MeshCheckReport report = check_mesh(mesh, MeshCheckOptions(), Execution(1)).report;
+  EXPECT_EQ(report.vertices, mesh.points.size());
+  EXPECT_EQ(report.faces, mesh.triangles.size());
+  EXPECT_EQ(report.reoriented_faces, 0U);
+  EXPECT_GT(volume_of(mesh), 0.0);
+  return report;
+}
+
+TEST(Envelope, OfABallIsALittleLargerThanIt) {
+  const IndexedMesh ball = test::sphere(4);
+  const double diagonal = 2.0 * std::sqrt(3.0);
+  const IndexedMesh envelope = envelope_of(ball, opening(4.0), Execution(1));
+  EXPECT_EQ(checked(envelope).genus, 0);
+  // It stands off by a tenth of the opening; its flat faces cut off less than that.
+  const double offset = 0.1 * 0.04 * diagonal;
+  for (const Vector3& p : envelope.points) EXPECT_NEAR(p.norm(), 1.0 + offset, 0.5 * offset);
+  EXPECT_GT(volume_of(envelope), volume_of(ball));
+}
+
+TEST(Envelope, ClosesTunnelsThatAreNarrowerAndKeepsWiderOnes) {
+  // Drilled 0.4 wide, with a diagonal of about 3.46.
+  const IndexedMesh drilled = test::ball_with_a_tunnel();
+  EXPECT_EQ(checked(envelope_of(drilled, opening(20.0), Execution(1))).genus, 0);
+  EXPECT_EQ(checked(envelope_of(drilled, opening(2.0), Execution(1))).genus, 1);
+}
+
+TEST(Envelope, HasNoneOfTheFlawsOfTheScan) {
+  // Every seventh face is gone, every fifth turned, one body inside, one half out of it.
+  IndexedMesh flawed = test::joined(
+      test::joined(test::sphere(3), test::scaled(test::sphere(2), Vector3(0.5, 0.5, 0.5))),
+      test::transformed(test::box(1, 1, 1), Eigen::Matrix3d::Identity(), Vector3(0.8, 0.3, 0.0)));
+  IndexedMesh soup;
+  soup.points = flawed.points;
+  for (std::size_t f = 0; f < flawed.triangles.size(); ++f) {
+    if (f % 7 == 3) continue;
+    soup.triangles.push_back(flawed.triangles[f]);
+    if (f % 5 == 0) std::swap(soup.triangles.back()[0], soup.triangles.back()[1]);
+  }
+  EXPECT_ERROR(check_mesh(soup, MeshCheckOptions(), Execution(1)), InvalidInput);
+  const IndexedMesh envelope = envelope_of(soup, opening(15.0), Execution(1));
+  EXPECT_EQ(checked(envelope).genus, 0);
+  EXPECT_EQ(checked(envelope).components, 1U);
+}
+
+TEST(Envelope, IsTheSameWhereverAndHoweverLargeTheScanIs) {
+  const IndexedMesh grain = test::lumpy(3);
+  // Powers of two and whole shifts leave the digits as they are.
+  IndexedMesh moved = grain;
+  for (Vector3& p : moved.points) p = 1024.0 * p;
+  const IndexedMesh here = envelope_of(grain, opening(5.0), Execution(1));
+  const IndexedMesh there = envelope_of(moved, opening(5.0), Execution(3));
+  ASSERT_EQ(here.triangles, there.triangles);
+  for (std::size_t i = 0; i < here.points.size(); ++i) {
+    EXPECT_EQ(Vector3(1024.0 * here.points[i]), there.points[i]);
+  }
+}
+
+TEST(Envelope, RefusesWhatItCannotWrap) {
+  EXPECT_ERROR(envelope_of({}, opening(2.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(envelope_of(test::sphere(2), opening(0.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(envelope_of(test::sphere(2), opening(0.9), Execution(1)), InvalidInput);
+  EXPECT_ERROR(envelope_of(test::sphere(2), opening(51.0), Execution(1)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt
