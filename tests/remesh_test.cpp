@@ -910,6 +910,24 @@ TEST(RemeshErrorTarget, SaysSoWhenTheLimitIsTooLow) {
   EXPECT_NE(result.warnings.back().find("error target"), std::string::npos);
 }
 
+TEST(RemeshErrorTarget, StopsAtOnceWhereTheSeriesItselfIsFartherOff) {
+  // A cube's edges are beyond a series of degree 6.
+  const IndexedMesh cube = test::subdivided(test::box(1.0, 1.0, 1.0), 8);
+  RemeshOptions options = options_of(200, Weighting::Area);
+  options.surface.degree = 6;
+  options.target.percent = 0.5;
+  try {
+    remesh(cube, options, Execution(1));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    EXPECT_NE(std::string(error.what()).find("nodes on it come no nearer"), std::string::npos)
+        << error.what();
+  }
+  options.placement.kind = NodePlacement::LeastSquares;  // the advice
+  EXPECT_TRUE(remesh(cube, options, Execution(1)).search->met);
+}
+
 TEST(RemeshErrorTarget, RefusesTargetsThatMakeNoSense) {
   RemeshOptions options = fitted_options(50);
   options.target.percent = -1.0;

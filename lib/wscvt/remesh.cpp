@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/remesh_stages.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -21,9 +22,28 @@ namespace wscvt {
 
 namespace {
 
+/// Nodes on the series come no nearer to the scan than the series does, however many they are.
+void refuse_below_series(const PreparedGrain& prepared, const RemeshOptions& options) {
+  const ErrorTarget& target = options.target;
+  if (target.measure != ErrorMeasure::Distance || options.placement.kind != NodePlacement::Series ||
+      !prepared.grain.is_scan || prepared.grain.parametrization != Parametrization::Radial) {
+    return;
+  }
+  // In grain units, where the equivalent radius is 1; other points read it within five per cent.
+  const double reach = 100.0 * prepared.grain.fit.residual;
+  if (!(target.percent < 0.95 * reach)) return;
+  throw Error(ErrorCode::InvalidInput,
+              "The error target is " + format_number(target.percent) +
+                  " % of the equivalent radius, but the fitted series itself is " +
+                  format_number(reach, 3) +
+                  " % off the scan, and nodes on it come no nearer. Allow more than that, raise "
+                  "the harmonic degree, or fit the nodes to the scan by least squares.");
+}
+
 RemeshResult remesh_to_target(const PreparedGrain& prepared, const RemeshOptions& options,
                               const Execution& execution) {
   const ErrorTarget& target = options.target;
+  refuse_below_series(prepared, options);
   // The result with the smallest node count that met the target, or with the largest tried.
   RemeshResult best;
   bool best_meets = false;

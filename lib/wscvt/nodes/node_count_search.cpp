@@ -11,8 +11,9 @@ namespace wscvt {
 
 namespace {
 
-/// The bracket is closed when it is this share of the count wide, or 1.
-constexpr double resolution = 0.002;
+/// The bracket is closed when it is this share of the count wide, or 1. Errors waver by as much
+/// from one count to the next, and a tenth of it took twice as many remeshes.
+constexpr double resolution = 0.02;
 
 /// Largest factor between one count and the next while the target is being bracketed.
 constexpr double largest_stride = 8.0;
@@ -21,7 +22,7 @@ constexpr double largest_stride = 8.0;
 /// beyond it so that the next trial is likely on the other side.
 double extrapolate(const NodeCountTrial& trial, double target) {
   const double ratio = trial.error / target;
-  const double beyond = ratio > 1.0 ? 1.15 : 1.0 / 1.15;
+  const double beyond = ratio > 1.0 ? 1.05 : 1.0 / 1.05;
   return trial.node_count * std::clamp(ratio * beyond, 1.0 / largest_stride, largest_stride);
 }
 
@@ -70,16 +71,24 @@ NodeCountSearch smallest_node_count(double target, int start, int lower, int upp
   search.node_count = above.node_count;
   if (!search.met || meets(below)) return search;
 
-  for (bool halve = false;
-       above.node_count - below.node_count > std::max(1.0, resolution * above.node_count);
-       halve = !halve) {
+  // Every third trial halves the bracket, for errors that are no power of the count.
+  constexpr int trials_a_halving = 3;
+  for (int step = 1;
+       above.node_count - below.node_count > std::max(1.0, resolution * above.node_count); ++step) {
     const double low = std::log(below.node_count);
     const double high = std::log(above.node_count);
-    double share = 0.5;
+    double count = std::exp(0.5 * (low + high));
     const double span = std::log(below.error / std::max(above.error, 1e-3 * target));
-    if (!halve && std::isfinite(span) && span > 0.0) share = std::log(below.error / target) / span;
-    trial = attempt(
-        rounded(std::exp(low + share * (high - low)), below.node_count + 1, above.node_count - 1));
+    if (step % trials_a_halving != 0 && std::isfinite(span) && span > 0.0) {
+      const double share = std::log(below.error / target) / span;
+      count = std::exp(low + share * (high - low));
+      // A little beyond, where the target is met; once it is met there, a little below, where it is
+      // not: two trials close the bracket.
+      count = (1.0 + 0.4 * resolution) * count < above.node_count - 1.0
+                  ? (1.0 + 0.4 * resolution) * count
+                  : (1.0 - 0.9 * resolution) * above.node_count;
+    }
+    trial = attempt(rounded(count, below.node_count + 1, above.node_count - 1));
     (meets(trial) ? above : below) = trial;
   }
   search.node_count = above.node_count;
