@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the Debian packages of what is built, installs them, uses program, library and plugin from
-# where they are then, and removes them: nothing may be left. As root or with sudo.
+# Makes the Debian packages of what is built, installs them, uses program, library, module
+# and plugin from where they are then, and removes them: nothing may be left. As root or with sudo.
 #   tests/packages.sh BUILD_FOLDER WORK_FOLDER
 set -eu
 build=$(realpath "${1:?usage: packages.sh BUILD_FOLDER WORK_FOLDER}")
@@ -26,7 +26,7 @@ for package in made/*.deb; do
     fail "$name is installed already; remove it first: this test removes what it installs."
   names="$names $name"
 done
-for name in wscvt libwscvt-dev wscvt-meshlab-plugin; do
+for name in wscvt libwscvt-dev python3-wscvt wscvt-meshlab-plugin; do
   echo "$names" | grep -qw "$name" || fail "There is no package $name among$names."
 done
 
@@ -54,6 +54,10 @@ cmake -S "$root/tests/consumer" -B "$work/consumer" > "$work/consumer.txt"
 cmake --build "$work/consumer" >> "$work/consumer.txt"
 grep -q "wscvt_DIR:PATH=/usr/lib" "$work/consumer/CMakeCache.txt" ||
   fail "The consumer was not built on the installed library."
+(cd "$work" && /usr/bin/python3 -B -c '
+import wscvt
+assert wscvt.__file__.startswith("/usr/"), wscvt.__file__
+assert len(wscvt.create("ellipsoid", nodes=100).faces) == 196')
 # The plugin: all it needs is found, and its filters run where MeshLab has a program for that.
 plugin=$(grep '/meshlab/plugins/libfilter_wscvt.so$' "$work/files.txt")
 ! LD_LIBRARY_PATH=$(dirname "$(dirname "$plugin")") ldd "$plugin" | grep 'not found'

@@ -29,6 +29,18 @@ if(WSCVT_BUILD_PROGRAM)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 endif()
 
+if(WSCVT_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Remeshing of scanned grains: Python module
+ Remeshes dense scans of grains, as NumPy arrays, to an exact number of nodes, and measures their
+ shape.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wscvt)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  # The module is for one version of Python.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3-numpy, python${PYTHON_VERSION_MAJOR}.${PYTHON_VERSION_MINOR}")
+endif()
+
 if(TARGET filter_wscvt)
   list(APPEND CPACK_COMPONENTS_ALL meshlab_plugin)
   set(CPACK_COMPONENT_MESHLAB_PLUGIN_DESCRIPTION "Remeshing of scanned grains: plugin for MeshLab
