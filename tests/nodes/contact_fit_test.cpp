@@ -11,6 +11,8 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/self_intersections.h"
+#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 namespace {
@@ -67,16 +69,20 @@ TEST(ContactFit, SmallerBallsTakeNodesFartherOut) {
 }
 
 TEST(ContactFit, LeavesTheMeshWhole) {
-  const IndexedMesh grain = test::lumpy(5);
-  IndexedMesh nodes = test::lumpy(2);
+  const IndexedMesh grain = test::sphere(5);
+  // Nodes at random have slivers between them, which turn over at the least move.
+  IndexedMesh nodes;
+  nodes.points = random_directions(150, 3);
+  nodes.triangles = SphereTriangulation(nodes.points).triangles();
   const std::vector<Vector3> start = nodes.points;
   nodes.points = fit_to_contacts(nodes, grain, 0.4, Execution(2));
+  EXPECT_NE(nodes.points, start);
   EXPECT_TRUE(self_intersections(nodes).empty());
   for (const Triangle& t : nodes.triangles) {
     const Vector3 before = doubled_area_normal(start[t[0]], start[t[1]], start[t[2]]);
     const Vector3 after =
         doubled_area_normal(nodes.points[t[0]], nodes.points[t[1]], nodes.points[t[2]]);
-    EXPECT_GE(before.dot(after), 0.35 * before.norm() * after.norm());
+    EXPECT_GE(before.dot(after), 0.34 * before.norm() * after.norm());
   }
 }
 

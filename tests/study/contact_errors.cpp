@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/contact_errors.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,9 +116,9 @@ IndexedMesh unit_scan(const IndexedMesh& scan, const Execution& execution) {
 /// The nodes that may touch nearer and nearer the other's surface: each is looked at again when it
 /// could have come as far as its distance, which changes no faster than the grains near each other,
 /// and the first whose turn comes on the surface is the first to touch.
-double ContactGrain::touching_distance(const std::vector<Vector3>& nodes,
-                                       const Eigen::Matrix3d& turn,
-                                       const Vector3& direction) const {
+ContactGrain::Touch ContactGrain::first_touch(const std::vector<Vector3>& nodes,
+                                              const Eigen::Matrix3d& turn,
+                                              const Vector3& direction) const {
   constexpr double on_the_surface = 1e-6;
   // Of a field that is linear in cells the gradient may be a little steeper than 1.
   constexpr double steepest = 1.01;
@@ -137,10 +138,10 @@ double ContactGrain::touching_distance(const std::vector<Vector3>& nodes,
     const auto [come, i] = queue.top();
     queue.pop();
     const double distance = distance_after(come, i);
-    if (distance < on_the_surface) return start - come;
+    if (distance < on_the_surface) return {start - come, i};
     queue.emplace(come + distance / steepest, i);
   }
-  return 0.0;
+  return {};
 }
 
 void ContactGrain::forces(const NodeTable& nodes, const Contact& contact, double& deepest,
@@ -158,7 +159,7 @@ void ContactGrain::forces(const NodeTable& nodes, const Contact& contact, double
 }
 
 ContactGrain::ContactGrain(const IndexedMesh& scan, std::size_t contacts,
-                           const Execution& execution)
+                           const Execution& execution, std::uint64_t series)
     : field_(distance_grid(scan, {grid_spacing, grid_margin}, execution)) {
   const NodeTable surface = node_table(test::subdivided(scan, 1));
   for (const Vector3& p : surface.mesh.points) reach_ = std::max(reach_, p.norm());
@@ -166,7 +167,7 @@ ContactGrain::ContactGrain(const IndexedMesh& scan, std::size_t contacts,
   execution.parallel_for(contacts, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Contact& contact = contacts_[i];
-      const auto seed = static_cast<std::uint64_t>(2 * i + 1);
+      const std::uint64_t seed = 1000000 * series + 2 * i + 1;
       contact.turn = test::random_rotation(seed);
       contact.direction = test::random_rotation(seed + 1).col(0);
       contact.distance = touching_distance(surface.mesh.points, contact.turn, contact.direction);
@@ -176,6 +177,59 @@ ContactGrain::ContactGrain(const IndexedMesh& scan, std::size_t contacts,
       forces(surface, contact, contact.deepest, contact.area_sum);
     }
   });
+}
+
+std::vector<Vector3> ContactGrain::fitted_to_contacts(std::vector<Vector3> nodes,
+                                                      const Execution& execution) const {
+  constexpr int steps = 30;
+  constexpr double step_share = 0.6;
+  constexpr double damping = 0.05;
+  constexpr double longest_step = 0.05;
+  /// Grazing contacts say next to nothing of where a node should be.
+  constexpr double smallest_slope = 0.2;
+  std::vector<Vector3> best;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<Touch> touches(contacts_.size());
+  for (int step = 0; step <= steps; ++step) {
+    execution.parallel_for(contacts_.size(), 8, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) {
+        touches[c] = first_touch(nodes, contacts_[c].turn, contacts_[c].direction);
+      }
+    });
+    std::vector<Eigen::Matrix3d> matrices(nodes.size(), Eigen::Matrix3d::Zero());
+    std::vector<Vector3> right_sides(nodes.size(), Vector3::Zero());
+    std::vector<double> counts(nodes.size(), 0.0);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const Contact& contact = contacts_[c];
+      const auto& [distance, node] = touches[c];
+      const Vector3 way = contact.turn * contact.direction;
+      const Vector3 gradient =
+          field_at(field_, contact.turn * nodes[node] - distance * way).gradient;
+      // The node stays on the other's surface: gradient . (turn move - way change) = 0.
+      const double slope = gradient.dot(way);
+      const double kept = std::copysign(std::max(std::abs(slope), smallest_slope), slope);
+      const Vector3 change = contact.turn.transpose() * gradient / kept;
+      const double error = distance - contact.distance;
+      matrices[node] += change * change.transpose();
+      right_sides[node] -= error * change;
+      counts[node] += 1.0;
+      sum += error * error;
+    }
+    if (sum < least) {
+      least = sum;
+      best = nodes;
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (counts[i] == 0.0) continue;
+      const Eigen::Matrix3d damped =
+          matrices[i] + damping * (counts[i] + 3.0) * Eigen::Matrix3d::Identity();
+      Vector3 move = damped.ldlt().solve(right_sides[i]);
+      if (move.norm() > longest_step) move *= longest_step / move.norm();
+      nodes[i] += step_share * move;
+    }
+  }
+  return best;
 }
 
 ContactErrors ContactGrain::errors(const NodeTable& nodes, const Execution& execution) const {

@@ -18,7 +18,7 @@ namespace {
 /// a cap's middle away hide the gaps of the two curvatures.
 TEST(ContactErrors, OfASphereAreThoseOfItsCaps) {
   const Execution execution(2);
-  const ContactGrain grain(unit_scan(test::sphere(5), execution), 400, execution);
+  const ContactGrain grain(unit_scan(test::sphere(5), execution), 200, execution);
   const ContactErrors dense = grain.errors(node_table(test::sphere(6)), execution);
   EXPECT_NEAR(dense.grain.mean, 0.0, 0.05);
   EXPECT_NEAR(dense.plane.mean, 0.0, 0.05);

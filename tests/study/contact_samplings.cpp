@@ -27,7 +27,7 @@ std::vector<ContactSampling> contact_samplings() {
   RemeshOptions refined = options_of(Weighting::ErrorAdaptive, NodePlacement::LeastSquares);
   refined.placement.refinement.rounds = 60;
   const auto contact = [](double ball_radius) {
-    RemeshOptions options = options_of(Weighting::RadialDistance, NodePlacement::Contact);
+    RemeshOptions options = options_of(Weighting::ErrorAdaptive, NodePlacement::Contact);
     options.placement.contact_radius = ball_radius;
     return options;
   };

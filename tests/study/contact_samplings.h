@@ -15,8 +15,8 @@ struct ContactSampling {
 };
 
 /// On the scan: WSCVT-D, WSCVT-C, constant, Fibonacci and random; off it: WSCVT-D by least squares,
-/// refined, and contact placements, with their radius, for nodes against another grain's surface,
-/// nodes of both, and flat walls.
+/// refined, and contact placements of error-adaptive weights, with their radius, for nodes against
+/// another grain's surface, nodes of both, and flat walls.
 std::vector<ContactSampling> contact_samplings();
 
 }  // namespace wscvt::study

@@ -14,6 +14,7 @@ set multiplot layout 1,2
 set title 'bias, % of R'
 set ylabel 'first contact by nodes less the true one'
 plot for [name in samplings] 'contacts.csv' using 3:(pick(4, name)) with linespoints title name, 0 lt -1 notitle
+set key bottom left
 set title 'scatter, % of R'
 set ylabel 'standard deviation'
 set logscale y

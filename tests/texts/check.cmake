@@ -17,7 +17,7 @@ if(count GREATER 250)
 endif()
 
 set(texts README.md filter_wscvt/README.md lib/README.md lib/python/README.md meshes/README.md tests/README.md tests/faults/README.md
-  tests/benchmarks/README.md tests/study/README.md)
+  tests/benchmarks/README.md tests/study/README.md tests/study/contacts.md)
 foreach(text ${texts})
   get_filename_component(folder ${source_dir}/${text} DIRECTORY)
   file(READ ${source_dir}/${text} content)

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# yade -n -x yade_packing.py NODES_CSV GRID_NPY SEED OUTPUT_CSV: the packing of the paper's figure 11
+# in Yade: 54 grains of 0.1 m, in 6 layers of 3 x 3, thrown down at 2 m/s into a box; normal and
+# tangential stiffness 2e6 and 1e6 N/m, friction 0.5, Yade's damping 0.3. Starts go by the seed alone,
+# so that those of different nodes are paired. Columns: time, kinetic, potential and elastic energy,
+# mean overlap of grains in contact as Yade sees it / radius; the last line is the cost.
+import math
+import os
+import sys
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "../engines"))
+import numpy
+from yade import (Bo1_LevelSet_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_LevelSet_LevelSet_ScGeom,
+                  Ig2_Wall_LevelSet_ScGeom, InsertionSortCollider, InteractionLoop,
+                  Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, MatchMaker,
+                  NewtonIntegrator, O, Quaternion, Vector3, utils)
+from yade_grain import Grain
+
+nodes_csv, grid_npy, seed, output = sys.argv[-4:]
+radius, side, layers, seconds, step, gravity = 0.05, 3, 6, 0.8, 1e-4, 9.81
+box = 2.8 * radius * side
+grain = Grain(nodes_csv, grid_npy)
+material = FrictMat(young=1e8, poisson=0.3, frictionAngle=math.atan(0.5), density=2650.0)
+O.materials.append(material)
+random = numpy.random.RandomState(int(seed))
+for layer in range(layers):
+    for i in range(side):
+        for j in range(side):
+            q = random.normal(size=4)
+            q /= numpy.linalg.norm(q)
+            O.bodies.append(grain.body(
+                Vector3((i + 0.5) * box / side, (j + 0.5) * box / side, 0.09 + 0.17 * layer),
+                Quaternion(*[float(x) for x in q]), Vector3(0, 0, -2), material))
+grains = [body for body in O.bodies]
+for axis, place in ((0, 0), (0, box), (1, 0), (1, box), (2, 0)):
+    O.bodies.append(utils.wall(place, axis=axis, sense=0, material=material))
+fixed = lambda value: MatchMaker(algo="val", val=value)
+law = Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False, traceEnergy=True)
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_LevelSet_Aabb(), Bo1_Wall_Aabb()], verletDist=0.005),
+    InteractionLoop([Ig2_LevelSet_LevelSet_ScGeom(), Ig2_Wall_LevelSet_ScGeom()],
+                    [Ip2_FrictMat_FrictMat_FrictPhys(kn=fixed(2e6), ks=fixed(1e6),
+                                                     frictAngle=fixed(math.atan(0.5)))], [law]),
+    NewtonIntegrator(damping=0.3, gravity=(0, 0, -gravity), exactAsphericalRot=True)]
+O.dt = step
+
+
+def row():
+    kinetic = potential = 0.0
+    for body in grains:
+        state = body.state
+        turn = state.ori.conjugate() * state.angVel
+        kinetic += 0.5 * state.mass * state.vel.squaredNorm()
+        kinetic += 0.5 * sum(state.inertia[k] * turn[k] ** 2 for k in range(3))
+        potential += state.mass * gravity * state.pos[2]
+    overlaps = [c.geom.penetrationDepth for c in O.interactions
+                if c.isReal and c.id1 < len(grains) and c.id2 < len(grains)]
+    return [O.time, kinetic, potential, law.elasticEnergy(),
+            numpy.mean(overlaps) / radius if overlaps else 0.0]
+
+
+rows = []
+cost = 0.0
+while O.time < seconds - 0.5 * step:
+    start = time.process_time()
+    O.run(100, True)
+    cost += time.process_time() - start
+    rows.append(row())
+numpy.savetxt(output, rows, delimiter=",", header="time,kinetic,potential,elastic,overlap",
+              comments="", fmt="%.8g", footer="# %.4f ms a step" % (1e3 * cost * step / seconds))
+print("Yade packing: %d nodes, seed %s: mean height %.4f radii, kinetic %.3g J, elastic %.3g J, overlap "
+      "%.3f %% of the radius, %.2f ms a step" %
+      (len(grain.nodes), seed, rows[-1][2] / (grain.volume * 2650.0 * gravity * len(grains)) / radius,
+       rows[-1][1], rows[-1][3], 100 * rows[-1][4], 1e3 * cost * step / seconds))
+sys.stdout.flush()
+os._exit(0)

@@ -1,0 +1,27 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Packings in Yade by several choices of nodes, from paired starts; see yade_packing.py.
+#   tests/study/yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]
+# PROGRAM is wscvt. Packages: tests/run_all.sh engines. A line for each packing in packings.txt.
+set -eu
+program=$(realpath "${1:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
+folder=$(realpath -m "${2:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
+seeds=$(seq "${3:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
+shift 3
+[ $# -gt 0 ] || set -- 100:scan 500:scan 1000:scan 100:least-squares 200:least-squares 200:contact
+here=$(realpath "$(dirname "$0")")
+mkdir -p "$folder"
+cd "$folder"
+for set in "$@"; do
+  nodes=${set%:*}
+  placement=${set#*:}
+  name=${placement}_$nodes
+  "$program" remesh -q "$here/../../meshes/sand_7228.ply" "$name.ply" -n "$nodes" -p "$placement" \
+    --frame principal --size 0.1 --node-table "$name.csv" --sdf "$name.npy"
+  for seed in $seeds; do
+    printf '%s ' "$placement" >> packings.txt
+    yade -n -x "$here/yade_packing.py" "$name.csv" "$name.npy" "$seed" "${name}_$seed.csv" \
+      > "${name}_$seed.log" 2>&1 || { tail -n 20 "${name}_$seed.log" >&2; exit 1; }
+    grep '^Yade packing' "${name}_$seed.log" | tee -a packings.txt
+  done
+done
