@@ -14,6 +14,7 @@
 #include "wscvt/remesh.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/report/report.h"
+#include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/harmonic_map.h"
 
@@ -23,6 +24,8 @@ namespace {
 IndexedMesh body(const std::string& name) {
   return test::bent_grain_mesh(test::bent_grain(name), 2500);
 }
+
+IndexedMesh sand() { return read_mesh(WSCVT_MESHES_DIR "/sand_7228.ply"); }
 
 RemeshOptions options_of(int nodes, NodePlacement placement = NodePlacement::Scan) {
   RemeshOptions options;
@@ -161,6 +164,18 @@ TEST(RemeshSpherical, CurvatureWeightingsGatherNodesWhereItBends) {
       return count;
     };
     EXPECT_GT(at_the_tips(weighting), 1.3 * at_the_tips(Weighting::Area));
+  }
+}
+
+TEST(RemeshSpherical, SteepCurvatureWeightsSettle) {
+  RemeshOptions options = options_of(500);
+  options.surface.parametrization = Parametrization::Spherical;
+  options.weighting.kind = Weighting::Curvature;
+  for (const double alpha : {-3.0, 1.0, 3.0}) {
+    options.weighting.curvature_alpha = alpha;
+    const RemeshResult result = remesh(sand(), options, Execution(2));
+    EXPECT_NE(result.relaxation.outcome, RelaxationOutcome::IterationLimit) << alpha;
+    EXPECT_LT(result.relaxation.iterations, 700) << alpha;
   }
 }
 

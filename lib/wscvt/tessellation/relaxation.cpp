@@ -218,6 +218,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
   double factor = options.over_relaxation;
   bool plain = false;
   CycleWatch watch;
+  StallWatch stall;
   while (true) {
     report.history.push_back(evaluation.step());
     const RelaxationStep& step = evaluation.step();
@@ -225,6 +226,10 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
     const double rest = plain ? 0.3 : 0.01;
     if (const auto outcome = outcome_at(step, options, report.iterations, rest)) {
       report.outcome = *outcome;
+      break;
+    }
+    if (stall.stalled_at(step.displacement)) {
+      report.outcome = RelaxationOutcome::Settled;
       break;
     }
     if (options.metric == RelaxationMetric::Surface && !plain &&

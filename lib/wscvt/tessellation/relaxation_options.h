@@ -79,7 +79,7 @@ enum class RelaxationOutcome {
   Converged,  ///< displacement and area spread both below their tolerances
   /// The seeds have come to rest (a hundredth of the displacement tolerance, or 0.3 of it with the
   /// surface metric's plain steps) although the cells' areas spread more than asked for: few nodes
-  /// on a strongly bent surface cannot do better.
+  /// on a strongly bent surface cannot do better. Or they come no nearer to rest (StallWatch).
   Settled,
   Stuck,           ///< even a short step further could not be triangulated
   IterationLimit,  ///< none of these within the iterations allowed

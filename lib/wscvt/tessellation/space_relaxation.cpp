@@ -217,10 +217,15 @@ class Relaxation {
     double factor = options.over_relaxation;
     bool plain = false;
     CycleWatch watch;
+    StallWatch stall;
     while (true) {
       report_.history.push_back(step_);
       if (const auto outcome = outcome_at(step_, options, report_.iterations, settled_share)) {
         report_.outcome = *outcome;
+        break;
+      }
+      if (stall.stalled_at(step_.displacement)) {
+        report_.outcome = RelaxationOutcome::Settled;
         break;
       }
       if (!plain && watch.cycling_at(step_.displacement)) {

@@ -45,8 +45,7 @@ struct EnumerationTable<CurvatureSource> {
   static constexpr std::string_view key = "curvature-source";
   static constexpr std::string_view subject = "source of the curvature";
   static constexpr Enumerator<CurvatureSource> rows[] = {
-      {CurvatureSource::Series, "series", "series",
-       "exact derivatives of the fitted surface"},
+      {CurvatureSource::Series, "series", "series", "exact derivatives of the fitted surface"},
       {CurvatureSource::QuadricFit, "quadrics", "quadrics on the scan",
        "a quadric fitted around each vertex of the scan over two rings, as in the paper"},
   };
