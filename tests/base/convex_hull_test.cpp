@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -41,6 +43,13 @@ TEST(ConvexHull, NamesPointsOfTheInputInTheirOrder) {
   }
   EXPECT_EQ(convex_hull_triangles(points).size(), 4U);
   EXPECT_EQ(convex_hull(points).points, (std::vector<Vector3>(points.begin() + 1, points.end())));
+}
+
+TEST(ConvexHull, TrianglesComeInAnOrderOfTheirOwn) {
+  // CGAL's differs from one run of a program to the next.
+  const std::vector<Triangle> triangles = convex_hull_triangles(test::lumpy(4).points);
+  EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
+  for (const Triangle& t : triangles) EXPECT_EQ(t[0], *std::min_element(t.begin(), t.end()));
 }
 
 TEST(ConvexHull, HasNoTrianglesInAPlane) {

@@ -45,6 +45,10 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points) 
       triangles.push_back({corners[0], corners[k - 1], corners[k]});
     }
   }
+  // CGAL's order goes by addresses, and with it the last digits of sums over the triangles.
+  for (Triangle& t : triangles)
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
 

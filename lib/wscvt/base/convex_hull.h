@@ -8,7 +8,8 @@
 namespace wscvt {
 
 /// The triangles of the points' convex hull, counter-clockwise seen from outside, as indices into
-/// `points` (CGAL::convex_hull_3, exact predicates). Of points in one place the hull names one.
+/// `points` (CGAL::convex_hull_3, exact predicates): each from its smallest index on, in ascending
+/// order. Of points in one place the hull names one.
 /// Empty when all points lie in one plane.
 std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points);
 
