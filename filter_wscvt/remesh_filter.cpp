@@ -11,10 +11,11 @@ namespace wscvt::filter {
 std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Voronoi"; }
 
 std::string remesh_help() {
-  return "Turns a closed scan of a grain into a mesh of <b>exactly the number of nodes asked "
-         "for</b>, by a weighted Voronoi tessellation of the sphere. It repairs small faults and "
-         "says so; it refuses, changing nothing, what needs much mending. "
-         "See: <i>Wu F., Huang L., Lai Z.</i>, Engineering Mechanics, 2022, doi "
+  // Three lines: in 2020.09, whose dialog does not scroll, a longer text pushes Apply off the
+  // screen.
+  return "A mesh of <b>exactly the number of nodes asked for</b>. It repairs small faults of the "
+         "scan "
+         "and refuses large ones. See: <i>Wu F., Huang L., Lai Z.</i>, 2022, doi "
          "10.6052/j.issn.1000-4750.2022.07.0614";
 }
 
@@ -72,11 +73,6 @@ ParameterList remesh_parameters() {
           "Checked: the points of the layer are taken and a surface is made of them, with one "
           "radius in each direction from their centre; faces are not used, and folds go unseen. "
           "Unchecked: a layer without faces is refused."),
-      option_parameter(
-          "Envelope", defaults.envelope.opening_percent, envelope_option, "Envelope (%)",
-          "For a scan that is refused for its flaws or pores: it is taken by its envelope, which "
-          "closes what is narrower than so much of its bounding box, in %; 5 is a start. 0 takes "
-          "the scan itself."),
       metric_parameter(),
       seed_start_parameter(),
       random_seed_parameter(),
@@ -122,7 +118,6 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   options.surface.fold_limit_percent = checked.real("FoldLimit");
   options.check.mended_area_limit_percent = checked.real("MendLimit");
   options.points = checked.flag("Points");
-  options.envelope.opening_percent = checked.real("Envelope");
   options.measures.distances = checked.flag("Distances");
   settings.threads = checked.whole("Threads");
   settings.new_layer = checked.flag("NewLayer");

@@ -27,7 +27,7 @@ std::vector<Call> refused_calls() {
       {"DegreeTooHigh", grain(), {{"HarmonicDegree", "61"}}, {"HarmonicDegree", "60"}},
       {"WeightingAboveRange", grain(), {{"Weighting", "5"}}, {"Weighting", "WSCVT-C"}},
       {"WeightingBelowRange", grain(), {{"Weighting", "-1"}}, {"Weighting", "WSCVT-C"}},
-      {"PlacementOutOfRange", grain(), {{"Placement", "3"}}, {"Placement", "Least squares"}},
+      {"PlacementOutOfRange", grain(), {{"Placement", "4"}}, {"Placement", "Contact"}},
       {"SamplingOutOfRange", grain(), {{"Sampling", "4"}}, {"Sampling", "Fibonacci"}},
       {"TargetMeasureOutOfRange", grain(), {{"TargetMeasure", "5"}}, {"TargetMeasure", "Inertia"}},
       {"ErrorTargetNegative", grain(), {{"ErrorTarget", "-1"}}, {"ErrorTarget"}},

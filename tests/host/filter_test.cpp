@@ -291,17 +291,33 @@ QString listed_parameters(const QString& menu_text) {
 }
 
 TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
-  const QStringList remesh{
-      "NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",       "TargetMeasure RichEnum 4",
-      "Method RichEnum 0",          "Sampling RichEnum 0",           "Weighting RichEnum 1",
-      "HarmonicDegree RichInt 0",   "CurvatureAlpha RichFloat 1",    "CurvatureSource RichEnum 0",
-      "Placement RichEnum 2",       "RefinementRounds RichInt 0",    "SmallestAngle RichFloat 30",
-      "Parametrization RichEnum 0", "FoldLimit RichFloat 5",         "MendLimit RichFloat 5",
-      "Points RichBool false",      "Envelope RichFloat 0",          "Metric RichEnum 1",
-      "SeedStart RichEnum 0",       "RandomSeed RichInt 1",          "MaxIterations RichInt 1000",
-      "Threads RichInt 0",          "NewLayer RichBool true",        "Distances RichBool false",
-      "Quality RichEnum 0",         "ColorByQuality RichBool false", "ReportFile OutputFile",
-      "CoefficientsFile OutputFile"};
+  const QStringList remesh{"NodeCount RichInt 1000",
+                           "ErrorTarget RichFloat 0",
+                           "TargetMeasure RichEnum 4",
+                           "Method RichEnum 0",
+                           "Sampling RichEnum 0",
+                           "Weighting RichEnum 1",
+                           "HarmonicDegree RichInt 0",
+                           "CurvatureAlpha RichFloat 1",
+                           "CurvatureSource RichEnum 0",
+                           "Placement RichEnum 2",
+                           "RefinementRounds RichInt 0",
+                           "SmallestAngle RichFloat 30",
+                           "Parametrization RichEnum 0",
+                           "FoldLimit RichFloat 5",
+                           "MendLimit RichFloat 5",
+                           "Points RichBool false",
+                           "Metric RichEnum 1",
+                           "SeedStart RichEnum 0",
+                           "RandomSeed RichInt 1",
+                           "MaxIterations RichInt 1000",
+                           "Threads RichInt 0",
+                           "NewLayer RichBool true",
+                           "Distances RichBool false",
+                           "Quality RichEnum 0",
+                           "ColorByQuality RichBool false",
+                           "ReportFile OutputFile",
+                           "CoefficientsFile OutputFile"};
   EXPECT_EQ(listed_parameters(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
   const QStringList create{"Surface RichEnum 0",
                            "SemiAxisX RichFloat 1",
@@ -342,7 +358,8 @@ TEST(Filter, ChoicesAreFrozen) {
   EXPECT_EQ(choices("Method"), QStringList({"On the scan", "As published"}));
   EXPECT_EQ(choices("Metric"), QStringList({"Sphere", "Surface"}));
   EXPECT_EQ(choices("Parametrization"), QStringList({"Auto", "Radial", "Spherical"}));
-  EXPECT_EQ(choices("Placement"), QStringList({"Series", "Scan", "Least squares (volume exact)"}));
+  EXPECT_EQ(choices("Placement"), QStringList({"Series", "Scan", "Least squares (volume exact)",
+                                               "Contact of the deepest node"}));
   EXPECT_EQ(choices("Sampling"), QStringList({"Weighted Voronoi", "Fibonacci lattice",
                                               "Equal-angle grid", "Icosahedron"}));
   EXPECT_EQ(choices("TargetMeasure"),

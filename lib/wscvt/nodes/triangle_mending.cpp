@@ -105,10 +105,11 @@ class Mender {
     for (std::size_t i = 0; i < origin_.size(); ++i) origin_[i] = static_cast<std::int32_t>(i);
   }
 
-  int small_angles() const {
-    int count = 0;
-    for (const auto face : mesh_.faces()) count += angle_of(face) > angle_limit_ ? 1 : 0;
-    return count;
+  /// Of all triangles; their edges are not looked at.
+  Worst worst() const {
+    Worst worst;
+    for (const auto face : mesh_.faces()) count_angle(face, worst);
+    return worst;
   }
 
   /// Flips and moves about the small angles; returns how many.
@@ -489,7 +490,8 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   MendedTriangles unchanged;
   unchanged.mesh = nodes;
   Mender mender(nodes, places, surface, options);
-  unchanged.report.left = mender.small_angles();
+  const Worst before = mender.worst();
+  unchanged.report.left = before.small;
   if (unchanged.report.left == 0) return unchanged;
 
   // Relocations may leave more small angles for a while, so the best of all rounds is looked for.
@@ -505,8 +507,11 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
       changes += mender.relocate(report);
     }
     if (changes == 0) break;
-    report.left = mender.small_angles();
-    if (report.left < fewest) {
+    const Worst now = mender.worst();
+    report.left = now.small;
+    // Fewer small angles are no gain where one of them is smaller than any was: a node that was
+    // relocated may lie all but on another.
+    if (report.left < fewest && now.angle <= before.angle) {
       fewest = report.left;
       MendedTriangles mended;
       mended.mesh = mender.result(mended.relocated);
