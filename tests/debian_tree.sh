@@ -3,7 +3,7 @@
 # Does in a tree of another Debian what a newcomer does there, then runs the tests inside that
 # Debian's real MeshLab: menu, dialog, Apply, log.
 #   tests/debian_tree.sh SUITE      (trixie: Debian 13 with MeshLab 2022.02; sid: 2025.07)
-# As root; needs debootstrap. The tree stands in build/debian-SUITE and is used again; the pictures
+# As root; needs debootstrap, which tests/run_all.sh installs. The tree stands in build/debian-SUITE and is used again; the pictures
 # are in build/debian-SUITE-pictures.
 set -eu
 suite=${1:?usage: debian_tree.sh SUITE}
@@ -12,10 +12,6 @@ tree=$root/build/debian-$suite
 pictures=$tree-pictures
 [ "$(id -u)" -eq 0 ] || {
   echo "Making a tree of Debian $suite needs root." >&2
-  exit 1
-}
-command -v debootstrap > /dev/null || {
-  echo "debootstrap is not installed; run: apt-get install debootstrap" >&2
   exit 1
 }
 

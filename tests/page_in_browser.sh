@@ -1,18 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Shows a report's page in headless Chromium: on a telephone (400 pixels wide), in a wide window
-# (1400) and printed. Fails when the page is wider than a window or a picture of it does not load.
+# (1400) and printed. Fails when the page is wider than a window, a picture of it does not load or a
+# printed page ends with a heading.
 #   tests/page_in_browser.sh PROGRAM FOLDER
 # PROGRAM is wscvt. The page, the pictures page-400.png and page-1400.png and page.pdf are left in
-# FOLDER to be looked at. Needs chromium; run by tests/run_all.sh page, because of its 300 MB.
+# FOLDER to be looked at. Needs chromium and poppler-utils; tests/run_all.sh page installs them and
+# runs this.
 set -eu
 program=$(realpath "${1:?usage: page_in_browser.sh PROGRAM FOLDER}")
 folder=$(realpath -m "${2:?usage: page_in_browser.sh PROGRAM FOLDER}")
 meshes=$(realpath "$(dirname "$0")/../meshes")
-command -v chromium > /dev/null || {
-  echo "chromium is not installed; run: apt-get install --no-install-recommends chromium" >&2
-  exit 1
-}
 mkdir -p "$folder"
 home=$(mktemp -d)
 trap 'rm -rf "$home"' EXIT
@@ -28,7 +26,7 @@ browser() {  # width, height, further arguments
 }
 
 # With an error target, so that every figure is there.
-"$program" -q "$meshes/sand_7228.ply" "$folder/remesh.ply" -n 300 --target 1 --target-measure volume \
+"$program" -q "$meshes/sand_7228.ply" "$folder/remesh.ply" -n 300 --target 2 --target-measure distance \
   --report "$folder/page.html"
 
 # A window of Chromium is never narrower than 500 pixels, but a frame in it is.
@@ -59,5 +57,13 @@ END
     --screenshot="$folder/page-$width.png" "file://$home/frame.html"
 done
 browser 1400 1000 --no-pdf-header-footer --print-to-pdf="$folder/page.pdf" "file://$folder/page.html"
-test -s "$folder/page.pdf"
+# On paper no heading ends a page.
+sed -n 's/^<h2>\(.*\)<\/h2>$/\1/p' "$folder/page.html" > "$home/headings"
+pdftotext -layout "$folder/page.pdf" "$home/page.txt"
+awk 'BEGIN { RS = "\f" } NF { sub(/[ \n]+$/, ""); sub(/.*\n */, ""); print }' "$home/page.txt" > "$home/last_lines"
+echo "On $(wc -l < "$home/last_lines") pages of paper."
+if grep -n -x -F -f "$home/headings" "$home/last_lines"; then
+  echo "The page above ends with a heading." >&2
+  exit 1
+fi
 echo "The page and its pictures are in $folder."

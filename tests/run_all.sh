@@ -43,6 +43,7 @@ for step in "$@"; do
         xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/release ;;
     page)
       # After release. A step of its own, because a browser is 300 MB.
+      tests/install_packages.sh chromium poppler-utils
       tests/page_in_browser.sh build/release/lib/wscvt build/page ;;
     engines)
       # After release. Yade, LIGGGHTS, Gmsh and VTK are 1 GB, so a step of its own.
@@ -65,8 +66,10 @@ for step in "$@"; do
       cmake --build --preset release -j "$jobs"
       ctest --preset release -j "$jobs" -R '^host_20' ;;
     debian13)
+      tests/install_packages.sh debootstrap
       tests/debian_tree.sh trixie ;;
     sid)
+      tests/install_packages.sh debootstrap
       tests/debian_tree.sh sid ;;
     *)
       echo "Unknown step $step" >&2

@@ -89,6 +89,28 @@ TEST(Figures, CurvesLeaveOutWhatHasNoLogarithm) {
   EXPECT_EQ(count_of(logarithmic_figure("N", "error", {}, 2.0), "<circle"), 0U);
 }
 
+TEST(Figures, CurvesOverManyDecadesHaveFewTicks) {
+  for (const double smallest : {0.1, 1e-3, 1e-6, 1e-15, 1e-200}) {
+    const std::string svg = logarithmic_figure("N", "error", {{100, 1.0}, {1000, smallest}}, 0.0);
+    // Two titles, at most twelve numbers an axis, and enough to read it by.
+    EXPECT_LE(count_of(svg, "<text"), 2U + 2U * 12U) << smallest;
+    EXPECT_GE(count_of(svg, "text-anchor=\"end\""), 3U) << smallest;
+  }
+}
+
+TEST(Figures, PicturesShowBothMeshesWhole) {
+  const IndexedMesh ball = test::sphere(2);
+  IndexedMesh larger = ball;
+  for (Vector3& p : larger.points) p *= 1.5;
+  const auto first_picture = [&](const IndexedMesh& shown) {
+    return page_figures(ShownMesh{ball, "original"}, {shown, "remesh"}, Execution(1))
+        .pictures.front()
+        .content;
+  };
+  EXPECT_EQ(first_picture(ball), first_picture(ball));
+  EXPECT_NE(first_picture(ball), first_picture(larger)) << "the larger one is cut off";
+}
+
 std::uint32_t number_at(const std::string& bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t k = 0; k < 4; ++k)

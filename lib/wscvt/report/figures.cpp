@@ -109,22 +109,30 @@ double total_of(const Histogram& histogram) {
   return std::max(total, 1.0);
 }
 
-/// An axis of logarithms that holds all values, with room at its ends, and ticks at 1, 2 and 5.
+/// An axis of logarithms that holds all values, with room at its ends.
 Axis logarithmic_axis(double smallest, double largest, double from, double to) {
   const double margin = std::max(0.05 * std::log10(largest / smallest), 0.05);
   return {std::log10(smallest) - margin, std::log10(largest) + margin, from, to};
 }
 
+/// At 1, 2 and 5, or where that is too many at powers of ten.
 std::vector<Tick> logarithmic_ticks(const Axis& axis) {
+  constexpr std::size_t most = 12;  // whose texts do not overlap
   std::vector<Tick> ticks;
-  for (int power = static_cast<int>(std::floor(axis.lower));
-       power <= static_cast<int>(std::ceil(axis.upper)); ++power) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
-      const double value = digit * std::pow(10.0, power);
-      const double place = std::log10(value);
-      if (place >= axis.lower && place <= axis.upper) ticks.push_back({place, number(value)});
+  const auto collect = [&](const std::vector<double>& digits, int step) {
+    ticks.clear();
+    for (int power = static_cast<int>(std::floor(axis.lower));
+         power <= static_cast<int>(std::ceil(axis.upper)); ++power) {
+      if (power % step != 0) continue;
+      for (const double digit : digits) {
+        const double value = digit * std::pow(10.0, power);
+        const double place = std::log10(value);
+        if (place >= axis.lower && place <= axis.upper) ticks.push_back({place, number(value)});
+      }
     }
-  }
+  };
+  collect({1.0, 2.0, 5.0}, 1);
+  for (int step = 1; ticks.size() > most; ++step) collect({1.0}, step);
   if (ticks.size() > 2) return ticks;
   // Less than a decade: multiples of one step tell more.
   ticks.clear();

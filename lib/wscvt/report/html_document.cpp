@@ -8,7 +8,8 @@ namespace wscvt {
 namespace {
 
 // Figures are at least 20em wide, so one column on a telephone, three on a wide window. Printers
-// get no breaks inside figures and rows.
+// get no breaks inside figures and rows or behind headings, three pictures beside each other, two
+// drawings, whose texts would be too small, and a log whose lines fit.
 constexpr const char* style =
     "body { font-family: sans-serif; max-width: 80em; margin: 2em auto; padding: 0 1em; "
     "color: #000; background: #fff; }\n"
@@ -28,8 +29,12 @@ constexpr const char* style =
     ".typed td, .typed th { text-align: left; }\n"
     "@media (max-width: 40em) { th, td { padding: 0.15em 0.3em; } table, pre { font-size: 0.8em; } "
     "}\n"
-    "@media print { body { margin: 0; max-width: none; } figure, tr { break-inside: avoid; } "
-    "pre { white-space: pre-wrap; } }\n";
+    "@media print { body { margin: 0; padding: 0; max-width: none; font-size: 10pt; } h2 { "
+    "break-after: avoid; } figure, tr, .warning { break-inside: avoid; } "
+    ".wide { overflow: visible; "
+    "} .figures { grid-template-columns: repeat(2, 1fr); } .figures:has(img) { "
+    "grid-template-columns: repeat(3, 1fr); } figcaption { font-size: 8pt; } pre { white-space: "
+    "pre-wrap; font-size: 6.5pt; } }\n";
 
 std::string with_unit(const std::string& label, const std::string& unit) {
   return unit.empty() ? label : label + ", " + unit;

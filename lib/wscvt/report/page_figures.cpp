@@ -91,7 +91,13 @@ void add_triangle_histograms(std::vector<Figure>& figures,
 PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownMesh& shown,
                          const Execution& execution) {
   PageFigures figures;
-  const MeshView view = view_of(reference ? reference->mesh : shown.mesh, drawn_pixels);
+  // Both are to be seen whole: a few nodes that enclose the same volume stand far out of the scan.
+  IndexedMesh both{shown.mesh.points, {}};
+  if (reference) {
+    both.points.insert(both.points.end(), reference->mesh.points.begin(),
+                       reference->mesh.points.end());
+  }
+  const MeshView view = view_of(both, drawn_pixels);
   if (reference) {
     // On a dense scan the edges would hide the surface.
     figures.pictures.push_back(picture_figure(
