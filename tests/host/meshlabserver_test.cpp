@@ -4,10 +4,18 @@
 
 #include <QFile>
 #include <QRegularExpression>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
 
 #include "calls.h"
+#include "grains/handled_body.h"
 #include "programs.h"
 #include "sample_meshes.h"
+#include "support/test_shapes.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"
 
@@ -148,6 +156,146 @@ TEST(Server, RefusesANodeCountThatCannotBeRead) {
     EXPECT_TRUE(outcome.output.contains("NodeCount is missing"));
   }
 }
+
+/// A refusal, and what MeshLab does when its advice is followed.
+struct Advice {
+  std::string name;
+  Call refused;   ///< with words of the advice
+  QString steps;  ///< filters of MeshLab to apply first, as a script holds them
+  std::map<std::string, std::string> parameters;  ///< of the remesher, the second time
+};
+
+void PrintTo(const Advice& advice, std::ostream* out) { *out << advice.name; }
+
+/// "Uniform Mesh Resampling" of the distance to the mesh, whichever side it is on.
+QString resampled_at_a_distance(double cell, double offset) {
+  return QStringLiteral(
+             " <filter name=\"Uniform Mesh Resampling\">\n"
+             "  <Param name=\"CellSize\" type=\"RichAbsPerc\" value=\"%1\" min=\"0\" max=\"9\"/>\n"
+             "  <Param name=\"Offset\" type=\"RichAbsPerc\" value=\"%2\" min=\"-9\" max=\"9\"/>\n"
+             "  <Param name=\"mergeCloseVert\" type=\"RichBool\" value=\"true\"/>\n"
+             "  <Param name=\"discretize\" type=\"RichBool\" value=\"false\"/>\n"
+             "  <Param name=\"multisample\" type=\"RichBool\" value=\"false\"/>\n"
+             "  <Param name=\"absDist\" type=\"RichBool\" value=\"true\"/>\n"
+             " </filter>\n")
+      .arg(cell)
+      .arg(offset);
+}
+
+/// A ball drilled through along z by holes of radius 0.06, 0.2 apart.
+IndexedMesh porous_ball() {
+  return test::body_of_depth([](const Vector3& p) {
+    const double x = p.x() - 0.2 * std::round(p.x() / 0.2);
+    const double y = p.y() - 0.2 * std::round(p.y() / 0.2);
+    return std::min(test::ball(p), std::hypot(x, y) - 0.06);
+  });
+}
+
+std::vector<Advice> all_advice() {
+  const IndexedMesh points{sphere().points, {}};
+  const std::string resample =
+      "Filters > Remeshing, Simplification and Reconstruction > Uniform Mesh Resampling with "
+      "Absolute Distance checked and an Offset";
+  return {
+      {"SplitTheBodies",
+       {"", two_grains(), {}, {"Filters > Mesh Layer > Split in Connected Components"}},
+       " <filter name=\"Split in Connected Components\"/>\n",
+       {}},
+      // The band leaves an opening of radius 1.4.
+      {"ResampleTheBand",
+       {"", band_with_one_side(), {}, {resample}},
+       resampled_at_a_distance(0.1, 1.7),
+       {}},
+      {"ResampleTheRing",
+       {"", test::torus(1.0, 0.4, 48), {}, {resample}},
+       resampled_at_a_distance(0.05, 0.7),
+       {}},
+      {"ResampleThePores",
+       {"", porous_ball(), {}, {resample}},
+       resampled_at_a_distance(0.03, 0.08),
+       {}},
+      {"ResampleTheHole",
+       {"", without_a_patch(), {}, {resample}},
+       resampled_at_a_distance(0.05, 1.2),
+       {}},
+      {"RaiseTheMendLimit",
+       {"", without_a_patch(), {}, {"raise the limit of the area that may be mended"}},
+       "",
+       {{"MendLimit", "100"}}},
+      {"TakeThePoints", {"", points, {}, {"Points in the filter"}}, "", {{"Points", "true"}}},
+      {"TakeTheSphericalMap",
+       {"", bent_grain(), {{"Parametrization", "1"}}, {"take the spherical parametrization"}},
+       "",
+       {{"Parametrization", "2"}}},
+      {"PlaceByLeastSquares",
+       {"",
+        grain(),
+        {{"RefinementRounds", "10"}, {"Placement", "0"}},
+        {"place them by least squares"}},
+       "",
+       {{"RefinementRounds", "10"}, {"Placement", "2"}}},
+      {"TakeTheRadialMap",
+       {"",
+        grain(),
+        {{"RefinementRounds", "10"}, {"Parametrization", "2"}},
+        {"Refinement needs the radial parametrization; take that one"}},
+       "",
+       {{"RefinementRounds", "10"}, {"Parametrization", "1"}}},
+      {"TakeTheLattice",
+       {"",
+        grain(),
+        {{"ErrorTarget", "2"}, {"Sampling", "2"}},
+        {"take the weighted one or the Fibonacci lattice"}},
+       "",
+       {{"ErrorTarget", "2"}, {"Sampling", "1"}}},
+      {"FitToTheScan",
+       {"",
+        grain(),
+        {{"ErrorTarget", "0.5"}, {"Placement", "0"}, {"HarmonicDegree", "2"}},
+        {"fit the nodes to the scan by least squares"}},
+       "",
+       {{"ErrorTarget", "0.5"}, {"Placement", "2"}, {"HarmonicDegree", "2"}}},
+  };
+}
+
+class ServerAdvises : public ::testing::TestWithParam<Advice> {};
+
+TEST_P(ServerAdvises, WhatLeadsToARemesh) {
+  const Advice& advice = GetParam();
+  QTemporaryDir folder;
+  const QString output = folder.filePath("remeshed.ply");
+  const Outcome refusal = run_call(advice.refused, folder, output);
+  EXPECT_EQ(refusal.exit_code, refused);
+  EXPECT_FALSE(QFile::exists(output));
+  for (const std::string& word : advice.refused.words) {
+    EXPECT_TRUE(refusal.output.contains(QString::fromStdString(word)))
+        << word << "\n"
+        << refusal.output.toStdString();
+  }
+
+  const QString script = folder.filePath("script.mlx");
+  write_script(advice.parameters, script);
+  QFile file(script);
+  ASSERT_TRUE(file.open(QIODevice::ReadWrite));
+  QString text = QString::fromUtf8(file.readAll());
+  text.insert(text.indexOf(" <filter"), advice.steps);
+  file.seek(0);
+  file.write(text.toUtf8());
+  file.close();
+  const Outcome outcome = run_meshlabserver(
+      {"-i", folder.filePath("input.ply"), "-s", script, "-o", output}, folder.path());
+  SCOPED_TRACE(outcome.output.toStdString());
+  ASSERT_TRUE(QFile::exists(output));
+  const std::size_t nodes = read_mesh(output.toStdString()).points.size();
+  if (advice.parameters.count("ErrorTarget") > 0) {
+    EXPECT_GE(nodes, 4U);  // it finds a number of its own
+  } else {
+    EXPECT_EQ(nodes, 1000U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, ServerAdvises, ::testing::ValuesIn(all_advice()),
+                         [](const auto& test) { return test.param.name; });
 
 class ServerCopesWith : public ::testing::TestWithParam<Call> {};
 

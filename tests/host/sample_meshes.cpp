@@ -99,6 +99,30 @@ IndexedMesh flat_grain() {
   });
 }
 
+IndexedMesh band_with_one_side() {
+  constexpr int around = 60;
+  constexpr int across = 6;
+  IndexedMesh mesh;
+  for (int i = 0; i < around; ++i) {
+    const double angle = 2.0 * pi * i / around;
+    for (int j = 0; j <= across; ++j) {
+      const double side = 1.2 * (static_cast<double>(j) / across - 0.5);
+      const double radius = 2.0 + side * std::cos(0.5 * angle);
+      mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                               side * std::sin(0.5 * angle));
+    }
+  }
+  // After one round the sides have changed places.
+  const auto vertex = [&](int i, int j) { return i < around ? i * (across + 1) + j : across - j; };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
 IndexedMesh bent_grain() {
   // A thin body bent round 200 degrees: its centroid lies in the bay, outside.
   return mapped_sphere(63, 32, [](const Vector3& u) {

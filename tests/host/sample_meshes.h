@@ -22,6 +22,7 @@ IndexedMesh two_grains();               ///< two equal bodies side by side
 IndexedMesh with_non_manifold_edge();   ///< grain() and a small body that share one edge
 IndexedMesh with_coordinate(double x);  ///< grain() with one coordinate set to x
 IndexedMesh flat_grain();               ///< grain() pressed into a plane: no volume
+IndexedMesh band_with_one_side();       ///< a Moebius band about a circle of radius 2
 IndexedMesh bent_grain();               ///< a banana whose rays from the centroid meet it again
 
 IndexedMesh scaled(IndexedMesh mesh, double factor);

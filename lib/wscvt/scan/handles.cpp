@@ -15,6 +15,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/scan/closing_advice.h"
 
 namespace wscvt {
 
@@ -278,9 +279,11 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
         ErrorCode::InvalidInput,
         "The scan has " + std::to_string(genus) + " handles, more than the limit of " +
             std::to_string(options.count_limit) +
-            ": it is porous, and no map to the sphere follows its pores. Take its envelope, "
-            "which closes them; 5 % of the bounding box is a start. Or allow more "
-            "handles.");
+            ": it is porous, and no map to the sphere follows its pores. Take its envelope, which "
+            "closes them (" +
+            where_envelopes_are() +
+            "); 5 % of the bounding box is a start. Or allow more handles (--handles in the "
+            "program, RemeshOptions::handles in the library).");
   }
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
@@ -304,8 +307,11 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
               format_number(handle.place.z()) + "), above the limit of " +
               format_number(options.length_limit) +
               ": too wide for a flaw of the scanner. A ring has a real hole and cannot be mapped "
-              "to the sphere. Fill the hole or cut the ring in the scan, raise the limit above "
-              "that length to have it cut there, or take the radial map, which goes past it.");
+              "to the sphere. Fill the hole, e.g. in MeshLab by " +
+              closing_filter() +
+              "; raise the limit above that length to have it cut there (--handle-length in the "
+              "program, RemeshOptions::handles in the library); or, where the centroid lies "
+              "inside the grain, take the radial map, which goes past it.");
     }
     const std::vector<std::int32_t> moved = cut_and_cap(mesh, links, loop);
     links = linked(mesh);

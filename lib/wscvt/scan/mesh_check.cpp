@@ -14,6 +14,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/scan/closing_advice.h"
 #include "wscvt/scan/components.h"
 #include "wscvt/scan/degenerate_faces.h"
 #include "wscvt/scan/edge_rings.h"
@@ -221,7 +222,8 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
   refuse("The mesh has " + found + ". Mending that would change " + format_percent(mended) +
          " of its area, above the limit of " + format_percent(limit) +
          "; raise the limit of the area that may be mended above " + format_percent(mended) +
-         " and check the result against the scan, take its envelope, or scan the grain again.");
+         " and check the result against the scan, take its envelope (" + where_envelopes_are() +
+         "), or scan the grain again.");
 }
 
 }  // namespace
@@ -321,9 +323,8 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   if (!components.list[main].orientable) {
     refuse(std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
            " is not orientable: its faces cannot all be turned to face outward, so they enclose "
-           "nothing; make a surface of two sides of it first, e.g. Filters > Remeshing, "
-           "Simplification and Reconstruction > Uniform Mesh Resampling with Absolute Distance "
-           "checked and an Offset that closes its openings, above half their width.");
+           "nothing; make a surface of two sides of it first, e.g. in MeshLab by " +
+           closing_filter() + ".");
   }
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;
