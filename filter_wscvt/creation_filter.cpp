@@ -24,7 +24,7 @@ FilterParameter semi_axis(const std::string& name, double default_value, const s
 FilterParameter exponent(const std::string& name, const NumberOption<double>& option,
                          const std::string& label, const std::string& where) {
   return option_parameter(name, 1.0, option, label,
-                          "Superellipsoid only: how square it is " + where +
+                          "Superellipsoid (Barr, 1981) only: how square it is " + where +
                               ". 0.1 nearly a box, 1 round as the ellipsoid, 2 a bevelled edge.");
 }
 
@@ -33,16 +33,14 @@ FilterParameter exponent(const std::string& name, const NumberOption<double>& op
 std::string creation_name() { return "Create: grain from ellipsoid, superellipsoid or harmonics"; }
 
 std::string creation_help() {
-  return "Makes a closed mesh of a number of nodes from a surface that is known exactly: an "
-         "ellipsoid, a superellipsoid (<i>Barr</i>, 1981) or spherical harmonics from a file, as a "
-         "new layer. It refuses files that hold something else and series whose radius is not "
-         "positive everywhere. Method: <i>Wu F., Huang L., Lai Z.</i>, Engineering Mechanics, "
-         "2022.";
+  // One line, so that in 2020.09, whose dialog does not scroll, Apply is on a screen 768 high.
+  return "A closed mesh of <b>exactly the number of nodes asked for</b>.";
 }
 
 ParameterList creation_parameters() {
   ParameterList parameters = {
-      table_parameter("Surface", SurfaceKind::Ellipsoid, "Surface", "What is made into a mesh."),
+      table_parameter("Surface", SurfaceKind::Ellipsoid, "Surface",
+                      "What is made into a mesh, by the method of Wu, Huang and Lai (2022)."),
       semi_axis("SemiAxisX", 1.0, "x"),
       semi_axis("SemiAxisY", 1.0, "y"),
       semi_axis("SemiAxisZ", 1.0, "z"),
@@ -52,7 +50,7 @@ ParameterList creation_parameters() {
       input_file_parameter(
           "CoefficientsFile", {".dat", ".json"}, "Coefficients file",
           "Of the harmonics: .dat (text of the NIST/VCCTL particle shape sets) or .json (as the "
-          "remesher saves it)."),
+          "remesher saves it). A series whose radius is not positive everywhere is refused."),
       option_parameter("CoefficientDegree", -1, coefficient_degree_option,
                        "Cut the series at degree",
                        "Of a .dat file only, as for the tables beside the particle shape sets; -1 "

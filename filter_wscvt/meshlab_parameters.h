@@ -26,14 +26,18 @@ inline QString file_dialog_filter(const FilterParameter& parameter) {
   return QString::fromStdString(parameter.label) + " (" + patterns.join(' ') + ")";
 }
 
-/// A tooltip as the host shows it. MeshLab's Help reserves room for the text as if its column were
-/// wide, and cuts off what does not fit; in a table of its own width it gets the room it needs. The
-/// dialog itself never takes more than two thirds of the screen.
-inline QString shown_tooltip(const FilterParameter& parameter) {
+/// HTML in a column of its own width, in pixels. MeshLab reserves room for texts as if their column
+/// were wide, and cuts off or overlaps what does not fit; a column gets the room it needs.
+inline QString in_column(const QString& html, int width) {
+  return QStringLiteral("<table width=\"%1\" cellspacing=\"0\" cellpadding=\"0\"><tr><td>")
+             .arg(width) +
+         html + QStringLiteral("</td></tr></table>");
+}
+
+/// A tooltip as the host shows it, also behind its Help button.
+inline QString shown_tooltip(const FilterParameter& parameter, int width) {
   const QString text = QString::fromStdString(parameter.tooltip);
-  if (!host_has_window()) return text;
-  return QStringLiteral("<table width=\"350\"><tr><td>") + text.toHtmlEscaped() +
-         QStringLiteral("</td></tr></table>");
+  return host_has_window() ? in_column(text.toHtmlEscaped(), width) : text;
 }
 
 template <class Api>
@@ -106,13 +110,25 @@ ParameterValue value_of(const FilterParameter& parameter, const typename Api::Va
                   ", which does not fit; take the types from the filter's own scripts.");
 }
 
-/// The values of those parameters that a list holds.
+/// For a parameter whose value a script lacks or garbles.
+[[noreturn]] inline void refuse_without(const std::string& name) {
+  throw Error(ErrorCode::InvalidInput,
+              "Parameter " + name +
+                  " is missing from the script, or its value cannot be read; give a whole number, "
+                  "and the parameter where the filter's own scripts have it. Nothing was changed.");
+}
+
+/// The values of those parameters that a list holds. Throws Error when one that is required is
+/// missing.
 template <class Api>
 ParameterValues values_of(const ParameterList& known, const typename Api::List& list) {
   ParameterValues values;
   for (const FilterParameter& parameter : known) {
     const QString name = QString::fromStdString(parameter.name);
-    if (!list.hasParameter(name)) continue;
+    if (!list.hasParameter(name)) {
+      if (parameter.required) refuse_without(parameter.name);
+      continue;
+    }
     values[parameter.name] = value_of<Api>(parameter, list.getParameterByName(name).value());
   }
   return values;

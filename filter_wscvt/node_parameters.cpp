@@ -6,10 +6,12 @@
 namespace wscvt::filter {
 
 FilterParameter node_count_parameter() {
-  return option_parameter(
+  FilterParameter parameter = option_parameter(
       "NodeCount", RemeshOptions().node_count, node_count_option, "Number of nodes",
       "Vertices of the result, exactly. Flat triangles lose about 660/N % of the volume, unless "
       "nodes are placed by least squares.");
+  parameter.required = true;
+  return parameter;
 }
 
 FilterParameter sampling_parameter() {

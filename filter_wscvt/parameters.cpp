@@ -154,4 +154,9 @@ double typed_value(float value) {
   return result;
 }
 
+double typed_value(double value) {
+  const auto read_as_float = static_cast<float>(value);
+  return static_cast<double>(read_as_float) == value ? typed_value(read_as_float) : value;
+}
+
 }  // namespace wscvt::filter

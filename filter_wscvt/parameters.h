@@ -41,6 +41,7 @@ struct FilterParameter {
   std::string label;
   std::string tooltip;
   bool advanced = false;  ///< folded away at first by hosts that can
+  bool required = false;  ///< in a script: hosts drop what they cannot read, and say nothing
 };
 
 /// Parameters in the order in which a dialog shows them.
@@ -125,7 +126,7 @@ class CheckedValues {
 /// The decimal number a user typed, given the float a host made of it: 0.1, not 0.100000001.
 double typed_value(float value);
 
-/// The same in a host whose numbers are doubles.
-inline double typed_value(double value) { return value; }
+/// The same in a host whose numbers are doubles, but which reads scripts and fields as floats.
+double typed_value(double value);
 
 }  // namespace wscvt::filter

@@ -10,7 +10,6 @@
 #include "meshlab_host.h"
 #include "meshlab_layers.h"
 #include "meshlab_parameters.h"
-#include "wscvt/base/error.h"
 
 namespace {
 
@@ -31,6 +30,8 @@ struct Api {
   using InputFile = RichOpenFile;
   using OutputFile = RichSaveFile;
 
+  static constexpr int help_width = 350;  // the dialog grows by it
+
   static std::vector<MeshModel*> all(MeshDocument& document) {
     return {document.meshList.begin(), document.meshList.end()};
   }
@@ -44,7 +45,7 @@ struct Api {
     // What is typed into the field of a file has no effect in this version.
     if (holds_file(parameter.kind)) label += QStringLiteral(" (by button)");
     list.addParam(Rich(QString::fromStdString(parameter.name), arguments..., label,
-                       shown_tooltip(parameter)));
+                       shown_tooltip(parameter, help_width)));
   }
 
   static std::optional<QString> text(const ::Value& value) {
@@ -60,11 +61,7 @@ struct Api {
 void refuse_unreadable(const ParameterList& known, const RichParameterList& parameters) {
   if (known.size() < 2 || parameters.size() != known.size()) return;
   const std::string& first = known.front().name;
-  if (parameters.at(parameters.size() - 1).name().toStdString() != first) return;
-  throw wscvt::Error(wscvt::ErrorCode::InvalidInput,
-                     "Parameter " + first +
-                         " is missing from the script, or its value cannot be read; give a whole "
-                         "number, as the first parameter of the script. Nothing was changed.");
+  if (parameters.at(parameters.size() - 1).name().toStdString() == first) refuse_without(first);
 }
 
 }  // namespace
@@ -83,7 +80,8 @@ QString FilterWscvt::filterName(FilterIDType filter) const {
 }
 
 QString FilterWscvt::filterInfo(FilterIDType filter) const {
-  return QString::fromStdString(filter_with_number(filter).help);
+  const QString help = QString::fromStdString(filter_with_number(filter).help);
+  return host_has_window() ? in_column(help, 440) : help;
 }
 
 MeshFilterInterface::FilterClass FilterWscvt::getClass(QAction* action) {

@@ -34,6 +34,8 @@ struct Api {
   using OutputFile = RichSaveFile;
 #endif
 
+  static constexpr int help_width = 240;  // within a column of 250, however wide the dialog is
+
   static std::vector<MeshModel*> all(MeshDocument& document) {
     std::vector<MeshModel*> models;
     for (MeshModel& model : document.meshIterator()) models.push_back(&model);
@@ -46,8 +48,8 @@ struct Api {
   static void add(RichParameterList& list, const FilterParameter& parameter,
                   const Arguments&... arguments) {
     list.addParam(Rich(QString::fromStdString(parameter.name), arguments...,
-                       QString::fromStdString(parameter.label), shown_tooltip(parameter),
-                       parameter.advanced));
+                       QString::fromStdString(parameter.label),
+                       shown_tooltip(parameter, help_width), parameter.advanced));
   }
 
   static std::optional<QString> text(const ::Value& value) {

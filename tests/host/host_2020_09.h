@@ -66,6 +66,9 @@ inline bool is_shown(const MeshModel& layer) { return layer.isVisible(); }
 inline bool is_advanced(const RichParameter& /*parameter*/) { return false; }
 inline constexpr bool host_folds_parameters = false;
 
+/// Pixels across for the text behind the Help button: beside the fields, on a screen 1280 wide.
+inline constexpr int help_column = 400;
+
 inline QString filter_of(FilterScript& script, int k) { return script[k].filterName(); }
 inline RichParameterList parameters_of(FilterScript& script, int k) { return script[k].second; }
 

@@ -69,6 +69,9 @@ inline bool is_shown(const MeshModel& layer) { return layer.isVisible(); }
 inline bool is_advanced(const RichParameter& parameter) { return parameter.isAdvanced(); }
 inline constexpr bool host_folds_parameters = true;
 
+/// Pixels across for the text behind the Help button; what is wider is cut off.
+inline constexpr int help_column = 250;
+
 inline QString filter_of(FilterScript& script, int k) { return script[k].first; }
 inline RichParameterList parameters_of(FilterScript& script, int k) { return script[k].second; }
 
