@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "batch_command.h"
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <new>
 #include <optional>
-#include <thread>
 
+#include "batch_grains.h"
 #include "command.h"
 #include "common_arguments.h"
 #include "exit_code.h"
-#include "grain_queue.h"
-#include "progress_line.h"
+#include "grain_run.h"
 #include "remesh_arguments.h"
 #include "signals.h"
+#include "volume_arguments.h"
 #include "work.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
@@ -58,6 +55,8 @@ class OutputFolder {
     return (folder_ / fs::path(grain).stem()).string() + ending_;
   }
   std::string table() const { return file("grains", ".csv"); }
+  /// The same for every part: what a volume holds.
+  std::string labels() const { return (folder_ / "labels.csv").string(); }
   std::string call() const { return file("call", ".json"); }
   std::string summary(const std::string& ending) const { return file("summary", ending); }
 
@@ -93,6 +92,7 @@ void check_meshes(const std::vector<std::string>& grains, const OutputFolder& fo
 std::string call_text(const BatchArguments& arguments) {
   return "{\n\"format\": \"wscvt-batch\",\n\"made_by\": \"" + made_by() + "\",\n\"meshes\": \"" +
          arguments.format + "\",\n\"seconds\": " + (arguments.seconds ? "true" : "false") +
+         ",\n\"volume\": " + volume_options_json(arguments.volume) +
          ",\n\"options\": " + options_json(arguments.options) + "}\n";
 }
 
@@ -110,47 +110,23 @@ void check_call(const std::string& path, const std::string& call, bool is_begun)
 
 /// The row of a grain, whose mesh is then written. Throws Error(Cancelled) alone.
 GrainRow remeshed_row(const BatchArguments& arguments, const OutputFolder& folder,
-                      const std::string& grain, const Execution& execution) {
+                      BatchGrains& grains, std::size_t k, const Execution& execution) {
+  const std::string& grain = grains.names()[k];
   const Clock::time_point start = Clock::now();
   const auto seconds = [&]() -> Seconds {
     if (!arguments.seconds) return {};
     return seconds_since(start);
   };
-  const auto failure = [&](const std::string& error) -> GrainRow {
-    return {failed_row(grain, error, seconds()), error};
-  };
-  try {
-    const RemeshResult result = remesh(read_mesh(grain), arguments.options, execution);
+  const auto make = [&]() -> GrainRow {
+    GrainScan scan = grains.read(k, execution);
+    RemeshResult result = remesh(std::move(scan.mesh), arguments.options, execution);
+    result.warnings.insert(result.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
     write_mesh(result.mesh, folder.mesh(grain));
     return {sample_row(grain, result, seconds()), ""};
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::Cancelled) throw;
-    return failure(error.what());
-  } catch (const std::bad_alloc&) {
-    return failure("There is not enough memory for this mesh; take fewer threads.");
-  } catch (const std::exception& error) {
-    return failure(error.what());
-  }
-}
-
-/// "2 h 5 min", "3 min 20 s", "7 s".
-std::string duration_text(double seconds) {
-  const auto all = static_cast<long long>(seconds + 0.5);
-  if (all >= 3600)
-    return std::to_string(all / 3600) + " h " + std::to_string(all % 3600 / 60) + " min";
-  if (all >= 60) return std::to_string(all / 60) + " min " + std::to_string(all % 60) + " s";
-  return std::to_string(all) + " s";
-}
-
-/// What the line on the terminal says.
-std::string progress_text(std::size_t done, std::size_t count, std::size_t failed, double rate) {
-  std::string text = std::to_string(done) + " of " + std::to_string(count) + " grains";
-  if (failed > 0) text += ", " + std::to_string(failed) + " failed";
-  if (rate > 0.0) {
-    text += ", " + format_number(rate, 3) + " a second, " +
-            duration_text(static_cast<double>(count - done) / rate) + " left";
-  }
-  return text;
+  };
+  return row_or_failure(make, [&](const std::string& error) -> GrainRow {
+    return {failed_row(grain, error, seconds()), error};
+  });
 }
 
 /// Half-written meshes that a killed batch left beside those it wrote.
@@ -162,15 +138,23 @@ void remove_parts(const std::vector<std::string>& grains, std::size_t first,
   }
 }
 
-int thread_count(int asked, std::size_t grains) {
-  const int all = asked > 0 ? asked : static_cast<int>(std::thread::hardware_concurrency());
-  return std::max(1,
-                  static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(all), grains)));
-}
-
 }  // namespace
 
 BatchArguments::BatchArguments() { options.measures.advice = false; }
+
+void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
+  add_typed(app, "--shard",
+            [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
+      ->description("Only the I-th of N parts of the grains, by their names")
+      ->type_name("I/N");
+  app.add_option("--format", arguments.format,
+                 "Ending of the meshes: ply, stl, obj or off. "
+                 "Default: ply")
+      ->type_name("NAME");
+  app.add_flag("--seconds", arguments.seconds,
+               "A column of the table for how long each grain took; it differs from run to run");
+  add_remesh_arguments(app, arguments.options);
+}
 
 CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
   CLI::App& app = add_command(
@@ -184,24 +168,17 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
        "and is\nstarted again goes on where it was. A part gets a table of its own: see wscvt "
        "collect.",
        true});
-  app.add_option("inputs", arguments.inputs,
-                 "Meshes, folders of them, patterns in quotes, or @FILE with one of these a line")
+  app.add_option(
+         "inputs", arguments.inputs,
+         "Meshes, volumes of labels, folders, patterns in quotes, or @FILE with one of these a "
+         "line")
       ->type_name("INPUT")
       ->required();
   app.add_option("-o,--output", arguments.folder, "Folder for all that is made")
       ->type_name("OUT")
       ->required();
-  add_typed(app, "--shard",
-            [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Only the I-th of N parts of the grains, by their names")
-      ->type_name("I/N");
-  app.add_option("--format", arguments.format,
-                 "Ending of the meshes: ply, stl, obj or off. "
-                 "Default: ply")
-      ->type_name("NAME");
-  app.add_flag("--seconds", arguments.seconds,
-               "A column of the table for how long each grain took; it differs from run to run");
-  add_remesh_arguments(app, arguments.options);
+  add_sample_arguments(app, arguments);
+  add_volume_arguments(app, arguments.volume, finer_settings);
   add_threads_argument(app, arguments.threads);
   app.add_flag("-q,--quiet", arguments.quiet,
                "No summary on the standard output, no progress; failures stay");
@@ -211,54 +188,38 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
 int run(const BatchArguments& arguments) {
   check_options(arguments.options);
   check_mesh_format("mesh." + arguments.format);
-  const std::vector<std::string> grains = files_of(arguments.shard, grain_files(arguments.inputs));
+  if (!arguments.quiet) check_writable("/dev/stdout");
+  BatchGrains inputs(arguments.inputs, arguments.volume, arguments.shard, arguments.quiet);
+  const std::vector<std::string>& grains = inputs.names();
   const OutputFolder folder(arguments);
   check_meshes(grains, folder);
   std::error_code error;
   fs::create_directories(arguments.folder, error);
-  if (!arguments.quiet) check_writable("/dev/stdout");
   const std::string header = sample_header(arguments.seconds);
   check_call(folder.call(), call_text(arguments), fs::exists(folder.table(), error));
   SampleTable table(folder.table(), header, grains);
   const std::size_t first = table.rows();
   remove_parts(grains, first, folder);
 
-  note_signals();
-  ProgressLine line(!arguments.quiet);
-  const Clock::time_point start = Clock::now();
-  std::atomic<std::size_t> done{first};
-  std::atomic<std::size_t> failed{table.failed_rows()};
-  std::atomic<bool> stopped{false};
-  const auto work = [&](std::size_t k) {
-    return remeshed_row(arguments, folder, grains[k], Execution(1, [&](double, const std::string&) {
-                          return !stopped && noted_signal() == 0;
-                        }));
+  const std::string labels = inputs.label_table(
+      [&](const std::string& grain) { return fs::path(folder.mesh(grain)).filename().string(); });
+  if (!labels.empty()) write_file(folder.labels(), labels);
+  inputs.begin(first);
+
+  GrainRun all;
+  all.first = first;
+  all.failed = table.failed_rows();
+  all.count = grains.size();
+  all.threads = arguments.threads;
+  all.quiet = arguments.quiet;
+  all.name = [&](std::size_t k) { return grains[k]; };
+  all.work = [&](std::size_t k, const Execution& execution) {
+    return remeshed_row(arguments, folder, inputs, k, execution);
   };
-  const auto take = [&](const GrainRow& row) {
-    table.append(row.record);
-    ++done;
-    if (row.error.empty()) return;
-    ++failed;
-    line.clear();
-    std::fprintf(stderr, "Failed: %s: %s\n", grains[done - 1].c_str(), row.error.c_str());
-  };
-  GrainQueue queue(first, grains.size(), work, take);
-  try {
-    queue.run(thread_count(arguments.threads, grains.size()), [&] {
-      const std::size_t now = done;
-      const double rate = static_cast<double>(now - first) / seconds_since(start);
-      const double share = static_cast<double>(now) / static_cast<double>(grains.size());
-      line.show(share, progress_text(now, grains.size(), failed, rate));
-      stopped = noted_signal() != 0;
-      return !stopped;
-    });
-  } catch (const Error& cancelled) {
-    if (cancelled.code() != ErrorCode::Cancelled) throw;
-  }
-  line.clear();
-  if (done < grains.size()) {
-    std::fprintf(stderr, "Cancelled after %zu of %zu grains. The same call goes on from there.\n",
-                 done.load(), grains.size());
+  all.take = [&](std::size_t, const GrainRow& row) { table.append(row.record); };
+  const GrainRunEnd end = run_grains(all);
+  if (end.was_cancelled) {
+    std::fprintf(stderr, " The same call goes on from there.\n");
     return 128 + noted_signal();
   }
   if (arguments.shard.count == 1) {
@@ -266,7 +227,7 @@ int run(const BatchArguments& arguments) {
     for (const char* ending : {".json", ".html"}) write_summary(folder.summary(ending), summary);
     print(summary_lines(summary), arguments.quiet);
   }
-  return failed == 0 ? Done : SomeFailed;
+  return end.failed == 0 ? Done : SomeFailed;
 }
 
 }  // namespace wscvt::program

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "batch_inputs.h"
+#include "volume/label_grains.h"
 #include "wscvt/report/remesh_options.h"
 
 namespace wscvt::program {
@@ -22,7 +23,11 @@ struct BatchArguments {
   int threads = 0;       ///< 0: all
   bool quiet = false;
   RemeshOptions options;  ///< without advice, which is for a person at one grain
+  VolumeOptions volume;   ///< of inputs that are volumes
 };
+
+/// Adds what is asked of a sample as a whole: shard, format, seconds, and the remesh of its grains.
+void add_sample_arguments(CLI::App& app, BatchArguments& arguments);
 
 /// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
 CLI::App& add_command(CLI::App& program, BatchArguments& arguments);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 
+#include "volume/label_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/option.h"
@@ -33,7 +34,8 @@ void add_folder(const std::string& folder, std::vector<std::string>& files) {
     if (is_mesh(entry.path()) && !entry.is_directory()) files.push_back(entry.path().string());
   }
   if (files.size() == before) {
-    refuse("The folder \"" + folder + "\" holds no .ply, .stl, .obj or .off file; check its name.");
+    refuse("The folder \"" + folder +
+           "\" holds no .ply, .stl, .obj, .off or .tif file; check its name.");
   }
   std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
 }
@@ -67,7 +69,7 @@ void add_list(const std::string& list, std::vector<std::string>& files) {
 
 void add_input(const std::string& input, std::vector<std::string>& files) {
   std::error_code ignored;
-  if (fs::is_directory(input, ignored)) return add_folder(input, files);
+  if (fs::is_directory(input, ignored) && !is_volume(input)) return add_folder(input, files);
   if (input.find_first_of("*?[") != std::string::npos && !fs::exists(input, ignored)) {
     return add_matches(input, files);
   }
@@ -111,14 +113,10 @@ std::uint64_t stable_hash(std::string_view bytes) {
   return hash;
 }
 
-std::vector<std::string> files_of(const Shard& shard, const std::vector<std::string>& files) {
+bool is_of(const Shard& shard, const std::string& grain) {
   const auto count = static_cast<std::uint64_t>(shard.count);
-  const auto index = static_cast<std::uint64_t>(shard.index - 1);
-  std::vector<std::string> part;
-  for (const std::string& file : files) {
-    if (stable_hash(fs::path(file).filename().string()) % count == index) part.push_back(file);
-  }
-  return part;
+  return stable_hash(fs::path(grain).filename().string()) % count ==
+         static_cast<std::uint64_t>(shard.index - 1);
 }
 
 }  // namespace wscvt::program

@@ -10,8 +10,8 @@ namespace wscvt::program {
 
 /// The files that the inputs of a batch name, in their order: files; the meshes in folders, and
 /// what patterns (*, ?, [...]) match, by name; of "@list" the lines of the file, each an input. A
-/// file need not be there. Throws wscvt::Error for folders without meshes, patterns that match
-/// nothing and lists that cannot be read.
+/// folder of slices is a volume, as it stands. A file need not be there. Throws wscvt::Error for
+/// folders without meshes or slices, patterns that match nothing and lists that cannot be read.
 std::vector<std::string> grain_files(const std::vector<std::string>& inputs);
 
 /// A part of a sample: the `index`-th, from 1, of `count`.
@@ -26,8 +26,8 @@ Shard shard_of(std::string_view text);
 /// FNV-1a of 64 bits (Fowler, Noll, Vo): the same on every machine.
 std::uint64_t stable_hash(std::string_view bytes);
 
-/// The files of a part, by the hash of their names without folders: on every machine, and whatever
-/// else is in the sample, a grain is in the same part.
-std::vector<std::string> files_of(const Shard& shard, const std::vector<std::string>& files);
+/// Whether a grain is in a part, by the hash of its name without folders: on every machine, and
+/// whatever else is in the sample, it is in the same part.
+bool is_of(const Shard& shard, const std::string& grain);
 
 }  // namespace wscvt::program

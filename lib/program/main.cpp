@@ -20,6 +20,7 @@
 #include "create_command.h"
 #include "describe_command.h"
 #include "exit_code.h"
+#include "extract_command.h"
 #include "remesh_command.h"
 #include "signals.h"
 #include "standard_streams.h"
@@ -81,7 +82,8 @@ int run(int argc, char** argv) {
   const std::vector<Command> commands = {
       make_command<program::RemeshArguments>(app),  make_command<program::DescribeArguments>(app),
       make_command<program::CompareArguments>(app), make_command<program::CreateArguments>(app),
-      make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
+      make_command<program::ExtractArguments>(app), make_command<program::BatchArguments>(app),
+      make_command<program::CollectArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is

@@ -10,6 +10,7 @@
 
 #include "program_run.h"
 #include "support/flat_json.h"
+#include "support/made_volume.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/grain_measures.h"
@@ -23,8 +24,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 const std::vector<std::string>& commands() {
-  static const std::vector<std::string> names = {"remesh", "describe", "compare",
-                                                 "create", "batch",    "collect"};
+  static const std::vector<std::string> names = {"remesh",  "describe", "compare", "create",
+                                                 "extract", "batch",    "collect"};
   return names;
 }
 
@@ -81,6 +82,14 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   ASSERT_EQ(run("batch scans -o out -q --shard 2/2").exit_code, 0);
   for (const char* name : {"grain.ply", "grain.stl", "remesh.ply"}) {
     write_mesh(read_mesh(path("first.ply")), path(name));
+  }
+  test::MadeVolume volume({30, 30, 30});
+  volume.fill_ball(1, {15, 15, 15}, 10.0);
+  test::write_bytes(folder_ / "labels.nrrd", test::nrrd(volume, "spacings: 1 1 1\n"));
+  test::write_bytes(folder_ / "labels.tif", test::tiff(volume, 0, 30));
+  fs::create_directory(folder_ / "slices");
+  for (int z = 0; z < 30; ++z) {
+    test::write_bytes(folder_ / "slices" / (std::to_string(z) + ".tif"), test::tiff(volume, z, 1));
   }
   for (const std::string& command : commands()) {
     for (const std::string& line : lines_of(run(command + " --help").output)) {

@@ -56,6 +56,7 @@ TEST(Figures, TicksAreRoundAndWithin) {
   EXPECT_EQ(round_ticks(1.0, 3.0, 8).size(), 5U);  // 1, 1.5, ...
   EXPECT_EQ(round_ticks(0.0, 180.0, 8), (std::vector<double>{0, 50, 100, 150}));
   EXPECT_TRUE(round_ticks(1.0, 1.0, 5).empty());
+  EXPECT_TRUE(round_ticks(1.0, 1.0 + 4e-16, 5).empty());
   for (const double size : {1e-7, 0.03, 4.7, 123.0, 1e9}) {
     const std::vector<double> ticks = round_ticks(-size, size, 6);
     EXPECT_GE(ticks.size(), 2U) << size;

@@ -154,6 +154,9 @@ std::vector<double> round_ticks(double lower, double upper, int most) {
     if (step >= size) break;
     step *= factor;
   }
+  // Between neighbouring numbers lies no tick, and counting up to one would not end.
+  constexpr double least_share = 1e-12;
+  if (!(step > least_share * std::max(std::abs(lower), std::abs(upper)))) return ticks;
   // A tick on an end may be off it by rounding.
   const double slack = 1e-9 * step;
   for (double k = std::ceil((lower - slack) / step); k * step <= upper + slack; k += 1.0) {

@@ -109,9 +109,10 @@ Histogram histogram_of(const std::vector<double>& values) {
   const auto bins = static_cast<std::size_t>(
       std::clamp(std::sqrt(static_cast<double>(values.size())), 8.0, 60.0));
   Histogram histogram{first_of(values), last_of(values), std::vector<std::size_t>(bins, 0)};
-  if (!(histogram.lower < histogram.upper)) {
-    // All are equal: a bin about them.
-    const double half = std::max(std::abs(histogram.lower) * 0.01, 1e-300);
+  const double size = std::max(std::abs(histogram.lower), std::abs(histogram.upper));
+  if (!(histogram.upper - histogram.lower > 1e-9 * size)) {
+    // All are equal, but for rounding: a bin about them.
+    const double half = std::max(size * 0.01, 1e-300);
     histogram.lower -= half;
     histogram.upper += half;
   }

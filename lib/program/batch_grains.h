@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "batch_inputs.h"
+#include "volume/label_grains.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt::program {
+
+/// A grain as it was scanned.
+struct GrainScan {
+  IndexedMesh mesh;
+  std::vector<std::string> warnings;  ///< about how it came to be
+};
+
+/// The grains that the inputs of a batch name: files of meshes, and the labels of volumes.
+class BatchGrains {
+ public:
+  /// Counts the labels of volumes, with a line on a terminal unless quiet. Throws as grain_files
+  /// and LabelGrains do.
+  BatchGrains(const std::vector<std::string>& inputs, const VolumeOptions& options,
+              const Shard& shard, bool quiet);
+
+  /// Of the part of the sample, in the order of the inputs. A file's is its path, a label's that of
+  /// its volume, a slash and the label.
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// The labels of all volumes, and what becomes of each, as a table; empty where there is no
+  /// volume. `file_of` names the file that a grain is written to.
+  std::string label_table(const std::function<std::string(const std::string&)>& file_of) const;
+
+  /// Says that grains before the `first` are not going to be read.
+  void begin(std::size_t first);
+
+  /// Reads a grain; each once. On several threads at once.
+  GrainScan read(std::size_t grain, const Execution& execution);
+
+ private:
+  /// What a name stands for.
+  struct Place {
+    std::ptrdiff_t volume;  ///< of volumes_; -1: a file
+    std::size_t grain;      ///< of what LabelGrains takes
+  };
+
+  void add_volume(const std::string& path, const VolumeOptions& options, const Shard& shard,
+                  bool quiet);
+
+  std::vector<std::string> names_;
+  std::vector<Place> places_;
+  std::vector<std::string> paths_;  ///< of the volumes
+  std::vector<std::unique_ptr<LabelGrains>> volumes_;
+};
+
+}  // namespace wscvt::program

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+
+#include "volume/label_grains.h"
+
+namespace wscvt::program {
+
+/// Adds what is asked of a volume of labels, under a heading of the help. Reading a call changes
+/// `options`, which must outlive `app`.
+void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::string& heading);
+
+/// Opens a volume and finds its labels, with a line on a terminal unless quiet. A signal cancels.
+/// Throws as LabelGrains does.
+std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,
+                                         bool quiet);
+
+/// The options as a JSON object, for what a batch that goes on compares.
+std::string volume_options_json(const VolumeOptions& options);
+
+}  // namespace wscvt::program

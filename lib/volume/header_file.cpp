@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/header_file.h"
+
+#include <optional>
+
+#include "volume/byte_source.h"
+#include "volume/voxel_rows.h"
+#include "wscvt/scan/text_fields.h"
+
+namespace wscvt {
+
+HeaderFile::HeaderFile(const std::string& path)
+    : size_(file_size(path)), stream_(path, std::ios::binary), reader_(stream_, size_, path) {
+  if (!stream_.is_open()) {
+    refuse_volume(path, "cannot be opened; check that the file can be read.");
+  }
+}
+
+std::string HeaderFile::line() {
+  constexpr std::size_t most_lines = 10000;
+  constexpr std::size_t most_characters = 10000;
+  // Looked at before it is read: a line of voxels may be as long as the file.
+  const std::string_view ahead = reader_.peek(most_characters);
+  const bool has_end = ahead.size() < most_characters || ahead.find('\n') != std::string_view::npos;
+  const std::optional<std::string_view> text = has_end ? reader_.line() : std::nullopt;
+  if (!text || reader_.line_number() > most_lines) {
+    fail_line("does not end the header as it should; export it again.");
+  }
+  return std::string(trimmed(*text));
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* white_space = " \t\r\n\v\f";
+  const std::size_t begin = text.find_first_not_of(white_space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
+}
+
+std::vector<double> numbers_in(std::string_view text, const HeaderFile& file) {
+  std::string plain(text);
+  for (char& c : plain) {
+    if (c == ',' || c == '(' || c == ')' || c == '[' || c == ']') c = ' ';
+  }
+  std::vector<double> numbers;
+  TextFields fields(plain);
+  for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
+    const std::optional<double> number = number_in(field);
+    if (!number) file.fail_line("has " + quoted(field) + " where a number belongs.");
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+Vector3 vector_in(std::string_view text, const HeaderFile& file) {
+  const std::vector<double> numbers = numbers_in(text, file);
+  if (numbers.size() != 3) file.fail_line("does not have three numbers.");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::int64_t whole_number_of(std::string_view text, const HeaderFile& file) {
+  const std::optional<std::int64_t> number = whole_number_in(trimmed(text));
+  if (!number) file.fail_line("has " + quoted(text) + " where a whole number belongs.");
+  return *number;
+}
+
+std::array<std::int64_t, 3> whole_vector_in(std::string_view text, const HeaderFile& file) {
+  TextFields fields(text);
+  std::array<std::int64_t, 3> numbers{};
+  for (std::int64_t& number : numbers) number = whole_number_of(fields.next(), file);
+  if (!fields.next().empty()) file.fail_line("has more than three sizes; save one volume alone.");
+  return numbers;
+}
+
+}  // namespace wscvt

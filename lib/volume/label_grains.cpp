@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/label_grains.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+void check_volume_options(const VolumeOptions& options) {
+  require_in_range(options.smallest, smallest_option);
+  require_in_range(options.smoothing, smoothing_option);
+  if (!options.voxel_size) return;
+  for (const double size : *options.voxel_size) require_in_range(size, voxel_size_option);
+}
+
+LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
+                         const Execution& execution)
+    : options_(options) {
+  check_volume_options(options);
+  volume_ = open_volume(path, options.voxel_size);
+  labels_ = label_census(*volume_, options.background, execution);
+  if (labels_.empty()) {
+    throw Error(ErrorCode::InvalidInput, "\"" + path + "\" holds no label but the background, " +
+                                             std::to_string(options.background) +
+                                             "; check it, or give --background.");
+  }
+  for (std::size_t k = 0; k < labels_.size(); ++k) {
+    if (state(labels_[k]) == LabelState::Taken) taken_.push_back(k);
+  }
+  std::stable_sort(taken_.begin(), taken_.end(), [&](std::size_t a, std::size_t b) {
+    return labels_[a].end[2] < labels_[b].end[2];
+  });
+}
+
+LabelState LabelGrains::state(const LabelExtent& label) const {
+  if (static_cast<std::int64_t>(label.voxels) < options_.smallest) return LabelState::TooSmall;
+  const bool is_cut = !options_.at_border && label.touches_border(geometry().counts);
+  return is_cut ? LabelState::AtTheBorder : LabelState::Taken;
+}
+
+void LabelGrains::want(const std::vector<std::size_t>& grains) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  at_work_.clear();
+  for (const std::size_t grain : grains) at_work_[labels_[taken_[grain]].label];
+  next_slice_ = 0;
+  volume_->rewind();
+}
+
+std::vector<VoxelStretch> LabelGrains::stretches_of(std::size_t grain, const Execution& execution) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const LabelExtent& label = labels_[taken_[grain]];
+  const auto take_stretch = [&](Label found, std::int32_t y, std::int32_t z, std::int32_t begin,
+                                std::int32_t end) {
+    const auto place = at_work_.find(found);
+    if (place != at_work_.end()) place->second.push_back({z, y, begin, end});
+    return true;
+  };
+  for (; next_slice_ < label.end[2]; ++next_slice_) {
+    execution.report(0.0, "Reading the volume");
+    for (std::int32_t y = 0; y < geometry().counts[1]; ++y) {
+      visit_stretches(volume_->next_row(), y, next_slice_, take_stretch);
+    }
+  }
+  const auto place = at_work_.find(label.label);
+  std::vector<VoxelStretch> stretches = std::move(place->second);
+  at_work_.erase(place);
+  return stretches;
+}
+
+LabelGrain LabelGrains::read(std::size_t grain, const Execution& execution) {
+  const VoxelSurface surface = voxel_surface(stretches_of(grain, execution));
+  LabelGrain result;
+  result.pieces = surface.pieces;
+  result.enclosed = surface.enclosed;
+  result.piece_voxels = surface.piece_voxels;
+  result.pore_voxels = surface.pore_voxels;
+  if (surface.enclosed >= options_.smallest) {
+    result.mesh = smoothed_surface(surface, options_.smoothing, geometry());
+  }
+  return result;
+}
+
+std::vector<std::string> warnings_of(const LabelGrain& grain) {
+  std::vector<std::string> warnings;
+  if (grain.pieces > 1) {
+    warnings.push_back("The label is in " + std::to_string(grain.pieces) +
+                       " pieces; the largest was taken, the others, " +
+                       format_percent(1.0 - static_cast<double>(grain.enclosed) /
+                                                static_cast<double>(grain.piece_voxels)) +
+                       " of the volume, were left out. Segment it again if they are grains.");
+  }
+  if (grain.pore_voxels > 0) {
+    warnings.push_back("The label has pores of " +
+                       format_percent(static_cast<double>(grain.pore_voxels) /
+                                      static_cast<double>(grain.piece_voxels)) +
+                       " of its volume, which were filled.");
+  }
+  return warnings;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "volume/volume_formats.h"
+#include "volume/voxel_rows.h"
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json description_of(const std::string& path) {
+  constexpr std::uint64_t most_bytes = 1 << 20;
+  if (file_size(path) > most_bytes) {
+    refuse_volume(path, "is too large to be the description of a raw file; give that.");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  Json description = Json::parse(stream, nullptr, false);
+  if (!description.is_object()) {
+    refuse_volume(path, "is no JSON object; see lib/README.md for what it has to hold.");
+  }
+  return description;
+}
+
+/// Three numbers; one stands for all of them.
+Vector3 vector_of(const Json& value, const std::string& key, const std::string& path) {
+  if (value.is_number()) return Vector3::Constant(value.get<double>());
+  Vector3 vector;
+  const bool has_three = value.is_array() && value.size() == 3;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!has_three || !value[axis].is_number()) {
+      refuse_volume(path, "has no three numbers as \"" + key + "\"; correct it.");
+    }
+    vector[static_cast<Eigen::Index>(axis)] = value[axis].get<double>();
+  }
+  return vector;
+}
+
+std::string text_of(const Json& description, const std::string& key, const std::string& fallback,
+                    const std::string& path) {
+  const auto found = description.find(key);
+  if (found == description.end()) return fallback;
+  if (!found->is_string()) refuse_volume(path, "has no text as \"" + key + "\"; correct it.");
+  return found->get<std::string>();
+}
+
+VoxelCounts counts_of(const Json& description, const std::string& path) {
+  std::array<std::int64_t, 3> counts{};
+  const auto found = description.find("dimensions");
+  const bool has_three = found != description.end() && found->is_array() && found->size() == 3;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!has_three || !(*found)[axis].is_number_integer()) {
+      refuse_volume(path,
+                    "has no three whole numbers as \"dimensions\"; give the voxels along x, y "
+                    "and z.");
+    }
+    counts[axis] = (*found)[axis].get<std::int64_t>();
+  }
+  return voxel_counts(counts, path);
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_raw(const std::string& path,
+                                      const std::optional<Vector3>& voxel_size) {
+  const Json description = description_of(path);
+  VolumeGeometry geometry;
+  geometry.counts = counts_of(description, path);
+  geometry.unit = text_of(description, "unit", "", path);
+  const Vector3 spacing = vector_of(description.value("spacing", Json(1)), "spacing", path);
+  const Vector3 origin = vector_of(description.value("origin", Json(0)), "origin", path);
+  set_lattice(geometry, spacing.asDiagonal(), origin, voxel_size, path);
+  VoxelType type = voxel_type_of(text_of(description, "type", "", path), path);
+  const std::string order = text_of(description, "byte_order", "little", path);
+  if (order != "little" && order != "big") {
+    refuse_volume(path, "has a \"byte_order\" that is neither \"little\" nor \"big\"; correct it.");
+  }
+  type.big_endian = order == "big";
+  const Json offset = description.value("offset", Json(0U));
+  if (!offset.is_number_unsigned()) {
+    refuse_volume(path, "has an \"offset\" that is no number of bytes; correct it.");
+  }
+  const auto first = offset.get<std::uint64_t>();
+
+  const std::string beside =
+      std::filesystem::path(path).filename().replace_extension(".raw").string();
+  const std::string voxels = voxel_file_beside(path, text_of(description, "file", beside, path));
+  const std::uint64_t size = file_size(voxels);
+  check_voxel_bytes(geometry, type, size - std::min(size, first), false, voxels);
+  return volume_of_bytes(geometry, type, file_bytes(voxels, first), voxels);
+}
+
+}  // namespace wscvt

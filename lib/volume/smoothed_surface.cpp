@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/smoothed_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "wscvt/base/counting_sort.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+
+namespace wscvt {
+
+namespace {
+
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+Edge edge_of(const VoxelFace& face, std::size_t k) {
+  return std::minmax(face[k], face[(k + 1) % 4]);
+}
+
+/// The vertices that edges of faces lead to, of every vertex. Each edge is in two faces, once in
+/// either direction.
+Groups neighbours_of(const VoxelSurface& surface) {
+  Groups groups = counting_sort(4 * surface.faces.size(), surface.corners.size(),
+                                [&](std::size_t half_edge, const auto& visit) {
+                                  visit(index(surface.faces[half_edge / 4][half_edge % 4]));
+                                });
+  for (std::int32_t& item : groups.items) {
+    item = surface.faces[index(item) / 4][(index(item) + 1) % 4];
+  }
+  return groups;
+}
+
+/// Edges that have both their vertices in common with another one.
+std::set<Edge> doubled_edges(const Groups& neighbours) {
+  std::set<Edge> doubled;
+  std::vector<std::int32_t> sorted;
+  for (std::size_t v = 0; v + 1 < neighbours.starts.size(); ++v) {
+    const auto begin = neighbours.items.begin();
+    sorted.assign(begin + static_cast<std::ptrdiff_t>(neighbours.starts[v]),
+                  begin + static_cast<std::ptrdiff_t>(neighbours.starts[v + 1]));
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t k = 1; k < sorted.size(); ++k) {
+      if (sorted[k] == sorted[k - 1]) {
+        doubled.insert(std::minmax(static_cast<std::int32_t>(v), sorted[k]));
+      }
+    }
+  }
+  return doubled;
+}
+
+/// One step of diffusion on the lattice's edges, the vertices kept in their cells.
+void diffuse(const std::vector<VoxelCounts>& corners, const Groups& neighbours, double step,
+             std::vector<Vector3>& points, std::vector<Vector3>& moved) {
+  constexpr double half_a_voxel = 0.5;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t k = neighbours.starts[v]; k < neighbours.starts[v + 1]; ++k) {
+      sum += points[index(neighbours.items[k])];
+    }
+    const auto count = static_cast<double>(neighbours.starts[v + 1] - neighbours.starts[v]);
+    const Vector3 corner(corners[v][0], corners[v][1], corners[v][2]);
+    moved[v] = (points[v] + step * (sum / count - points[v]))
+                   .cwiseMax(corner - Vector3::Constant(half_a_voxel))
+                   .cwiseMin(corner + Vector3::Constant(half_a_voxel));
+  }
+  points.swap(moved);
+}
+
+/// The voxel inside a face; twice its middle, in whole numbers.
+std::tuple<int, int, int> voxel_inside(const VoxelSurface& surface, const VoxelFace& face) {
+  std::array<VoxelCounts, 4> corners{};
+  for (std::size_t k = 0; k < 4; ++k) corners[k] = surface.corners[index(face[k])];
+  VoxelCounts middle{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t b = (axis + 1) % 3;
+    const std::size_t c = (axis + 2) % 3;
+    const std::int32_t normal = (corners[1][b] - corners[0][b]) * (corners[3][c] - corners[0][c]) -
+                                (corners[1][c] - corners[0][c]) * (corners[3][b] - corners[0][b]);
+    middle[axis] = corners[0][axis] + corners[2][axis] - normal;
+  }
+  return {middle[0], middle[1], middle[2]};
+}
+
+/// Makes triangles of faces.
+class FaceSplitter {
+ public:
+  FaceSplitter(const VoxelSurface& surface, const std::set<Edge>& doubled, IndexedMesh& mesh)
+      : surface_(surface), doubled_(doubled), mesh_(mesh) {}
+
+  void run() {
+    mesh_.triangles.reserve(2 * surface_.faces.size());
+    if (!doubled_.empty()) add_middles();
+    std::vector<std::int32_t> round;
+    for (const VoxelFace& face : surface_.faces) {
+      std::size_t first_middle = 4;
+      round.clear();
+      for (std::size_t k = 0; k < 4; ++k) {
+        round.push_back(face[k]);
+        if (doubled_.empty() || doubled_.count(edge_of(face, k)) == 0) continue;
+        if (first_middle == 4) first_middle = round.size();
+        round.push_back(middles_.at({edge_of(face, k), voxel_inside(surface_, face)}));
+      }
+      if (round.size() > 4) {
+        // A fan about a middle, which no other face's triangles share an edge from within.
+        std::rotate(round.begin(), round.begin() + static_cast<std::ptrdiff_t>(first_middle),
+                    round.end());
+      } else if (is_longer(face[0], face[2], face[1], face[3])) {
+        std::rotate(round.begin(), round.begin() + 1, round.end());
+      }
+      for (std::size_t k = 2; k < round.size(); ++k) {
+        mesh_.triangles.push_back({round[0], round[k - 1], round[k]});
+      }
+    }
+  }
+
+ private:
+  bool is_longer(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
+    return (mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm() >
+           (mesh_.points[index(c)] - mesh_.points[index(d)]).squaredNorm();
+  }
+
+  /// The middle of a doubled edge is drawn to its own two faces, away from the other edge's.
+  void add_middles() {
+    for (const VoxelFace& face : surface_.faces) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Edge edge = edge_of(face, k);
+        if (doubled_.count(edge) == 0) continue;
+        const auto [place, is_new] =
+            middles_.emplace(std::pair(edge, voxel_inside(surface_, face)),
+                             static_cast<std::int32_t>(mesh_.points.size()));
+        if (is_new) mesh_.points.emplace_back(Vector3::Zero());
+        // An eighth of the edge's two and of the faces' four others, from both faces.
+        Vector3& middle = mesh_.points[index(place->second)];
+        for (const std::int32_t vertex : face) middle += mesh_.points[index(vertex)] / 8.0;
+      }
+    }
+  }
+
+  const VoxelSurface& surface_;
+  const std::set<Edge>& doubled_;
+  IndexedMesh& mesh_;
+  std::map<std::pair<Edge, std::tuple<int, int, int>>, std::int32_t> middles_;
+};
+
+/// Scales the mesh about its centroid to a volume.
+void restore_volume(IndexedMesh& mesh, double volume) {
+  // About a vertex, because the sum over cones from afar loses digits.
+  const Vector3 start = mesh.points.front();
+  double sum = 0.0;
+  Vector3 moment = Vector3::Zero();
+  for (const Triangle& triangle : mesh.triangles) {
+    const Vector3 a = mesh.points[index(triangle[0])] - start;
+    const Vector3 b = mesh.points[index(triangle[1])] - start;
+    const Vector3 c = mesh.points[index(triangle[2])] - start;
+    const double cone = a.dot(b.cross(c)) / 6.0;
+    sum += cone;
+    moment += cone / 4.0 * (a + b + c);
+  }
+  constexpr double least_share = 0.1;
+  if (!(sum > least_share * volume)) {
+    throw Error(ErrorCode::NumericalFailure,
+                "Smoothing leaves less than a tenth of the grain's volume: it is a voxel or two "
+                "thick. Give fewer passes by --smoothing.");
+  }
+  const Vector3 centroid = start + moment / sum;
+  const double scale = std::cbrt(volume / sum);
+  for (Vector3& point : mesh.points) point = centroid + scale * (point - centroid);
+}
+
+}  // namespace
+
+IndexedMesh smoothed_surface(const VoxelSurface& surface, int passes,
+                             const VolumeGeometry& geometry) {
+  // Taubin's: what varies more slowly than the pass band of 0.1 stays, as 1 / step + 1 / back =
+  // 0.1.
+  constexpr double step = 0.6307;
+  constexpr double back = -0.6732;
+  const Groups neighbours = neighbours_of(surface);
+  IndexedMesh mesh;
+  mesh.points.reserve(surface.corners.size());
+  for (const VoxelCounts& corner : surface.corners) {
+    mesh.points.emplace_back(corner[0], corner[1], corner[2]);
+  }
+  std::vector<Vector3> moved(mesh.points.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    diffuse(surface.corners, neighbours, step, mesh.points, moved);
+    diffuse(surface.corners, neighbours, back, mesh.points, moved);
+  }
+  const std::set<Edge> doubled = doubled_edges(neighbours);
+  FaceSplitter(surface, doubled, mesh).run();
+  restore_volume(mesh, static_cast<double>(surface.enclosed));
+  for (Vector3& point : mesh.points) point = geometry.point(point);
+  if (geometry.axes.determinant() < 0.0) {  // axes of a left hand turn the faces inside out
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return mesh;
+}
+
+}  // namespace wscvt

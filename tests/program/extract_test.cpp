@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program on a volume of labels.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "program_run.h"
+#include "support/flat_json.h"
+#include "support/made_volume.h"
+#include "wscvt/base/mesh.h"
+#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Extract : public test::ProgramRun {
+ protected:
+  /// Two balls, a pair of boxes under one label, and what is listed only: 3, 8, 5, 9, 11.
+  void write_sample(const std::string& name = "sample.nrrd") {
+    ball_ = volume_.fill_ball(3, {20, 20, 30}, 12.0);
+    other_ = volume_.fill_ball(8, {50, 20, 20}, 10.0);
+    volume_.fill_box(5, {40, 45, 20}, {50, 55, 30});
+    volume_.fill_box(5, {60, 45, 20}, {64, 49, 24});
+    volume_.fill_ball(9, {68, 30, 50}, 6.0);
+    volume_.fill_box(11, {30, 50, 50}, {33, 53, 53});
+    test::write_bytes(folder_ / name,
+                      test::nrrd(volume_, "spacings: 0.5 0.5 0.5\nspace units: \"mm\"\n"));
+  }
+
+  /// The rows of a table by a column's values.
+  std::map<std::string, std::map<std::string, std::string>> rows(const std::string& table,
+                                                                 const std::string& by) const {
+    const auto records = test::csv_records(content(table));
+    std::map<std::string, std::map<std::string, std::string>> result;
+    for (std::size_t k = 1; k < records.size(); ++k) {
+      std::map<std::string, std::string> row;
+      for (std::size_t c = 0; c < records[0].size(); ++c) row[records[0][c]] = records[k].at(c);
+      result[row.at(by)] = row;
+    }
+    return result;
+  }
+
+  test::MadeVolume volume_{{70, 60, 60}};
+  std::int64_t ball_ = 0;
+  std::int64_t other_ = 0;
+};
+
+TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
+  write_sample();
+  const Outcome outcome = run("extract sample.nrrd out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small\n");
+  EXPECT_EQ(outcome.errors, "");
+  auto table = rows("out/labels.csv", "label");
+  ASSERT_EQ(table.size(), 5U);
+  EXPECT_EQ(table["3"]["state"], "written");
+  EXPECT_EQ(table["8"]["state"], "written");
+  EXPECT_EQ(table["5"]["state"], "in 2 pieces");
+  EXPECT_EQ(table["9"]["state"], "at the border");
+  EXPECT_EQ(table["11"]["state"], "too small");
+  EXPECT_EQ(table["3"]["voxels"], std::to_string(ball_));
+  EXPECT_EQ(std::stod(table["3"]["volume"]), 0.125 * static_cast<double>(ball_));
+  EXPECT_EQ(table["3"]["unit"], "mm");
+  EXPECT_EQ(table["5"]["voxels"], "1064");
+  EXPECT_EQ(std::stod(table["5"]["mesh_volume"]), 125.0);
+  // The middle of the first voxel is 0.
+  EXPECT_EQ(table["11"]["x_min"], "14.75");
+  EXPECT_EQ(table["11"]["z_max"], "26.25");
+  EXPECT_EQ(table["9"]["file"], "");
+
+  const IndexedMesh mesh = read_mesh(path("out/3.ply"));
+  EXPECT_EQ(std::to_string(mesh.triangles.size()), table["3"]["faces"]);
+  to_mesh(mesh);  // throws unless it is a manifold
+  const ShapeDescriptors shape = describe_shape(mesh, Execution(1));
+  EXPECT_NEAR(shape.volume / (0.125 * static_cast<double>(ball_)), 1.0, 1e-12);
+  EXPECT_LT((shape.centroid - Vector3(9.75, 9.75, 14.75)).norm(), 1e-9);
+  EXPECT_NEAR(shape.area / (4.0 * 3.14159265358979 * 36.0), 1.0, 0.02);
+  EXPECT_FALSE(exists("out/9.ply") || exists("out/11.ply"));
+
+  // On a system's own terms: other options, other labels.
+  ASSERT_EQ(run("extract sample.nrrd all -q --at-border --smallest 27 --smoothing 0 --voxel-size "
+                "1,2,3 --format off")
+                .exit_code,
+            0);
+  EXPECT_NEAR(describe_shape(read_mesh(path("all/11.off")), Execution(1)).volume, 27.0 * 6.0, 1e-9);
+  EXPECT_TRUE(exists("all/9.off"));
+  EXPECT_EQ(rows("all/labels.csv", "label")["11"]["unit"], "mm");
+}
+
+TEST_F(Extract, HasTheSameBytesAtAnyNumberOfThreads) {
+  write_sample();
+  for (const std::string threads : {"1", "2", "5"}) {
+    ASSERT_EQ(run("extract sample.nrrd dense" + threads + " -q -t " + threads).exit_code, 0);
+    ASSERT_EQ(
+        run("extract sample.nrrd out" + threads + " --remesh -n 60 -q -t " + threads).exit_code, 0);
+    for (const std::string name : {"/labels.csv", "/3.ply", "/5.ply", "/8.ply"}) {
+      EXPECT_EQ(content("dense" + threads + name), content("dense1" + name)) << name;
+      EXPECT_EQ(content("out" + threads + name), content("out1" + name)) << name;
+    }
+    EXPECT_EQ(content("out" + threads + "/grains.csv"), content("out1/grains.csv"));
+  }
+}
+
+TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
+  write_sample();
+  const Outcome outcome = run("extract sample.nrrd out --remesh -n 60");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output.rfind("3 grains: 3 remeshed, ", 0), 0U) << outcome.output;
+  EXPECT_EQ(read_mesh(path("out/8.ply")).points.size(), 60U);
+  auto labels = rows("out/labels.csv", "grain");
+  EXPECT_EQ(labels.size(), 5U);
+  EXPECT_EQ(labels["sample.nrrd/3"]["state"], "taken");
+  EXPECT_EQ(labels["sample.nrrd/9"]["state"], "at the border");
+  // In the order in which the grains end in the volume.
+  const auto records = test::csv_records(content("out/grains.csv"));
+  ASSERT_EQ(records.size(), 4U);
+  EXPECT_EQ(records[1][0], "sample.nrrd/5");
+  EXPECT_EQ(records[2][0], "sample.nrrd/8");
+  EXPECT_EQ(records[3][0], "sample.nrrd/3");
+  EXPECT_NE(records[1].back().find("2 pieces"), std::string::npos) << records[1].back();
+  EXPECT_EQ(records[2].back().find("pieces"), std::string::npos) << records[2].back();
+
+  // The same as through files, and as a batch that takes the volume among others.
+  ASSERT_EQ(run("extract sample.nrrd dense -q").exit_code, 0);
+  ASSERT_EQ(run("remesh dense/8.ply 8.ply -q -n 60 --no-advice").exit_code, 0);
+  EXPECT_EQ(content("8.ply"), content("out/8.ply"));
+  fs::copy_file(folder_ / "dense/8.ply", folder_ / "more.ply");
+  ASSERT_EQ(run("batch more.ply sample.nrrd -o both -n 60 -q --shard 1/1").exit_code, 0);
+  EXPECT_EQ(content("both/more.ply"), content("out/8.ply"));
+  EXPECT_EQ(content("both/3.ply"), content("out/3.ply"));
+  EXPECT_EQ(content("both/labels.csv"), content("out/labels.csv"));
+  auto grains = rows("both/grains.csv", "grain");
+  EXPECT_EQ(grains.size(), 4U);
+  EXPECT_EQ(grains["sample.nrrd/8"]["result.vertices"], grains["more.ply"]["result.vertices"]);
+
+  // Parts join to the whole, and what was cut goes on.
+  for (const std::string part : {"1", "2"}) {
+    ASSERT_EQ(run("extract sample.nrrd parts --remesh -n 60 -q --shard " + part + "/2").exit_code,
+              0);
+  }
+  ASSERT_EQ(run("collect parts/grains-1-of-2.csv parts/grains-2-of-2.csv out/grains.csv -q -o "
+                "all.csv")
+                .exit_code,
+            0);
+  EXPECT_EQ(rows("all.csv", "grain").size(), 3U);
+  const std::string whole = content("out/grains.csv");
+  fs::resize_file(folder_ / "out/grains.csv", whole.size() - 40);
+  const std::string first = content("out/5.ply");
+  fs::remove(folder_ / "out/5.ply");
+  ASSERT_EQ(run("extract sample.nrrd out --remesh -n 60 -q").exit_code, 0);
+  EXPECT_EQ(content("out/grains.csv"), whole);
+  EXPECT_FALSE(exists("out/5.ply")) << "what has its row is made again";
+  EXPECT_EQ(run("extract sample.nrrd out --remesh -n 60 -q --smoothing 7").exit_code, 1);
+}
+
+TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
+  write_sample();
+  test::write_bytes(folder_ / "cut.nrrd", content("sample.nrrd").substr(0, 100000));
+  test::write_bytes(folder_ / "empty.nrrd", test::nrrd(test::MadeVolume({9, 9, 9}), ""));
+  struct BadCall {
+    std::string arguments;
+    int exit_code;
+    std::string part_of_the_sentence;
+  };
+  for (const BadCall& call :
+       {BadCall{"sample.nrrd out -n 60", 2, "give --remesh too"},
+        BadCall{"sample.nrrd out --shard 1/2", 2, "give --remesh too"},
+        BadCall{"sample.nrrd out --smallest 0", 2, "1 or more"},
+        BadCall{"sample.nrrd out --smoothing 1001", 2, "from 0 to 1000"},
+        BadCall{"sample.nrrd out --voxel-size 0", 2, "above 0"},
+        BadCall{"sample.nrrd out --voxel-size 1,2", 2, "three with commas"},
+        BadCall{"sample.nrrd out --voxel-size 1,2,3,4", 2, "three with commas"},
+        BadCall{"sample.nrrd out --background -1", 2, "0 or more"},
+        BadCall{"sample.nrrd out --format vtk", 1, ".ply"},
+        BadCall{"sample.ply out", 1, "no volume by its ending"},
+        BadCall{"sample.ply out --remesh", 1, "no volume by its ending"},
+        BadCall{"missing.nrrd out", 1, "missing.nrrd"},
+        BadCall{"cut.nrrd out", 1, "bytes of voxels"},
+        BadCall{"cut.nrrd out --remesh", 1, "bytes of voxels"},
+        BadCall{"empty.nrrd out", 1, "no label but the background"},
+        BadCall{"sample.nrrd sample.nrrd", 1, "sample.nrrd"}}) {
+    SCOPED_TRACE(call.arguments);
+    const Outcome outcome = run("extract " + call.arguments);
+    EXPECT_EQ(outcome.exit_code, call.exit_code);
+    EXPECT_NE(outcome.errors.find(call.part_of_the_sentence), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(exists("out"));
+  }
+  // A mesh that cannot be written costs its row.
+  fs::create_directories(folder_ / "out/8.ply");
+  const Outcome outcome = run("extract sample.nrrd out -q");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.errors.find("Failed: sample.nrrd/8: "), std::string::npos) << outcome.errors;
+  EXPECT_EQ(rows("out/labels.csv", "label")["8"]["state"], "failed");
+  EXPECT_NE(rows("out/labels.csv", "label")["8"]["error"].find("8.ply"), std::string::npos);
+  EXPECT_EQ(rows("out/labels.csv", "label")["3"]["state"], "written");
+}
+
+TEST_F(Extract, MemoryFollowsTheGrainsInWorkNotTheVolume) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers keep what is freed";
+#endif
+  const auto peak = [&](int slices) {
+    const std::string name = std::to_string(slices) + ".nrrd";
+    {
+      // Gone before the fork: what the child has until it becomes the program counts as its own.
+      test::MadeVolume volume({300, 300, slices});
+      std::uint32_t label = 0;
+      for (int z = 25; z + 25 < slices; z += 50) {
+        volume.fill_box(++label, {100, 100, z - 20.0}, {140, 140, z + 20.0});
+      }
+      test::write_bytes(folder_ / name, test::nrrd(volume, ""));
+    }
+    const std::string out = name + "_out";
+    const pid_t child = fork();
+    if (child == 0) {
+      if (chdir(folder_.c_str()) != 0) _exit(99);
+      execl(WSCVT_PROGRAM, "wscvt", "extract", name.c_str(), out.c_str(), "-q", "-t", "2", nullptr);
+      _exit(98);
+    }
+    int status = 0;
+    rusage used{};
+    EXPECT_EQ(wait4(child, &status, 0, &used), child);
+    EXPECT_EQ(status, 0);
+    return used.ru_maxrss;  // KiB
+  };
+  const long small = peak(100);  // 18 MB
+  const long large = peak(500);  // 90 MB
+  EXPECT_LT(large, small + 8192);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/label_grains.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/made_volume.h"
+#include "volume/label_table.h"
+#include "wscvt/measures/shape_descriptors.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+using test::MadeVolume;
+
+class LabelGrainsOfAFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = (fs::temp_directory_path() / ("wscvt_grains_" + std::to_string(getpid()))).string();
+    path_ += ".nrrd";
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  void write(const MadeVolume& volume) const {
+    test::write_bytes(path_, "NRRD0004\ntype: uint32\ndimension: 3\nspacings: 0.5 0.5 2\nsizes: " +
+                                 volume.size_text() + "\nencoding: raw\n\n" +
+                                 volume.bytes<std::uint32_t>());
+  }
+
+  std::string path_;
+};
+
+TEST_F(LabelGrainsOfAFile, SortsLabelsOutAndReadsThemInTheOrderOfTheirLastSlices) {
+  MadeVolume volume({60, 40, 50});
+  const std::int64_t ball = volume.fill_ball(70000, {15, 15, 30}, 9.0);
+  const std::int64_t other = volume.fill_ball(3, {40, 20, 15}, 8.0);
+  volume.fill_box(5, {50, 30, 20}, {58, 38, 28});  // in two pieces
+  volume.fill_box(5, {50, 5, 42}, {54, 9, 46});
+  volume.fill_ball(9, {57, 20, 40}, 6.0);           // at the border
+  volume.fill_box(11, {20, 30, 10}, {23, 33, 13});  // too small
+  write(volume);
+  VolumeOptions options;
+  LabelGrains grains(path_, options, Execution(1));
+  ASSERT_EQ(grains.labels().size(), 5U);
+  std::vector<LabelState> states;
+  for (const LabelExtent& label : grains.labels()) states.push_back(grains.state(label));
+  EXPECT_EQ(states,
+            (std::vector<LabelState>{LabelState::Taken, LabelState::Taken, LabelState::AtTheBorder,
+                                     LabelState::TooSmall, LabelState::Taken}));
+  EXPECT_EQ(grains.taken(), (std::vector<std::size_t>{0, 4, 1}));
+  EXPECT_EQ(static_cast<std::int64_t>(grains.labels()[0].voxels), other);
+  EXPECT_EQ(grains.labels()[0].begin, (VoxelCounts{32, 12, 7}));
+  EXPECT_EQ(grains.labels()[0].end, (VoxelCounts{48, 28, 23}));
+
+  grains.want({0, 1, 2});
+  const LabelGrain first = grains.read(0, Execution(1));
+  EXPECT_EQ(first.enclosed, other);
+  EXPECT_TRUE(warnings_of(first).empty());
+  const LabelGrain second = grains.read(1, Execution(1));
+  const ShapeDescriptors shape = describe_shape(second.mesh, Execution(1));
+  EXPECT_NEAR(shape.volume, 0.5 * static_cast<double>(ball), 1e-9 * shape.volume);
+  EXPECT_LT((shape.centroid - Vector3(7.25, 7.25, 59.0)).norm(), 0.01);
+  const LabelGrain third = grains.read(2, Execution(1));
+  EXPECT_EQ(third.pieces, 2U);
+  EXPECT_EQ(third.enclosed, 512);
+  ASSERT_EQ(warnings_of(third).size(), 1U);
+  EXPECT_NE(warnings_of(third)[0].find("2 pieces"), std::string::npos);
+  EXPECT_NE(warnings_of(third)[0].find("11.1 %"), std::string::npos) << warnings_of(third)[0];
+
+  options.at_border = true;
+  options.smallest = 20;
+  options.background = 3;
+  // What lies between them, 0, is a label then.
+  EXPECT_EQ(LabelGrains(path_, options, Execution(1)).taken().size(), 5U);
+  // As a table.
+  const std::string row = label_row("a.nrrd", grains, grains.labels()[1], {&third, "5.ply", ""});
+  EXPECT_EQ(row, "a.nrrd/5,5,in 2 pieces,,576,288,,24.75,2.25,39,28.75,18.75,91,2,256," +
+                     std::to_string(third.mesh.points.size()) + "," +
+                     std::to_string(third.mesh.triangles.size()) + ",5.ply\r\n");
+}
+
+TEST_F(LabelGrainsOfAFile, AreTheSameOnSeveralThreadsAndWhenSomeAreLeftOut) {
+  MadeVolume volume({90, 90, 60});
+  std::uint32_t label = 0;
+  for (int k = 0; k < 27; ++k) {
+    volume.fill_ball(++label, {15.0 + k % 3 * 30, 15.0 + k / 3 % 3 * 30, 11.0 + k / 9 * 18},
+                     6.0 + 0.1 * (k * 7 % 11));
+  }
+  write(volume);
+  LabelGrains grains(path_, VolumeOptions(), Execution(1));
+  const std::size_t count = grains.taken().size();
+  ASSERT_EQ(count, 27U);
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<LabelGrain> alone(count);
+  grains.want(all);
+  for (const std::size_t k : all) alone[k] = grains.read(k, Execution(1));
+
+  std::vector<LabelGrain> together(count);
+  grains.want(all);
+  std::atomic<std::size_t> next{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&] {
+      for (std::size_t k = next++; k < count; k = next++) {
+        together[k] = grains.read(k, Execution(1));
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const std::size_t k : all) {
+    EXPECT_EQ(together[k].mesh.points, alone[k].mesh.points);
+    EXPECT_EQ(together[k].mesh.triangles, alone[k].mesh.triangles);
+  }
+  grains.want({4, 20});
+  EXPECT_EQ(grains.read(4, Execution(1)).mesh.points, alone[4].mesh.points);
+  EXPECT_EQ(grains.read(20, Execution(1)).mesh.points, alone[20].mesh.points);
+}
+
+TEST_F(LabelGrainsOfAFile, RefusesGreyImagesEmptyOnesAndCancels) {
+  MadeVolume grey({110, 100, 100});
+  for (std::size_t k = 0; k < grey.labels.size(); ++k) grey.labels[k] = static_cast<Label>(k);
+  write(grey);
+  EXPECT_ERROR(LabelGrains(path_, VolumeOptions(), Execution(1)), InvalidInput);
+  write(MadeVolume({4, 4, 4}));
+  EXPECT_ERROR(LabelGrains(path_, VolumeOptions(), Execution(1)), InvalidInput);
+  VolumeOptions wrong;
+  wrong.smallest = 0;
+  EXPECT_ERROR(LabelGrains(path_, wrong, Execution(1)), InvalidInput);
+  MadeVolume one({20, 20, 20});
+  one.fill_ball(1, {10, 10, 10}, 7.0);
+  write(one);
+  const Execution cancelled(1, [](double, const std::string&) { return false; });
+  EXPECT_ERROR(LabelGrains(path_, VolumeOptions(), cancelled), Cancelled);
+  LabelGrains grains(path_, VolumeOptions(), Execution(1));
+  grains.want({0});
+  EXPECT_ERROR(grains.read(0, cancelled), Cancelled);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/label_volume.h"
+
+#include <gtest/gtest.h>
+#include <tiffio.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/made_volume.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+using test::MadeVolume;
+using test::write_bytes;
+
+class LabelVolumeOfAFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "wscvt_volume_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+      made_.labels[k] = static_cast<std::uint32_t>(k * k % 251);
+    }
+    made_.at(6, 4, 2) = 127;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Reads it twice, since the bytes are packed or not.
+  void expect_labels(const std::string& name) const {
+    const std::unique_ptr<LabelVolume> volume = open_volume(path(name));
+    EXPECT_EQ(volume->geometry().counts, (VoxelCounts{7, 5, 3}));
+    for (int round = 0; round < 2; ++round) {
+      volume->rewind();
+      std::vector<Label> labels;
+      for (int row = 0; row < 15; ++row) {
+        const std::vector<Label>& next = volume->next_row();
+        labels.insert(labels.end(), next.begin(), next.end());
+      }
+      EXPECT_EQ(labels, made_.labels) << name << " round " << round;
+    }
+  }
+  VolumeGeometry geometry(const std::string& name) const {
+    return open_volume(path(name))->geometry();
+  }
+  /// All rows of a file that is wrong.
+  void read(const std::string& name) const {
+    const std::unique_ptr<LabelVolume> volume = open_volume(path(name));
+    volume->rewind();
+    for (int row = 0; row < volume->geometry().counts[1] * volume->geometry().counts[2]; ++row) {
+      volume->next_row();
+    }
+  }
+  /// The file without its last bytes is refused, however many they are.
+  void expect_cut_is_refused(const std::string& name, std::size_t least_left) const {
+    const std::uintmax_t size = fs::file_size(path(name));
+    for (std::uintmax_t left = size - 1; left >= least_left; left -= 1 + left / 9) {
+      SCOPED_TRACE(name + " of " + std::to_string(left) + " bytes");
+      fs::resize_file(path(name), left);
+      EXPECT_ERROR(read(name), InputOutput);
+    }
+  }
+
+  std::string nrrd(const std::string& type, const std::string& fields) const {
+    return "NRRD0004\n# made\ntype: " + type + "\ndimension: 3\nsizes: " + made_.size_text() +
+           "\n" + fields;
+  }
+
+  /// Pages from `first` on into one file.
+  void write_tiff(const std::string& name, const std::string& mode, int first, int pages,
+                  int compression, int rows, const char* text = nullptr) const {
+    TIFF* const file = TIFFOpen(path(name).c_str(), mode.c_str());
+    ASSERT_NE(file, nullptr);
+    for (int z = first; z < first + pages; ++z) {
+      TIFFSetField(file, TIFFTAG_IMAGEWIDTH, made_.counts[0]);
+      TIFFSetField(file, TIFFTAG_IMAGELENGTH, made_.counts[1]);
+      TIFFSetField(file, TIFFTAG_BITSPERSAMPLE, 16);
+      TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
+      TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+      TIFFSetField(file, TIFFTAG_COMPRESSION, compression);
+      TIFFSetField(file, TIFFTAG_ROWSPERSTRIP, rows);
+      if (text != nullptr) {
+        TIFFSetField(file, TIFFTAG_IMAGEDESCRIPTION, text);
+        TIFFSetField(file, TIFFTAG_XRESOLUTION, 20.0);
+        TIFFSetField(file, TIFFTAG_YRESOLUTION, 10.0);
+      }
+      for (int y = 0; y < made_.counts[1]; ++y) {
+        std::vector<std::uint16_t> row;
+        for (int x = 0; x < made_.counts[0]; ++x) {
+          const auto place = (static_cast<std::size_t>(z) * 5 + y) * 7 + x;
+          row.push_back(static_cast<std::uint16_t>(made_.labels[place]));
+        }
+        ASSERT_EQ(TIFFWriteScanline(file, row.data(), static_cast<std::uint32_t>(y), 0), 1);
+      }
+      ASSERT_EQ(TIFFWriteDirectory(file), 1);
+    }
+    TIFFClose(file);
+  }
+
+  fs::path folder_;
+  MadeVolume made_{{7, 5, 3}};
+};
+
+TEST_F(LabelVolumeOfAFile, ReadsNrrdOfEveryTypeAndOrder) {
+  write_bytes(path("a.nrrd"), nrrd("uchar", "encoding: raw\n\n") + made_.bytes<std::uint8_t>());
+  expect_labels("a.nrrd");
+  write_bytes(path("a.nrrd"), nrrd("unsigned short", "endian: big\nencoding: raw\n\n") +
+                                  made_.bytes<std::uint16_t>(true));
+  expect_labels("a.nrrd");
+  write_bytes(path("a.nrrd"), nrrd("int", "endian: little\nencoding: gzip\n\n") +
+                                  test::packed(made_.bytes<std::int32_t>(), true));
+  expect_labels("a.nrrd");
+  write_bytes(path("a.nrrd"), nrrd("uint64", "encoding: gz\n\n") +
+                                  test::packed(made_.bytes<std::uint64_t>(), true));
+  expect_labels("a.nrrd");
+  write_bytes(path("voxels"), "12345" + made_.bytes<std::int16_t>());
+  write_bytes(path("a.nhdr"),
+              nrrd("short", "encoding: raw\nbyte skip: 5\ndata file: voxels\nendian: little\n"));
+  expect_labels("a.nhdr");
+  write_bytes(path("a.nhdr"), nrrd("short", "encoding: raw\nbyte skip: -1\ndata file: ./voxels\n"));
+  expect_labels("a.nhdr");
+}
+
+TEST_F(LabelVolumeOfAFile, KeepsPlaceSizeAndUnitOfNrrd) {
+  write_bytes(path("a.nrrd"),
+              nrrd("uchar",
+                   "space directions: (0,0.5,0) (0.25,0,0) (0,0,2)\nspace origin: "
+                   "(1,2,3)\nspace units: \"mm\" \"mm\" \"mm\"\nencoding: raw\n\n") +
+                  made_.bytes<std::uint8_t>());
+  const VolumeGeometry placed = geometry("a.nrrd");
+  EXPECT_EQ(placed.unit, "mm");
+  EXPECT_DOUBLE_EQ(placed.voxel_volume(), 0.25);
+  // The origin is the middle of the first voxel, and a step along x goes along y here.
+  EXPECT_LT((placed.point({0.5, 0.5, 0.5}) - Vector3(1.0, 2.0, 3.0)).norm(), 1e-15);
+  EXPECT_LT((placed.point({1.5, 0.5, 0.5}) - Vector3(1.0, 2.5, 3.0)).norm(), 1e-15);
+  const VolumeGeometry told = open_volume(path("a.nrrd"), Vector3(1.0, 2.0, 4.0))->geometry();
+  EXPECT_LT((told.point({1.0, 1.0, 1.0}) - Vector3(1.0, 2.0, 4.0)).norm(), 1e-15);
+  EXPECT_ERROR(open_volume(path("a.nrrd"), Vector3(1.0, 0.0, 1.0)), InvalidInput);
+}
+
+TEST_F(LabelVolumeOfAFile, ReadsMetaImage) {
+  const std::string fields = "ObjectType = Image\nNDims = 3\nDimSize = " + made_.size_text() +
+                             "\nElementSpacing = 0.1 0.2 0.4\nOffset = 10 20 30\n";
+  write_bytes(path("a.mha"), fields + "ElementType = MET_USHORT\nElementDataFile = LOCAL\n" +
+                                 made_.bytes<std::uint16_t>());
+  expect_labels("a.mha");
+  EXPECT_LT((geometry("a.mha").point({1.5, 1.5, 1.5}) - Vector3(10.1, 20.2, 30.4)).norm(), 1e-13);
+  expect_cut_is_refused("a.mha", 20);
+  write_bytes(path("a.zraw"), test::packed(made_.bytes<std::uint8_t>(), false));
+  write_bytes(path("a.mhd"), fields +
+                                 "ElementType = MET_UCHAR\nCompressedData = True\n"
+                                 "ElementDataFile = a.zraw\n");
+  expect_labels("a.mhd");
+  write_bytes(path("a.raw"), made_.bytes<std::uint32_t>(true));
+  write_bytes(path("a.mhd"), fields +
+                                 "ElementType = MET_UINT\nBinaryDataByteOrderMSB = True\n"
+                                 "ElementDataFile = a.raw\n");
+  expect_labels("a.mhd");
+  expect_cut_is_refused("a.raw", 0 + 1);
+}
+
+TEST_F(LabelVolumeOfAFile, ReadsVtiInAllItsForms) {
+  const std::string points =
+      "<ImageData WholeExtent=\"1 7 0 4 0 2\" Origin=\"10 20 30\" Spacing=\"0.1 0.2 0.4\">\n"
+      "<Piece Extent=\"1 7 0 4 0 2\">\n";
+  write_bytes(path("packed.vti"), test::packed_vti(made_, points));
+  expect_labels("packed.vti");
+  // Points are the middles of voxels; the first has the number 1 along x.
+  EXPECT_LT((geometry("packed.vti").point({0.5, 0.5, 0.5}) - Vector3(10.1, 20.0, 30.0)).norm(),
+            1e-13);
+  const std::string bytes = made_.bytes<std::uint16_t>(true);
+  const std::string cells =
+      "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"BigEndian\" "
+      "header_type=\"UInt64\">\n<ImageData WholeExtent=\"0 7 0 5 0 3\" Origin=\"10 20 30\" "
+      "Spacing=\"0.1 0.2 0.4\">\n<Piece Extent=\"0 7 0 5 0 3\">\n<CellData>\n<DataArray "
+      "type=\"UInt16\" Name=\"l\" format=\"appended\" offset=\"";
+  const std::string end_of_cells = "\"/></CellData></Piece></ImageData>\n<AppendedData encoding=";
+  std::string length(8, '\0');
+  length[6] = static_cast<char>(bytes.size() >> 8);
+  length[7] = static_cast<char>(bytes.size() & 0xff);
+  write_bytes(path("raw.vti"), cells + "3" + end_of_cells + "\"raw\">\n _<&>" + length + bytes +
+                                   "\n</AppendedData></VTKFile>");
+  expect_labels("raw.vti");
+  EXPECT_LT((geometry("raw.vti").point({0.0, 0.0, 0.0}) - Vector3(10.0, 20.0, 30.0)).norm(), 1e-13);
+  write_bytes(path("text.vti"), cells + "0" + end_of_cells + "\"base64\">_" +
+                                    test::base64(length + bytes) + "</AppendedData></VTKFile>");
+  expect_labels("text.vti");
+  for (const char* name : {"packed.vti", "raw.vti", "text.vti"}) {
+    const std::uintmax_t end = fs::file_size(path(name));
+    // What follows the voxels is not needed.
+    fs::resize_file(path(name), end - 90 + (std::string(name) == "packed.vti" ? 0 : 50));
+    expect_cut_is_refused(name, 20);
+  }
+}
+
+TEST_F(LabelVolumeOfAFile, ReadsRawFilesByTheirDescription) {
+  write_bytes(path("a.raw"), "head" + made_.bytes<std::uint16_t>(true));
+  write_bytes(path("a.json"),
+              R"({"dimensions": [7, 5, 3], "type": "uint16", "byte_order": "big", "offset": 4,
+                  "spacing": 0.5, "origin": [1, 2, 3], "unit": "um"})");
+  expect_labels("a.json");
+  EXPECT_EQ(geometry("a.json").unit, "um");
+  EXPECT_LT((geometry("a.json").point({1.5, 0.5, 0.5}) - Vector3(1.5, 2.0, 3.0)).norm(), 1e-15);
+  expect_cut_is_refused("a.raw", 1);
+  for (const char* wrong : {"", "[]", "{}", R"({"dimensions": [7, 5], "type": "uint16"})",
+                            R"({"dimensions": [7, 5, 3], "type": "float32"})",
+                            R"({"dimensions": [7, 5, 3], "type": "uint8", "spacing": [0, 1, 1]})",
+                            R"({"dimensions": [7, 5, 3], "type": "uint8", "spacing": "x"})",
+                            R"({"dimensions": [7, 5, 3], "type": "uint8", "unit": 3})",
+                            R"({"dimensions": [7, 5, 3], "type": "uint8", "offset": -3})",
+                            R"({"dimensions": [7, 5, 3], "type": "uint8", "byte_order": "odd"})",
+                            R"({"dimensions": [7, 5, 3], "type": "uint8", "file": "not there"})",
+                            R"({"dimensions": [7, 5, 100000000000], "type": "uint8"})"}) {
+    SCOPED_TRACE(wrong);
+    write_bytes(path("a.raw"), made_.bytes<std::uint8_t>());
+    write_bytes(path("a.json"), wrong);
+    EXPECT_ERROR(open_volume(path("a.json")), InputOutput);
+  }
+}
+
+TEST_F(LabelVolumeOfAFile, ReadsTiffPagesFoldersAndStacksOfImageJ) {
+  for (const char* mode : {"w", "wb", "wl", "w8"}) {
+    for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE}) {
+      SCOPED_TRACE(mode + std::to_string(compression));
+      write_tiff("a.tif", mode, 0, 3, compression, 2);
+      expect_labels("a.tif");
+    }
+  }
+  EXPECT_EQ(geometry("a.tif").unit, "");
+  EXPECT_LT((geometry("a.tif").point({7, 5, 3}) - Vector3(7, 5, 3)).norm(), 1e-15);
+  fs::create_directory(folder_ / "slices");
+  write_tiff("slices/s10.tif", "w", 2, 1, COMPRESSION_NONE, 5);
+  write_tiff("slices/s9.TIFF", "w", 1, 1, COMPRESSION_LZW, 1);
+  write_tiff("slices/s1.tif", "w", 0, 1, COMPRESSION_NONE, 5);
+  EXPECT_TRUE(is_volume(path("slices")));
+  expect_labels("slices");
+  // Sizes of voxels as ImageJ notes them.
+  const char* const text = "ImageJ=1.53\nimages=3\nslices=3\nunit=\\u00B5m\nspacing=0.25\n";
+  write_tiff("a.tif", "w", 0, 3, COMPRESSION_NONE, 5, text);
+  expect_labels("a.tif");
+  EXPECT_EQ(geometry("a.tif").unit, "um");
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.05, 0.1, 0.25)).norm(), 1e-7);
+  // Above 4 GiB: one page, and all voxels behind it.
+  write_tiff("one.tif", "wb", 0, 1, COMPRESSION_NONE, 5, text);
+  const std::string page = made_.bytes<std::uint16_t>(true).substr(0, 70);
+  std::string bytes;
+  {
+    std::ifstream stream(path("one.tif"), std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  // Its voxels stand before its directory: the strip's offset is turned to the end.
+  const std::size_t place = bytes.find(page);
+  ASSERT_NE(place, std::string::npos);
+  const auto big_endian = [](std::size_t number) {
+    const std::string least_first = test::four_bytes(number);
+    return std::string(least_first.rbegin(), least_first.rend());
+  };
+  const std::string tag = std::string("\x01\x11\x00\x04\x00\x00\x00\x01", 8) + big_endian(place);
+  const std::size_t entry = bytes.find(tag);
+  ASSERT_NE(entry, std::string::npos);
+  bytes.replace(entry + 8, 4, big_endian(bytes.size()));
+  write_bytes(path("one.tif"), bytes + made_.bytes<std::uint16_t>(true));
+  expect_labels("one.tif");
+  expect_cut_is_refused("one.tif", bytes.size());
+}
+
+TEST_F(LabelVolumeOfAFile, RefusesTiffsThatAreCutOrDiffer) {
+  for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW}) {
+    write_tiff("a.tif", "w", 0, 3, compression, 2);
+    expect_cut_is_refused("a.tif", 1);
+  }
+  fs::create_directory(folder_ / "slices");
+  write_tiff("slices/1.tif", "w", 0, 1, COMPRESSION_NONE, 5);
+  made_ = MadeVolume({7, 6, 3});
+  write_tiff("slices/2.tif", "w", 0, 1, COMPRESSION_NONE, 5);
+  EXPECT_ERROR(read("slices"), InputOutput);
+  write_bytes(path("slices/3.tif"), "no TIFF");
+  EXPECT_ERROR(open_volume(path("slices")), InputOutput);
+  fs::create_directory(folder_ / "empty");
+  EXPECT_ERROR(open_volume(path("empty")), InputOutput);
+  EXPECT_FALSE(is_volume(path("empty")));
+}
+
+TEST_F(LabelVolumeOfAFile, RefusesWhatIsWrongWithAHeaderOrCut) {
+  const std::string voxels = made_.bytes<std::uint8_t>();
+  for (const std::string& wrong :
+       {std::string(""),
+        std::string("NRRD"),
+        std::string("PLY\n"),
+        std::string(100000, 'x'),
+        "NRRD0004\n" + std::string(200000, '\n'),
+        std::string("NRRD0004\n\n"),
+        nrrd("float", "encoding: raw\n\n") + voxels,
+        nrrd("uchar", "encoding: bzip2\n\n") + voxels,
+        nrrd("uchar", "spacings: 1 1\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "spacings: 1 1 x\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "spacings: 1 1 0\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "dimension: 4\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "sizes: 7 5 3 1\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "sizes: 7 5 -3\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "sizes: 7 5 99999999999999999999\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "sizes: 1000000 1000000 1000000\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "sizes: 1000000 1000000 1000000\nencoding: gzip\n\n") +
+            test::packed(voxels, true),
+        nrrd("uchar", "sizes: 70 50 30\nencoding: gzip\n\n") + test::packed(voxels, true),
+        nrrd("uchar", "byte skip: 3\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "data file: LIST\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "data file: %03d.raw 1 3 1\nencoding: raw\n\n") + voxels,
+        nrrd("uchar", "encoding: gzip\n\n") + voxels}) {
+    SCOPED_TRACE(wrong.substr(0, 200));
+    write_bytes(path("a.nrrd"), wrong);
+    EXPECT_ERROR(read("a.nrrd"), InputOutput);
+  }
+  for (const char* encoding : {"raw", "gzip"}) {
+    const bool is_packed = std::string(encoding) == "gzip";
+    write_bytes(path("a.nrrd"), nrrd("uchar", std::string("encoding: ") + encoding + "\n\n") +
+                                    (is_packed ? test::packed(voxels, true) : voxels));
+    if (is_packed) fs::resize_file(path("a.nrrd"), fs::file_size(path("a.nrrd")) - 8);  // its sum
+    expect_cut_is_refused("a.nrrd", 1);
+  }
+  EXPECT_ERROR(open_volume(path("not_there.nrrd")), InputOutput);
+  EXPECT_ERROR(open_volume(path("a.ply")), InputOutput);
+}
+
+TEST_F(LabelVolumeOfAFile, RefusesVoxelsThatAreNoLabels) {
+  made_.at(3, 3, 1) = static_cast<std::uint32_t>(-5);
+  write_bytes(path("a.nrrd"), nrrd("short", "encoding: raw\n\n") + made_.bytes<std::int16_t>());
+  EXPECT_ERROR(read("a.nrrd"), InputOutput);
+  std::string bytes = made_.bytes<std::uint64_t>();
+  bytes[4] = 1;  // 2^32
+  write_bytes(path("a.nrrd"), nrrd("uint64", "encoding: raw\n\n") + bytes);
+  EXPECT_ERROR(read("a.nrrd"), InputOutput);
+}
+
+}  // namespace
+}  // namespace wscvt
