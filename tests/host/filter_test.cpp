@@ -435,6 +435,21 @@ TEST_P(FilterScripts, HoldExactlyTheFiltersParameters) {
   }
 }
 
+TEST_P(FilterScripts, RunAsTheyAre) {
+  FilterScript script;
+  ASSERT_TRUE(script.open(script_path(GetParam().file)));
+  LoadedFilter loaded(filter_of(script, 0));
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  ASSERT_TRUE(loaded.apply(document, parameters_of(script, 0))) << loaded.message();
+  if (GetParam().menu_text == descriptor_menu_text) {
+    EXPECT_EQ(layers_of(document).size(), 1U);
+    return;
+  }
+  EXPECT_NE(document.mm(), &scan);
+  EXPECT_EQ(document.mm()->cm.vn, 1000);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     , FilterScripts,
     ::testing::Values(Script{"constant.mlx", filter_menu_text, {{"Weighting", "0"}}},
