@@ -81,7 +81,7 @@ QString FilterWscvt::filterName(FilterIDType filter) const {
 
 QString FilterWscvt::filterInfo(FilterIDType filter) const {
   const QString help = QString::fromStdString(filter_with_number(filter).help);
-  return host_has_window() ? in_column(help, 440) : help;
+  return host_has_window() ? in_column(help, 455) : help;
 }
 
 MeshFilterInterface::FilterClass FilterWscvt::getClass(QAction* action) {

@@ -76,11 +76,16 @@ class Window {
   /// Waits for the mesh and for the window, and gives it the screen. False when it does not come.
   bool start() {
     if (!wait_for_log("Opened mesh") || !wait_for_window(main_title)) return false;
-    xdotool({"windowmove", window(main_title), "0", "0"});
-    xdotool({"windowsize", window(main_title), QString::number(screen_.width()),
-             QString::number(screen_.height())});
-    QThread::msleep(500);
-    return true;
+    // While it starts, MeshLab may give itself another size.
+    return wait_until(
+        [&] {
+          move(main_title, {0, 0});
+          xdotool({"windowsize", window(main_title), QString::number(screen_.width()),
+                   QString::number(screen_.height())});
+          QThread::msleep(500);
+          return place(main_title) == QRect(QPoint(0, 0), screen_);
+        },
+        patience);
   }
 
   void press(const QString& key, int times = 1) {
