@@ -272,9 +272,9 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path,
   const std::string format = value_of(header.array, "format", "ascii");
   const std::string packer = value_of(header.file, "compressor", "");
   const bool is_packed = !packer.empty();
-  if ((format != "appended" && format != "binary") ||
-      (is_packed && packer != "vtkZLibDataCompressor")) {
-    refuse_volume(path, "has its voxels as " + quoted(is_packed ? packer : format) +
+  const bool is_known = format == "appended" || format == "binary";
+  if (!is_known || (is_packed && packer != "vtkZLibDataCompressor")) {
+    refuse_volume(path, "has its voxels as " + quoted(is_known ? packer : format) +
                             "; save it binary or appended, plain or by ZLib.");
   }
   std::uint64_t begin = header.data;

@@ -192,6 +192,20 @@ TEST_F(LabelVolumeOfAFile, ReadsVtiInAllItsForms) {
   write_bytes(path("text.vti"), cells + "0" + end_of_cells + "\"base64\">_" +
                                     test::base64(length + bytes) + "</AppendedData></VTKFile>");
   expect_labels("text.vti");
+  for (const auto& [known, other] :
+       std::vector<std::pair<std::string, std::string>>{{"=\"binary\">\n", "=\"ascii\">\n"},
+                                                        {"ZLib", "LZ4"},
+                                                        {"UInt16", "Float32"},
+                                                        {"Piece Extent=\"1", "Piece Extent=\"2"},
+                                                        {"<PointData", "<PointDate"},
+                                                        {"Name=\"labels\"", "Name=\"grains\""}}) {
+    SCOPED_TRACE(other);
+    std::string text = test::packed_vti(made_, points);
+    const std::size_t place = text.find(known);
+    ASSERT_NE(place, std::string::npos);
+    write_bytes(path("wrong.vti"), text.replace(place, known.size(), other));
+    EXPECT_ERROR(read("wrong.vti"), InputOutput);
+  }
   for (const char* name : {"packed.vti", "raw.vti", "text.vti"}) {
     const std::uintmax_t end = fs::file_size(path(name));
     // What follows the voxels is not needed.
