@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -20,7 +21,7 @@ namespace {
 
 /// "2 h 5 min", "3 min 20 s", "7 s".
 std::string duration_text(double seconds) {
-  const auto all = static_cast<long long>(seconds + 0.5);
+  const auto all = std::llround(seconds);
   if (all >= 3600)
     return std::to_string(all / 3600) + " h " + std::to_string(all % 3600 / 60) + " min";
   if (all >= 60) return std::to_string(all / 60) + " min " + std::to_string(all % 60) + " s";

@@ -30,7 +30,7 @@ class FileBytes : public ByteSource {
                                               "\" cannot be opened; check that the file is there "
                                               "and can be read.");
     }
-    rewind();
+    FileBytes::rewind();
   }
 
   std::size_t read(char* bytes, std::size_t count) override {
@@ -102,13 +102,11 @@ class InflatedBytes : public ByteSource {
 constexpr std::array<signed char, 256> base64_values() {
   std::array<signed char, 256> values{};
   for (auto& value : values) value = -1;
-  for (int k = 0; k < 26; ++k) {
-    values[static_cast<std::size_t>('A' + k)] = static_cast<signed char>(k);
-    values[static_cast<std::size_t>('a' + k)] = static_cast<signed char>(26 + k);
+  for (std::size_t k = 0; k < 26; ++k) {
+    values['A' + k] = static_cast<signed char>(k);
+    values['a' + k] = static_cast<signed char>(26 + k);
   }
-  for (int k = 0; k < 10; ++k) {
-    values[static_cast<std::size_t>('0' + k)] = static_cast<signed char>(52 + k);
-  }
+  for (std::size_t k = 0; k < 10; ++k) values['0' + k] = static_cast<signed char>(52 + k);
   values['+'] = 62;
   values['/'] = 63;
   return values;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "wscvt/base/error.h"
@@ -58,7 +59,7 @@ void load_row(const char* bytes, std::vector<Label>& row, const std::string& pat
                                 "and save the labels.");
       }
     }
-    row[i] = static_cast<Label>(value);
+    row[i] = static_cast<Label>(static_cast<std::make_unsigned_t<Value>>(value));
   }
 }
 

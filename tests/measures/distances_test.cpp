@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -132,6 +133,25 @@ TEST(Distances, SameBitsWithATreeAtHand) {
   const MeshDistances with_tree =
       measure_distances(test::lumpy(2), reference, MeshDistance(reference), options, Execution(1));
   EXPECT_EQ(std::memcmp(&plain, &with_tree, sizeof plain), 0);
+}
+
+TEST(Distances, RmsIsThatOfTheDistancesOneByOneInWhateverOrderTheFacesAre) {
+  IndexedMesh from = test::lumpy(4);
+  const IndexedMesh to =
+      test::transformed(test::lumpy(3), 1.03 * Eigen::Matrix3d::Identity(), {0.1, 0.0, 0.05});
+  const MeshDistance query(to);
+  for (const bool shuffled : {false, true}) {
+    // The search for a point's nearest face starts from the one before's.
+    if (shuffled) std::shuffle(from.triangles.begin(), from.triangles.end(), std::mt19937_64(3));
+    double squares = 0.0;
+    for (const Vector3& p : area_uniform_samples(from, 3000)) {
+      squares += query.distance(p) * query.distance(p);
+    }
+    const double rms = std::sqrt(squares / 3000.0);
+    EXPECT_NEAR(rms_distance(from, to, 3000, Execution(1)) / rms, 1.0, 1e-13);
+    EXPECT_EQ(rms_distance(from, to, 3000, Execution(3)),
+              rms_distance(from, to, 3000, Execution(1)));
+  }
 }
 
 TEST(Distances, RefusesWhatCannotBeMeasured) {

@@ -108,21 +108,20 @@ struct ExtensionLanes {
   Lanes value, gradient[3], hessian[5];
 };
 
-/// Sums a series for one set of lanes. `order` = 0, 1, 2: how many derivatives.
+/// What a series comes to on the lanes' latitudes, of one order m: the factors of the cosine and of
+/// the sine, with as many derivatives by z as are asked for.
+struct LatitudeSums {
+  Lanes cosine[3];
+  Lanes sine[3];
+};
+
+/// Sums a series over its degrees. `order` = 0, 1, 2: how many derivatives.
 template <int order>
-WSCVT_INLINE void sum_lanes(int degree, const HarmonicSeries::Term* term, const Lanes& x,
-                            const Lanes& y, const Lanes& z, ExtensionLanes& out) {
+WSCVT_INLINE void sum_degrees(int degree, const HarmonicSeries::Term* term, const Lanes& z,
+                              LatitudeSums* sums) {
   const Lanes zero{};
   Lanes one;
   for (double& value : one.v) value = 1.0;
-  out = {};
-  // (x + iy)^m and the two powers before it; the missing ones meet factors that are zero.
-  Lanes c = one;
-  Lanes s = zero;
-  Lanes c1 = zero;
-  Lanes s1 = zero;
-  Lanes c2 = zero;
-  Lanes s2 = zero;
   for (int m = 0; m <= degree; ++m) {
     Lanes q1 = term->alpha * one;
     Lanes q2 = zero;
@@ -149,6 +148,30 @@ WSCVT_INLINE void sum_lanes(int degree, const HarmonicSeries::Term* term, const 
         h[2] += term->second[1] * q;
       }
     }
+    for (int d = 0; d <= order; ++d) {
+      sums[m].cosine[d] = g[d];
+      sums[m].sine[d] = h[d];
+    }
+  }
+}
+
+/// Sums what `sum_degrees` gives over the orders.
+template <int order>
+WSCVT_INLINE void sum_orders(int degree, const LatitudeSums* sums, const Lanes& x, const Lanes& y,
+                             ExtensionLanes& out) {
+  const Lanes zero{};
+  out = {};
+  // (x + iy)^m and the two powers before it; the missing ones meet factors that are zero.
+  Lanes c;
+  for (double& value : c.v) value = 1.0;
+  Lanes s = zero;
+  Lanes c1 = zero;
+  Lanes s1 = zero;
+  Lanes c2 = zero;
+  Lanes s2 = zero;
+  for (int m = 0; m <= degree; ++m) {
+    const Lanes* const g = sums[m].cosine;
+    const Lanes* const h = sums[m].sine;
     out.value += g[0] * c + h[0] * s;
     if constexpr (order > 0) {
       out.gradient[0] += m * (g[0] * c1 + h[0] * s1);
@@ -172,40 +195,57 @@ WSCVT_INLINE void sum_lanes(int degree, const HarmonicSeries::Term* term, const 
   }
 }
 
-using SumFunction = void (*)(int, const HarmonicSeries::Term*, const Lanes&, const Lanes&,
-                             const Lanes&, ExtensionLanes&);
+/// The two sums, as they are compiled for a processor.
+struct SumFunctions {
+  void (*degrees)(int, const HarmonicSeries::Term*, const Lanes&, LatitudeSums*);
+  void (*orders)(int, const LatitudeSums*, const Lanes&, const Lanes&, ExtensionLanes&);
+};
 
 template <int order>
-void sum_portable(int degree, const HarmonicSeries::Term* terms, const Lanes& x, const Lanes& y,
-                  const Lanes& z, ExtensionLanes& out) {
-  sum_lanes<order>(degree, terms, x, y, z, out);
+void degrees_portable(int degree, const HarmonicSeries::Term* terms, const Lanes& z,
+                      LatitudeSums* sums) {
+  sum_degrees<order>(degree, terms, z, sums);
+}
+
+template <int order>
+void orders_portable(int degree, const LatitudeSums* sums, const Lanes& x, const Lanes& y,
+                     ExtensionLanes& out) {
+  sum_orders<order>(degree, sums, x, y, out);
 }
 
 #if WSCVT_HAS_AVX2_CLONES
 template <int order>
-__attribute__((target("avx2"))) void sum_avx2(int degree, const HarmonicSeries::Term* terms,
-                                              const Lanes& x, const Lanes& y, const Lanes& z,
-                                              ExtensionLanes& out) {
-  sum_lanes<order>(degree, terms, x, y, z, out);
+__attribute__((target("avx2"))) void degrees_avx2(int degree, const HarmonicSeries::Term* terms,
+                                                  const Lanes& z, LatitudeSums* sums) {
+  sum_degrees<order>(degree, terms, z, sums);
+}
+
+template <int order>
+__attribute__((target("avx2"))) void orders_avx2(int degree, const LatitudeSums* sums,
+                                                 const Lanes& x, const Lanes& y,
+                                                 ExtensionLanes& out) {
+  sum_orders<order>(degree, sums, x, y, out);
 }
 #endif
 
 template <int order>
-SumFunction sum_function() {
+SumFunctions sum_functions() {
 #if WSCVT_HAS_AVX2_CLONES
-  if (__builtin_cpu_supports("avx2")) return sum_avx2<order>;
+  if (__builtin_cpu_supports("avx2")) return {degrees_avx2<order>, orders_avx2<order>};
 #endif
-  return sum_portable<order>;
+  return {degrees_portable<order>, orders_portable<order>};
 }
 
 /// Calls store(index, lane, sums) for every direction; a last incomplete set repeats the last one.
 template <int order, class Store>
 void for_each_sum(int degree, const HarmonicSeries::Term* terms, const Vector3* directions,
                   std::size_t count, const Store& store) {
-  const SumFunction function = sum_function<order>();
+  const SumFunctions functions = sum_functions<order>();
+  std::vector<LatitudeSums> sums(static_cast<std::size_t>(degree) + 1);
   Lanes x;
   Lanes y;
   Lanes z;
+  Lanes z_before;
   ExtensionLanes out;
   for (std::size_t begin = 0; begin < count; begin += lanes) {
     for (std::size_t i = 0; i < lanes; ++i) {
@@ -214,7 +254,12 @@ void for_each_sum(int degree, const HarmonicSeries::Term* terms, const Vector3* 
       y.v[i] = u.y();
       z.v[i] = u.z();
     }
-    function(degree, terms, x, y, z, out);
+    // Along the row of a grid the latitude stays, and with it all but the azimuths' part.
+    if (begin == 0 || !std::equal(z.v, z.v + lanes, z_before.v)) {
+      functions.degrees(degree, terms, z, sums.data());
+      z_before = z;
+    }
+    functions.orders(degree, sums.data(), x, y, out);
     const std::size_t filled = std::min(lanes, count - begin);
     for (std::size_t i = 0; i < filled; ++i) store(begin + i, i, out);
   }
