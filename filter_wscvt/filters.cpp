@@ -21,6 +21,7 @@
 #include "wscvt/remesh.h"
 #include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report_file.h"
+#include "wscvt/report/used_scan.h"
 
 namespace wscvt::filter {
 
@@ -123,7 +124,10 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   const Execution execution(settings.threads, progress);
   const RemeshResult result = remesh(mesh, settings.options, execution);
   // Files first: when they cannot be written the document stays as it was.
-  save_report(settings.result.report_file, scan.label, result, mesh);
+  const std::string& report = settings.result.report_file;
+  const bool is_shown = !report.empty() && shows_scan(report);
+  save_report(report, scan.label, result,
+              is_shown ? used_scan(mesh, result.options, Execution()) : IndexedMesh());
   if (!settings.coefficients_file.empty()) {
     write_coefficients(settings.coefficients_file, result);
   }

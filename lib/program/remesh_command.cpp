@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remesh_command.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/report_file.h"
+#include "wscvt/report/used_scan.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
@@ -56,23 +58,30 @@ int run(const RemeshArguments& arguments) {
   RemeshOptions options = arguments.options;
   options.measures.coefficients = !arguments.coefficients.empty();
 
+  // On a page and in signed distances, beside what became of it.
+  const bool is_shown =
+      std::any_of(common.reports.begin(), common.reports.end(), shows_scan) ||
+      (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
+
   Work work(common);
   work.execution().report(0.0, "Reading the scan");
   IndexedMesh scan = read_mesh(arguments.scan);
-  IndexedMesh shown;  // on a page, and in signed distances
-  if (!common.reports.empty() || !simulation.grids.empty()) shown = scan;
+  IndexedMesh shown;
+  if (is_shown) shown = scan;
   const RemeshResult result = remesh(std::move(scan), options, work.execution());
   work.end();
 
+  const Execution execution(common.threads);
+  shown = used_scan(std::move(shown), result.options, execution);
   const SimulationFrame frame = simulation_frame(result.original, simulation.options.frame);
   write_mesh(in_frame(result.mesh, frame), arguments.output);
   for (const std::string& path : simulation.nodes) write_nodes(path, result, simulation.options);
   for (const std::string& path : simulation.grids) {
     write_distance_grid(path, result, shown, simulation.options, origin_of(arguments.scan),
-                        Execution(common.threads));
+                        execution);
   }
   for (const std::string& report : common.reports) {
-    write_report(report, result, shown, origin_of(arguments.scan), Execution(common.threads));
+    write_report(report, result, shown, origin_of(arguments.scan), execution);
   }
   if (!arguments.coefficients.empty()) write_coefficients(arguments.coefficients, result);
   work.print(result.warnings, report_lines(result));

@@ -24,6 +24,7 @@
 #include "wscvt/report/page_figures.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/report_file.h"
+#include "wscvt/report/used_scan.h"
 
 namespace wscvt {
 namespace {
@@ -234,7 +235,8 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   // Points alone are triangulated; of a formula there is nothing to compare with.
   RemeshResult of_points = plain;
   of_points.options.points = true;
-  EXPECT_EQ(count_of(report_html(of_points, {scan.points, {}}, {}, Execution(1)), "<img"), 3U);
+  const IndexedMesh of_cloud = used_scan({scan.points, {}}, of_points.options, Execution(1));
+  EXPECT_EQ(count_of(report_html(of_points, of_cloud, {}, Execution(1)), "<img"), 3U);
   const std::string alone = report_html(plain, IndexedMesh(), {}, Execution(1));
   EXPECT_EQ(count_of(alone, "<img"), 1U);
   EXPECT_EQ(count_of(alone, "<svg"), 3U);
@@ -353,6 +355,7 @@ TEST_F(ReportFiles, FollowTheirEndings) {
   const RemeshResult result = remesh(scan, options, Execution(1));
   const ReportOrigin origin = {"scan.ply", "2026-11-21"};
   for (const std::string name : {"r.html", "r.JSON", "r.csv"}) {
+    EXPECT_EQ(shows_scan(path(name)), name == "r.html");
     check_remesh_report(path(name));
     write_report(path(name), result, scan, origin, Execution(1));
   }

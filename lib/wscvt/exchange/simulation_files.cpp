@@ -6,23 +6,15 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/exchange/node_table.h"
 #include "wscvt/exchange/rockable_shape.h"
 #include "wscvt/report/json.h"
-#include "wscvt/report/used_scan.h"
 
 namespace wscvt {
 
 namespace {
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending;
-}
 
 /// A file's name as a word of its own.
 std::string word_of(const std::string& path) {
@@ -106,16 +98,13 @@ void write_nodes(const std::string& path, const RemeshResult& result,
                                   in_frame(mass_properties(result.original), frame)));
 }
 
-void write_distance_grid(const std::string& path, const RemeshResult& result, IndexedMesh scan,
-                         const SimulationOptions& options, const ReportOrigin& origin,
-                         const Execution& execution) {
+void write_distance_grid(const std::string& path, const RemeshResult& result,
+                         const IndexedMesh& scan, const SimulationOptions& options,
+                         const ReportOrigin& origin, const Execution& execution) {
   check_grid_path(path);
   const SimulationFrame frame = simulation_frame(result.original, options.frame);
-  IndexedMesh surface = options.surface == GridSurface::Remesh
-                            ? result.mesh
-                            : used_scan(std::move(scan), result.options, execution);
-  const DistanceGrid grid =
-      distance_grid(in_frame(std::move(surface), frame), options.grid, execution);
+  const IndexedMesh& surface = options.surface == GridSurface::Remesh ? result.mesh : scan;
+  const DistanceGrid grid = distance_grid(in_frame(surface, frame), options.grid, execution);
   const std::string ending = ending_of(path);
   if (ending == ".vti") return write_file(path, grid_vti(grid));
   if (ending == ".json") return write_file(path, grid_netdem(grid));

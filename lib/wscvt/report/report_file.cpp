@@ -48,6 +48,8 @@ ReportFormat report_format(const std::string& path) {
   return static_cast<ReportFormat>(found - endings.begin());
 }
 
+bool shows_scan(const std::string& path) { return report_format(path) == ReportFormat::Html; }
+
 void check_remesh_report(const std::string& path) { check(path, report_csv(RemeshResult(), {})); }
 
 void check_descriptor_report(const std::string& path, bool with_reference) {

@@ -22,6 +22,9 @@ const std::vector<std::string>& report_endings();
 /// By the ending of the file's name, in either case. Throws Error(InvalidInput) for any other.
 ReportFormat report_format(const std::string& path);
 
+/// Whether a remesh's report of that name shows the scan: a page does. Throws as report_format.
+bool shows_scan(const std::string& path);
+
 /// Refuses before the work what could not be written after it: another ending or a table with other
 /// columns (InvalidInput), and what check_writable refuses.
 void check_remesh_report(const std::string& path);
@@ -31,7 +34,7 @@ void check_descriptor_report(const std::string& path, bool with_reference);
 
 /// Writes the report in the format of its name: report_html and report_json whole or not at all in
 /// the place of what was there, report_csv as a row more of a table (see append_to_table). `scan`
-/// is the mesh as it was given to remesh; only a page looks at it. Throws Error as those do.
+/// as used_scan gives it; only a page looks at it. Throws Error as those do.
 void write_report(const std::string& path, const RemeshResult& result, const IndexedMesh& scan,
                   const ReportOrigin& origin, const Execution& execution);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "wscvt/base/option.h"
@@ -11,7 +10,6 @@
 #include "wscvt/report/mass_table.h"
 #include "wscvt/report/page_figures.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/used_scan.h"
 
 namespace wscvt {
 
@@ -57,9 +55,8 @@ Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
 
 }  // namespace
 
-std::string report_html(const RemeshResult& result, IndexedMesh scan, const ReportOrigin& origin,
-                        const Execution& execution) {
-  scan = used_scan(std::move(scan), result.options, execution);
+std::string report_html(const RemeshResult& result, const IndexedMesh& scan,
+                        const ReportOrigin& origin, const Execution& execution) {
   std::optional<ShownMesh> reference;
   if (!scan.triangles.empty()) reference.emplace(ShownMesh{scan, "original"});
   const PageFigures figures = page_figures(reference, {result.mesh, "remesh"}, execution);
