@@ -15,23 +15,23 @@ constexpr std::size_t block_size = 8192;
 /// A body whose skewness along an axis is below this is symmetric there: rounding leaves less.
 constexpr double smallest_skewness = 1e-9;
 
-/// Second and third moments of volume along an axis.
+/// Of two axes at once, so that the mesh is read once: the volume and the third moments along them.
 struct AxisMoments {
-  double second = 0.0;
-  double third = 0.0;
+  double volume = 0.0;
+  Eigen::Vector2d third = Eigen::Vector2d::Zero();
 
   AxisMoments& operator+=(const AxisMoments& other) {
-    second += other.second;
+    volume += other.volume;
     third += other.third;
     return *this;
   }
 };
 
 /// Sums over the tetrahedra that the faces span with the centroid. A coordinate is linear in each,
-/// with the values 0, a, b and c at its corners; the mean of its k-th power is then k! 3! / (k+3)!
-/// times the sum of all products of k of the values.
-AxisMoments moments_along(const Vector3& axis, const IndexedMesh& mesh, const Vector3& centroid,
-                          const Execution& execution) {
+/// with the values 0, a, b and c at its corners; the mean of its cube is then 1/20 of the sum of
+/// all products of three of the values, aaa + aab + ... + ccc.
+AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const IndexedMesh& mesh,
+                          const Vector3& centroid, const Execution& execution) {
   return execution.parallel_sum(
       mesh.triangles.size(), block_size, AxisMoments(), [&](std::size_t begin, std::size_t end) {
         AxisMoments part;
@@ -40,24 +40,21 @@ AxisMoments moments_along(const Vector3& axis, const IndexedMesh& mesh, const Ve
           const Vector3 corner_a = mesh.points[t[0]] - centroid;
           const Vector3 corner_b = mesh.points[t[1]] - centroid;
           const Vector3 corner_c = mesh.points[t[2]] - centroid;
-          const double a = axis.dot(corner_a);
-          const double b = axis.dot(corner_b);
-          const double c = axis.dot(corner_c);
+          const Eigen::Array2d a = axes.transpose() * corner_a;
+          const Eigen::Array2d b = axes.transpose() * corner_b;
+          const Eigen::Array2d c = axes.transpose() * corner_c;
           const double volume = six_volumes(corner_a, corner_b, corner_c) / 6.0;
-          part.second += volume / 10.0 * (a * a + b * b + c * c + a * b + b * c + c * a);
-          part.third +=
-              volume / 20.0 *
-              (a * a * (a + b + c) + b * b * (a + b + c) + c * c * (a + b + c) + a * b * c);
+          const Eigen::Array2d products = (a * a + b * b + c * c) * (a + b + c) + a * b * c;
+          part.volume += volume;
+          part.third += (volume / 20.0 * products).matrix();
         }
         return part;
       });
 }
 
-Vector3 with_sign(const Vector3& axis, const IndexedMesh& mesh, const Vector3& centroid,
-                  double volume_scale, const Execution& execution) {
-  const AxisMoments moments = moments_along(axis, mesh, centroid, execution);
-  // Without a unit: the third moment of the body's points over the cube of their spread.
-  const double skewness = moments.third * std::sqrt(volume_scale) / std::pow(moments.second, 1.5);
+/// The axis or its opposite. `skewness` is the third moment of the body's points along the axis
+/// over the cube of their spread, which has no unit.
+Vector3 with_sign(const Vector3& axis, double skewness) {
   if (std::abs(skewness) > smallest_skewness) return skewness > 0.0 ? axis : Vector3(-axis);
   Eigen::Index largest = 0;
   // Components that differ by rounding alone count as equal.
@@ -73,10 +70,16 @@ Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centro
                                   const Eigen::Matrix3d& inertia_tensor,
                                   const Execution& execution) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_tensor);
-  const double volume = mesh_sums(mesh.points, mesh.triangles, centroid, execution).volume();
+  const Vector3 moments_of_inertia = solver.eigenvalues();
+  const AxisMoments moments =
+      moments_along(solver.eigenvectors().leftCols<2>(), mesh, centroid, execution);
   Eigen::Matrix3d axes;
   for (int k = 0; k < 2; ++k) {
-    axes.col(k) = with_sign(solver.eigenvectors().col(k), mesh, centroid, volume, execution);
+    // The moment of inertia about an axis lacks what lies along it: with the trace of the tensor,
+    // integral of x_k^2 dV = (I_1 + I_2 + I_3) / 2 - I_k.
+    const double second = 0.5 * moments_of_inertia.sum() - moments_of_inertia[k];
+    const double skewness = moments.third[k] * std::sqrt(moments.volume) / std::pow(second, 1.5);
+    axes.col(k) = with_sign(solver.eigenvectors().col(k), skewness);
   }
   axes.col(2) = axes.col(0).cross(axes.col(1));
   Eigen::Quaterniond turn(axes);
