@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/csv_table.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <filesystem>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/report/open_table.h"
 
 namespace wscvt {
 
@@ -17,66 +13,6 @@ namespace {
 
 constexpr const char* line_end = "\r\n";
 constexpr std::size_t line_end_size = 2;
-
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
-}
-
-/// A file that is open, and nobody else's to append to until its end of scope.
-class OpenTable {
- public:
-  OpenTable(const std::string& path, int flags)
-      : path_(path), descriptor_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) fail(path, "cannot be opened; check that it is a file and yours.");
-    // Where files cannot be locked, rows of one process at a time are whole all the same.
-    ::flock(descriptor_, LOCK_EX);
-  }
-  OpenTable(const OpenTable&) = delete;
-  OpenTable& operator=(const OpenTable&) = delete;
-  ~OpenTable() { ::close(descriptor_); }
-
-  std::size_t size() const {
-    struct stat state {};
-    if (::fstat(descriptor_, &state) != 0) fail(path_, "cannot be read; check the disk.");
-    return static_cast<std::size_t>(state.st_size);
-  }
-
-  /// As much as there is of it.
-  std::string read(std::size_t from, std::size_t size) const {
-    std::string bytes(size, '\0');
-    std::size_t have = 0;
-    while (have < size) {
-      const ssize_t count =
-          ::pread(descriptor_, bytes.data() + have, size - have, static_cast<off_t>(from + have));
-      if (count < 0) fail(path_, "cannot be read; check the disk.");
-      if (count == 0) break;
-      have += static_cast<std::size_t>(count);
-    }
-    bytes.resize(have);
-    return bytes;
-  }
-
-  /// At the end, or nothing of it.
-  void append(const std::string& bytes) const {
-    const std::size_t before = size();
-    std::size_t written = 0;
-    while (written < bytes.size()) {
-      const ssize_t count = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
-      if (count <= 0) break;
-      written += static_cast<std::size_t>(count);
-    }
-    if (written == bytes.size()) return;
-    const bool restored = ::ftruncate(descriptor_, static_cast<off_t>(before)) == 0;
-    if (before == 0) ::unlink(path_.c_str());
-    fail(path_, restored ? "could not be written whole and was left as it was; check the space on "
-                           "the disk."
-                         : "took a part of a row only; remove its last line and check the disk.");
-  }
-
- private:
-  std::string path_;
-  int descriptor_;
-};
 
 /// Where the row begins.
 std::size_t row_of(const std::string& header_and_row) {
@@ -114,7 +50,7 @@ bool is_stream(const std::string& path) {
 void append_to_table(const std::string& path, const std::string& header_and_row) {
   if (is_stream(path)) return write_file(path, header_and_row);
   check_writable(path);  // with its sentences about folders and links
-  const OpenTable table(path, O_RDWR | O_CREAT | O_APPEND);
+  const OpenTable table(path, TableUse::Append);
   require_header(path, table, header_and_row);
   table.append(table.size() == 0 ? header_and_row : header_and_row.substr(row_of(header_and_row)));
 }
@@ -123,7 +59,7 @@ void check_table(const std::string& path, const std::string& header_and_row) {
   check_writable(path);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return;
-  require_header(path, OpenTable(path, O_RDONLY), header_and_row);
+  require_header(path, OpenTable(path, TableUse::Read), header_and_row);
 }
 
 }  // namespace wscvt

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/sample_table.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <fstream>
 #include <utility>
@@ -92,6 +88,12 @@ void add_places(const std::string& path, std::size_t table, std::string& header,
   }
 }
 
+/// The path, which check_writable's sentences about folders and links have passed.
+const std::string& writable(const std::string& path) {
+  check_writable(path);
+  return path;
+}
+
 }  // namespace
 
 std::string sample_header(bool with_seconds) {
@@ -112,44 +114,28 @@ std::string failed_row(const std::string& grain, const std::string& error, Secon
                 std::string(static_cast<std::size_t>(columns), ',') + "\r\n");
 }
 
-SampleTable::SampleTable(std::string path, const std::string& header,
+SampleTable::SampleTable(const std::string& path, const std::string& header,
                          const std::vector<std::string>& grains)
-    : path_(std::move(path)) {
-  check_writable(path_);  // with its sentences about folders and links
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) {
-    fail(ErrorCode::InputOutput, path_, "cannot be opened; check that it is a file and yours.");
-  }
-  try {
-    // Where files cannot be locked, whoever starts two batches in one folder has to know.
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      fail(ErrorCode::InvalidInput, path_,
-           "is being written by another batch; wait for it, or give another folder.");
-    }
-    read(header, grains);
-    if (::lseek(descriptor_, 0, SEEK_END) == 0) append(header);
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
-  }
+    : table_(writable(path), TableUse::AppendAlone) {
+  read(header, grains);
+  if (table_.size() == 0) append(header);
   rows_ -= rows_ > 0 ? 1 : 0;  // the header
 }
 
-SampleTable::~SampleTable() { ::close(descriptor_); }
-
 void SampleTable::read(const std::string& header, const std::vector<std::string>& grains) {
-  std::ifstream stream = open(path_);
+  const std::string& path = table_.path();
+  std::ifstream stream = open(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
   while (reader.next(fields)) {
     if (rows_ == 0 && reader.text() != header) {
-      fail(ErrorCode::InvalidInput, path_,
+      fail(ErrorCode::InvalidInput, path,
            "is no table with this batch's columns; give another folder.");
     }
     if (rows_ > 0) {
       const std::string expected = rows_ <= grains.size() ? grains[rows_ - 1] : "nothing";
       if (fields.front() != expected) {
-        fail(ErrorCode::InvalidInput, path_,
+        fail(ErrorCode::InvalidInput, path,
              "has \"" + fields.front() + "\" in row " + std::to_string(rows_) +
                  ", where the inputs have " + expected +
                  ": it is of other inputs; give those, or another folder.");
@@ -158,28 +144,15 @@ void SampleTable::read(const std::string& header, const std::vector<std::string>
     }
     ++rows_;
   }
-  if (reader.is_cut() && ::ftruncate(descriptor_, static_cast<off_t>(reader.size())) != 0) {
-    fail(ErrorCode::InputOutput, path_,
-         "ends within a row, which cannot be taken off; see whose "
-         "it is.");
-  }
+  if (reader.is_cut()) table_.cut(reader.size());
 }
 
 void SampleTable::append(const std::string& row) {
-  std::size_t written = 0;
-  while (written < row.size()) {
-    const ssize_t count = ::write(descriptor_, row.data() + written, row.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) {
-      fail(ErrorCode::InputOutput, path_,
-           "took a part of a row only; check the space on the disk and start the batch again.");
-    }
-    written += static_cast<std::size_t>(count);
-  }
+  table_.append(row);
   ++rows_;
 }
 
-std::size_t join_tables(const std::vector<std::string>& tables, const std::string& joined) {
+void join_tables(const std::vector<std::string>& tables, const std::string& joined) {
   std::string header;
   std::vector<Place> places;
   for (std::size_t table = 0; table < tables.size(); ++table) {
@@ -189,7 +162,6 @@ std::size_t join_tables(const std::vector<std::string>& tables, const std::strin
                    [](const Place& a, const Place& b) { return a.grain < b.grain; });
   std::vector<std::ifstream> streams;
   for (const std::string& table : tables) streams.push_back(open(table));
-  std::size_t rows = 0;
   write_file(joined, [&](std::ostream& stream) {
     stream << header;
     std::string last;
@@ -206,11 +178,9 @@ std::size_t join_tables(const std::vector<std::string>& tables, const std::strin
       }
       stream << row;
       last = std::move(row);
-      ++rows;
     }
     return stream.good();
   });
-  return rows;
 }
 
 }  // namespace wscvt

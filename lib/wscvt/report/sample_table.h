@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/report/open_table.h"
 #include "wscvt/report/remesh_result.h"
 
 namespace wscvt {
@@ -33,10 +34,8 @@ class SampleTable {
   /// Opens the table of these grains, or begins it. Throws Error: InvalidInput when the file has
   /// other columns or rows of other grains, or when another process has it open; InputOutput when
   /// it cannot be read or written.
-  SampleTable(std::string path, const std::string& header, const std::vector<std::string>& grains);
-  SampleTable(const SampleTable&) = delete;
-  SampleTable& operator=(const SampleTable&) = delete;
-  ~SampleTable();
+  SampleTable(const std::string& path, const std::string& header,
+              const std::vector<std::string>& grains);
 
   /// Rows that are there: those of the first so many grains.
   std::size_t rows() const { return rows_; }
@@ -49,16 +48,15 @@ class SampleTable {
  private:
   void read(const std::string& header, const std::vector<std::string>& grains);
 
-  std::string path_;
-  int descriptor_ = -1;
+  OpenTable table_;
   std::size_t rows_ = 0;
   std::size_t failed_rows_ = 0;
 };
 
 /// Joins tables of parts of a sample, whole ones with the same columns, into one whose rows are in
-/// the order of the grains' names, so that it is the same however the sample was parted. Returns
-/// its text's size in rows. Throws Error: InvalidInput when columns differ, a table ends within a
-/// row, or a grain has two rows that differ; InputOutput.
-std::size_t join_tables(const std::vector<std::string>& tables, const std::string& joined);
+/// the order of the grains' names, so that it is the same however the sample was parted. Throws
+/// Error: InvalidInput when columns differ, a table ends within a row, or a grain has two rows that
+/// differ; InputOutput.
+void join_tables(const std::vector<std::string>& tables, const std::string& joined);
 
 }  // namespace wscvt
