@@ -14,12 +14,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/measures/distances.h"
 
 namespace wscvt {
 
@@ -47,13 +47,12 @@ struct Ball {
 
 /// Centres spread over the surface at `radius` from the grain. Where that surface passes through
 /// the grain or another part's reach, as above hollows narrower than the ball, no ball fits.
-std::vector<Ball> touching_balls(const IndexedMesh& grain, double radius, std::size_t count,
-                                 const Execution& execution) {
+std::vector<Ball> touching_balls(const IndexedMesh& grain, const MeshDistance& surface,
+                                 double radius, std::size_t count, const Execution& execution) {
   IndexedMesh offset = grain;
   const std::vector<Vector3> normals = vertex_normals(grain.points, grain.triangles);
   for (std::size_t i = 0; i < normals.size(); ++i) offset.points[i] += radius * normals[i];
   const std::vector<Vector3> centres = area_uniform_samples(offset, count);
-  const MeshDistance surface(grain);
   const std::vector<double> distances = surface.distances(centres, execution);
   std::vector<char> outside(centres.size(), 0);
   execution.parallel_for(centres.size(), block_size, [&](std::size_t begin, std::size_t end) {
@@ -176,7 +175,8 @@ double node_distance(const IndexedMesh& mesh) {
 }  // namespace
 
 std::vector<Vector3> fit_to_contacts(const IndexedMesh& mesh, const IndexedMesh& grain,
-                                     double ball_radius, const Execution& execution) {
+                                     const MeshDistance* to_grain, double ball_radius,
+                                     const Execution& execution) {
   if (!(ball_radius > 0.0) || !std::isfinite(ball_radius)) {
     throw Error(ErrorCode::InvalidInput, "The radius of the balls that nodes are fitted to is " +
                                              format_typed(ball_radius) +
@@ -185,7 +185,9 @@ std::vector<Vector3> fit_to_contacts(const IndexedMesh& mesh, const IndexedMesh&
   constexpr const char* stage = "Fitting the nodes to contacts";
   execution.report(0.0, stage);
   const std::size_t count = std::min(balls_per_node * mesh.points.size(), most_balls);
-  const std::vector<Ball> balls = touching_balls(grain, ball_radius, count, execution);
+  std::optional<MeshDistance> made;
+  if (to_grain == nullptr) to_grain = &made.emplace(grain, execution);
+  const std::vector<Ball> balls = touching_balls(grain, *to_grain, ball_radius, count, execution);
   const double longest = longest_step * node_distance(mesh);
   const TriangleGuard guard(mesh);
 

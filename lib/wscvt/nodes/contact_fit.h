@@ -5,6 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/distances.h"
 
 namespace wscvt {
 
@@ -21,9 +22,12 @@ namespace wscvt {
 /// The mesh keeps its triangles, and no step is taken that would turn one by more than some 70
 /// degrees from where it was, or inward seen from the origin. Nodes that no ball comes nearest to,
 /// as those in hollows, stay. `mesh` and `grain` are closed and outward, about the origin; lengths
-/// of both are equivalent radii. The same bits on any number of threads. Throws Error(InvalidInput)
-/// for a radius that is not positive or a grain without faces, Error(Cancelled).
+/// of both are equivalent radii. `to_grain` is the distance to `grain` where the caller has it, and
+/// made here where it is nullptr. The same bits on any number of threads. Throws
+/// Error(InvalidInput) for a radius that is not positive or a grain without faces,
+/// Error(Cancelled).
 std::vector<Vector3> fit_to_contacts(const IndexedMesh& mesh, const IndexedMesh& grain,
-                                     double ball_radius, const Execution& execution);
+                                     const MeshDistance* to_grain, double ball_radius,
+                                     const Execution& execution);
 
 }  // namespace wscvt

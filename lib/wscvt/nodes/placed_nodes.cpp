@@ -97,8 +97,8 @@ PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, Relaxation
                            execution);
   }
   if (options.kind == NodePlacement::Contact) {
-    nodes.mesh.points =
-        fit_to_contacts(nodes.mesh, grain.mesh, options.contact_radius, execution.part(0.5, 1.0));
+    nodes.mesh.points = fit_to_contacts(nodes.mesh, grain.mesh, nullptr, options.contact_radius,
+                                        execution.part(0.5, 1.0));
     take_polar_coordinates(nodes);
     nodes.cell_areas = vertex_areas(nodes.mesh);
   }
