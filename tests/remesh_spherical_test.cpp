@@ -176,6 +176,7 @@ TEST(RemeshSpherical, SteepCurvatureWeightsSettle) {
     const RemeshResult result = remesh(sand(), options, Execution(2));
     EXPECT_NE(result.relaxation.outcome, RelaxationOutcome::IterationLimit) << alpha;
     EXPECT_LT(result.relaxation.iterations, 700) << alpha;
+    EXPECT_EQ(result.space.mending.left, 0) << alpha;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -68,6 +69,27 @@ TEST(NormalLeastSquares, MakesTheVolumeExactAndTheDistanceSmaller) {
   EXPECT_LE(self_intersections(hook.after).size(), self_intersections(hook.before).size());
 }
 
+TEST(NormalLeastSquares, SamplesGoOnToTrianglesAtTheSameNodes) {
+  // A double pyramid, and the same with node 2 relocated and the triangles in another order.
+  const std::vector<Triangle> before = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3},
+                                        {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
+  IndexedMesh after;
+  after.points = {{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  after.triangles = {before[5], before[4], before[3], before[2], before[1], before[0]};
+  const std::vector<FitSample> samples = {
+      {{0.9, 0.0, 0.1}, 0}, {{-1.0, -1.0, 0.1}, 1}, {{0.1, 0.0, -0.9}, 5}};
+  const std::vector<FitSample> on = deal_on(samples, before, after, {2});
+  ASSERT_EQ(on.size(), 3U);
+  // The nearest of the nodes that stayed: 0; 3, although 2 was nearer; 4.
+  const std::int32_t expected[] = {0, 3, 4};
+  for (std::size_t i = 0; i < on.size(); ++i) {
+    EXPECT_EQ(on[i].point, samples[i].point);
+    const Triangle& t = after.triangles[on[i].triangle];
+    EXPECT_EQ(std::count(t.begin(), t.end(), expected[i]), 1) << i;
+  }
+  EXPECT_EQ(deal_on(samples, before, after, {1, 2, 3}).size(), 2U);
+}
+
 TEST(NormalLeastSquares, NodesOfASphereMoveOutwardsAlike) {
   // Even triangles with corners on the unit sphere lie l^2 / 8 below it in the mean, with
   // l^2 = 8 pi / (sqrt(3) N): 1.814 / N. The scan's 2,562 vertices lose as much themselves.
@@ -113,10 +135,10 @@ TEST(NormalLeastSquares, RefusesOptionsOutOfRange) {
   EXPECT_NE(refusal(none).find("1 or more"), std::string::npos);
   NormalFitOptions wide;
   wide.smallest_angle = 60.0;
-  EXPECT_NE(refusal(wide).find("less than 60"), std::string::npos);
+  EXPECT_NE(refusal(wide).find("below 60"), std::string::npos);
   NormalFitOptions turned;
   turned.largest_turn = 0.0;
-  EXPECT_NE(refusal(turned).find("at most 180"), std::string::npos);
+  EXPECT_NE(refusal(turned).find("above 0 and 180"), std::string::npos);
 }
 
 }  // namespace

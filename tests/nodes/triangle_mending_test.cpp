@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "support/expect_error.h"
@@ -27,10 +29,9 @@ struct Jammed {
   IndexedMesh nodes;
 };
 
-/// A lumpy body with 400 even nodes.
-Jammed even_nodes() {
-  const IndexedMesh sphere = test::sphere(5);
-  Jammed result{MappedSurface(test::lumpy(5), sphere.points, Execution(1)), {}, {}};
+/// A body over test::sphere(5) with 400 nodes, even on that sphere.
+Jammed nodes_on(IndexedMesh body) {
+  Jammed result{MappedSurface(std::move(body), test::sphere(5).points, Execution(1)), {}, {}};
   const std::vector<Vector3> seeds = fibonacci_lattice(400);
   const SphereTriangulation triangulation(seeds);
   for (const Vector3& u : seeds) {
@@ -41,9 +42,9 @@ Jammed even_nodes() {
   return result;
 }
 
-/// Long thin triangles: some nodes lie all but in the middle of an edge.
-Jammed slivered() {
-  Jammed result = even_nodes();
+/// Long thin triangles: some nodes of `even` are put near the middle of an edge, `height` of
+/// another away from it.
+Jammed slivered(Jammed result, double height) {
   const std::vector<Triangle> triangles = result.nodes.triangles;
   std::vector<char> used(result.nodes.points.size(), 0);
   for (std::size_t f = 0; f < triangles.size(); f += 200) {
@@ -51,12 +52,15 @@ Jammed slivered() {
     if (used[a] + used[b] + used[c] > 0) continue;
     used[a] = used[b] = used[c] = 1;
     const Vector3 wanted = 0.5 * (result.nodes.points[a] + result.nodes.points[b]) +
-                           0.04 * (result.nodes.points[c] - result.nodes.points[a]);
+                           height * (result.nodes.points[c] - result.nodes.points[a]);
     result.places[c] = result.surface.locate(wanted);
     result.nodes.points[c] = result.surface.position(result.places[c]);
   }
   return result;
 }
+
+/// The same on a lumpy body, where they are even as well.
+Jammed even_nodes() { return nodes_on(test::lumpy(5)); }
 
 void expect_closed(const IndexedMesh& mesh, std::size_t nodes) {
   ASSERT_EQ(mesh.points.size(), nodes);
@@ -80,7 +84,7 @@ TEST(TriangleMending, LeavesGoodTrianglesAlone) {
 }
 
 TEST(TriangleMending, FreesSliversOnTheScan) {
-  const Jammed bad = slivered();
+  const Jammed bad = slivered(even_nodes(), 0.04);
   ASSERT_LT(measure_quality(bad.nodes).smallest_angle, 12.0);
   const MendedTriangles mended =
       mend_triangles(bad.nodes, bad.places, bad.surface, {}, Execution(1));
@@ -94,6 +98,55 @@ TEST(TriangleMending, FreesSliversOnTheScan) {
   std::size_t same = 0;
   for (std::size_t i = 0; i < 400; ++i) same += mended.mesh.points[i] == bad.nodes.points[i];
   EXPECT_GT(same, 200U);
+}
+
+TEST(TriangleMending, CutsNoRidgeBeyondTheLimit) {
+  // A roof: across the ridge from 0 to 1 the triangles have 21 degrees at its ends, and 32 with the
+  // other diagonal, from 2 to 3. That lies below the ridge and turns by 115 degrees into the sides.
+  IndexedMesh roof;
+  roof.points = {{-2, 0, 0}, {2, 0, 0}, {0, 0.6, -0.5}, {0, -0.6, -0.5}, {0, 0, -2}};
+  roof.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}};
+  std::vector<Vector3> directions;
+  for (const Vector3& p : roof.points) {
+    directions.push_back((p + Vector3(0, 0, 0.7)).normalized());
+  }
+  const MappedSurface surface(roof, directions, Execution(1));
+  std::vector<MeshPlace> places;
+  for (const Vector3& u : directions) places.push_back(surface.locate(u));
+  const auto has_ridge = [&](double largest_turn) {
+    TriangleMendingOptions options;
+    options.largest_turn = largest_turn;
+    options.rounds = 1;
+    const MendedTriangles mended = mend_triangles(roof, places, surface, options, Execution(1));
+    return std::any_of(
+        mended.mesh.triangles.begin(), mended.mesh.triangles.end(), [](const Triangle& t) {
+          return std::count(t.begin(), t.end(), 0) + std::count(t.begin(), t.end(), 1) == 2;
+        });
+  };
+  EXPECT_TRUE(has_ridge(90.0));
+  EXPECT_FALSE(has_ridge(180.0));
+}
+
+TEST(TriangleMending, NodesStayOnTheirSheet) {
+  // A bowl so thin that the middle of a node's neighbours lies nearer to the other sheet.
+  constexpr double thickness = 0.006;
+  IndexedMesh bowl = test::sphere(5);
+  for (Vector3& p : bowl.points) {
+    if (p.z() < 0.0)
+      p = (1.0 - thickness * std::min(1.0, -10.0 * p.z())) * Vector3(p.x(), p.y(), -p.z());
+  }
+  const Jammed bad = slivered(nodes_on(std::move(bowl)), 0.2);
+  const MendedTriangles mended =
+      mend_triangles(bad.nodes, bad.places, bad.surface, {}, Execution(1));
+  EXPECT_GT(mended.report.moves, 10);
+  for (std::size_t i = 0; i < bad.nodes.points.size(); ++i) {
+    const Vector3& before = bad.nodes.points[i];
+    const Vector3& after = mended.mesh.points[i];
+    const bool relocated = std::binary_search(mended.relocated.begin(), mended.relocated.end(),
+                                              static_cast<std::int32_t>(i));
+    if (before == after || relocated || before.z() < 0.4) continue;
+    EXPECT_LT(std::abs(before.norm() - after.norm()), 0.5 * thickness) << i;
+  }
 }
 
 TEST(TriangleMending, TakesNodesFromWhereTheyCrowd) {

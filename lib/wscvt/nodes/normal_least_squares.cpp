@@ -12,7 +12,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_placement.h"
@@ -226,19 +225,9 @@ double mean_edge(const std::vector<Vector3>& points, const std::vector<Triangle>
 }  // namespace
 
 void check_normal_fit_options(const NormalFitOptions& options) {
-  const auto refuse = [](const std::string& what, double value, const std::string& range) {
-    throw Error(ErrorCode::InvalidInput,
-                what + " is " + format_number(value) + "; give " + range + ".");
-  };
-  if (options.samples == 0) refuse("The number of samples of the fit", 0.0, "1 or more");
-  if (!(options.smallest_angle >= 0.0 && options.smallest_angle < 60.0)) {
-    refuse("The smallest angle of the fit", options.smallest_angle,
-           "at least 0 and less than 60 degrees");
-  }
-  if (!(options.largest_turn > 0.0 && options.largest_turn <= 180.0)) {
-    refuse("The largest turn of the fit", options.largest_turn,
-           "more than 0 and at most 180 degrees");
-  }
+  require_in_range(options.samples, fit_samples_option);
+  require_in_range(options.smallest_angle, fit_angle_option);
+  require_in_range(options.largest_turn, fit_turn_option);
 }
 
 std::vector<MappedSample> mapped_samples(const MappedSurface& surface, std::size_t count,
@@ -267,6 +256,27 @@ std::vector<FitSample> deal_out(const std::vector<MappedSample>& samples,
       result[s] = {samples[s].point, hint};
     }
   });
+  return result;
+}
+
+std::vector<FitSample> deal_on(const std::vector<FitSample>& samples,
+                               const std::vector<Triangle>& before, const IndexedMesh& after,
+                               const std::vector<std::int32_t>& relocated) {
+  const HalfEdges half_edges = link_half_edges(after.triangles, after.points.size());
+  std::vector<FitSample> result;
+  result.reserve(samples.size());
+  for (const FitSample& sample : samples) {
+    double smallest = std::numeric_limits<double>::infinity();
+    std::int32_t triangle = -1;
+    for (const std::int32_t v : before[sample.triangle]) {
+      if (std::binary_search(relocated.begin(), relocated.end(), v)) continue;
+      const double distance = (after.points[v] - sample.point).squaredNorm();
+      if (!(distance < smallest)) continue;
+      smallest = distance;
+      triangle = half_edges.first[v] / 3;
+    }
+    if (triangle >= 0) result.push_back({sample.point, triangle});
+  }
   return result;
 }
 

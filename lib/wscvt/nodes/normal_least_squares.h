@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 #include "wscvt/nodes/space_report.h"
 #include "wscvt/surface/mapped_surface.h"
 
@@ -21,6 +23,13 @@ struct NormalFitOptions {
   /// (0, 180].
   double largest_turn = 120.0;
 };
+
+inline constexpr NumberOption<std::size_t> fit_samples_option = {
+    "fit-samples", "number of samples of the fit", 1, std::numeric_limits<std::size_t>::max()};
+inline constexpr NumberOption<double> fit_angle_option = {
+    "fit-smallest-angle", "smallest angle of the fit, in degrees,", 0.0, 60.0, Ends::NotMaximum};
+inline constexpr NumberOption<double> fit_turn_option = {
+    "fit-largest-turn", "largest turn of the fit, in degrees,", 0.0, 180.0, Ends::NotMinimum};
 
 /// A sample of the scan and where it lies on the sphere of the map.
 struct MappedSample {
@@ -50,6 +59,13 @@ std::vector<FitSample> deal_out(const std::vector<MappedSample>& samples,
                                 const std::vector<Vector3>& positions,
                                 const std::vector<Vector3>& seeds,
                                 const std::vector<Triangle>& triangles, const Execution& execution);
+
+/// Samples that were dealt out to the triangles `before` go on to triangles of the mesh that these
+/// became, about the same nodes: each to one at the nearest of its triangle's nodes that is not
+/// among `relocated` (ascending). A sample whose three nodes all went elsewhere is left out.
+std::vector<FitSample> deal_on(const std::vector<FitSample>& samples,
+                               const std::vector<Triangle>& before, const IndexedMesh& after,
+                               const std::vector<std::int32_t>& relocated);
 
 /// Moves nodes once along their normals, to where their triangles fit the samples best, and then
 /// all by one offset along the same normals, so that the closed mesh encloses `volume` (> 0,

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/contact_fit.h"
@@ -132,30 +130,6 @@ std::vector<MeshPlace> places_of(const MappedSurface& surface, const std::vector
   return places;
 }
 
-/// Samples dealt out to triangles before mending go on to one of those about the same nodes; none
-/// where all three nodes were relocated.
-std::vector<FitSample> handed_on(const std::vector<FitSample>& samples,
-                                 const std::vector<Triangle>& before,
-                                 const MendedTriangles& mended) {
-  const std::vector<Triangle>& after = mended.mesh.triangles;
-  const HalfEdges half_edges = link_half_edges(after, mended.mesh.points.size());
-  std::vector<FitSample> result;
-  result.reserve(samples.size());
-  for (const FitSample& sample : samples) {
-    double smallest = std::numeric_limits<double>::infinity();
-    std::int32_t triangle = -1;
-    for (const std::int32_t v : before[sample.triangle]) {
-      if (std::binary_search(mended.relocated.begin(), mended.relocated.end(), v)) continue;
-      const double distance = (mended.mesh.points[v] - sample.point).squaredNorm();
-      if (!(distance < smallest)) continue;
-      smallest = distance;
-      triangle = half_edges.first[v] / 3;
-    }
-    if (triangle >= 0) result.push_back({sample.point, triangle});
-  }
-  return result;
-}
-
 std::string advice(int enough_nodes) {
   return enough_nodes > 0 ? "; " + std::to_string(enough_nodes) + " would do."
                           : "; ask for many more.";
@@ -244,7 +218,7 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
         deal_out(samples_of(grain, std::max(fitting.samples, 10 * tessellation.seeds.size()),
                             grain.is_level ? to_scan : nullptr, execution),
                  tessellation.positions, tessellation.seeds, triangles, execution);
-    if (changed) samples = handed_on(samples, triangles, mended);
+    if (changed) samples = deal_on(samples, triangles, mended.mesh, mended.relocated);
     NormalFit fit =
         fit_along_normals(mended.mesh, samples, volume, fitting, execution.part(0.87, 1.0));
     mended.mesh.points = std::move(fit.positions);
@@ -255,7 +229,7 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   nodes.mesh = std::move(mended.mesh);
   const bool for_contacts = placement.kind == NodePlacement::Contact;
   if (for_contacts) {
-    nodes.mesh.points = fit_to_contacts(nodes.mesh, grain.mesh, placement.contact_radius,
+    nodes.mesh.points = fit_to_contacts(nodes.mesh, grain.mesh, to_scan, placement.contact_radius,
                                         execution.part(0.95, 1.0));
   }
   result.report.self_intersections = self_intersections(nodes.mesh).size();

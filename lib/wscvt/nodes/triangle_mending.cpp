@@ -10,7 +10,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/self_intersections.h"
 
@@ -461,19 +460,9 @@ class Mender {
 };
 
 void check_options(const TriangleMendingOptions& options) {
-  const auto refuse = [](const std::string& what, double value, const std::string& range) {
-    throw Error(ErrorCode::InvalidInput,
-                what + " is " + format_number(value) + "; give " + range + ".");
-  };
-  if (!(options.smallest_angle >= 0.0 && options.smallest_angle < 60.0)) {
-    refuse("The smallest angle of mending", options.smallest_angle,
-           "at least 0 and less than 60 degrees");
-  }
-  if (!(options.largest_turn > 0.0 && options.largest_turn <= 180.0)) {
-    refuse("The largest turn of mending", options.largest_turn,
-           "more than 0 and at most 180 degrees");
-  }
-  if (options.rounds < 0) refuse("The number of rounds", options.rounds, "0 or more");
+  require_in_range(options.smallest_angle, mending_angle_option);
+  require_in_range(options.largest_turn, mending_turn_option);
+  require_in_range(options.rounds, mending_rounds_option);
 }
 
 }  // namespace

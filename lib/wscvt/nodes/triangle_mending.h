@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 #include "wscvt/nodes/space_report.h"
 #include "wscvt/surface/mapped_surface.h"
 
@@ -20,6 +22,14 @@ struct TriangleMendingOptions {
   double largest_turn = 90.0;
   int rounds = 40;  ///< at most; >= 0
 };
+
+inline constexpr NumberOption<double> mending_angle_option = {
+    "mending-smallest-angle", "smallest angle of mending, in degrees,", 0.0, 60.0,
+    Ends::NotMaximum};
+inline constexpr NumberOption<double> mending_turn_option = {
+    "mending-largest-turn", "largest turn of mending, in degrees,", 0.0, 180.0, Ends::NotMinimum};
+inline constexpr NumberOption<int> mending_rounds_option = {
+    "mending-rounds", "number of rounds of mending", 0, std::numeric_limits<int>::max()};
 
 struct MendedTriangles {
   IndexedMesh mesh;                     ///< as many points and triangles as before

@@ -129,9 +129,10 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
   } else if (result.relaxation.outcome == RelaxationOutcome::Settled) {
     // Flat cells on a rough scan differ in area however many they are: no reason for a warning.
     if (result.options.relaxation.metric == RelaxationMetric::Surface) return;
-    warnings.push_back("The seeds came to rest with the cells' areas still spread by " +
-                       format_percent(result.relaxation.history.back().area_spread) +
-                       " about their targets; more nodes follow the surface more evenly.");
+    warnings.push_back(
+        "The seeds no longer came nearer to their targets, with the cells' areas still spread by " +
+        format_percent(result.relaxation.history.back().area_spread) +
+        " about their targets; more nodes follow the surface more evenly.");
   } else if (result.relaxation.outcome == RelaxationOutcome::Stuck) {
     warnings.push_back(
         "The relaxation stopped after " + std::to_string(result.relaxation.iterations) +
