@@ -84,9 +84,8 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   if (wraps) scan = envelope_of(scan, options.envelope, execution.part(0.3, 0.35));
   CheckedMesh checked = check_mesh(std::move(scan), options.check,
                                    execution.part(options.points || wraps ? 0.35 : 0.0, 0.4));
-  // The series and refinement are those of the radial map, so a grain that has one keeps it.
-  const bool needs_series =
-      options.placement.kind == NodePlacement::Series || options.placement.refinement.rounds > 0;
+  // The series is that of the radial map, so a grain that has one keeps it.
+  const bool needs_series = options.placement.kind == NodePlacement::Series;
   const ParametrizationChoice choice =
       choose_parametrization(checked.mesh, checked.report.centroid, options.surface, needs_series,
                              execution.part(0.4, 0.45));

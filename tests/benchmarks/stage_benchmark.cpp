@@ -223,8 +223,8 @@ void refine_one_round(benchmark::State& state) {
   RefinementOptions options;
   options.rounds = 1;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        refine_nodes(positions, nodes.triangulation, nodes.rays, options, execution));
+    benchmark::DoNotOptimize(refine_nodes(radial_nodes(positions), nodes.triangulation,
+                                          RadialTarget(nodes.rays), options, execution));
   }
   count(state, state.range(0));
 }

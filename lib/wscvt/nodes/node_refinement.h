@@ -6,13 +6,13 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/nodes/refinement_options.h"
+#include "wscvt/nodes/refinement_target.h"
 #include "wscvt/sphere/sphere_triangulation.h"
-#include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
 
 struct RefinedNodes {
-  std::vector<Vector3> positions;     ///< about the origin
+  std::vector<RefinementNode> nodes;
   SphereTriangulation triangulation;  ///< of their directions
   RefinementReport report;
 };
@@ -29,8 +29,10 @@ struct RefinedNodes {
 ///  - takes nodes from where they help least (their triangles joined to a neighbour) to where they
 ///    help most (an edge split), as long as that pays.
 /// Nothing is done that does not lower the sum, turns a triangle over on the sphere of directions,
-/// or makes the smallest angle of the triangles concerned smaller than the limit, or than before
-/// where it is below the limit already. So the mesh stays closed and star-shaped about the origin.
+/// makes the smallest angle of the triangles concerned smaller than the limit, or than before where
+/// it is below the limit already, or makes an edge turn further than the original does there (see
+/// RefinementState::may_turn). So the mesh stays closed, and over a radial map star-shaped about
+/// the origin; over any other its triangles may come to meet where sheets lie close to each other.
 /// Where the mesh has smaller angles than the limit, a round begins with flipping edges and moving
 /// nodes towards the middle of their neighbours, whatever that does to the sum.
 ///
@@ -38,8 +40,7 @@ struct RefinedNodes {
 /// centroidal cells or even triangles, and the angle limit is all that guards the shape.
 ///
 /// RefinementStep::distance is the root mean square over the samples s of n . (s - a), with n the
-/// unit normal and a a corner of the triangle that the ray from the origin through s meets. Samples
-/// that lie behind the original's outermost sheet are left out. So the distance
+/// unit normal and a a corner of the triangle in the direction of s on the sphere. So the distance
 ///  - is one-sided, from the original to the mesh;
 ///  - is point to plane: the plane goes on beyond its triangle, and another may be nearer;
 ///  - holds neither the penalty for large distances nor the nodes' own distances, both of which are
@@ -47,12 +48,21 @@ struct RefinedNodes {
 /// It bounds no other distance. The Hausdorff distance, and any other from the mesh to the
 /// original, may rise while it falls; measure_distances has both sides.
 ///
-/// `positions` are about the origin, on a triangulation of their directions. Same bytes on any
-/// number of threads. Throws Error(InvalidInput) for options out of range, Error(NumericalFailure)
-/// when a ray from the origin meets no face of the original, Error(Cancelled).
-RefinedNodes refine_nodes(std::vector<Vector3> positions, SphereTriangulation triangulation,
-                          const MeshSurface& original, const RefinementOptions& options,
+/// Same bytes on any number of threads. Throws Error(InvalidInput) for options out of range, what
+/// the original's samples throw, Error(Cancelled).
+RefinedNodes refine_nodes(std::vector<RefinementNode> nodes, SphereTriangulation triangulation,
+                          const RefinementTarget& original, const RefinementOptions& options,
                           const Execution& execution);
+
+/// Nodes over a radial map: each lies in its own direction.
+std::vector<RefinementNode> radial_nodes(const std::vector<Vector3>& positions);
+
+/// Nodes over a mapped surface that lie at `directions` there, wherever they are.
+std::vector<RefinementNode> mapped_nodes(const std::vector<Vector3>& positions,
+                                         const std::vector<Vector3>& directions,
+                                         const MappedSurface& surface);
+
+std::vector<Vector3> positions_of(const std::vector<RefinementNode>& nodes);
 
 /// A report in lengths of `unit`, in plain lengths.
 void scale(RefinementReport& report, double unit);

@@ -280,6 +280,20 @@ std::vector<FitSample> deal_on(const std::vector<FitSample>& samples,
   return result;
 }
 
+double offset_to_volume(const std::vector<Vector3>& normals, const std::vector<Triangle>& triangles,
+                        double volume, std::vector<Vector3>& positions,
+                        const Execution& execution) {
+  const Cubic polynomial =
+      volume_polynomial(positions, normals, triangles, positions.front(), volume);
+  const double offset = offset_for(polynomial, 0.5 * mean_edge(positions, triangles));
+  if (!std::isfinite(offset)) {
+    scale_about_mean(triangles, volume, positions, execution);
+    return 0.0;
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += offset * normals[i];
+  return offset;
+}
+
 NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSample>& samples,
                             double volume, const NormalFitOptions& options,
                             const Execution& execution) {
@@ -306,7 +320,6 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
     ++halvings[node];
     return true;
   };
-  const Vector3 origin = positions.front();
   while (true) {
     fit.positions = positions;
     for (std::size_t i = 0; i < count; ++i) {
@@ -325,14 +338,7 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
       for (const std::int32_t v : triangles[h / 3]) held |= hold_back(v);
     }
     if (held) continue;
-    const Cubic polynomial = volume_polynomial(fit.positions, normals, triangles, origin, volume);
-    fit.report.offset = offset_for(polynomial, 0.5 * mean_edge(positions, triangles));
-    if (std::isfinite(fit.report.offset)) {
-      for (std::size_t i = 0; i < count; ++i) fit.positions[i] += fit.report.offset * normals[i];
-    } else {
-      fit.report.offset = 0.0;
-      scale_about_mean(triangles, volume, fit.positions, execution);
-    }
+    fit.report.offset = offset_to_volume(normals, triangles, volume, fit.positions, execution);
     const auto crossings = self_intersections({fit.positions, triangles});
     if (crossings.size() <= crossings_before) break;
     for (const std::int32_t v : vertices_of(crossings, triangles)) held |= hold_back(v);

@@ -69,7 +69,7 @@ std::vector<FitSample> deal_on(const std::vector<FitSample>& samples,
 
 /// Moves nodes once along their normals, to where their triangles fit the samples best, and then
 /// all by one offset along the same normals, so that the closed mesh encloses `volume` (> 0,
-/// length^3) to rounding.
+/// length^3) to rounding (see offset_to_volume).
 ///
 /// The step minimises the squared distances of the samples to the planes of the triangles nearest
 /// to them (Hoppe et al. 1993, "Mesh optimization", with one unknown a node), with a weak tie to
@@ -80,15 +80,19 @@ std::vector<FitSample> deal_on(const std::vector<FitSample>& samples,
 /// Where a guard of the options is violated, the nodes concerned take a half, a quarter, ... of
 /// their step, and at last none.
 ///
-/// The volume as a function of the offset is a polynomial of third degree, whose root next to zero
-/// is found by Newton's method. Where it has none within half the mean edge, which a handful of
-/// nodes on a thin body may bring about, the mesh is scaled about its centroid instead.
-///
 /// `nodes` is a closed, oriented 2-manifold. Throws Error(InvalidInput) for options out of range,
 /// Error(NumericalFailure) when the nodes enclose no volume or the system cannot be solved.
 NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSample>& samples,
                             double volume, const NormalFitOptions& options,
                             const Execution& execution);
+
+/// Moves nodes by one offset along `normals`, so that the closed mesh encloses `volume`, and
+/// returns the offset. The volume as a function of it is a polynomial of third degree, whose root
+/// next to zero is found by Newton's method. Where it has none within half the mean edge, which a
+/// handful of nodes on a thin body may bring about, the mesh is scaled about the mean of its nodes
+/// instead, and 0 returned.
+double offset_to_volume(const std::vector<Vector3>& normals, const std::vector<Triangle>& triangles,
+                        double volume, std::vector<Vector3>& positions, const Execution& execution);
 
 /// Throws Error(InvalidInput), with the range, for options out of range.
 void check_normal_fit_options(const NormalFitOptions& options);

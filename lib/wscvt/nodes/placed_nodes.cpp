@@ -40,9 +40,9 @@ void place_by_least_squares(const MeshSurface& scan, SphereTriangulation triangu
       least_squares_radii(nodes.directions, nodes.mesh.triangles, scan, fit_samples, execution);
   put_on_radii(nodes);
   if (refinement.rounds > 0) {
-    RefinedNodes refined = refine_nodes(std::move(nodes.mesh.points), std::move(triangulation),
-                                        scan, refinement, execution.part(0.1, 1.0));
-    nodes.mesh = {std::move(refined.positions), refined.triangulation.triangles()};
+    RefinedNodes refined = refine_nodes(radial_nodes(nodes.mesh.points), std::move(triangulation),
+                                        RadialTarget(scan), refinement, execution.part(0.1, 1.0));
+    nodes.mesh = {positions_of(refined.nodes), refined.triangulation.triangles()};
     nodes.refinement = std::move(refined.report);
   }
   scale_to_volume(nodes.mesh.triangles, volume, nodes.mesh.points, execution);

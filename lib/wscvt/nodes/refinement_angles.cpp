@@ -18,17 +18,18 @@ constexpr double smallest_mending = 1e-6;
 
 /// Takes a node with a smaller angle about it than allowed towards the middle of its neighbours.
 bool mend_node(RefinementState& state, std::int32_t node, FanWorkspace& work) {
-  const double largest_cosine = load_fan(state, node, work);
-  if (largest_cosine <= state.cosine_limit) return false;
+  FanLimits limits = load_fan(state, node, work);
+  if (limits.largest_cosine <= state.cosine_limit) return false;
   Vector3 middle = Vector3::Zero();
-  for (const std::int32_t other : work.fan.ring) middle += state.positions[other];
+  for (const std::int32_t other : work.fan.ring) middle += state.nodes[other].position;
   middle /= static_cast<double>(work.fan.ring.size());
   // A step that does not reach the limit is taken too, if only it comes nearer.
-  const double wanted = std::max(state.cosine_limit, largest_cosine - smallest_mending);
+  limits.largest_cosine = std::max(state.cosine_limit, limits.largest_cosine - smallest_mending);
+  const Vector3 start = work.fan.node.position;
   // The shortest step first: every step costs distance to the original.
   for (const double share : {0.25, 0.5, 1.0}) {
-    const Vector3 position = work.fan.position + share * (middle - work.fan.position);
-    if (place_fan(state, work.fan, position, wanted, work.trial, work.spokes)) {
+    if (place_fan(state, work.fan, start + share * (middle - start), limits, work.trial,
+                  work.spokes)) {
       std::swap(work.fan, work.trial);
       store_fan(state, node, work);
       return true;
@@ -42,7 +43,10 @@ bool mend_triangle(RefinementState& state, std::int32_t triangle) {
   if (state.facet(triangle).largest_cosine <= state.cosine_limit) return false;
   for (std::int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
     const FlipFacets flip = flip_facets(state, h);
-    if (!flip.acceptable(flip.largest_cosine() - smallest_mending)) continue;
+    if (!flip.acceptable(flip.largest_cosine() - smallest_mending) ||
+        !flip_may_turn(state, h, flip)) {
+      continue;
+    }
     flip_edge(state, h);
     return true;
   }

@@ -9,26 +9,34 @@ namespace wscvt {
 
 namespace {
 
-/// A plane that passes the origin at less than this share of its triangle's distance is too steep.
-/// The signed volume of triangle and origin is area / 3 times that distance; its rounding is 1e-16
-/// of its terms, so that what passes with 1e-3 is star-shaped beyond doubt, also after the mesh was
-/// scaled, moved and written in single precision (1e-7). No face of a scan that is worth following
-/// is steeper: 1e-3 is 3.4 minutes of arc.
+/// A triangle of directions whose plane passes the sphere's centre at less than this share of their
+/// length is too steep. Over a radial map, where directions are positions, the signed volume of
+/// triangle and origin is area / 3 times that distance; its rounding is 1e-16 of its terms, so that
+/// what passes with 1e-3 is star-shaped beyond doubt, also after the mesh was scaled, moved and
+/// written in single precision (1e-7). No face of a scan that is worth following is steeper: 1e-3
+/// is 3.4 minutes of arc.
 constexpr double smallest_plane_cosine = 1e-3;
+
+bool is_counter_clockwise(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 normal = (b - a).cross(c - b);
+  const double length = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
+  return normal.dot(a) > smallest_plane_cosine * normal.norm() * length;
+}
 
 }  // namespace
 
-RefinementFacet::RefinementFacet(const Vector3& a, const Vector3& b, const Vector3& c) : corner(a) {
-  const Vector3 ab = b - a;
-  const Vector3 bc = c - b;
-  const Vector3 ca = a - c;
+RefinementFacet::RefinementFacet(const RefinementNode& a, const RefinementNode& b,
+                                 const RefinementNode& c)
+    : corner(a.position) {
+  const Vector3 ab = b.position - a.position;
+  const Vector3 bc = c.position - b.position;
+  const Vector3 ca = a.position - c.position;
   normal = ab.cross(bc);
   const double doubled_area = normal.norm();
   // Written so that a NaN counts as no triangle.
   if (!(doubled_area > 0.0)) return;
   normal /= doubled_area;
-  const double distance = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
-  star_shaped = normal.dot(a) > smallest_plane_cosine * distance;
+  counter_clockwise = is_counter_clockwise(a.direction, b.direction, c.direction);
   const double ab_length = ab.norm();
   const double bc_length = bc.norm();
   const double ca_length = ca.norm();

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,33 +13,51 @@
 namespace wscvt {
 
 void RefinementFan::resize() {
+  beside.resize(ring.size());
+  outer.resize(ring.size());
   facets.resize(ring.size());
   errors.resize(ring.size());
   if (lists.size() < ring.size()) lists.resize(ring.size());
+  for (std::size_t j = ring.size(); j < lists.size(); ++j) lists[j].clear();
 }
 
-double load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
+double RefinementFan::turn() const {
+  double smallest = 1.0;
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const Vector3& normal = facets[j].normal;
+    smallest = std::min({smallest, normal.dot(facets[j == 0 ? ring.size() - 1 : j - 1].normal),
+                         normal.dot(outer[j])});
+  }
+  return smallest;
+}
+
+FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
   RefinementFan& fan = work.fan;
   state.ring_of(node, fan.ring, &work.triangles);
-  fan.position = state.positions[node];
+  state.outer_half_edges_of(node, fan.beside);
+  fan.node = state.nodes[node];
   fan.resize();
   fan.error = state.node_errors[node];
-  double largest_cosine = -1.0;
+  FanLimits limits;
+  limits.largest_cosine = -1.0;
   const std::size_t count = fan.ring.size();
   for (std::size_t j = 0; j < count; ++j) {
     const std::int32_t t = work.triangles[j];
-    fan.facets[j] = RefinementFacet(fan.position, state.positions[fan.ring[j]],
-                                    state.positions[fan.ring[j + 1 == count ? 0 : j + 1]]);
-    largest_cosine = std::max(largest_cosine, fan.facets[j].largest_cosine);
+    fan.facets[j] = RefinementFacet(fan.node, state.nodes[fan.ring[j]],
+                                    state.nodes[fan.ring[j + 1 == count ? 0 : j + 1]]);
+    fan.beside[j] /= 3;
+    fan.outer[j] = state.facet(fan.beside[j]).normal;
+    limits.largest_cosine = std::max(limits.largest_cosine, fan.facets[j].largest_cosine);
     fan.lists[j] = state.lists[t];
     fan.error += state.errors[t];
   }
-  return largest_cosine;
+  limits.turn = fan.turn();
+  return limits;
 }
 
 void store_fan(RefinementState& state, std::int32_t node, const FanWorkspace& work) {
   const RefinementFan& fan = work.fan;
-  state.positions[node] = fan.position;
+  state.nodes[node] = fan.node;
   state.node_errors[node] = fan.node_error;
   for (std::size_t j = 0; j < fan.ring.size(); ++j) {
     state.lists[work.triangles[j]] = fan.lists[j];
@@ -47,23 +66,25 @@ void store_fan(RefinementState& state, std::int32_t node, const FanWorkspace& wo
 }
 
 bool place_fan(const RefinementState& state, const RefinementFan& from, const Vector3& position,
-               double cosine_limit, RefinementFan& to, std::vector<Vector3>& spokes) {
+               const FanLimits& limits, RefinementFan& to, std::vector<Vector3>& spokes) {
   const std::size_t count = from.ring.size();
   to.ring = from.ring;
-  to.position = position;
+  to.beside = from.beside;
+  to.outer = from.outer;
+  to.node = state.original.node_at(position, from.node);
   to.resize();
   spokes.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
-    const Vector3& a = state.positions[from.ring[j]];
-    to.facets[j] =
-        RefinementFacet(position, a, state.positions[from.ring[j + 1 == count ? 0 : j + 1]]);
-    if (!to.facets[j].acceptable(cosine_limit)) return false;
-    spokes[j] = position.cross(a);
+    const RefinementNode& a = state.nodes[from.ring[j]];
+    to.facets[j] = RefinementFacet(to.node, a, state.nodes[from.ring[j + 1 == count ? 0 : j + 1]]);
+    if (!to.facets[j].acceptable(limits.largest_cosine)) return false;
+    spokes[j] = to.node.direction.cross(a.direction);
     to.lists[j].clear();
   }
+  if (!state.may_turn(to.turn(), limits.turn, from.lists, from.beside)) return false;
   for (std::size_t j = 0; j < count; ++j) {
     for (const std::int32_t s : from.lists[j]) {
-      const Vector3& sample = state.samples[s];
+      const Vector3& sample = state.samples.direction(s);
       // Most samples stay in their triangle; the others are found by going round the node. Only
       // the planes through the node are asked: the outer edges have not moved, and hold all the
       // fan's samples. One turn at most, since a sample on a spoke may round to either side of it.
@@ -81,7 +102,7 @@ bool place_fan(const RefinementState& state, const RefinementFan& from, const Ve
       to.lists[k].push_back(s);
     }
   }
-  to.node_error = state.node_error(position);
+  to.node_error = state.node_error(to.node);
   to.error = to.node_error;
   for (std::size_t j = 0; j < count; ++j) {
     to.errors[j] = state.error_of(to.facets[j], to.lists[j]);
@@ -90,29 +111,29 @@ bool place_fan(const RefinementState& state, const RefinementFan& from, const Ve
   return true;
 }
 
-bool improve_fan(const RefinementState& state, FanWorkspace& work, double cosine_limit) {
+bool improve_fan(const RefinementState& state, FanWorkspace& work, const FanLimits& limits) {
   RefinementFan& fan = work.fan;
   const std::size_t count = fan.ring.size();
   Matrix3 matrix = Matrix3::Zero();
   Vector3 gradient = Vector3::Zero();
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < count; ++j) {
-    const Vector3& a = state.positions[fan.ring[j]];
-    const Vector3& b = state.positions[fan.ring[j + 1 == count ? 0 : j + 1]];
-    shortest = std::min(shortest, (a - fan.position).norm());
+    const Vector3& a = state.nodes[fan.ring[j]].position;
+    const Vector3& b = state.nodes[fan.ring[j + 1 == count ? 0 : j + 1]].position;
+    shortest = std::min(shortest, (a - fan.node.position).norm());
     // When the node moves by one along the normal, the plane moves under a sample by the node's
     // barycentric coordinate at the sample's foot. Moves within the plane leave it where it is, so
     // that each triangle speaks for its own normal only, and the ridge between two planes is the
     // one direction in which a node on it may slide freely.
     const Vector3 edge = b - a;
-    const Vector3 doubled_area = doubled_area_normal(fan.position, a, b);
+    const Vector3 doubled_area = doubled_area_normal(fan.node.position, a, b);
     const Vector3 coordinate_gradient = doubled_area.cross(edge) / doubled_area.squaredNorm();
     const RefinementFacet& f = fan.facets[j];
     double squares = 0.0;
     double products = 0.0;
     for (const std::int32_t s : fan.lists[j]) {
-      const double coordinate = coordinate_gradient.dot(state.samples[s] - a);
-      const double residual = f.residual(state.samples[s]);
+      const double coordinate = coordinate_gradient.dot(state.samples.points[s] - a);
+      const double residual = f.residual(state.samples.points[s]);
       const double weight = state.penalty_weight(residual);
       squares += weight * coordinate * coordinate;
       products += weight * coordinate * residual;
@@ -121,7 +142,7 @@ bool improve_fan(const RefinementState& state, FanWorkspace& work, double cosine
     gradient += products * f.normal;
   }
   Vector3 normal;
-  const double residual = state.node_residual(fan.position, normal);
+  const double residual = state.original.residual(fan.node, normal);
   const double weight = state.node_weight * state.penalty_weight(residual);
   matrix += weight * normal * normal.transpose();
   gradient += weight * residual * normal;
@@ -136,7 +157,32 @@ bool improve_fan(const RefinementState& state, FanWorkspace& work, double cosine
   // Farther than halfway to a neighbour the fan's samples no longer say what the surface does.
   if (length > 0.5 * shortest) step *= 0.5 * shortest / length;
   for (int attempt = 0; attempt < 3; ++attempt, step *= 0.4) {
-    if (place_fan(state, fan, fan.position + step, cosine_limit, work.trial, work.spokes) &&
+    if (place_fan(state, fan, fan.node.position + step, limits, work.trial, work.spokes) &&
+        work.trial.error < fan.error) {
+      std::swap(work.fan, work.trial);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool reach_for_outlier(const RefinementState& state, FanWorkspace& work, const FanLimits& limits) {
+  const RefinementFan& fan = work.fan;
+  double largest = 0.0;
+  std::int32_t farthest = -1;
+  for (std::size_t j = 0; j < fan.ring.size(); ++j) {
+    for (const std::int32_t s : fan.lists[j]) {
+      const double distance = std::abs(fan.facets[j].residual(state.samples.points[s]));
+      if (!(distance > largest)) continue;
+      largest = distance;
+      farthest = s;
+    }
+  }
+  if (!(state.outlier_weight * largest * largest > 1.0)) return false;
+  const Vector3 start = fan.node.position;
+  const Vector3 way = state.samples.points[farthest] - start;
+  for (const double share : {1.0, 0.5}) {
+    if (place_fan(state, fan, start + share * way, limits, work.trial, work.spokes) &&
         work.trial.error < fan.error) {
       std::swap(work.fan, work.trial);
       return true;

@@ -31,24 +31,49 @@ double flip_gain(const RefinementState& state, std::int32_t half_edge) {
   double error = 0.0;
   for (const std::int32_t t : {t0, t1}) {
     for (const std::int32_t s : state.lists[t]) {
-      const Vector3& sample = state.samples[s];
-      const RefinementFacet& facet = flip.divide.dot(sample) > 0.0 ? flip.origin : flip.end;
-      error += state.penalty(facet.residual(sample));
+      const RefinementFacet& facet =
+          flip.divide.dot(state.samples.direction(s)) > 0.0 ? flip.origin : flip.end;
+      error += state.penalty(facet.residual(state.samples.points[s]));
     }
   }
   const double gain = old_error - error;
-  return gain > smallest_flip_gain * old_error ? gain : 0.0;
+  const bool pays = gain > smallest_flip_gain * old_error;
+  return pays && flip_may_turn(state, half_edge, flip) ? gain : 0.0;
 }
 
 }  // namespace
 
 FlipFacets flip_facets(const RefinementState& state, std::int32_t half_edge) {
   const std::int32_t other = state.triangulation.opposite()[half_edge];
-  const Vector3& a = state.positions[state.triangulation.origin(half_edge)];
-  const Vector3& b = state.positions[state.triangulation.origin(other)];
-  const Vector3& c = state.positions[state.corner_left_of(half_edge)];
-  const Vector3& d = state.positions[state.corner_left_of(other)];
-  return {{a, b, c}, {b, a, d}, {c, a, d}, {d, b, c}, d.cross(c)};
+  const RefinementNode& a = state.nodes[state.triangulation.origin(half_edge)];
+  const RefinementNode& b = state.nodes[state.triangulation.origin(other)];
+  const RefinementNode& c = state.nodes[state.corner_left_of(half_edge)];
+  const RefinementNode& d = state.nodes[state.corner_left_of(other)];
+  return {{a, b, c}, {b, a, d}, {c, a, d}, {d, b, c}, d.direction.cross(c.direction)};
+}
+
+bool flip_may_turn(const RefinementState& state, std::int32_t half_edge, const FlipFacets& flip) {
+  const std::vector<std::int32_t>& opposite = state.triangulation.opposite();
+  const std::int32_t other = opposite[half_edge];
+  std::vector<std::int32_t> beside;
+  const auto across = [&](std::int32_t h) {
+    beside.push_back(opposite[h] / 3);
+    return state.facet(beside.back()).normal;
+  };
+  const Vector3 bc = across(SphereTriangulation::next(half_edge));
+  const Vector3 ca = across(SphereTriangulation::previous(half_edge));
+  const Vector3 ad = across(SphereTriangulation::next(other));
+  const Vector3 db = across(SphereTriangulation::previous(other));
+  const auto worst = [](const Vector3& first, const Vector3& next, const Vector3& last,
+                        const Vector3& second, const Vector3& its, const Vector3& its_too) {
+    return std::min({first.dot(second), first.dot(next), first.dot(last), second.dot(its),
+                     second.dot(its_too)});
+  };
+  const double before = worst(flip.left.normal, bc, ca, flip.right.normal, ad, db);
+  const double after = worst(flip.origin.normal, ca, ad, flip.end.normal, db, bc);
+  beside.push_back(half_edge / 3);
+  beside.push_back(other / 3);
+  return state.may_turn(after, before, {}, beside);
 }
 
 void flip_edge(RefinementState& state, std::int32_t half_edge) {
@@ -59,7 +84,7 @@ void flip_edge(RefinementState& state, std::int32_t half_edge) {
   SampleList end;
   for (const std::int32_t t : {t0, t1}) {
     for (const std::int32_t s : state.lists[t]) {
-      (divide.dot(state.samples[s]) > 0.0 ? origin : end).push_back(s);
+      (divide.dot(state.samples.direction(s)) > 0.0 ? origin : end).push_back(s);
     }
   }
   state.triangulation.flip(half_edge);

@@ -16,8 +16,8 @@ struct FlipFacets {
   RefinementFacet right;   ///< b a d, of its opposite
   RefinementFacet origin;  ///< c a d, which a flip puts in the half-edge's slot
   RefinementFacet end;     ///< d b c, which it puts in its opposite's
-  Vector3 divide =
-      Vector3::Zero();  ///< normal of the plane through c, d and the origin, towards a; length^2
+  /// Normal of the plane through the directions of c and d and the sphere's centre, towards a.
+  Vector3 divide = Vector3::Zero();
 
   /// Of the smallest angle in the two triangles as they are.
   double largest_cosine() const { return std::max(left.largest_cosine, right.largest_cosine); }
@@ -28,6 +28,9 @@ struct FlipFacets {
 };
 
 FlipFacets flip_facets(const RefinementState& state, std::int32_t half_edge);
+
+/// Whether the edges about the two triangles may turn as they would after the flip, see may_turn.
+bool flip_may_turn(const RefinementState& state, std::int32_t half_edge, const FlipFacets& flip);
 
 /// Replaces an edge by the other diagonal of its two triangles and deals out their samples anew.
 /// The new triangles must be acceptable (see FlipFacets).

@@ -9,17 +9,21 @@ namespace wscvt {
 
 namespace {
 
-/// Nodes in classes without neighbours, each node in the first that its neighbours leave free, in
-/// the order of the nodes: the classes, and with them the result, do not depend on the threads.
+/// Nodes in classes without neighbours, nor nodes across an edge from each other, each node in the
+/// first that these leave free, in the order of the nodes: the classes, and with them the result,
+/// do not depend on the threads.
 std::vector<std::vector<std::int32_t>> colour_nodes(const RefinementState& state) {
-  const std::size_t count = state.positions.size();
+  const std::size_t count = state.nodes.size();
   std::vector<int> colour(count, -1);
   std::vector<std::vector<std::int32_t>> classes;
   std::vector<std::int32_t> ring;
+  std::vector<std::int32_t> outer;
   std::vector<char> taken;
   for (std::size_t i = 0; i < count; ++i) {
     state.ring_of(static_cast<std::int32_t>(i), ring, nullptr);
     taken.assign(classes.size() + 1, 0);
+    state.outer_half_edges_of(static_cast<std::int32_t>(i), outer);
+    for (const std::int32_t h : outer) ring.push_back(state.corner_left_of(h));
     for (const std::int32_t other : ring) {
       if (colour[other] >= 0) taken[colour[other]] = 1;
     }
@@ -33,8 +37,10 @@ std::vector<std::vector<std::int32_t>> colour_nodes(const RefinementState& state
 }
 
 bool move_node(RefinementState& state, std::int32_t node, FanWorkspace& work) {
-  const double cosine_limit = std::max(state.cosine_limit, load_fan(state, node, work));
-  if (!improve_fan(state, work, cosine_limit)) return false;
+  FanLimits limits = load_fan(state, node, work);
+  limits.largest_cosine = std::max(limits.largest_cosine, state.cosine_limit);
+  const bool improved = improve_fan(state, work, limits);
+  if (!reach_for_outlier(state, work, limits) && !improved) return false;
   store_fan(state, node, work);
   return true;
 }
@@ -46,7 +52,8 @@ int for_each_node(const RefinementState& state,
                   const Execution& execution) {
   int moved = 0;
   for (const std::vector<std::int32_t>& nodes : colour_nodes(state)) {
-    // Nodes of one colour share no triangle, so they move at the same time.
+    // Nodes of one colour share no triangle, and none is a corner of a triangle beside another's,
+    // whose normal the guard of the turns reads; so they move at the same time.
     moved += execution.parallel_sum(nodes.size(), refinement_block, 0,
                                     [&](std::size_t begin, std::size_t end) {
                                       FanWorkspace work;

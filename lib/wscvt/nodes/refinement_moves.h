@@ -11,8 +11,8 @@
 namespace wscvt {
 
 /// Calls `move` for every node, for nodes that share no triangle at the same time, and returns how
-/// often it said true. `move` may change the node and the triangles about it, and read those of its
-/// ring. Same bytes on any number of threads.
+/// often it said true. `move` may change the node and the triangles about it, and read its ring and
+/// the triangles across the ring's edges. Same bytes on any number of threads.
 int for_each_node(const RefinementState& state,
                   const std::function<bool(std::int32_t node, FanWorkspace& work)>& move,
                   const Execution& execution);

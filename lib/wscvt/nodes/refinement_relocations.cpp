@@ -50,26 +50,34 @@ struct JoinedFan {
 /// there already: two great arcs between the same ends, less than half a circle each, are one. So
 /// whatever passes the guard is a triangulation of the sphere.
 double join_fan(const RefinementState& state, std::size_t towards, const FanWorkspace& work,
-                double cosine_limit, double bound, JoinedFan* joined) {
+                const FanLimits& limits, double bound, JoinedFan* joined) {
   const std::vector<std::int32_t>& ring = work.fan.ring;
   const std::size_t count = ring.size();
   const auto corner = [&](std::size_t k) { return ring[(towards + k) % count]; };
-  const Vector3& apex = state.positions[corner(0)];
+  const auto across = [&](std::size_t k) { return work.fan.outer[(towards + k) % count]; };
+  const RefinementNode& apex = state.nodes[corner(0)];
+  double turn = 1.0;
   std::vector<RefinementFacet> facets;
   std::vector<Vector3> spokes;  // spokes[k]: plane of origin, apex and the far corner of facets[k]
   for (std::size_t k = 1; k + 1 < count; ++k) {
-    facets.emplace_back(apex, state.positions[corner(k)], state.positions[corner(k + 1)]);
-    if (!facets.back().acceptable(cosine_limit)) return infinity;
-    spokes.push_back(apex.cross(state.positions[corner(k + 1)]));
+    const RefinementNode& far = state.nodes[corner(k + 1)];
+    const Vector3 before = k == 1 ? across(0) : facets.back().normal;
+    facets.emplace_back(apex, state.nodes[corner(k)], far);
+    if (!facets.back().acceptable(limits.largest_cosine)) return infinity;
+    const Vector3& normal = facets.back().normal;
+    turn = std::min({turn, normal.dot(before), normal.dot(across(k))});
+    spokes.push_back(apex.direction.cross(far.direction));
     if (joined != nullptr) joined->triangles.push_back({corner(0), corner(k), corner(k + 1)});
   }
+  turn = std::min(turn, facets.back().normal.dot(across(count - 1)));
+  if (!state.may_turn(turn, limits.turn, work.fan.lists, work.fan.beside)) return infinity;
   if (joined != nullptr) joined->lists.resize(facets.size());
   double error = 0.0;
   for (const std::int32_t t : work.triangles) {
     for (const std::int32_t s : state.lists[t]) {
       std::size_t k = 0;
-      while (k + 1 < facets.size() && spokes[k].dot(state.samples[s]) > 0.0) ++k;
-      error += state.penalty(facets[k].residual(state.samples[s]));
+      while (k + 1 < facets.size() && spokes[k].dot(state.samples.direction(s)) > 0.0) ++k;
+      error += state.penalty(facets[k].residual(state.samples.points[s]));
       if (joined != nullptr) joined->lists[k].push_back(s);
     }
     if (error > bound) return infinity;
@@ -79,20 +87,15 @@ double join_fan(const RefinementState& state, std::size_t towards, const FanWork
 
 Collapse cheapest_collapse(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
   Collapse best;
-  state.ring_of(node, work.fan.ring, &work.triangles);
+  FanLimits limits = load_fan(state, node, work);
   // Three neighbours leave one triangle, whichever they are joined to: a node in the middle of a
   // triangle that was split there, which the moves and flips have to deal with first.
   if (work.fan.ring.size() < 4) return best;
-  double old_error = state.node_errors[node];
-  double cosine_limit = state.cosine_limit;
-  for (const std::int32_t t : work.triangles) {
-    old_error += state.errors[t];
-    cosine_limit = std::max(cosine_limit, state.facet(t).largest_cosine);
-  }
+  limits.largest_cosine = std::max(limits.largest_cosine, state.cosine_limit);
+  const double old_error = work.fan.error;
   std::int32_t h = state.triangulation.first_half_edge()[node];
   for (std::size_t towards = 0; towards < work.fan.ring.size(); ++towards) {
-    const double error =
-        join_fan(state, towards, work, cosine_limit, best.cost + old_error, nullptr);
+    const double error = join_fan(state, towards, work, limits, best.cost + old_error, nullptr);
     if (error - old_error < best.cost) {
       best.cost = error - old_error;
       best.half_edge = h;
@@ -116,15 +119,25 @@ bool split_edge(const RefinementState& state, std::int32_t half_edge, FanWorkspa
   for (std::size_t j = 0; j < 4; ++j) start.lists[j].clear();
   start.lists[0] = state.lists[half_edge / 3];
   start.lists[2] = state.lists[other / 3];
-  const double cosine_limit =
-      std::max({state.cosine_limit, state.facet(half_edge / 3).largest_cosine,
-                state.facet(other / 3).largest_cosine});
-  if (!place_fan(state, start, 0.5 * (state.positions[a] + state.positions[b]), cosine_limit,
+  start.node = state.nodes[a];
+  const std::int32_t sides[] = {
+      SphereTriangulation::next(half_edge), SphereTriangulation::previous(half_edge),
+      SphereTriangulation::next(other), SphereTriangulation::previous(other)};
+  const RefinementFacet left = state.facet(half_edge / 3);
+  const RefinementFacet right = state.facet(other / 3);
+  FanLimits limits{std::max({state.cosine_limit, left.largest_cosine, right.largest_cosine}),
+                   left.normal.dot(right.normal)};
+  for (std::size_t j = 0; j < 4; ++j) {
+    start.beside[j] = state.triangulation.opposite()[sides[j]] / 3;
+    start.outer[j] = state.facet(start.beside[j]).normal;
+    limits.turn = std::min(limits.turn, start.outer[j].dot((j < 2 ? left : right).normal));
+  }
+  if (!place_fan(state, start, 0.5 * (state.nodes[a].position + state.nodes[b].position), limits,
                  work.fan, work.spokes)) {
     return false;
   }
   // A middle of an edge saves nothing on a ridge; a few steps show what the node is worth there.
-  for (int step = 0; step < 3 && improve_fan(state, work, cosine_limit); ++step) {
+  for (int step = 0; step < 3 && improve_fan(state, work, limits); ++step) {
   }
   return true;
 }
@@ -133,7 +146,7 @@ bool split_edge(const RefinementState& state, std::int32_t half_edge, FanWorkspa
 void relocate(RefinementState& state, const Collapse& from, const Split& to, FanWorkspace& work) {
   const std::int32_t node = state.triangulation.origin(from.half_edge);
   const std::int32_t other = state.triangulation.opposite()[to.half_edge];
-  state.ring_of(node, work.fan.ring, &work.triangles);
+  load_fan(state, node, work);
   std::vector<std::int32_t> slots = work.triangles;
   slots.push_back(to.half_edge / 3);
   slots.push_back(other / 3);
@@ -141,17 +154,17 @@ void relocate(RefinementState& state, const Collapse& from, const Split& to, Fan
       state.triangulation.origin(SphereTriangulation::next(from.half_edge));
   const auto towards = static_cast<std::size_t>(
       std::find(work.fan.ring.begin(), work.fan.ring.end(), neighbour) - work.fan.ring.begin());
-  // Both were tried on these very triangles, with a limit that may be a rounding above a cosine's
-  // largest value; the limit here lets everything pass.
-  constexpr double no_cosine_limit = 2.0;
+  // Both were tried on these very triangles, the fan with limits that may be a rounding above a
+  // cosine's largest value; those here let everything pass.
+  constexpr FanLimits no_limits{2.0, -2.0};
   JoinedFan made;
-  if (!(join_fan(state, towards, work, no_cosine_limit, infinity, &made) < infinity) ||
+  if (!(join_fan(state, towards, work, no_limits, infinity, &made) < infinity) ||
       !split_edge(state, to.half_edge, work)) {
     throw Error(ErrorCode::NumericalFailure,
                 "The refinement cannot take a node elsewhere where its trial could; refine with "
                 "fewer rounds.");
   }
-  state.positions[node] = work.fan.position;
+  state.nodes[node] = work.fan.node;
   state.node_errors[node] = work.fan.node_error;
   for (std::size_t j = 0; j < 4; ++j) {
     made.triangles.push_back({node, work.fan.ring[j], work.fan.ring[(j + 1) % 4]});
@@ -168,7 +181,7 @@ void relocate(RefinementState& state, const Collapse& from, const Split& to, Fan
 /// What each node costs to do without, cheapest first. Ties go by half-edge, so that the order does
 /// not depend on the sort.
 std::vector<Collapse> sorted_collapses(const RefinementState& state, const Execution& execution) {
-  std::vector<Collapse> collapses(state.positions.size());
+  std::vector<Collapse> collapses(state.nodes.size());
   execution.parallel_for(
       collapses.size(), refinement_block, [&](std::size_t begin, std::size_t end) {
         FanWorkspace work;
@@ -210,9 +223,15 @@ int relocate_nodes(RefinementState& state, const Execution& execution) {
   const std::vector<Collapse> collapses = sorted_collapses(state, execution);
   const std::vector<Split> splits = sorted_splits(state, collapses.front().cost, execution);
 
-  // Gains and costs hold as long as the triangles they were computed on: one relocation a triangle.
+  // Gains and costs hold as long as the triangles they were computed on: one relocation a triangle,
+  // and none beside another's, whose normals the guard of the turns has read.
+  const std::vector<std::int32_t>& opposite = state.triangulation.opposite();
   std::vector<char> touched(state.triangulation.triangles().size(), 0);
-  const auto is_touched = [&](std::int32_t t) { return touched[t] != 0; };
+  const auto is_touched = [&](std::int32_t t) {
+    return std::any_of(opposite.begin() + 3 * t, opposite.begin() + 3 * t + 3,
+                       [&](std::int32_t h) { return touched[h / 3] != 0; }) ||
+           touched[t] != 0;
+  };
   FanWorkspace work;
   int relocations = 0;
   std::size_t next_split = 0;

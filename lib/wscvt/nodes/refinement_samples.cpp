@@ -2,32 +2,22 @@
 #include "wscvt/nodes/refinement_samples.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cstddef>
-
-#include "wscvt/measures/distances.h"
 
 namespace wscvt {
 
 namespace {
 
-/// A triangle has three unknown heights; ten samples for each of these leave its plane to the
-/// surface and not to where the samples happen to lie.
-constexpr std::size_t samples_per_triangle = 32;
-/// Few nodes stand for large parts of the original, whose detail a few samples would miss.
-constexpr std::size_t smallest_sample_count = 50000;
-/// 24 bytes a point and 4 in a list: a quarter of a gigabyte. On so many triangles that this leaves
-/// less than four samples each, four are taken all the same, one more than determine a plane.
-constexpr std::size_t largest_sample_count = 8000000;
-constexpr std::size_t least_samples_per_triangle = 4;
-
-/// The triangle whose cone from the origin holds the sample, by a walk from `start`: each step
-/// leaves through the edge that the sample is farthest outside of.
-std::int32_t locate(const std::vector<Vector3>& positions, const SphereTriangulation& triangulation,
-                    const Vector3& sample, std::int32_t start) {
+/// The triangle whose cone on the sphere holds the direction, by a walk from `start`: each step
+/// leaves through the edge that it is farthest outside of.
+std::int32_t locate(const std::vector<RefinementNode>& nodes,
+                    const SphereTriangulation& triangulation, const Vector3& direction,
+                    std::int32_t start) {
   const std::vector<Triangle>& triangles = triangulation.triangles();
   const auto side = [&](std::int32_t t, std::int32_t k) {
-    return positions[triangles[t][k]].cross(positions[triangles[t][(k + 1) % 3]]).dot(sample);
+    return nodes[triangles[t][k]]
+        .direction.cross(nodes[triangles[t][(k + 1) % 3]].direction)
+        .dot(direction);
   };
   std::int32_t t = start;
   // The walk ends on a Delaunay triangulation (Devillers, Pion and Teillaud 2002); this one is
@@ -54,29 +44,9 @@ std::int32_t locate(const std::vector<Vector3>& positions, const SphereTriangula
 
 }  // namespace
 
-std::vector<Vector3> visible_samples(const MeshSurface& original, std::size_t triangles,
-                                     const Execution& execution) {
-  const std::size_t wanted =
-      std::clamp(samples_per_triangle * triangles, smallest_sample_count,
-                 std::max(largest_sample_count, least_samples_per_triangle * triangles));
-  std::vector<Vector3> samples = area_uniform_samples(original.mesh(), wanted);
-  std::vector<Vector3> directions(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) directions[i] = samples[i].normalized();
-  const std::vector<double> radii = original.radii(directions, execution);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    // A star-shaped mesh cannot follow two sheets in one direction: those behind the outermost
-    // would draw it between the two. The ray's hit and the sample are the same point of the same
-    // face up to rounding, some 1e-16 of the radius over the cosine of the face's tilt.
-    if (samples[i].norm() > (1.0 - 1e-9) * radii[i]) samples[kept++] = samples[i];
-  }
-  samples.resize(kept);
-  return samples;
-}
-
-std::vector<SampleList> samples_of_triangles(const std::vector<Vector3>& positions,
+std::vector<SampleList> samples_of_triangles(const std::vector<RefinementNode>& nodes,
                                              const SphereTriangulation& triangulation,
-                                             const std::vector<Vector3>& samples,
+                                             const RefinementSamples& samples,
                                              const Execution& execution) {
   constexpr std::size_t block = 1024;
   std::vector<std::int32_t> triangle_of(samples.size());
@@ -84,7 +54,7 @@ std::vector<SampleList> samples_of_triangles(const std::vector<Vector3>& positio
     // Samples come face by face of the original, so that each lies near the one before it.
     std::int32_t t = 0;
     for (std::size_t s = begin; s < end; ++s) {
-      t = locate(positions, triangulation, samples[s], t);
+      t = locate(nodes, triangulation, samples.direction(s), t);
       triangle_of[s] = t;
     }
   });

@@ -2,10 +2,13 @@
 #include "wscvt/nodes/refinement_state.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/pi.h"
 
 namespace wscvt {
@@ -20,21 +23,27 @@ constexpr double outlier_ratio = 3.0;
 /// with few samples about it may come to stick out.
 constexpr double node_share = 0.03;
 
+/// Edges may turn by 60 degrees everywhere, and by 120 nowhere that they did not before.
+constexpr double free_turn_cosine = 0.5;
+constexpr double largest_turn_cosine = -0.5;
+/// Share of the samples whose normals say nothing about the surface.
+constexpr double noisy_share = 0.05;
+
 }  // namespace
 
-RefinementState::RefinementState(std::vector<Vector3> nodes, SphereTriangulation of_nodes,
-                                 const MeshSurface& scan, double smallest_angle,
+RefinementState::RefinementState(std::vector<RefinementNode> start, SphereTriangulation of_nodes,
+                                 const RefinementTarget& scan, double smallest_angle,
                                  const Execution& execution)
     : original(scan),
-      samples(visible_samples(scan, of_nodes.triangles().size(), execution)),
+      samples(scan.samples(of_nodes.triangles().size(), execution)),
       node_weight(node_share * static_cast<double>(samples.size()) /
                   static_cast<double>(of_nodes.triangles().size())),
       cosine_limit(std::cos(smallest_angle * pi / 180.0)),
-      positions(std::move(nodes)),
+      nodes(std::move(start)),
       triangulation(std::move(of_nodes)),
-      lists(samples_of_triangles(positions, triangulation, samples, execution)),
+      lists(samples_of_triangles(nodes, triangulation, samples, execution)),
       errors(lists.size(), 0.0),
-      node_errors(positions.size(), 0.0) {}
+      node_errors(nodes.size(), 0.0) {}
 
 double RefinementState::error() const {
   return std::accumulate(errors.begin(), errors.end(), 0.0) +
@@ -56,26 +65,40 @@ double RefinementState::measure(const Execution& execution) {
       std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(samples.size());
   if (squares > 0.0) outlier_weight = 1.0 / (outlier_ratio * outlier_ratio * squares);
   update();
-  execution.parallel_for(positions.size(), refinement_block,
-                         [&](std::size_t begin, std::size_t end) {
-                           for (std::size_t i = begin; i < end; ++i) {
-                             node_errors[i] = node_error(positions[i]);
-                           }
-                         });
+  execution.parallel_for(nodes.size(), refinement_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) node_errors[i] = node_error(nodes[i]);
+  });
   return std::sqrt(squares);
 }
 
-double RefinementState::node_residual(const Vector3& position, Vector3& normal) const {
-  const Vector3 direction = position.normalized();
-  RadialJet jet;
-  original.evaluate(&direction, 1, Derivatives::First, &jet);
-  normal = surface_normal(jet, direction);
-  return normal.dot(direction) * (jet.radius - position.norm());
+double RefinementState::node_error(const RefinementNode& node) const {
+  Vector3 normal;
+  return node_weight * penalty(original.residual(node, normal));
 }
 
-double RefinementState::node_error(const Vector3& position) const {
-  Vector3 normal;
-  return node_weight * penalty(node_residual(position, normal));
+bool RefinementState::may_turn(double after, double before, const std::vector<SampleList>& own,
+                               const std::vector<std::int32_t>& beside) const {
+  if (after >= std::min(free_turn_cosine, before)) return true;
+  if (!(after >= largest_turn_cosine)) return false;
+  const auto for_each_normal = [&](const auto& visit) {
+    for (const SampleList& list : own) {
+      for (const std::int32_t s : list) visit(samples.normals[s]);
+    }
+    for (const std::int32_t t : beside) {
+      for (const std::int32_t s : lists[t]) visit(samples.normals[s]);
+    }
+  };
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  for_each_normal([&](const Eigen::Vector3f& normal) { mean += normal; });
+  mean.normalize();
+  std::vector<float> cosines;
+  for_each_normal([&](const Eigen::Vector3f& normal) { cosines.push_back(mean.dot(normal)); });
+  if (cosines.empty()) return false;
+  // Both sides of a ridge lie half its turn from their mean. Few samples may be noise.
+  const auto odd = static_cast<std::ptrdiff_t>(static_cast<double>(cosines.size()) * noisy_share);
+  std::nth_element(cosines.begin(), cosines.begin() + odd, cosines.end());
+  const double half_turn = std::acos(std::clamp<double>(cosines[index(odd)], 0.0, 1.0));
+  return after >= std::cos(2.0 * half_turn);
 }
 
 void RefinementState::ring_of(std::int32_t node, std::vector<std::int32_t>& ring,
@@ -87,6 +110,17 @@ void RefinementState::ring_of(std::int32_t node, std::vector<std::int32_t>& ring
   do {
     ring.push_back(triangulation.origin(SphereTriangulation::next(h)));
     if (triangles != nullptr) triangles->push_back(h / 3);
+    h = triangulation.opposite()[SphereTriangulation::previous(h)];
+  } while (h != first);
+}
+
+void RefinementState::outer_half_edges_of(std::int32_t node,
+                                          std::vector<std::int32_t>& outer) const {
+  outer.clear();
+  const std::int32_t first = triangulation.first_half_edge()[node];
+  std::int32_t h = first;
+  do {
+    outer.push_back(triangulation.opposite()[SphereTriangulation::next(h)]);
     h = triangulation.opposite()[SphereTriangulation::previous(h)];
   } while (h != first);
 }

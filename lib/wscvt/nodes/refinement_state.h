@@ -8,8 +8,8 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/nodes/refinement_facet.h"
 #include "wscvt/nodes/refinement_samples.h"
+#include "wscvt/nodes/refinement_target.h"
 #include "wscvt/sphere/sphere_triangulation.h"
-#include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
 
@@ -20,21 +20,21 @@ inline constexpr std::size_t refinement_block = 32;
 /// arrays of one index stay in step: whoever changes a triangle gives it its samples and its error,
 /// whoever moves a node its node error.
 struct RefinementState {
-  const MeshSurface& original;
-  std::vector<Vector3> samples;  ///< of the original, see visible_samples
-  double node_weight = 0.0;      ///< what a node's own distance counts, in samples
-  double cosine_limit = 1.0;     ///< of the smallest angle allowed
+  const RefinementTarget& original;
+  RefinementSamples samples;  ///< of the original
+  double node_weight = 0.0;   ///< what a node's own distance counts, in samples
+  double cosine_limit = 1.0;  ///< of the smallest angle allowed
 
-  std::vector<Vector3> positions;  ///< per node, about the origin
+  std::vector<RefinementNode> nodes;
   SphereTriangulation triangulation;
-  std::vector<SampleList> lists;    ///< per triangle: its samples, seen from the origin
+  std::vector<SampleList> lists;    ///< per triangle: the samples in its directions
   std::vector<double> errors;       ///< per triangle: sum of the penalties of its samples
   std::vector<double> node_errors;  ///< per node: penalty of its own distance, weighed
   double outlier_weight = 0.0;      ///< of the fourth power in the penalty; 1 / length^2
 
   /// The mesh with its samples dealt out; errors are 0 until measured.
-  RefinementState(std::vector<Vector3> nodes, SphereTriangulation of_nodes, const MeshSurface& scan,
-                  double smallest_angle, const Execution& execution);
+  RefinementState(std::vector<RefinementNode> start, SphereTriangulation of_nodes,
+                  const RefinementTarget& scan, double smallest_angle, const Execution& execution);
 
   /// What the moves, flips and relocations lower.
   double error() const;
@@ -45,9 +45,7 @@ struct RefinementState {
   RefinementFacet facet(std::int32_t triangle) const {
     return facet(triangulation.triangles()[triangle]);
   }
-  RefinementFacet facet(const Triangle& t) const {
-    return {positions[t[0]], positions[t[1]], positions[t[2]]};
-  }
+  RefinementFacet facet(const Triangle& t) const { return {nodes[t[0]], nodes[t[1]], nodes[t[2]]}; }
   /// What a sample's distance counts.
   double penalty(double residual) const {
     const double square = residual * residual;
@@ -59,13 +57,19 @@ struct RefinementState {
   }
   double error_of(const RefinementFacet& facet, const SampleList& list) const {
     double sum = 0.0;
-    for (const std::int32_t s : list) sum += penalty(facet.residual(samples[s]));
+    for (const std::int32_t s : list) sum += penalty(facet.residual(samples.points[s]));
     return sum;
   }
-  /// How far a place is from the original's tangent plane above or below it (> 0: above the place),
-  /// and that plane's normal; length.
-  double node_residual(const Vector3& position, Vector3& normal) const;
-  double node_error(const Vector3& position) const;
+  double node_error(const RefinementNode& node) const;
+
+  /// Whether the edges of some triangles may turn by as much as they would: the angle between the
+  /// normals at an edge, whose cosine is `after` at the one that turns most, and was `before`. They
+  /// may where it was no less before, or is no more than 60 degrees, or than the scan's own surface
+  /// turns among the triangles' samples, `own`, and those of the triangles `beside`, but never by
+  /// more than 120. So the nodes follow ridges as sharp as the scan's, and no triangle is drawn out
+  /// into a fin.
+  bool may_turn(double after, double before, const std::vector<SampleList>& own,
+                const std::vector<std::int32_t>& beside) const;
 
   /// The corner of a half-edge's triangle that is not on it; the triangle lies to its left.
   std::int32_t corner_left_of(std::int32_t half_edge) const {
@@ -75,6 +79,9 @@ struct RefinementState {
   /// about it: triangles[j] holds the node, ring[j] and ring[j + 1].
   void ring_of(std::int32_t node, std::vector<std::int32_t>& ring,
                std::vector<std::int32_t>* triangles) const;
+  /// The half-edges across the outer edges of the triangles about a node: outer[j] runs from
+  /// ring[j + 1] to ring[j].
+  void outer_half_edges_of(std::int32_t node, std::vector<std::int32_t>& outer) const;
 };
 
 }  // namespace wscvt

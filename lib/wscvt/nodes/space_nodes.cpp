@@ -10,6 +10,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/contact_fit.h"
+#include "wscvt/nodes/node_refinement.h"
 #include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/nodes/triangle_mending.h"
@@ -130,6 +131,29 @@ std::vector<MeshPlace> places_of(const MappedSurface& surface, const std::vector
   return places;
 }
 
+/// Refines fitted nodes over the map, mends what small angles the sphere's guard has left, and
+/// makes the volume exact again.
+void refine_in_space(const Grain& grain, const MeshDistance* to_scan,
+                     const SpaceTessellation& tessellation, const RefinementOptions& options,
+                     double volume, SpaceNodes& result, const Execution& execution) {
+  PlacedNodes& nodes = result.placed;
+  const MappedTarget target(*grain.mapped, grain.is_level ? to_scan : nullptr);
+  RefinedNodes refined =
+      refine_nodes(mapped_nodes(nodes.mesh.points, tessellation.seeds, *grain.mapped),
+                   tessellation.triangulation, target, options, execution);
+  nodes.mesh = {positions_of(refined.nodes), refined.triangulation.triangles()};
+  nodes.refinement = std::move(refined.report);
+  std::vector<MeshPlace> places;
+  for (const RefinementNode& node : refined.nodes) places.push_back(node.place);
+  TriangleMendingOptions mending;
+  mending.smallest_angle = options.smallest_angle;
+  MendedTriangles mended = mend_triangles(nodes.mesh, places, *grain.mapped, mending, execution);
+  result.report.mending = mended.report;
+  nodes.mesh = std::move(mended.mesh);
+  const std::vector<Vector3> normals = vertex_normals(nodes.mesh.points, nodes.mesh.triangles);
+  offset_to_volume(normals, nodes.mesh.triangles, volume, nodes.mesh.points, execution);
+}
+
 std::string advice(int enough_nodes) {
   return enough_nodes > 0 ? "; " + std::to_string(enough_nodes) + " would do."
                           : "; ask for many more.";
@@ -206,7 +230,9 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   const std::vector<Triangle>& triangles = tessellation.triangulation.triangles();
   MendedTriangles mended;
   mended.mesh = {tessellation.positions, triangles};
-  if (relaxes) {
+  // A refinement needs the directions, which mending gives up, and mends by itself.
+  const bool refines = placement.refinement.rounds > 0;
+  if (relaxes && !refines) {
     mended = mend_triangles(mended.mesh, places_of(*grain.mapped, tessellation.seeds, execution),
                             *grain.mapped, TriangleMendingOptions(), execution.part(0.85, 0.87));
   }
@@ -220,13 +246,17 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
                  tessellation.positions, tessellation.seeds, triangles, execution);
     if (changed) samples = deal_on(samples, triangles, mended.mesh, mended.relocated);
     NormalFit fit =
-        fit_along_normals(mended.mesh, samples, volume, fitting, execution.part(0.87, 1.0));
+        fit_along_normals(mended.mesh, samples, volume, fitting, execution.part(0.87, 0.9));
     mended.mesh.points = std::move(fit.positions);
     result.report.fit = fit.report;
   } else if (grain.is_level) {
     for (Vector3& point : mended.mesh.points) point = to_scan->nearest_point(point);
   }
   nodes.mesh = std::move(mended.mesh);
+  if (refines) {
+    refine_in_space(grain, to_scan, tessellation, placement.refinement, volume, result,
+                    execution.part(0.9, 1.0));
+  }
   const bool for_contacts = placement.kind == NodePlacement::Contact;
   if (for_contacts) {
     nodes.mesh.points = fit_to_contacts(nodes.mesh, grain.mesh, to_scan, placement.contact_radius,
@@ -249,8 +279,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     nodes.directions.push_back(radius > 0.0 ? Vector3(point / radius) : Vector3::UnitX());
   }
   // A node that was moved or relocated has no power cell, so all get their share of the triangles.
-  nodes.cell_areas =
-      changed || for_contacts ? vertex_areas(nodes.mesh) : std::move(tessellation.cell_areas);
+  nodes.cell_areas = changed || refines || for_contacts ? vertex_areas(nodes.mesh)
+                                                        : std::move(tessellation.cell_areas);
   result.relaxation = std::move(tessellation.report);
   return result;
 }

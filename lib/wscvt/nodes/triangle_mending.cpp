@@ -30,53 +30,6 @@ constexpr int active_rings = 2;
 /// Of a node of a closed mesh; the angles decide whether so few are wanted.
 constexpr unsigned fewest_neighbours = 3;
 
-/// Finds the nearest point of the scan without leaving its sheet: over the faces that hang together
-/// within the ball that reaches from the target to the place the search begins at.
-class SheetSearch {
- public:
-  explicit SheetSearch(const MappedSurface& surface)
-      : surface_(surface), visited_(surface.mesh().triangles.size(), 0) {}
-
-  MeshPlace nearest(const Vector3& target, const MeshPlace& from) {
-    const std::vector<Triangle>& triangles = surface_.mesh().triangles;
-    const std::vector<Vector3>& points = surface_.mesh().points;
-    ++round_;
-    MeshPlace best = from;
-    double smallest = (surface_.position(from) - target).squaredNorm();
-    const double reach = smallest;
-    faces_.assign(1, from.triangle);
-    visited_[from.triangle] = round_;
-    for (std::size_t next = 0; next < faces_.size() && next < most_faces; ++next) {
-      const std::int32_t face = faces_[next];
-      const auto& [a, b, c] = triangles[face];
-      const Vector3 weights = nearest_weights(points[a], points[b], points[c], target);
-      const MeshPlace place{face, weights};
-      const double distance = (surface_.position(place) - target).squaredNorm();
-      if (distance < smallest) {
-        smallest = distance;
-        best = place;
-      }
-      if (next > 0 && distance > reach) continue;
-      for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
-        const std::int32_t other = surface_.opposite()[h] / 3;
-        if (visited_[other] == round_) continue;
-        visited_[other] = round_;
-        faces_.push_back(other);
-      }
-    }
-    return best;
-  }
-
- private:
-  /// A step is a part of a cell, and a cell has some tens of faces of the scan.
-  static constexpr std::size_t most_faces = 20000;
-
-  const MappedSurface& surface_;
-  std::vector<std::int32_t> visited_;  ///< the search in which a face was last looked at
-  std::vector<std::int32_t> faces_;
-  std::int32_t round_ = 0;
-};
-
 /// The worst of some triangles: of their angles the smallest, of their edges the one that turns
 /// most, as cosines.
 struct Worst {
@@ -90,7 +43,6 @@ class Mender {
   Mender(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
          const MappedSurface& surface, const TriangleMendingOptions& options)
       : surface_(surface),
-        search_(surface),
         mesh_(to_mesh(nodes)),
         points_(nodes.points),
         places_(places),
@@ -294,7 +246,7 @@ class Mender {
     const Worst before = worst_around(vertex);
     const Vector3 target = ring_centroid(vertex);
     for (const double share : {1.0, 0.5, 0.25}) {
-      const MeshPlace place = search_.nearest(start + share * (target - start), places_[v]);
+      const MeshPlace place = surface_.nearest(start + share * (target - start), places_[v]);
       points_[v] = surface_.position(place);
       const Worst after = worst_around(vertex);
       const bool better = before.angle > angle_limit_ ? after.angle < before.angle - least_gain
@@ -414,7 +366,7 @@ class Mender {
     const OpenMesh::HalfedgeHandle h = mesh_.halfedge_handle(longest, 0);
     const std::int32_t a = mesh_.from_vertex_handle(h).idx();
     const std::int32_t b = mesh_.to_vertex_handle(h).idx();
-    const MeshPlace place = search_.nearest(0.5 * (points_[a] + points_[b]), places_[a]);
+    const MeshPlace place = surface_.nearest(0.5 * (points_[a] + points_[b]), places_[a]);
     const OpenMesh::VertexHandle added = mesh_.add_vertex(Mesh::Point(0.0, 0.0, 0.0));
     points_.push_back(surface_.position(place));
     places_.push_back(place);
@@ -449,7 +401,6 @@ class Mender {
   }
 
   const MappedSurface& surface_;
-  SheetSearch search_;
   Mesh mesh_;  ///< only how the triangles hang together; the positions are in points_
   std::vector<Vector3> points_;
   std::vector<MeshPlace> places_;

@@ -45,12 +45,6 @@ void check_options(const RemeshOptions& options) {
                 "An error target needs a sampling with any number of nodes; take the weighted one "
                 "or the Fibonacci lattice, or set the target to 0.");
   }
-  if (options.placement.refinement.rounds > 0 &&
-      options.surface.parametrization == Parametrization::Spherical) {
-    throw Error(ErrorCode::InvalidInput,
-                "Refinement needs the radial parametrization; take that one, or set the rounds of "
-                "the refinement to 0.");
-  }
 }
 
 }  // namespace wscvt

@@ -89,12 +89,6 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
 
 void warn_of_space(const RemeshResult& result, const RemeshOptions& asked, Sentences& warnings) {
   if (result.parametrization != Parametrization::Spherical) return;
-  const RemeshOptions& options = result.options;
-  if (options.placement.refinement.rounds > 0) {
-    warnings.push_back(
-        "The nodes were not refined, because that needs the radial parametrization, which this "
-        "grain's flanks are too steep for; take it all the same, or set the rounds to 0.");
-  }
   if (asked.relaxation.metric != result.options.relaxation.metric) {
     warnings.push_back(
         "The cells are those on the surface, because on the sphere the cells of a grain that is "

@@ -51,6 +51,11 @@ class MappedSurface : public SphereSurface {
     return position(locate(direction, hint));
   }
 
+  /// A place near `point` on the sheet that `from` lies on: from face to face over their corners,
+  /// downhill in the distance, so that a sheet behind or beside it is never taken. The nearest
+  /// place, where the way there from `from` rises nowhere.
+  MeshPlace nearest(const Vector3& point, const MeshPlace& from) const;
+
   /// The direction of a place: locate's inverse.
   Vector3 direction(const MeshPlace& place) const {
     return combination(directions_, place).normalized();
