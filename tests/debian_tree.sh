@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Does in a tree of another Debian what a newcomer does there, then runs the tests inside that
 # Debian's real MeshLab: menu, dialog, Apply, log.
-#   tests/debian_tree.sh SUITE      (trixie: Debian 13 with MeshLab 2022.02; sid: 2025.07)
-# As root; needs debootstrap, which tests/run_all.sh installs. The tree stands in build/debian-SUITE and is used again; the pictures
-# are in build/debian-SUITE-pictures.
+#   tests/debian_tree.sh SUITE
+# SUITE: bookworm (Debian 12 with MeshLab 2020.09), trixie (Debian 13 with 2022.02), sid (2025.07).
+# As root; needs debootstrap, which tests/run_all.sh installs. The tree stands in build/debian-SUITE
+# and is used again; the pictures are in build/debian-SUITE-pictures.
 set -eu
 suite=${1:?usage: debian_tree.sh SUITE}
 root=$(realpath "$(dirname "$0")/..")
@@ -45,5 +46,6 @@ unshare --mount sh -eu -c '
 ' sh "$tree"
 
 mkdir -p "$pictures"
-cp "$tree"/project/build/*.png "$tree"/project/build/release/tests/host/*.png "$pictures"
+find "$tree/project/build" "$tree/project/build/release/tests/host" -maxdepth 1 -name '*.png' \
+  -exec cp -t "$pictures" {} +
 echo "Pictures of the window are in $pictures."

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [engines] [package] [slurm] [hosts] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [engines] [package] [slurm] [hosts] [debian12] [debian13] [sid]
 # Without arguments: install and release. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -65,6 +65,9 @@ for step in "$@"; do
         "-DMESHLAB_OTHER_SOURCE_DIRS=$PWD/build/meshlab-source-trixie;$PWD/build/meshlab-source-sid"
       cmake --build --preset release -j "$jobs"
       ctest --preset release -j "$jobs" -R '^host_20' ;;
+    debian12)
+      tests/install_packages.sh debootstrap
+      tests/debian_tree.sh bookworm ;;
     debian13)
       tests/install_packages.sh debootstrap
       tests/debian_tree.sh trixie ;;

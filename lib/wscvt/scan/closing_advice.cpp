@@ -11,8 +11,8 @@ std::string closing_filter() {
 }
 
 std::string where_envelopes_are() {
-  return "--" + std::string(envelope_option.key) +
-         " in the program, RemeshOptions::envelope in the library, in MeshLab " + closing_filter();
+  return "--" + std::string(envelope_option.key) + " in the program, in MeshLab " +
+         closing_filter();
 }
 
 }  // namespace wscvt

@@ -10,8 +10,8 @@ namespace wscvt {
 /// The filter of MeshLab that closes openings, by its menu and with its settings.
 std::string closing_filter();
 
-/// Where the envelope is to be had: its option of the program and the library, and for MeshLab,
-/// whose filter has none, closing_filter().
+/// Where the envelope is to be had: its option of the program, and for MeshLab, whose filter has
+/// none, closing_filter().
 std::string where_envelopes_are();
 
 }  // namespace wscvt

@@ -283,7 +283,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
             "closes them (" +
             where_envelopes_are() +
             "); 5 % of the bounding box is a start. Or allow more handles (--handles in the "
-            "program, RemeshOptions::handles in the library).");
+            "program).");
   }
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
@@ -310,7 +310,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
               "to the sphere. Fill the hole, e.g. in MeshLab by " +
               closing_filter() +
               "; raise the limit above that length to have it cut there (--handle-length in the "
-              "program, RemeshOptions::handles in the library); or, where the centroid lies "
+              "program); or, where the centroid lies "
               "inside the grain, take the radial map, which goes past it.");
     }
     const std::vector<std::int32_t> moved = cut_and_cap(mesh, links, loop);

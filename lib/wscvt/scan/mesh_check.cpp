@@ -222,8 +222,10 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
   refuse("The mesh has " + found + ". Mending that would change " + format_percent(mended) +
          " of its area, above the limit of " + format_percent(limit) +
          "; raise the limit of the area that may be mended above " + format_percent(mended) +
-         " and check the result against the scan, take its envelope (" + where_envelopes_are() +
-         "), or scan the grain again.");
+         " (--" + std::string(mended_area_limit_option.key) +
+         " in the program, Mend limit in the filter with all parameters) and check the result "
+         "against the scan, take its envelope (" +
+         where_envelopes_are() + "), or scan the grain again.");
 }
 
 }  // namespace
