@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/label_table.h"
 
+#include <utility>
+
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <new>
 #include <utility>
 
 #include "volume/volume_formats.h"
