@@ -205,9 +205,11 @@ TEST(NodeRefinement, EdgesTurnNoFurtherThanTheScan) {
                               Execution(1));
   SampleList top;
   SampleList side;
+  SampleList bottom;
   for (std::int32_t s = 0; s < static_cast<std::int32_t>(state.samples.size()); ++s) {
     if (state.samples.normals[s].z() > 0.5F && top.size() < 40) top.push_back(s);
     if (state.samples.normals[s].x() > 0.5F && side.size() < 40) side.push_back(s);
+    if (state.samples.normals[s].z() < -0.5F && bottom.size() < 40) bottom.push_back(s);
   }
   const auto may_turn = [&](double after, double before, const std::vector<SampleList>& lists) {
     return state.may_turn(std::cos(after * test::pi / 180.0), std::cos(before * test::pi / 180.0),
@@ -219,6 +221,9 @@ TEST(NodeRefinement, EdgesTurnNoFurtherThanTheScan) {
   EXPECT_TRUE(may_turn(89.0, 0.0, {top, side}));
   EXPECT_FALSE(may_turn(91.0, 0.0, {top, side}));
   EXPECT_FALSE(may_turn(61.0, 0.0, {{}}));
+  // Never by more than 120 degrees, however thin the scan.
+  EXPECT_TRUE(may_turn(119.0, 0.0, {top, bottom}));
+  EXPECT_FALSE(may_turn(121.0, 0.0, {top, bottom}));
   // One sample in forty is noise.
   EXPECT_FALSE(may_turn(61.0, 0.0, {top, {side.front()}}));
 }
