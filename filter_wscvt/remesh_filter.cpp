@@ -84,7 +84,7 @@ ParameterList remesh_parameters() {
           "Checked: the scan is kept and the result becomes a new, current layer. Unchecked: the "
           "result replaces the scan, which cannot be undone."),
       flag_parameter("Distances", defaults.measures.distances, "Measure distances",
-                     "Measures the one- and two-sided Hausdorff, rms and mean distance between "
+                     "Measures the one- and two-sided largest, rms and mean distance between "
                      "result and original, for the log and the report; takes about a second."),
       table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
                       "What each vertex of the result holds."),

@@ -140,8 +140,8 @@ double box_diagonal(const IndexedMesh& mesh) {
 }
 
 struct Row {
-  double rms = 0.0;        ///< % of the equivalent radius
-  double hausdorff = 0.0;  ///< % of the equivalent radius
+  double rms = 0.0;      ///< % of the equivalent radius
+  double largest = 0.0;  ///< % of the equivalent radius
   double smallest_angle = 0.0;
 };
 
@@ -157,17 +157,17 @@ Row measure(const Method& method, const std::string& scan_name, const IndexedMes
   const MeshQuality quality = measure_quality(mesh);
   const double radius = std::cbrt(original.volume / (4.0 / 3.0 * pi));
   const double diagonal = box_diagonal(scan);
-  const Row row = {100.0 * distances.root_mean_square / radius,
-                   100.0 * distances.hausdorff / radius, quality.smallest_angle};
+  const Row row = {100.0 * distances.root_mean_square / radius, 100.0 * distances.largest / radius,
+                   quality.smallest_angle};
   const bool crosses = CGAL::Polygon_mesh_processing::does_self_intersect(to_surface_mesh(mesh));
   std::printf("%-10s %5zu %-30s %9.1e %8.3f %8.4f %8.4f %8.4f %8.3f %8.3f %6.2f %6.1f %5s %6.2f\n",
               scan_name.c_str(), mesh.points.size(), method.name.c_str(),
               relative_error_percent(shape.volume, original.volume),
               relative_error_percent(shape.area, original.area),
               inertia_error_percent(shape, original), row.rms,
-              100.0 * distances.root_mean_square / diagonal, row.hausdorff,
-              100.0 * distances.hausdorff / diagonal, quality.edge_ratio.mean,
-              quality.smallest_angle, crosses ? "yes" : "no", seconds.count());
+              100.0 * distances.root_mean_square / diagonal, row.largest,
+              100.0 * distances.largest / diagonal, quality.edge_ratio.mean, quality.smallest_angle,
+              crosses ? "yes" : "no", seconds.count());
   std::fflush(stdout);
   return row;
 }
@@ -207,8 +207,8 @@ int run(int argc, char** argv) {
       "Errors in %% of the scan's; distances two-sided, in %% of the equivalent radius (R) "
       "and of the bounding-box diagonal (d).\n");
   std::printf("%-10s %5s %-30s %9s %8s %8s %8s %8s %8s %8s %6s %6s %5s %6s\n", "scan", "N",
-              "method", "volume", "area", "inertia", "rms/R", "rms/d", "Hausd/R", "Hausd/d",
-              "ratio", "angle", "cross", "s");
+              "method", "volume", "area", "inertia", "rms/R", "rms/d", "max/R", "max/d", "ratio",
+              "angle", "cross", "s");
   const std::vector<Method> all = methods();
   std::string summary;
   for (const auto& [name, scan] : scans) {
@@ -217,14 +217,14 @@ int run(int argc, char** argv) {
       for (const Method& method : all) rows.push_back(measure(method, name, scan, nodes));
       const Row& refined = rows[all.size() - 3];
       char text[160];
-      std::snprintf(text, sizeof text, "%-10s %5d   rms %.2f   Hausdorff %.2f   angle %.1f\n",
+      std::snprintf(text, sizeof text, "%-10s %5d   rms %.2f   largest %.2f   angle %.1f\n",
                     name.c_str(), nodes, refined.rms / rows[all.size() - 2].rms,
-                    refined.hausdorff / rows[all.size() - 1].hausdorff, refined.smallest_angle);
+                    refined.largest / rows[all.size() - 1].largest, refined.smallest_angle);
       summary += text;
     }
   }
   std::printf(
-      "\nThe refined mesh: its rms distance / Lindstrom-Turk's, its Hausdorff distance / "
+      "\nThe refined mesh: its rms distance / Lindstrom-Turk's, its largest distance / "
       "Garland-Heckbert's, its smallest angle.\n%s",
       summary.c_str());
   return 0;

@@ -172,7 +172,7 @@ TEST(ServerDescribes, TheErrorsAgainstASecondLayer) {
   EXPECT_NEAR(error("area"), 100.0 * (1.1 * 1.1 - 1.0), 1e-3);
   EXPECT_NEAR(error("sphericity_wadell"), 0.0, 1e-3);
   // Vertices lie 0.1 apart, the middles of faces no more.
-  EXPECT_NEAR(report["distances"]["hausdorff_distance"].get<double>(), 0.1, 0.002);
+  EXPECT_NEAR(report["distances"]["largest_distance"].get<double>(), 0.1, 0.002);
 }
 
 struct BadCall {

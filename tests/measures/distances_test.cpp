@@ -70,7 +70,7 @@ TEST(Distances, NestedCubes) {
   const double square = 0.01 + 2.0 * (2.0 / 1.2) * 0.001 / 3.0;
   // Documented sampling error 0.5 % at the default 100,000 samples.
   EXPECT_NEAR(d.from_reference.root_mean_square / std::sqrt(square), 1.0, 5e-3);
-  EXPECT_EQ(d.hausdorff, d.from_reference.maximum);
+  EXPECT_EQ(d.largest, d.from_reference.maximum);
   EXPECT_EQ(d.root_mean_square, d.from_reference.root_mean_square);
 }
 
@@ -82,7 +82,7 @@ TEST(Distances, SwappingTheMeshesSwapsTheSides) {
   const MeshDistances ba = measure_distances(b, a, options, Execution(1));
   EXPECT_EQ(ab.to_reference.maximum, ba.from_reference.maximum);
   EXPECT_EQ(ab.to_reference.root_mean_square, ba.from_reference.root_mean_square);
-  EXPECT_EQ(ab.hausdorff, ba.hausdorff);
+  EXPECT_EQ(ab.largest, ba.largest);
 }
 
 TEST(Distances, ChordsOfASphere) {
@@ -98,7 +98,7 @@ TEST(Distances, ChordsOfASphere) {
   const MeshDistances d =
       measure_distances(coarse, test::sphere(5), DistanceOptions{10000}, Execution(1));
   // The fine sphere itself lies within (0.04)^2 / 8 of the true one.
-  EXPECT_NEAR(d.hausdorff, 1.0 - deepest, 3e-4);
+  EXPECT_NEAR(d.largest, 1.0 - deepest, 3e-4);
 }
 
 TEST(Distances, SamplesAreSpreadByAreaAndLieOnTheSurface) {

@@ -39,7 +39,7 @@ def test_remesh_gives_arrays_of_exactly_n_nodes(scan):
                                result.radial_distances, rtol=1e-12)
     assert result.report["source"] == "sand"
     assert result.report["result"] == {"vertices": 300, "faces": 596}
-    assert result.report["distances"]["hausdorff"] >= result.vertex_distances.max() > 0.0
+    assert result.report["distances"]["largest"] >= result.vertex_distances.max() > 0.0
     assert "300 nodes, 596 faces" in str(result)
 
 

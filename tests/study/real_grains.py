@@ -42,7 +42,7 @@ def row(name, nodes, report, seconds):
     return (f"| `{name}` | {nodes} | {quality['edge_ratio']['mean']:.3f} "
             f"| {quality['edge_variation']:.3f} | {quality['smallest_angle_degrees']:.1f} "
             f"| {percent * report['distances']['root_mean_square']:.3f} "
-            f"| {percent * report['distances']['hausdorff']:.2f} "
+            f"| {percent * report['distances']['largest']:.2f} "
             f"| {errors['area']['error_percent']:+.2f} | {errors['volume']['error_percent']:+.0e} "
             f"| {report['space']['self_intersections']} | {seconds:.2f} "
             f"| {report['parametrization']} | {len(report['warnings'])} |")

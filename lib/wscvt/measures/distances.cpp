@@ -312,7 +312,7 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
   result.from_reference =
       one_sided(reference, MeshDistance(mesh, execution), options.samples, execution);
   execution.report(1.0, stage);
-  result.hausdorff = std::max(result.to_reference.maximum, result.from_reference.maximum);
+  result.largest = std::max(result.to_reference.maximum, result.from_reference.maximum);
   result.root_mean_square =
       std::max(result.to_reference.root_mean_square, result.from_reference.root_mean_square);
   return result;
@@ -342,7 +342,7 @@ void scale(MeshDistances& distances, double unit) {
     side->root_mean_square *= unit;
     side->mean *= unit;
   }
-  distances.hausdorff *= unit;
+  distances.largest *= unit;
   distances.root_mean_square *= unit;
 }
 

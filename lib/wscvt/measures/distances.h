@@ -62,7 +62,7 @@ void check_distance_options(const DistanceOptions& options);
 
 /// Distances from the points of one surface to another; length.
 struct OneSidedDistance {
-  double maximum = 0.0;           ///< over the samples and the vertices: one-sided Hausdorff
+  double maximum = 0.0;           ///< over the samples and the vertices
   double root_mean_square = 0.0;  ///< over the surface, by area
   double mean = 0.0;              ///< over the surface, by area
 };
@@ -70,8 +70,10 @@ struct OneSidedDistance {
 struct MeshDistances {
   OneSidedDistance to_reference;    ///< from the mesh to the reference
   OneSidedDistance from_reference;  ///< from the reference to the mesh
-  double hausdorff = 0.0;           ///< two-sided: the larger of the two maxima; length
-  double root_mean_square = 0.0;    ///< two-sided: the larger of the two; length
+  /// The larger of the two maxima, length. At most the Hausdorff distance, which no sampling finds:
+  /// between the samples a place may be farther.
+  double largest = 0.0;
+  double root_mean_square = 0.0;  ///< two-sided: the larger of the two; length
 };
 
 /// Measures two surfaces against each other. The distances themselves are exact; what is sampled is

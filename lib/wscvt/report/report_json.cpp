@@ -184,7 +184,7 @@ Json json_of(const std::optional<MeshDistances>& distances) {
   const MeshDistances shown = distances.value_or(MeshDistances{none, none, unknown, unknown});
   return {{"from_remesh", json_of(shown.to_reference)},
           {"from_original", json_of(shown.from_reference)},
-          {"hausdorff", shown.hausdorff},
+          {"largest", shown.largest},
           {"root_mean_square", shown.root_mean_square}};
 }
 
