@@ -44,8 +44,7 @@ TEST(DescriptorReport, JsonHoldsTheNumbersToTheLastBit) {
   EXPECT_EQ(volume.at("value").get<double>(), pair.grain.descriptors.basic.volume);
   EXPECT_EQ(volume.at("reference").get<double>(), pair.reference->descriptors.basic.volume);
   EXPECT_NEAR(volume.at("error_percent").get<double>(), 100.0 * (std::pow(1.1, -3) - 1.0), 1e-9);
-  EXPECT_EQ(compared.at("distances").at("largest_distance").get<double>(),
-            pair.distances->largest);
+  EXPECT_EQ(compared.at("distances").at("largest_distance").get<double>(), pair.distances->largest);
 }
 
 TEST(DescriptorReport, HoldsTheMassProperties) {
