@@ -48,12 +48,18 @@ class FaceTree {
     return tree_.closest_point(point);
   }
 
-  /// The distance of a point; `face` is the nearest one of a point before, from which the search
-  /// starts, and becomes this one's. Where points follow each other along a surface that is mostly
-  /// the face already, and half the time is saved.
-  double distance(const Vector3& point, Face& face) const;
-
-  Face first_face() const { return faces_.cbegin(); }
+  /// The distances of points. The search for a point's nearest face starts at the one of the point
+  /// before: where points follow each other along a surface that is mostly the face already, and
+  /// half the time is saved.
+  std::vector<double> distances(const std::vector<Vector3>& points,
+                                const Execution& execution) const {
+    std::vector<double> result(points.size());
+    execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+      Face face = faces_.cbegin();
+      for (std::size_t i = begin; i < end; ++i) result[i] = distance(points[i], face);
+    });
+    return result;
+  }
 
   const auto& tree() const { return tree_; }
 
@@ -61,6 +67,9 @@ class FaceTree {
   using Primitive = CGAL::AABB_triangle_primitive<Kernel, Face>;
   using Traits = CGAL::AABB_traits<Kernel, Primitive>;
   using Tree = CGAL::AABB_tree<Traits>;
+
+  /// `face` is where the search starts, and becomes the nearest one.
+  double distance(const Vector3& point, Face& face) const;
 
   /// Splits the faces of a node in two as the traits do, and reports: the tree of two million faces
   /// takes seconds.
@@ -149,9 +158,8 @@ using PlainTree = FaceTree<CGAL::Simple_cartesian<double>>;
 
 }  // namespace
 
-struct MeshDistance::Tree {
-  Tree(const IndexedMesh& mesh, const Execution& execution) : faces(mesh, execution) {}
-  ExactTree faces;
+struct MeshDistance::Tree : ExactTree {
+  using ExactTree::ExactTree;
 };
 
 MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution)
@@ -162,12 +170,12 @@ MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
 
 double MeshDistance::distance(const Vector3& point) const {
-  const auto p = tree_->faces.local(point);
-  return std::sqrt(CGAL::squared_distance(p, tree_->faces.nearest(p)));
+  const auto p = tree_->local(point);
+  return std::sqrt(CGAL::squared_distance(p, tree_->nearest(p)));
 }
 
 Vector3 MeshDistance::nearest_point(const Vector3& point) const {
-  return tree_->faces.global(tree_->faces.nearest(tree_->faces.local(point)));
+  return tree_->global(tree_->nearest(tree_->local(point)));
 }
 
 bool MeshDistance::contains(const Vector3& point) const {
@@ -175,17 +183,13 @@ bool MeshDistance::contains(const Vector3& point) const {
   // edges and vertices.
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const Kernel::Vector_3 direction(0.5377102934, 0.3142870195, 0.7823519467);
-  const Kernel::Ray_3 ray(tree_->faces.local(point), direction);
-  return tree_->faces.tree().number_of_intersected_primitives(ray) % 2 == 1;
+  const Kernel::Ray_3 ray(tree_->local(point), direction);
+  return tree_->tree().number_of_intersected_primitives(ray) % 2 == 1;
 }
 
 std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
                                             const Execution& execution) const {
-  std::vector<double> result(points.size());
-  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) result[i] = distance(points[i]);
-  });
-  return result;
+  return tree_->distances(points, execution);
 }
 
 std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count) {
@@ -229,10 +233,7 @@ std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t c
   std::vector<Vector3> samples;
   samples.reserve(count);
   for (const MeshPlace& place : area_uniform_places(mesh, count)) {
-    const Triangle& t = mesh.triangles[place.triangle];
-    const Vector3& a = mesh.points[t[0]];
-    samples.push_back(a + place.weights[1] * (mesh.points[t[1]] - a) +
-                      place.weights[2] * (mesh.points[t[2]] - a));
+    samples.push_back(point_at(mesh, place));
   }
   return samples;
 }
@@ -252,13 +253,12 @@ struct DistanceSums {
   }
 };
 
-DistanceSums distance_sums(const std::vector<Vector3>& points, const MeshDistance& target,
-                           const Execution& execution) {
-  return execution.parallel_sum(points.size(), block_size, DistanceSums(),
+DistanceSums sums_of(const std::vector<double>& distances, const Execution& execution) {
+  return execution.parallel_sum(distances.size(), block_size, DistanceSums(),
                                 [&](std::size_t begin, std::size_t end) {
                                   DistanceSums part;
                                   for (std::size_t i = begin; i < end; ++i) {
-                                    const double d = target.distance(points[i]);
+                                    const double d = distances[i];
                                     part.sum += d;
                                     part.squares += d * d;
                                     part.maximum = std::max(part.maximum, d);
@@ -269,7 +269,8 @@ DistanceSums distance_sums(const std::vector<Vector3>& points, const MeshDistanc
 
 OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
                            const Execution& execution) {
-  const DistanceSums spread = distance_sums(area_uniform_samples(from, samples), to, execution);
+  const DistanceSums spread =
+      sums_of(to.distances(area_uniform_samples(from, samples), execution), execution);
   std::vector<char> used(from.points.size(), 0);
   for (const Triangle& t : from.triangles) {
     for (const std::int32_t v : t) used[v] = 1;
@@ -279,7 +280,7 @@ OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std:
   for (std::size_t i = 0; i < from.points.size(); ++i) {
     if (used[i] != 0) vertices.push_back(from.points[i]);
   }
-  const DistanceSums corners = distance_sums(vertices, to, execution);
+  const DistanceSums corners = sums_of(to.distances(vertices, execution), execution);
   const auto count = static_cast<double>(samples);
   OneSidedDistance result;
   result.maximum = std::max(spread.maximum, corners.maximum);
@@ -321,19 +322,9 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
                     const Execution& execution) {
   check_distance_options({samples});
-  const PlainTree tree(to, execution);
-  const std::vector<Vector3> points = area_uniform_samples(from, samples);
-  const double squares = execution.parallel_sum(
-      points.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
-        double part = 0.0;
-        auto face = tree.first_face();
-        for (std::size_t i = begin; i < end; ++i) {
-          const double distance = tree.distance(points[i], face);
-          part += distance * distance;
-        }
-        return part;
-      });
-  return std::sqrt(squares / static_cast<double>(samples));
+  const std::vector<double> distances =
+      PlainTree(to, execution).distances(area_uniform_samples(from, samples), execution);
+  return std::sqrt(sums_of(distances, execution).squares / static_cast<double>(samples));
 }
 
 void scale(MeshDistances& distances, double unit) {
