@@ -179,8 +179,8 @@ TEST(NodeRefinement, FollowsABodyThatFoldsBack) {
   RefinementOptions options = rounds(15);
   options.smallest_angle = 30.0;
   const RefinedNodes refined =
-      refine_nodes(mapped_nodes(sites.positions, sites.seeds, surface), sites.triangulation,
-                   MappedTarget(surface, nullptr), options, execution);
+      refine_nodes(mapped_nodes(sites.positions, sites.seeds, surface, execution),
+                   sites.triangulation, MappedTarget(surface, nullptr), options, execution);
   const IndexedMesh mesh{positions_of(refined.nodes), refined.triangulation.triangles()};
   ASSERT_EQ(mesh.points.size(), 200U);
   ASSERT_EQ(mesh.triangles.size(), 396U);

@@ -45,8 +45,8 @@ Fitted fitted(const IndexedMesh& scan, int nodes, int threads = 1,
                      RelaxationOptions(), MultilevelOptions(), execution);
   const std::vector<Triangle>& triangles = sites.triangulation.triangles();
   const std::vector<FitSample> samples =
-      deal_out(mapped_samples(surface, options.samples, execution), sites.positions, sites.seeds,
-               triangles, execution);
+      deal_out(mapped_samples(surface, nullptr, options.samples, execution), sites.positions,
+               sites.seeds, triangles, execution);
   const NormalFit fit =
       fit_along_normals({sites.positions, triangles}, samples, volume_of(scan), options, execution);
   return {scan, {sites.positions, triangles}, {fit.positions, triangles}, fit.report};

@@ -95,7 +95,7 @@ TEST(RefinementTarget, NodesOverAMapLieWhereTheyAreNearest) {
   }
   const Vector3 up = Vector3(0.3, 0.1, 0.9).normalized();
   const std::vector<RefinementNode> nodes =
-      mapped_nodes({up, 0.8 * up}, {up, Vector3(up.x(), up.y(), -up.z())}, surface);
+      mapped_nodes({up, 0.8 * up}, {up, Vector3(up.x(), up.y(), -up.z())}, surface, Execution(1));
   // A tenth of the way to the other sheet and a bit aside.
   const Vector3 between = 0.9 * up + Vector3(0.02, 0.0, 0.0);
   Vector3 normal;
@@ -125,7 +125,8 @@ TEST(RefinementTarget, OfALevelIsTheScanItself) {
   }
   const Vector3 u = Vector3(1.0, 0.7, 0.4).normalized();
   Vector3 normal;
-  const double residual = target.residual(mapped_nodes({0.9 * u}, {u}, surface).front(), normal);
+  const double residual =
+      target.residual(mapped_nodes({0.9 * u}, {u}, surface, Execution(1)).front(), normal);
   EXPECT_NEAR(residual, 0.1, 2e-3);  // faces of the scan lie up to 4e-4 below the sphere
 }
 

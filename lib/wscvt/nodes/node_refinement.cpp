@@ -79,11 +79,12 @@ std::vector<RefinementNode> radial_nodes(const std::vector<Vector3>& positions) 
 
 std::vector<RefinementNode> mapped_nodes(const std::vector<Vector3>& positions,
                                          const std::vector<Vector3>& directions,
-                                         const MappedSurface& surface) {
+                                         const MappedSurface& surface, const Execution& execution) {
+  const std::vector<MeshPlace> places = surface.locate(directions, execution);
   std::vector<RefinementNode> nodes;
   nodes.reserve(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    nodes.push_back({positions[i], directions[i], surface.locate(directions[i])});
+    nodes.push_back({positions[i], directions[i], places[i]});
   }
   return nodes;
 }

@@ -60,7 +60,7 @@ std::vector<RefinementNode> radial_nodes(const std::vector<Vector3>& positions);
 /// Nodes over a mapped surface that lie at `directions` there, wherever they are.
 std::vector<RefinementNode> mapped_nodes(const std::vector<Vector3>& positions,
                                          const std::vector<Vector3>& directions,
-                                         const MappedSurface& surface);
+                                         const MappedSurface& surface, const Execution& execution);
 
 std::vector<Vector3> positions_of(const std::vector<RefinementNode>& nodes);
 

@@ -230,13 +230,15 @@ void check_normal_fit_options(const NormalFitOptions& options) {
   require_in_range(options.largest_turn, fit_turn_option);
 }
 
-std::vector<MappedSample> mapped_samples(const MappedSurface& surface, std::size_t count,
-                                         const Execution& execution) {
+std::vector<MappedSample> mapped_samples(const MappedSurface& surface, const MeshDistance* to_scan,
+                                         std::size_t count, const Execution& execution) {
   const std::vector<MeshPlace> places = area_uniform_places(surface.mesh(), count);
   std::vector<MappedSample> samples(places.size());
   execution.parallel_for(places.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      samples[i] = {surface.position(places[i]), surface.direction(places[i])};
+      const Vector3 point = surface.position(places[i]);
+      samples[i] = {to_scan == nullptr ? point : to_scan->nearest_point(point),
+                    surface.direction(places[i]), places[i].triangle};
     }
   });
   return samples;

@@ -9,6 +9,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
+#include "wscvt/measures/distances.h"
 #include "wscvt/nodes/space_report.h"
 #include "wscvt/surface/mapped_surface.h"
 
@@ -35,6 +36,7 @@ inline constexpr NumberOption<double> fit_turn_option = {
 struct MappedSample {
   Vector3 point = Vector3::Zero();
   Vector3 direction = Vector3::Zero();
+  std::int32_t triangle = -1;  ///< of the mapped mesh
 };
 
 /// A sample and a triangle of the nodes from which the search for the nearest one begins.
@@ -48,10 +50,11 @@ struct NormalFit {
   NormalFitReport report;
 };
 
-/// At least `count` points spread evenly by area over the surface's mesh (see
-/// area_uniform_samples), with their directions.
-std::vector<MappedSample> mapped_samples(const MappedSurface& surface, std::size_t count,
-                                         const Execution& execution);
+/// `count` points spread evenly by area over the surface's mesh (see area_uniform_samples), with
+/// their directions. Where the surface is an early level of the scan's collapse, `to_scan` is the
+/// distance to the scan, and the points are the nearest ones there; null where it is the scan.
+std::vector<MappedSample> mapped_samples(const MappedSurface& surface, const MeshDistance* to_scan,
+                                         std::size_t count, const Execution& execution);
 
 /// The samples with the triangles of the nodes that hold their directions: a sheet of the scan is
 /// never taken for the one behind it.

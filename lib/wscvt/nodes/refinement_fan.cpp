@@ -34,7 +34,7 @@ double RefinementFan::turn() const {
 FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
   RefinementFan& fan = work.fan;
   state.ring_of(node, fan.ring, &work.triangles);
-  state.outer_half_edges_of(node, fan.beside);
+  state.outer_half_edges_of(node, work.outer);
   fan.node = state.nodes[node];
   fan.resize();
   fan.error = state.node_errors[node];
@@ -45,7 +45,7 @@ FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace
     const std::int32_t t = work.triangles[j];
     fan.facets[j] = RefinementFacet(fan.node, state.nodes[fan.ring[j]],
                                     state.nodes[fan.ring[j + 1 == count ? 0 : j + 1]]);
-    fan.beside[j] /= 3;
+    fan.beside[j] = work.outer[j] / 3;
     fan.outer[j] = state.facet(fan.beside[j]).normal;
     limits.largest_cosine = std::max(limits.largest_cosine, fan.facets[j].largest_cosine);
     fan.lists[j] = state.lists[t];

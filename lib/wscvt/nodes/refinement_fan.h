@@ -45,6 +45,7 @@ struct FanWorkspace {
   std::vector<Vector3>
       spokes;  ///< normals of the planes through the directions of node and ring[j]
   std::vector<std::int32_t> triangles;  ///< of the fan, in the triangulation
+  std::vector<std::int32_t> outer;      ///< the half-edges across its ring, likewise
 };
 
 /// Puts a node's fan as it is into work.fan, its triangles into work.triangles, and returns the

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/nodes/normal_least_squares.h"
 
 namespace wscvt {
 
@@ -20,8 +21,6 @@ constexpr std::size_t smallest_sample_count = 50000;
 constexpr std::size_t largest_sample_count = 8000000;
 constexpr std::size_t least_samples_per_triangle = 4;
 
-constexpr std::size_t block_size = 1024;
-
 std::size_t sample_count(std::size_t triangles) {
   return std::clamp(samples_per_triangle * triangles, smallest_sample_count,
                     std::max(largest_sample_count, least_samples_per_triangle * triangles));
@@ -34,12 +33,6 @@ Eigen::Vector3f face_normal(const IndexedMesh& mesh, std::int32_t triangle) {
       .cast<float>();
 }
 
-Vector3 point_of(const IndexedMesh& mesh, const MeshPlace& place) {
-  const auto& [a, b, c] = mesh.triangles[place.triangle];
-  return place.weights[0] * mesh.points[a] + place.weights[1] * mesh.points[b] +
-         place.weights[2] * mesh.points[c];
-}
-
 }  // namespace
 
 RefinementSamples RadialTarget::samples(std::size_t triangles, const Execution& execution) const {
@@ -49,7 +42,7 @@ RefinementSamples RadialTarget::samples(std::size_t triangles, const Execution& 
   samples.points.resize(places.size());
   std::vector<Vector3> directions(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    samples.points[i] = point_of(mesh, places[i]);
+    samples.points[i] = point_at(mesh, places[i]);
     directions[i] = samples.points[i].normalized();
   }
   const std::vector<double> radii = scan_.radii(directions, execution);
@@ -79,20 +72,17 @@ double RadialTarget::residual(const RefinementNode& node, Vector3& normal) const
 }
 
 RefinementSamples MappedTarget::samples(std::size_t triangles, const Execution& execution) const {
-  const std::vector<MeshPlace> places =
-      area_uniform_places(surface_.mesh(), sample_count(triangles));
+  const std::vector<MappedSample> mapped =
+      mapped_samples(surface_, to_scan_, sample_count(triangles), execution);
   RefinementSamples samples;
-  samples.points.resize(places.size());
-  samples.directions.resize(places.size());
-  samples.normals.resize(places.size());
-  execution.parallel_for(places.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vector3 point = surface_.position(places[i]);
-      samples.points[i] = to_scan_ == nullptr ? point : to_scan_->nearest_point(point);
-      samples.directions[i] = surface_.direction(places[i]);
-      samples.normals[i] = face_normal(surface_.mesh(), places[i].triangle);
-    }
-  });
+  samples.points.reserve(mapped.size());
+  samples.directions.reserve(mapped.size());
+  samples.normals.reserve(mapped.size());
+  for (const MappedSample& sample : mapped) {
+    samples.points.push_back(sample.point);
+    samples.directions.push_back(sample.direction);
+    samples.normals.push_back(face_normal(surface_.mesh(), sample.triangle));
+  }
   return samples;
 }
 

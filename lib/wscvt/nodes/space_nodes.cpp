@@ -102,35 +102,6 @@ Flaws flaws_of(const SpaceTessellation& tessellation, double volume) {
           1.0 - enclosed_volume(tessellation.positions, triangles) / volume};
 }
 
-/// The samples of the scan that the nodes are fitted to. On a level of the scan's collapse they are
-/// taken there, where they have directions, and put on to the scan.
-std::vector<MappedSample> samples_of(const Grain& grain, std::size_t count,
-                                     const MeshDistance* to_scan, const Execution& execution) {
-  std::vector<MappedSample> samples = mapped_samples(*grain.mapped, count, execution);
-  if (to_scan != nullptr) {
-    execution.parallel_for(samples.size(), block_size, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        samples[i].point = to_scan->nearest_point(samples[i].point);
-      }
-    });
-  }
-  return samples;
-}
-
-/// The places on the map of a tessellation's nodes.
-std::vector<MeshPlace> places_of(const MappedSurface& surface, const std::vector<Vector3>& seeds,
-                                 const Execution& execution) {
-  std::vector<MeshPlace> places(seeds.size());
-  execution.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    std::int32_t hint = -1;
-    for (std::size_t i = begin; i < end; ++i) {
-      places[i] = surface.locate(seeds[i], hint);
-      hint = places[i].triangle;
-    }
-  });
-  return places;
-}
-
 /// Refines fitted nodes over the map, mends what small angles the sphere's guard has left, and
 /// makes the volume exact again.
 void refine_in_space(const Grain& grain, const MeshDistance* to_scan,
@@ -139,7 +110,7 @@ void refine_in_space(const Grain& grain, const MeshDistance* to_scan,
   PlacedNodes& nodes = result.placed;
   const MappedTarget target(*grain.mapped, grain.is_level ? to_scan : nullptr);
   RefinedNodes refined =
-      refine_nodes(mapped_nodes(nodes.mesh.points, tessellation.seeds, *grain.mapped),
+      refine_nodes(mapped_nodes(nodes.mesh.points, tessellation.seeds, *grain.mapped, execution),
                    tessellation.triangulation, target, options, execution);
   nodes.mesh = {positions_of(refined.nodes), refined.triangulation.triangles()};
   nodes.refinement = std::move(refined.report);
@@ -233,17 +204,17 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   // A refinement needs the directions, which mending gives up, and mends by itself.
   const bool refines = placement.refinement.rounds > 0;
   if (relaxes && !refines) {
-    mended = mend_triangles(mended.mesh, places_of(*grain.mapped, tessellation.seeds, execution),
+    mended = mend_triangles(mended.mesh, grain.mapped->locate(tessellation.seeds, execution),
                             *grain.mapped, TriangleMendingOptions(), execution.part(0.85, 0.87));
   }
   const bool changed = mended.report.flips + mended.report.moves + mended.report.relocations > 0;
   result.report.mending = mended.report;
   if (is_fitted(placement.kind)) {
     const NormalFitOptions fitting;
-    std::vector<FitSample> samples =
-        deal_out(samples_of(grain, std::max(fitting.samples, 10 * tessellation.seeds.size()),
-                            grain.is_level ? to_scan : nullptr, execution),
-                 tessellation.positions, tessellation.seeds, triangles, execution);
+    std::vector<FitSample> samples = deal_out(
+        mapped_samples(*grain.mapped, grain.is_level ? to_scan : nullptr,
+                       std::max(fitting.samples, 10 * tessellation.seeds.size()), execution),
+        tessellation.positions, tessellation.seeds, triangles, execution);
     if (changed) samples = deal_on(samples, triangles, mended.mesh, mended.relocated);
     NormalFit fit =
         fit_along_normals(mended.mesh, samples, volume, fitting, execution.part(0.87, 0.9));

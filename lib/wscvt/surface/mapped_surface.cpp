@@ -19,6 +19,8 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t block_size = 8192;
+/// Directions that follow each other from the first one's search through the table.
+constexpr std::size_t search_block_size = 256;
 
 /// About two triangles to a cell: the walk from the cell's own triangle is a few steps long.
 int resolution_for(std::size_t triangles) {
@@ -142,6 +144,20 @@ MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) con
       f = exhaustive++ % faces;
     }
   }
+}
+
+std::vector<MeshPlace> MappedSurface::locate(const std::vector<Vector3>& directions,
+                                             const Execution& execution) const {
+  std::vector<MeshPlace> places(directions.size());
+  execution.parallel_for(directions.size(), search_block_size,
+                         [&](std::size_t begin, std::size_t end) {
+                           std::int32_t hint = -1;
+                           for (std::size_t i = begin; i < end; ++i) {
+                             places[i] = locate(directions[i], hint);
+                             hint = places[i].triangle;
+                           }
+                         });
+  return places;
 }
 
 MeshPlace MappedSurface::nearest(const Vector3& point, const MeshPlace& from) const {

@@ -18,6 +18,14 @@ struct MeshPlace {
   Vector3 weights = Vector3::Zero();
 };
 
+/// The point of a mesh at a place on it.
+inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
+  // From a corner, so that on a large offset only what is small is multiplied.
+  const auto& [a, b, c] = mesh.triangles[place.triangle];
+  const Vector3& p = mesh.points[a];
+  return p + place.weights[1] * (mesh.points[b] - p) + place.weights[2] * (mesh.points[c] - p);
+}
+
 /// A scan spread over the unit sphere, one to one (sphere_map.h): every direction u has one place
 /// on the mesh, x(u). Within the spherical triangle of a face with corners at the directions a, b,
 /// c the weights are those of u = alpha a + beta b + gamma c scaled to sum 1, so x(u) runs straight
@@ -44,6 +52,10 @@ class MappedSurface : public SphereSurface {
   /// depend on the hint, while the position does not but for rounding. May be called from several
   /// threads.
   MeshPlace locate(const Vector3& direction, std::int32_t hint = -1) const;
+
+  /// The places in many directions, each searched from the one before it.
+  std::vector<MeshPlace> locate(const std::vector<Vector3>& directions,
+                                const Execution& execution) const;
 
   /// The point of the surface, x(u) in length units of the mesh.
   Vector3 position(const MeshPlace& place) const { return combination(mesh_.points, place); }
