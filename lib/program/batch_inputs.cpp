@@ -10,8 +10,8 @@
 
 #include "volume/label_volume.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/option.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 
@@ -23,15 +23,11 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::InvalidInput, sentence);
 }
 
-bool is_mesh(const fs::path& path) {
-  static const std::vector<std::string> endings = {".ply", ".stl", ".obj", ".off"};
-  return std::find(endings.begin(), endings.end(), ending_of(path.string())) != endings.end();
-}
-
 void add_folder(const std::string& folder, std::vector<std::string>& files) {
   const std::size_t before = files.size();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (is_mesh(entry.path()) && !entry.is_directory()) files.push_back(entry.path().string());
+    if (is_mesh_file(entry.path().string()) && !entry.is_directory())
+      files.push_back(entry.path().string());
   }
   if (files.size() == before) {
     refuse("The folder \"" + folder +

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -39,8 +41,8 @@ class HeaderFile {
 /// A text without white space at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// The numbers of a text, between which stand blanks, commas and brackets. Throws what `fail`
-/// throws where one is none.
+/// The numbers of a text, between which stand blanks, commas and brackets. Throws
+/// Error(InputOutput), naming the line, where one is none.
 std::vector<double> numbers_in(std::string_view text, const HeaderFile& file);
 
 /// The same for three of them.

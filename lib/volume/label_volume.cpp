@@ -9,6 +9,7 @@
 #include "volume/voxel_rows.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 
@@ -41,12 +42,11 @@ const Format* format_of(const std::string& path) {
 
 /// Whether a folder is a stack of slices.
 bool is_stack(const std::string& folder) {
-  static const std::vector<std::string> meshes = {".ply", ".stl", ".obj", ".off"};
   bool has_slices = false;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (is_mesh_file(entry.path().string())) return false;
     const std::string ending = ending_of(entry.path().string());
-    if (std::find(meshes.begin(), meshes.end(), ending) != meshes.end()) return false;
     has_slices = has_slices || ending == ".tif" || ending == ".tiff";
   }
   return has_slices;

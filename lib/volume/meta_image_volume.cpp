@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // MetaImage as ITK defines it: https://docs.itk.org/en/latest/learn/metaio.html
-#include <algorithm>
-#include <utility>
-
 #include "volume/header_file.h"
 #include "volume/volume_formats.h"
 #include "volume/voxel_rows.h"
@@ -90,19 +87,13 @@ std::unique_ptr<LabelVolume> open_meta_image(const std::string& path,
   type.big_endian = header.big_endian;
 
   const bool is_local = lower_case(header.data_file) == "local";
-  const std::string voxels = is_local ? path : voxel_file_beside(path, header.data_file);
-  const std::uint64_t size = file_size(voxels);
-  std::uint64_t offset = is_local ? file.offset() : 0;
-  const std::uint64_t wanted = voxel_bytes(geometry.counts, type);
-  if (header.header_size == -1 && !header.is_packed && size >= wanted) {
-    offset = size - wanted;
-  } else if (header.header_size > 0) {
-    offset = static_cast<std::uint64_t>(header.header_size);
-  }
-  check_voxel_bytes(geometry, type, size - std::min(size, offset), header.is_packed, voxels);
-  std::unique_ptr<ByteSource> bytes = file_bytes(voxels, offset);
-  if (header.is_packed) bytes = inflated_bytes(std::move(bytes), voxels);
-  return volume_of_bytes(geometry, type, std::move(bytes), voxels);
+  VoxelData data;
+  data.path = is_local ? path : voxel_file_beside(path, header.data_file);
+  data.offset = is_local ? file.offset() : 0;
+  data.is_packed = header.is_packed;
+  data.at_end = header.header_size == -1 && !header.is_packed;
+  if (header.header_size > 0) data.offset = static_cast<std::uint64_t>(header.header_size);
+  return volume_of_file(geometry, type, data);
 }
 
 }  // namespace wscvt

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // NRRD as Teem defines it: http://teem.sourceforge.net/nrrd/format.html
-#include <algorithm>
-#include <utility>
-
 #include "volume/header_file.h"
 #include "volume/volume_formats.h"
 #include "volume/voxel_rows.h"
@@ -98,26 +95,20 @@ std::unique_ptr<LabelVolume> open_nrrd(const std::string& path,
   VoxelType type = voxel_type_of(header.type, path);
   type.big_endian = header.big_endian;
 
-  const bool is_packed = header.encoding == "gzip" || header.encoding == "gz";
-  if (!is_packed && header.encoding != "raw") {
+  VoxelData data;
+  data.is_packed = header.encoding == "gzip" || header.encoding == "gz";
+  if (!data.is_packed && header.encoding != "raw") {
     refuse_volume(path, "is packed as " + quoted(header.encoding) + "; save it raw or as gzip.");
   }
-  const std::string voxels =
-      header.data_file.empty() ? path : voxel_file_beside(path, header.data_file);
-  const std::uint64_t size = file_size(voxels);
-  std::uint64_t offset = header.data_file.empty() ? file.offset() : 0;
-  const std::uint64_t wanted = voxel_bytes(geometry.counts, type);
-  if (header.byte_skip == -1 && !is_packed && size >= wanted) {
-    offset = size - wanted;  // as the format has it: the voxels are the end of the file
-  } else if (header.byte_skip != 0 || header.line_skip != 0) {
-    const bool is_known = !is_packed && header.line_skip == 0 && header.byte_skip > 0;
+  data.path = header.data_file.empty() ? path : voxel_file_beside(path, header.data_file);
+  data.offset = header.data_file.empty() ? file.offset() : 0;
+  data.at_end = header.byte_skip == -1 && header.line_skip == 0 && !data.is_packed;
+  if (!data.at_end && (header.byte_skip != 0 || header.line_skip != 0)) {
+    const bool is_known = !data.is_packed && header.line_skip == 0 && header.byte_skip > 0;
     if (!is_known) refuse_volume(path, "skips lines, or bytes of what is packed; save it anew.");
-    offset += static_cast<std::uint64_t>(header.byte_skip);
+    data.offset += static_cast<std::uint64_t>(header.byte_skip);
   }
-  check_voxel_bytes(geometry, type, size - std::min(size, offset), is_packed, voxels);
-  std::unique_ptr<ByteSource> bytes = file_bytes(voxels, offset);
-  if (is_packed) bytes = inflated_bytes(std::move(bytes), voxels);
-  return volume_of_bytes(geometry, type, std::move(bytes), voxels);
+  return volume_of_file(geometry, type, data);
 }
 
 }  // namespace wscvt

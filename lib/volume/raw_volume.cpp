@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -86,14 +85,12 @@ std::unique_ptr<LabelVolume> open_raw(const std::string& path,
   if (!offset.is_number_unsigned()) {
     refuse_volume(path, "has an \"offset\" that is no number of bytes; correct it.");
   }
-  const auto first = offset.get<std::uint64_t>();
-
   const std::string beside =
       std::filesystem::path(path).filename().replace_extension(".raw").string();
-  const std::string voxels = voxel_file_beside(path, text_of(description, "file", beside, path));
-  const std::uint64_t size = file_size(voxels);
-  check_voxel_bytes(geometry, type, size - std::min(size, first), false, voxels);
-  return volume_of_bytes(geometry, type, file_bytes(voxels, first), voxels);
+  VoxelData data;
+  data.path = voxel_file_beside(path, text_of(description, "file", beside, path));
+  data.offset = offset.get<std::uint64_t>();
+  return volume_of_file(geometry, type, data);
 }
 
 }  // namespace wscvt

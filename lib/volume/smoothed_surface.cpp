@@ -11,6 +11,7 @@
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -151,24 +152,15 @@ class FaceSplitter {
 void restore_volume(IndexedMesh& mesh, double volume) {
   // About a vertex, because the sum over cones from afar loses digits.
   const Vector3 start = mesh.points.front();
-  double sum = 0.0;
-  Vector3 moment = Vector3::Zero();
-  for (const Triangle& triangle : mesh.triangles) {
-    const Vector3 a = mesh.points[index(triangle[0])] - start;
-    const Vector3 b = mesh.points[index(triangle[1])] - start;
-    const Vector3 c = mesh.points[index(triangle[2])] - start;
-    const double cone = a.dot(b.cross(c)) / 6.0;
-    sum += cone;
-    moment += cone / 4.0 * (a + b + c);
-  }
+  const MeshSums sums = mesh_sums(mesh.points, mesh.triangles, start, Execution(1));
   constexpr double least_share = 0.1;
-  if (!(sum > least_share * volume)) {
+  if (!(sums.volume() > least_share * volume)) {
     throw Error(ErrorCode::NumericalFailure,
                 "Smoothing leaves less than a tenth of the grain's volume: it is a voxel or two "
                 "thick. Give fewer passes by --smoothing.");
   }
-  const Vector3 centroid = start + moment / sum;
-  const double scale = std::cbrt(volume / sum);
+  const Vector3 centroid = start + sums.centroid();
+  const double scale = std::cbrt(volume / sums.volume());
   for (Vector3& point : mesh.points) point = centroid + scale * (point - centroid);
 }
 

@@ -272,9 +272,7 @@ std::unique_ptr<LabelVolume> open_tiff(const std::string& path,
   if (is_one_block) {
     VoxelType type = page.type;
     type.big_endian = TIFFIsBigEndian(first.get()) != 0;
-    const std::uint64_t size = file_size(files.front());
-    check_voxel_bytes(geometry, type, size - std::min(size, offset), false, path);
-    return volume_of_bytes(geometry, type, file_bytes(files.front(), offset), path);
+    return volume_of_file(geometry, type, {files.front(), offset});
   }
   return std::make_unique<TiffStack>(geometry, page, files);
 }

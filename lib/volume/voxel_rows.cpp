@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/voxel_rows.h"
 
+#include <algorithm>
 #include <boost/endian/conversion.hpp>
 #include <cmath>
 #include <filesystem>
@@ -165,6 +166,17 @@ std::unique_ptr<LabelVolume> volume_of_bytes(const VolumeGeometry& geometry, con
                                              std::unique_ptr<ByteSource> bytes,
                                              const std::string& path) {
   return std::make_unique<VolumeOfBytes>(geometry, type, std::move(bytes), path);
+}
+
+std::unique_ptr<LabelVolume> volume_of_file(const VolumeGeometry& geometry, const VoxelType& type,
+                                            const VoxelData& data) {
+  const std::uint64_t size = file_size(data.path);
+  const std::uint64_t wanted = voxel_bytes(geometry.counts, type);
+  const std::uint64_t offset = data.at_end ? size - std::min(size, wanted) : data.offset;
+  check_voxel_bytes(geometry, type, size - std::min(size, offset), data.is_packed, data.path);
+  std::unique_ptr<ByteSource> bytes = file_bytes(data.path, offset);
+  if (data.is_packed) bytes = inflated_bytes(std::move(bytes), data.path);
+  return volume_of_bytes(geometry, type, std::move(bytes), data.path);
 }
 
 std::string voxel_file_beside(const std::string& header, const std::string& name) {

@@ -35,6 +35,20 @@ VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::s
 /// Bytes that all voxels of a volume take.
 std::uint64_t voxel_bytes(const VoxelCounts& counts, const VoxelType& type);
 
+/// Where the voxels of a volume stand in a file, in their order.
+struct VoxelData {
+  std::string path;
+  std::uint64_t offset = 0;
+  bool is_packed = false;  ///< by gzip or zlib
+  /// They are the end of the file, whatever stands before them in place of `offset`; not packed.
+  bool at_end = false;
+};
+
+/// The labels of a file that holds nothing else in their order. Throws Error(InputOutput) when it
+/// cannot be opened or is too short.
+std::unique_ptr<LabelVolume> volume_of_file(const VolumeGeometry& geometry, const VoxelType& type,
+                                            const VoxelData& data);
+
 /// Throws Error(InputOutput) when fewer than the bytes of all voxels are there: `left` of the file
 /// `path`; of packed ones only what no packing can make smaller is held against it.
 void check_voxel_bytes(const VolumeGeometry& geometry, const VoxelType& type, std::uint64_t left,

@@ -2,11 +2,13 @@
 #include "volume/voxel_surface.h"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 
 namespace wscvt {
 
@@ -31,12 +33,7 @@ struct CornerRings {
 
 CornerRings rings_of(unsigned inside) {
   const auto is_inside = [&](std::size_t voxel) { return (inside >> voxel & 1U) != 0; };
-  std::array<std::size_t, faces_at_a_corner> linked{};
-  std::iota(linked.begin(), linked.end(), std::size_t{0});
-  const auto root = [&](std::size_t face) {
-    while (linked[face] != face) face = linked[face];
-    return face;
-  };
+  boost::disjoint_sets_with_storage<> linked(faces_at_a_corner);
   // Six edges leave the corner, and four voxels lie about each.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t b = (axis + 1) % 3;
@@ -64,12 +61,12 @@ CornerRings rings_of(unsigned inside) {
         if (turns[k].here != turns[k].there) faces.push_back(k);
       }
       if (faces.size() == 2) {
-        linked[root(turns[faces[0]].face)] = root(turns[faces[1]].face);
+        linked.union_set(turns[faces[0]].face, turns[faces[1]].face);
       } else if (faces.size() == 4) {
         // Two voxels touch in the edge alone: each keeps its own two faces, those on both sides.
         for (std::size_t k = 0; k < 4; ++k) {
           if (!turns[k].there) continue;
-          linked[root(turns[k].face)] = root(turns[(k + 1) % 4].face);
+          linked.union_set(turns[k].face, turns[(k + 1) % 4].face);
         }
       }
     }
@@ -82,7 +79,7 @@ CornerRings rings_of(unsigned inside) {
       const std::size_t before = (place & 1U) << (axis + 1) % 3 | (place >> 1U) << (axis + 2) % 3;
       if (is_inside(before) == is_inside(before | std::size_t{1} << axis)) continue;
       const std::size_t face = 4 * axis + place;
-      int& ring = ring_of_root[root(face)];
+      int& ring = ring_of_root[linked.find_set(face)];
       if (ring < 0) ring = result.rings++;
       result.ring_of_face[face] = static_cast<std::uint8_t>(ring);
     }
@@ -273,27 +270,16 @@ class FaceMaker {
 
 /// Which part of the surface each vertex is of.
 std::vector<std::int32_t> parts_of(const VoxelSurface& surface) {
-  std::vector<std::int32_t> linked(surface.corners.size());
-  std::iota(linked.begin(), linked.end(), 0);
-  const auto root = [&](std::int32_t vertex) {
-    while (linked[static_cast<std::size_t>(vertex)] != vertex) {
-      auto& next = linked[static_cast<std::size_t>(vertex)];
-      next = linked[static_cast<std::size_t>(next)];
-      vertex = next;
-    }
-    return vertex;
-  };
+  boost::disjoint_sets_with_storage<> linked(surface.corners.size());
   for (const VoxelFace& face : surface.faces) {
-    for (std::size_t k = 1; k < 4; ++k) {
-      const std::int32_t a = root(face[0]);
-      const std::int32_t b = root(face[k]);
-      linked[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
+    for (std::size_t k = 1; k < 4; ++k) linked.union_set(index(face[0]), index(face[k]));
   }
-  for (std::size_t v = 0; v < linked.size(); ++v) {
-    linked[v] = root(static_cast<std::int32_t>(v));
-  }
-  return linked;
+  std::vector<std::int32_t> parts(surface.corners.size());
+  std::iota(parts.begin(), parts.end(), 0);
+  // Its first vertex stands for a part, so that of two as large the first is kept.
+  linked.normalize_sets(parts.begin(), parts.end());
+  for (std::int32_t& part : parts) part = static_cast<std::int32_t>(linked.find_set(index(part)));
+  return parts;
 }
 
 /// Keeps the part of largest volume. The others are outer surfaces of other pieces, of volumes

@@ -2,10 +2,10 @@
 #include "wscvt/scan/handles.h"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <queue>
 #include <string>
 #include <utility>
@@ -55,8 +55,13 @@ class TreeCotree {
   std::vector<Loop> loops(std::int32_t root, double reach) {
     grow_tree(root, reach);
     std::vector<std::pair<double, std::int32_t>> candidates;
-    faces_.resize(mesh_.triangles.size());
-    std::iota(faces_.begin(), faces_.end(), 0);
+    boost::disjoint_sets_with_storage<> joined(mesh_.triangles.size());
+    const auto join = [&](std::int32_t a, std::int32_t b) {
+      const std::size_t of_a = joined.find_set(index(a));
+      const std::size_t of_b = joined.find_set(index(b));
+      if (of_a != of_b) joined.link(of_a, of_b);
+      return of_a != of_b;
+    };
     for (std::int32_t h = 0; h < static_cast<std::int32_t>(links_.opposite.size()); ++h) {
       const std::int32_t other = links_.opposite[h];
       if (other < h) continue;
@@ -110,18 +115,6 @@ class TreeCotree {
     }
   }
 
-  std::int32_t representative(std::int32_t face) {
-    while (faces_[face] != face) face = faces_[face] = faces_[faces_[face]];
-    return face;
-  }
-
-  bool join(std::int32_t a, std::int32_t b) {
-    a = representative(a);
-    b = representative(b);
-    faces_[a] = b;
-    return a != b;
-  }
-
   /// From the tree's last common vertex to the edge, over it and back.
   Loop loop_through(std::int32_t h) const {
     const auto way_to = [&](std::int32_t v) {
@@ -148,7 +141,6 @@ class TreeCotree {
   const HalfEdges& links_;
   std::vector<double> distances_;
   std::vector<std::int32_t> parents_;  ///< half-edge that leads to each vertex, -1 at the root
-  std::vector<std::int32_t> faces_;    ///< disjoint sets of faces
 };
 
 /// The first of the shortest.
@@ -282,8 +274,8 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
             ": it is porous, and no map to the sphere follows its pores. Take its envelope, which "
             "closes them (" +
             where_envelopes_are() +
-            "); 5 % of the bounding box is a start. Or allow more handles (--handles in the "
-            "program).");
+            "); 5 % of the bounding box is a start. Or allow more handles (--" +
+            std::string(handle_count_option.key) + " in the program).");
   }
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
@@ -308,10 +300,10 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
               format_number(options.length_limit) +
               ": too wide for a flaw of the scanner. A ring has a real hole and cannot be mapped "
               "to the sphere. Fill the hole, e.g. in MeshLab by " +
-              closing_filter() +
-              "; raise the limit above that length to have it cut there (--handle-length in the "
-              "program); or, where the centroid lies "
-              "inside the grain, take the radial map, which goes past it.");
+              closing_filter() + "; raise the limit above that length to have it cut there (--" +
+              std::string(handle_length_option.key) +
+              " in the program); or, where the centroid lies inside the grain, take the radial "
+              "map, which goes past it.");
     }
     const std::vector<std::int32_t> moved = cut_and_cap(mesh, links, loop);
     links = linked(mesh);

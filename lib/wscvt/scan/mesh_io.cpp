@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -38,14 +39,19 @@ enum class Format { Ply, Stl, Obj, Off };
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
 }
 
-Format format_of(const std::string& path) {
+std::optional<Format> known_format(const std::string& path) {
   static const std::map<std::string, Format> formats{
       {".ply", Format::Ply}, {".stl", Format::Stl}, {".obj", Format::Obj}, {".off", Format::Off}};
   const auto found = formats.find(ending_of(path));
-  if (found == formats.end()) {
+  return found == formats.end() ? std::nullopt : std::optional(found->second);
+}
+
+Format format_of(const std::string& path) {
+  const std::optional<Format> format = known_format(path);
+  if (!format) {
     fail(path, "does not end in .ply, .stl, .obj or .off; convert the mesh to one of these.");
   }
-  return found->second;
+  return *format;
 }
 
 template <class Number>
@@ -164,6 +170,8 @@ IndexedMesh read_mesh(const std::string& path) {
   ByteReader reader(file, size, path);
   return read_as(reader, format);
 }
+
+bool is_mesh_file(const std::string& path) { return known_format(path).has_value(); }
 
 void check_mesh_format(const std::string& path) { format_of(path); }
 

@@ -19,6 +19,9 @@ namespace wscvt {
 /// extension is not known.
 IndexedMesh read_mesh(const std::string& path);
 
+/// Whether the extension of a path is that of one of the formats.
+bool is_mesh_file(const std::string& path);
+
 /// Throws Error(InputOutput) when the extension of a path is that of none of the formats.
 void check_mesh_format(const std::string& path);
 
