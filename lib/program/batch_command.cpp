@@ -90,10 +90,12 @@ void check_meshes(const std::vector<std::string>& grains, const OutputFolder& fo
 
 /// What a batch that is started again has to have been called with. Not the number of threads.
 std::string call_text(const BatchArguments& arguments) {
-  return "{\n\"format\": \"wscvt-batch\",\n\"made_by\": \"" + made_by() + "\",\n\"meshes\": \"" +
-         arguments.format + "\",\n\"seconds\": " + (arguments.seconds ? "true" : "false") +
-         ",\n\"volume\": " + volume_options_json(arguments.volume) +
-         ",\n\"options\": " + options_json(arguments.options) + "}\n";
+  return json_document({{"format", "wscvt-batch"},
+                        {"made_by", made_by()},
+                        {"meshes", arguments.format},
+                        {"seconds", arguments.seconds},
+                        {"volume", json_of(arguments.volume)},
+                        {"options", wscvt::json_of(arguments.options)}});
 }
 
 void check_call(const std::string& path, const std::string& call, bool is_begun) {

@@ -4,7 +4,6 @@
 #include "command.h"
 #include "progress_line.h"
 #include "signals.h"
-#include "wscvt/base/text_format.h"
 
 namespace wscvt::program {
 
@@ -59,20 +58,15 @@ std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const Volume
   return std::make_unique<LabelGrains>(volume, options, execution);
 }
 
-std::string volume_options_json(const VolumeOptions& options) {
-  std::string size = "null";
-  if (options.voxel_size) {
-    size = "[";
-    for (const double length : *options.voxel_size) {
-      size += (size.size() > 1 ? ", " : "") + format_exact(length);
-    }
-    size += "]";
-  }
-  return "{\"background\": " + std::to_string(options.background) +
-         ", \"smallest\": " + std::to_string(options.smallest) +
-         ", \"at-border\": " + (options.at_border ? "true" : "false") +
-         ", \"smoothing\": " + std::to_string(options.smoothing) + ", \"voxel-size\": " + size +
-         "}";
+Json json_of(const VolumeOptions& options) {
+  Json json = Json::object();
+  const auto put = [&](std::string_view key, const Json& value) { json[std::string(key)] = value; };
+  put(smallest_option.key, options.smallest);
+  put(smoothing_option.key, options.smoothing);
+  put(voxel_size_option.key, options.voxel_size ? wscvt::json_of(*options.voxel_size) : Json());
+  put(background_option.key, options.background);
+  put(at_border_option.key, options.at_border);
+  return json;
 }
 
 }  // namespace wscvt::program

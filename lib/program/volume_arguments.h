@@ -6,6 +6,7 @@
 #include <string>
 
 #include "volume/label_grains.h"
+#include "wscvt/report/json.h"
 
 namespace wscvt::program {
 
@@ -18,7 +19,7 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
 std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,
                                          bool quiet);
 
-/// The options as a JSON object, for what a batch that goes on compares.
-std::string volume_options_json(const VolumeOptions& options);
+/// Every option under the name that one types.
+Json json_of(const VolumeOptions& options);
 
 }  // namespace wscvt::program

@@ -10,6 +10,7 @@
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mass_properties.h"
 #include "wscvt/measures/mesh_quality.h"
+#include "wscvt/report/remesh_options.h"
 
 // Reports as trees of values, from which their files are written. Not one of the library's public
 // headers: those need no JSON library.
@@ -26,6 +27,9 @@ Json json_of(const Statistics& statistics);
 Json json_of(const MeshQuality& quality);
 Json json_of(const OneSidedDistance& distance);
 Json json_of(const MassProperties& mass);
+
+/// Every option under the name and with the value that one types for the program.
+Json json_of(const RemeshOptions& options);
 
 /// The value of each descriptor under its key.
 Json json_of(const std::vector<DescriptorValue>& values);

@@ -21,9 +21,6 @@ std::vector<std::string> report_lines(const RemeshResult& result);
 /// and so does what was not asked for or not told.
 std::string report_json(const RemeshResult& result, const ReportOrigin& origin = {});
 
-/// The options alone: the member "options" of report_json as a document of its own.
-std::string options_json(const RemeshOptions& options);
-
 /// The report as CSV after RFC 4180: a header and one row. Every member of the JSON document that
 /// is not in a list is a column, named by the path to it, joined with dots ("options.weighting"),
 /// so the histories, the coarser levels, the node counts tried and the descriptors' names are left

@@ -25,7 +25,7 @@ std::string example_csv(bool with_reference) {
 }
 
 void check(const std::string& path, const std::string& csv) {
-  if (report_format(path) == ReportFormat::Csv) return check_table(path, csv);
+  if (report_format(path) == ReportFormat::Row) return check_table(path, csv);
   check_writable(path);
 }
 
@@ -48,7 +48,7 @@ ReportFormat report_format(const std::string& path) {
   return static_cast<ReportFormat>(found - endings.begin());
 }
 
-bool shows_scan(const std::string& path) { return report_format(path) == ReportFormat::Html; }
+bool shows_scan(const std::string& path) { return report_format(path) == ReportFormat::Page; }
 
 void check_remesh_report(const std::string& path) { check(path, report_csv(RemeshResult(), {})); }
 
@@ -59,11 +59,11 @@ void check_descriptor_report(const std::string& path, bool with_reference) {
 void write_report(const std::string& path, const RemeshResult& result, const IndexedMesh& scan,
                   const ReportOrigin& origin, const Execution& execution) {
   switch (report_format(path)) {
-    case ReportFormat::Html:
+    case ReportFormat::Page:
       return write_file(path, report_html(result, scan, origin, execution));
-    case ReportFormat::Json:
+    case ReportFormat::Document:
       return write_file(path, report_json(result, origin));
-    case ReportFormat::Csv:
+    case ReportFormat::Row:
       return append_to_table(path, report_csv(result, origin));
   }
 }
@@ -71,22 +71,22 @@ void write_report(const std::string& path, const RemeshResult& result, const Ind
 void write_report(const std::string& path, const GrainMeasures& measures,
                   const ReportOrigin& origin, const Execution& execution) {
   switch (report_format(path)) {
-    case ReportFormat::Html:
+    case ReportFormat::Page:
       return write_file(path, descriptor_html(measures, origin, execution));
-    case ReportFormat::Json:
+    case ReportFormat::Document:
       return write_file(path, descriptor_json(measures, origin));
-    case ReportFormat::Csv:
+    case ReportFormat::Row:
       return append_to_table(path, descriptor_csv(measures, origin));
   }
 }
 
 void write_summary(const std::string& path, const SampleSummary& summary) {
-  write_file(path, report_format(path) == ReportFormat::Html ? summary_html(summary)
+  write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary)
                                                              : summary_json(summary));
 }
 
 void check_summary(const std::string& path) {
-  if (report_format(path) == ReportFormat::Csv) {
+  if (report_format(path) == ReportFormat::Row) {
     throw Error(ErrorCode::InvalidInput, "\"" + path +
                                              "\" is to hold a summary, which is a page or JSON; "
                                              "give a name that ends in .html or .json.");

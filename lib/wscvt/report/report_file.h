@@ -14,7 +14,7 @@
 namespace wscvt {
 
 /// What a report's file becomes: a page for reading, everything for programs, or a row of a table.
-enum class ReportFormat { Html, Json, Csv };
+enum class ReportFormat { Page, Document, Row };
 
 /// The endings of names that decide it: ".html", ".json", ".csv".
 const std::vector<std::string>& report_endings();

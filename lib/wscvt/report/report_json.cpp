@@ -35,12 +35,6 @@ class OptionsToJson {
   Json options_ = Json::object();
 };
 
-Json json_of(const RemeshOptions& options) {
-  OptionsToJson visitor;
-  for_each_option(options, visitor);
-  return visitor.take();
-}
-
 Json json_of(const MeshCheckReport& input) {
   return {{"vertices", input.input_vertices},
           {"faces", input.input_faces},
@@ -251,11 +245,15 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
 
 }  // namespace
 
+Json json_of(const RemeshOptions& options) {
+  OptionsToJson visitor;
+  for_each_option(options, visitor);
+  return visitor.take();
+}
+
 std::string report_json(const RemeshResult& result, const ReportOrigin& origin) {
   return json_document(report_of(result, origin));
 }
-
-std::string options_json(const RemeshOptions& options) { return json_document(json_of(options)); }
 
 std::string report_csv(const RemeshResult& result, const ReportOrigin& origin) {
   return csv_of(report_of(result, origin));
