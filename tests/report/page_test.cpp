@@ -158,7 +158,7 @@ TEST(Picture, PngReadsBackToItsPixels) {
 
 TEST(MeshView, SeesTheNearSideOfASphereAndNothingElse) {
   const IndexedMesh sphere = test::sphere(4);
-  const MeshView view = view_of(sphere, 200);
+  const MeshView view = view_of({&sphere}, 200);
   const SeenMesh seen = look_at(sphere, view);
   const Vector3 towards = view.right.cross(view.up);
   std::size_t covered = 0;
@@ -177,7 +177,7 @@ TEST(MeshView, SeesTheNearSideOfASphereAndNothingElse) {
 
 TEST(MeshView, ColoursComeFromThePointsSeen) {
   const IndexedMesh box = test::box(1, 1, 1);
-  const MeshView view = view_of(box, 100);
+  const MeshView view = view_of({&box}, 100);
   const SeenMesh seen = look_at(box, view);
   const auto by_height = [](const std::vector<Vector3>& points) {
     std::vector<Colour> colours;

@@ -24,12 +24,14 @@ double doubled_area(const Place& a, const Place& b, double x, double y) {
 
 }  // namespace
 
-MeshView view_of(const IndexedMesh& mesh, int pixels) {
+MeshView view_of(const std::vector<const IndexedMesh*>& meshes, int pixels) {
   Vector3 lowest = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 highest = -lowest;
-  for (const Vector3& p : mesh.points) {
-    lowest = lowest.cwiseMin(p);
-    highest = highest.cwiseMax(p);
+  for (const IndexedMesh* const mesh : meshes) {
+    for (const Vector3& p : mesh->points) {
+      lowest = lowest.cwiseMin(p);
+      highest = highest.cwiseMax(p);
+    }
   }
   MeshView view;
   const Vector3 towards = Vector3(0.5, -1.0, 0.45).normalized();
@@ -38,10 +40,12 @@ MeshView view_of(const IndexedMesh& mesh, int pixels) {
   view.centre = 0.5 * (lowest + highest);
   view.pixels = pixels;
   view.half_size = 0.0;
-  for (const Vector3& p : mesh.points) {
-    const Vector3 from = p - view.centre;
-    view.half_size =
-        std::max({view.half_size, std::abs(from.dot(view.right)), std::abs(from.dot(view.up))});
+  for (const IndexedMesh* const mesh : meshes) {
+    for (const Vector3& p : mesh->points) {
+      const Vector3 from = p - view.centre;
+      view.half_size =
+          std::max({view.half_size, std::abs(from.dot(view.right)), std::abs(from.dot(view.up))});
+    }
   }
   view.half_size *= 1.04;  // a margin
   return view;

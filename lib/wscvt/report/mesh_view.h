@@ -20,8 +20,8 @@ struct MeshView {
   int pixels = 840;                  ///< width and height, > 0
 };
 
-/// A view from the side and somewhat above that holds the whole mesh; z is up.
-MeshView view_of(const IndexedMesh& mesh, int pixels);
+/// A view from the side and somewhat above that holds the meshes whole; z is up.
+MeshView view_of(const std::vector<const IndexedMesh*>& meshes, int pixels);
 
 /// What a view sees, pixel by pixel.
 struct SeenMesh {

@@ -92,11 +92,8 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
                          const Execution& execution) {
   PageFigures figures;
   // Both are to be seen whole: a few nodes that enclose the same volume stand far out of the scan.
-  IndexedMesh both{shown.mesh.points, {}};
-  if (reference) {
-    both.points.insert(both.points.end(), reference->mesh.points.begin(),
-                       reference->mesh.points.end());
-  }
+  std::vector<const IndexedMesh*> both = {&shown.mesh};
+  if (reference) both.push_back(&reference->mesh);
   const MeshView view = view_of(both, drawn_pixels);
   if (reference) {
     // On a dense scan the edges would hide the surface.
