@@ -227,14 +227,14 @@ TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
   EXPECT_EQ(column("out/grains.csv", "status").back(), "failed");
   EXPECT_EQ(read_mesh(path("out/x.off")).points.size(), 60U);
 
-  struct BadCall {
+  struct BadInputs {
     std::string inputs;
     std::string part_of_the_sentence;
   };
-  for (const BadCall& call :
-       {BadCall{"-o out2 scans " + scan(1), "would both be remeshed"},
-        BadCall{"-o out2 'scans/z*'", "No file matches"}, BadCall{"-o out2 @no.txt", "no.txt"},
-        BadCall{"-o out2 out2", "out2"}, BadCall{"scans -o scans", "take its place"}}) {
+  for (const BadInputs& call :
+       {BadInputs{"-o out2 scans " + scan(1), "would both be remeshed"},
+        BadInputs{"-o out2 'scans/z*'", "No file matches"}, BadInputs{"-o out2 @no.txt", "no.txt"},
+        BadInputs{"-o out2 out2", "out2"}, BadInputs{"scans -o scans", "take its place"}}) {
     SCOPED_TRACE(call.inputs);
     fs::create_directory(folder_ / "out2");
     const Outcome refused = run("batch " + call.inputs + options_);

@@ -73,25 +73,14 @@ TEST_F(CommandLine, SaysItsVersion) {
 }
 
 TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
-  struct BadCall {
-    std::string arguments;
-    int exit_code;
-    std::string part_of_the_sentence;
-  };
-  for (const BadCall& call :
-       {BadCall{"missing.ply remesh.ply -n 100", 1, "missing.ply"},
-        BadCall{sand_ + " remesh.ply -p series -r 10", 1, "least squares"},
-        BadCall{sand_ + " remesh.ply --coefficients ./report.json", 1, "two names"},
-        BadCall{sand_ + " remesh.ply --nodse 100", 2, "nodse"},
-        BadCall{sand_ + " remesh.ply more.ply", 2, "more.ply"}, BadCall{sand_, 2, "output"}}) {
-    SCOPED_TRACE(call.arguments);
-    const Outcome outcome = run(call.arguments + " --report report.json");
-    EXPECT_EQ(outcome.exit_code, call.exit_code);
-    EXPECT_NE(outcome.errors.find(call.part_of_the_sentence), std::string::npos) << outcome.errors;
-    EXPECT_EQ(outcome.output, "");
-    EXPECT_FALSE(exists("remesh.ply"));
-    EXPECT_FALSE(exists("report.json"));
-  }
+  expect_refused("--report report.json",
+                 {{"missing.ply remesh.ply -n 100", 1, "missing.ply"},
+                  {sand_ + " remesh.ply -p series -r 10", 1, "least squares"},
+                  {sand_ + " remesh.ply --coefficients ./report.json", 1, "two names"},
+                  {sand_ + " remesh.ply --nodse 100", 2, "nodse"},
+                  {sand_ + " remesh.ply more.ply", 2, "more.ply"},
+                  {sand_, 2, "output"}},
+                 {"remesh.ply", "report.json"});
 }
 
 TEST_F(CommandLine, ReplacesTheScanOnlyWhenTold) {

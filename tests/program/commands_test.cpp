@@ -236,26 +236,16 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
 }
 
 TEST_F(Commands, CreateRefusesWhatIsNoSurface) {
-  struct BadCall {
-    std::string arguments;
-    int exit_code;
-    std::string part_of_the_sentence;
-  };
-  for (const BadCall& call :
-       {BadCall{"cube grain.ply", 2, "ellipsoid, superellipsoid or harmonics"},
-        BadCall{"ellipsoid grain.ply --semi-axes 1 0 1", 2, "semi-axis is \"0\""},
-        BadCall{"ellipsoid grain.ply --semi-axes 1 1", 2, "--semi-axes"},
-        BadCall{"superellipsoid grain.ply --polar-exponent 3", 2, "from 0.1 to 2"},
-        BadCall{"ellipsoid grain.ply --points", 2, "--points"},
-        BadCall{"harmonics grain.ply", 1, ".dat or .json"},
-        BadCall{"harmonics grain.ply --coefficients no.json", 1, "no.json"},
-        BadCall{"ellipsoid grain.vtk", 1, ".ply"}}) {
-    SCOPED_TRACE(call.arguments);
-    const Outcome outcome = run("create " + call.arguments);
-    EXPECT_EQ(outcome.exit_code, call.exit_code);
-    EXPECT_NE(outcome.errors.find(call.part_of_the_sentence), std::string::npos) << outcome.errors;
-    EXPECT_FALSE(exists("grain.ply"));
-  }
+  expect_refused("create",
+                 {{"cube grain.ply", 2, "ellipsoid, superellipsoid or harmonics"},
+                  {"ellipsoid grain.ply --semi-axes 1 0 1", 2, "semi-axis is \"0\""},
+                  {"ellipsoid grain.ply --semi-axes 1 1", 2, "--semi-axes"},
+                  {"superellipsoid grain.ply --polar-exponent 3", 2, "from 0.1 to 2"},
+                  {"ellipsoid grain.ply --points", 2, "--points"},
+                  {"harmonics grain.ply", 1, ".dat or .json"},
+                  {"harmonics grain.ply --coefficients no.json", 1, "no.json"},
+                  {"ellipsoid grain.vtk", 1, ".ply"}},
+                 {"grain.ply"});
 }
 
 }  // namespace

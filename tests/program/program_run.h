@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace wscvt::test {
 
@@ -36,6 +37,28 @@ class ProgramRun : public testing::Test {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content("stdout.txt"),
             content("stderr.txt")};
+  }
+
+  /// A call that is refused, with its exit code and a part of what is said.
+  struct BadCall {
+    std::string arguments;
+    int exit_code;
+    std::string part_of_the_sentence;
+  };
+
+  /// Expects each call of `command` to be refused as it says, and that none of `files` is there
+  /// afterwards.
+  void expect_refused(const std::string& command, const std::vector<BadCall>& calls,
+                      const std::vector<std::string>& files) const {
+    for (const BadCall& call : calls) {
+      SCOPED_TRACE(call.arguments);
+      const Outcome outcome = run(command + " " + call.arguments);
+      EXPECT_EQ(outcome.exit_code, call.exit_code);
+      EXPECT_NE(outcome.errors.find(call.part_of_the_sentence), std::string::npos)
+          << outcome.errors;
+      EXPECT_EQ(outcome.output, "");
+      for (const std::string& file : files) EXPECT_FALSE(exists(file)) << file;
+    }
   }
 
   std::string content(const std::string& name) const {
