@@ -7,7 +7,6 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Simple_cartesian.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -16,6 +15,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/face_boxes.h"
 #include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
@@ -26,170 +26,135 @@ constexpr std::size_t block_size = 256;
 
 constexpr const char* stage = "Measuring distances";
 
-/// The faces of a mesh in a tree of boxes.
-template <class Kernel>
-class FaceTree {
+// Decides exactly what a ray meets.
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Faces = std::vector<Kernel::Triangle_3>;
+using Face = Faces::const_iterator;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Face>;
+using Traits = CGAL::AABB_traits<Kernel, Primitive>;
+using AabbTree = CGAL::AABB_tree<Traits>;
+using PointOnFace = AabbTree::Point_and_primitive_id;
+
+/// Splits the faces of a node in two as the traits do, and reports: the tree of two million faces
+/// takes seconds.
+class ReportingSplit {
  public:
-  using Faces = std::vector<typename Kernel::Triangle_3>;
-  using Face = typename Faces::const_iterator;
+  ReportingSplit(const Traits& traits, const Execution& execution)
+      : split_(traits.split_primitives_object()), execution_(execution) {}
 
-  /// Reports progress, and takes one thread. Throws Error(InvalidInput) where there are no faces.
-  FaceTree(const IndexedMesh& mesh, const Execution& execution);
-
-  typename Kernel::Point_3 local(const Vector3& p) const {
-    return {p.x() - origin_.x(), p.y() - origin_.y(), p.z() - origin_.z()};
+  template <class Iterator>
+  void operator()(Iterator first, Iterator beyond, const Traits::Bounding_box& box) const {
+    constexpr std::ptrdiff_t faces_a_report = 8192;  // some hundredths of a second
+    if (beyond - first > faces_a_report) execution_.report(0.0, stage);
+    split_(first, beyond, box);
   }
-  Vector3 global(const typename Kernel::Point_3& p) const {
-    return origin_ + Vector3(p.x(), p.y(), p.z());
-  }
-
-  /// The nearest point to one in the tree's coordinates, and the face it is on.
-  typename Kernel::Point_3 nearest(const typename Kernel::Point_3& point) const {
-    return tree_.closest_point(point);
-  }
-
-  /// The distances of points. The search for a point's nearest face starts at the one of the point
-  /// before: where points follow each other along a surface that is mostly the face already, and
-  /// half the time is saved.
-  std::vector<double> distances(const std::vector<Vector3>& points,
-                                const Execution& execution) const {
-    std::vector<double> result(points.size());
-    execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
-      Face face = faces_.cbegin();
-      for (std::size_t i = begin; i < end; ++i) result[i] = distance(points[i], face);
-    });
-    return result;
-  }
-
-  const auto& tree() const { return tree_; }
 
  private:
-  using Primitive = CGAL::AABB_triangle_primitive<Kernel, Face>;
-  using Traits = CGAL::AABB_traits<Kernel, Primitive>;
-  using Tree = CGAL::AABB_tree<Traits>;
-
-  /// `face` is where the search starts, and becomes the nearest one.
-  double distance(const Vector3& point, Face& face) const;
-
-  /// Splits the faces of a node in two as the traits do, and reports: the tree of two million faces
-  /// takes seconds.
-  class ReportingSplit {
-   public:
-    ReportingSplit(const Traits& traits, const Execution& execution)
-        : split_(traits.split_primitives_object()), execution_(execution) {}
-
-    template <class Iterator>
-    void operator()(Iterator first, Iterator beyond,
-                    const typename Traits::Bounding_box& box) const {
-      constexpr std::ptrdiff_t faces_a_report = 8192;  // some hundredths of a second
-      if (beyond - first > faces_a_report) execution_.report(0.0, stage);
-      split_(first, beyond, box);
-    }
-
-   private:
-    typename Traits::Split_primitives split_;
-    const Execution& execution_;
-  };
-
-  /// Points from which the search for the nearest face starts. A few of them bring the start within
-  /// some edges of the surface, which is near enough; all would take as long as the tree itself.
-  std::vector<typename Tree::Point_and_primitive_id> search_starts() const {
-    constexpr std::size_t most = 100000;
-    const std::size_t stride = 1 + faces_.size() / most;
-    std::vector<typename Tree::Point_and_primitive_id> starts;
-    for (std::size_t f = 0; f < faces_.size(); f += stride) {
-      starts.emplace_back(faces_[f].vertex(0), faces_.cbegin() + static_cast<std::ptrdiff_t>(f));
-    }
-    return starts;
-  }
-
-  Vector3 origin_;  ///< of the tree's coordinates: differences stay exact far away
-  Faces faces_;
-  Tree tree_;
+  Traits::Split_primitives split_;
+  const Execution& execution_;
 };
 
-template <class Kernel>
-FaceTree<Kernel>::FaceTree(const IndexedMesh& mesh, const Execution& execution) {
-  if (mesh.triangles.empty()) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "The mesh has no faces, so no distance to it can be measured; give a triangle mesh.");
+/// Points from which the search for the nearest face starts. A few of them bring the start within
+/// some edges of the surface, which is near enough; all would take as long as the tree itself.
+std::vector<PointOnFace> search_starts(const Faces& faces) {
+  constexpr std::size_t most = 100000;
+  const std::size_t stride = 1 + faces.size() / most;
+  std::vector<PointOnFace> starts;
+  for (std::size_t f = 0; f < faces.size(); f += stride) {
+    starts.emplace_back(faces[f].vertex(0), faces.cbegin() + static_cast<std::ptrdiff_t>(f));
   }
-  origin_ = mesh.points[mesh.triangles.front()[0]];
-  faces_.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    const typename Kernel::Triangle_3 face(local(mesh.points[t[0]]), local(mesh.points[t[1]]),
-                                           local(mesh.points[t[2]]));
-    // Its neighbours cover what a face without area covers, and the tree cannot project on it.
-    if (!face.is_degenerate()) faces_.push_back(face);
-  }
-  if (faces_.empty()) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "All faces of the mesh are degenerate, so no distance to it can be measured; give a "
-        "mesh with area.");
-  }
-  tree_.insert(faces_.cbegin(), faces_.cend());
-  // Now, not at the first query, which may come from several threads.
-  const Traits& traits = tree_.traits();
-  tree_.custom_build(traits.compute_bbox_object(), ReportingSplit(traits, execution));
-  const auto starts = search_starts();
-  tree_.accelerate_distance_queries(starts.begin(), starts.end());
+  return starts;
 }
 
-template <class Kernel>
-double FaceTree<Kernel>::distance(const Vector3& point, Face& face) const {
-  const typename Kernel::Point_3 p = local(point);
-  const typename Kernel::Point_3 start = Kernel().construct_projected_point_3_object()(*face, p);
-  const double far = CGAL::to_double(CGAL::squared_distance(p, start));
-  // A start as far as a face is large is no better than one of those that the tree has.
-  const bool is_near =
-      far < CGAL::to_double(CGAL::squared_distance(face->vertex(0), face->vertex(1)));
-  const auto nearest = is_near ? tree_.closest_point_and_primitive(p, {start, face})
-                               : tree_.closest_point_and_primitive(p);
-  face = nearest.second;
-  return std::sqrt(CGAL::to_double(CGAL::squared_distance(p, nearest.first)));
+void require_faces(const IndexedMesh& mesh) {
+  if (!mesh.triangles.empty()) return;
+  throw Error(ErrorCode::InvalidInput,
+              "The mesh has no faces, so no distance to it can be measured; give a triangle mesh.");
 }
 
-/// Decides exactly what a ray meets.
-using ExactTree = FaceTree<CGAL::Exact_predicates_inexact_constructions_kernel>;
-/// Enough for distances, which are not exact to the last bit in either, in half the time.
-using PlainTree = FaceTree<CGAL::Simple_cartesian<double>>;
+void require_area(bool has_area) {
+  if (has_area) return;
+  throw Error(ErrorCode::InvalidInput,
+              "All faces of the mesh are degenerate, so no distance to it can be measured; give a "
+              "mesh with area.");
+}
 
 }  // namespace
 
-struct MeshDistance::Tree : ExactTree {
-  using ExactTree::ExactTree;
+struct MeshDistance::Tree {
+  Vector3 origin = Vector3::Zero();  ///< of the tree's coordinates: differences stay exact far away
+  Faces faces;
+  AabbTree tree;
+
+  Kernel::Point_3 local(const Vector3& p) const {
+    return {p.x() - origin.x(), p.y() - origin.y(), p.z() - origin.z()};
+  }
+
+  /// `face` is where the search starts, and becomes the nearest one.
+  double distance(const Vector3& point, Face& face) const {
+    const Kernel::Point_3 p = local(point);
+    const Kernel::Point_3 start = Kernel().construct_projected_point_3_object()(*face, p);
+    // A start as far as a face is large is no better than one of those that the tree has.
+    const bool is_near =
+        CGAL::squared_distance(p, start) < CGAL::squared_distance(face->vertex(0), face->vertex(1));
+    const PointOnFace nearest = is_near ? tree.closest_point_and_primitive(p, {start, face})
+                                        : tree.closest_point_and_primitive(p);
+    face = nearest.second;
+    return std::sqrt(CGAL::squared_distance(p, nearest.first));
+  }
 };
 
 MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution)
-    : tree_(std::make_unique<Tree>(mesh, execution)) {}
+    : tree_(std::make_unique<Tree>()) {
+  require_faces(mesh);
+  tree_->origin = mesh.points[mesh.triangles.front()[0]];
+  tree_->faces.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    const Kernel::Triangle_3 face(tree_->local(mesh.points[t[0]]), tree_->local(mesh.points[t[1]]),
+                                  tree_->local(mesh.points[t[2]]));
+    // Its neighbours cover what a face without area covers, and the tree cannot project on it.
+    if (!face.is_degenerate()) tree_->faces.push_back(face);
+  }
+  require_area(!tree_->faces.empty());
+  tree_->tree.insert(tree_->faces.cbegin(), tree_->faces.cend());
+  // Now, not at the first query, which may come from several threads.
+  const Traits& traits = tree_->tree.traits();
+  tree_->tree.custom_build(traits.compute_bbox_object(), ReportingSplit(traits, execution));
+  const std::vector<PointOnFace> starts = search_starts(tree_->faces);
+  tree_->tree.accelerate_distance_queries(starts.begin(), starts.end());
+}
 
 MeshDistance::~MeshDistance() = default;
 MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
 
 double MeshDistance::distance(const Vector3& point) const {
-  const auto p = tree_->local(point);
-  return std::sqrt(CGAL::squared_distance(p, tree_->nearest(p)));
+  return std::sqrt(tree_->tree.squared_distance(tree_->local(point)));
 }
 
 Vector3 MeshDistance::nearest_point(const Vector3& point) const {
-  return tree_->global(tree_->nearest(tree_->local(point)));
+  const Kernel::Point_3 p = tree_->tree.closest_point(tree_->local(point));
+  return tree_->origin + Vector3(p.x(), p.y(), p.z());
 }
 
 bool MeshDistance::contains(const Vector3& point) const {
   // Whether a ray meets a triangle is decided exactly; a direction without pattern keeps it off
   // edges and vertices.
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const Kernel::Vector_3 direction(0.5377102934, 0.3142870195, 0.7823519467);
   const Kernel::Ray_3 ray(tree_->local(point), direction);
-  return tree_->tree().number_of_intersected_primitives(ray) % 2 == 1;
+  return tree_->tree.number_of_intersected_primitives(ray) % 2 == 1;
 }
 
 std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
                                             const Execution& execution) const {
-  return tree_->distances(points, execution);
+  std::vector<double> result(points.size());
+  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    // Where points follow each other along a surface the nearest face is mostly the one of the
+    // point before, and half the time is saved.
+    Face face = tree_->faces.cbegin();
+    for (std::size_t i = begin; i < end; ++i) result[i] = tree_->distance(points[i], face);
+  });
+  return result;
 }
 
 std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count) {
@@ -322,8 +287,11 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
                     const Execution& execution) {
   check_distance_options({samples});
+  require_faces(to);
+  const FaceBoxes boxes(to, execution, stage);
+  require_area(!boxes.empty());
   const std::vector<double> distances =
-      PlainTree(to, execution).distances(area_uniform_samples(from, samples), execution);
+      boxes.distances(area_uniform_samples(from, samples), execution);
   return std::sqrt(sums_of(distances, execution).squares / static_cast<double>(samples));
 }
 
