@@ -139,9 +139,11 @@ void MeshSurface::evaluate(const Vector3* directions, std::size_t count, Derivat
       const Vector3 normal = doubled_area_normal(a, b, c);
       const Vector3 slope = normal / normal.dot(u);
       // Of d / (n . x): -r s and 2 r s s^T with s = n / (n . u).
-      const Matrix3 hessian = 2.0 * hit.radius * slope * slope.transpose();
-      jet = jet_from_extension(hit.radius, -hit.radius * slope, hessian, u);
-      if (derivatives == Derivatives::First) jet.hessian.setZero();
+      const Vector3 gradient = -hit.radius * slope;
+      jet = derivatives == Derivatives::First
+                ? jet_from_extension(hit.radius, gradient, u)
+                : jet_from_extension(hit.radius, gradient,
+                                     2.0 * hit.radius * slope * slope.transpose(), u);
     }
     jets[i] = jet;
   }

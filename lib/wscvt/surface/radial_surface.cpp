@@ -76,12 +76,17 @@ PrincipalCurvatures principal_curvatures(const RadialJet& jet, const Vector3& di
 
 RadialJet jet_from_extension(double radius, const Vector3& gradient, const Matrix3& hessian,
                              const Vector3& direction) {
-  RadialJet jet;
-  jet.radius = radius;
+  RadialJet jet = jet_from_extension(radius, gradient, direction);
   const Matrix3 projection = Matrix3::Identity() - direction * direction.transpose();
-  jet.gradient = gradient - gradient.dot(direction) * direction;
   jet.hessian = projection * hessian * projection - gradient.dot(direction) * projection -
                 jet.gradient * direction.transpose() - direction * jet.gradient.transpose();
+  return jet;
+}
+
+RadialJet jet_from_extension(double radius, const Vector3& gradient, const Vector3& direction) {
+  RadialJet jet;
+  jet.radius = radius;
+  jet.gradient = gradient - gradient.dot(direction) * direction;
   return jet;
 }
 

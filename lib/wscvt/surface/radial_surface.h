@@ -73,6 +73,9 @@ PrincipalCurvatures principal_curvatures(const RadialJet& jet, const Vector3& di
 RadialJet jet_from_extension(double radius, const Vector3& gradient, const Matrix3& hessian,
                              const Vector3& direction);
 
+/// The same without second derivatives, which are zero in the result: for Derivatives::First.
+RadialJet jet_from_extension(double radius, const Vector3& gradient, const Vector3& direction);
+
 /// Integrals over a radial surface about its origin, by Gauss-Legendre x trapezoid quadrature.
 struct SurfaceIntegrals {
   double volume = 0.0;                 ///< length^3

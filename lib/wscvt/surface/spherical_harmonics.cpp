@@ -267,19 +267,20 @@ void for_each_sum(int degree, const HarmonicSeries::Term* terms, const Vector3* 
 
 template <int order>
 RadialJet jet_of_lane(const ExtensionLanes& sums, std::size_t i, const Vector3& direction) {
+  const double radius = sums.value.v[i];
   const Vector3 gradient(sums.gradient[0].v[i], sums.gradient[1].v[i], sums.gradient[2].v[i]);
-  Matrix3 hessian = Matrix3::Zero();
   if constexpr (order > 1) {
     const double xx = sums.hessian[0].v[i];
     const double xy = sums.hessian[1].v[i];
     const double xz = sums.hessian[2].v[i];
     const double yz = sums.hessian[3].v[i];
     const double zz = sums.hessian[4].v[i];
+    Matrix3 hessian;
     hessian << xx, xy, xz, xy, -xx, yz, xz, yz, zz;
+    return jet_from_extension(radius, gradient, hessian, direction);
+  } else {
+    return jet_from_extension(radius, gradient, direction);
   }
-  RadialJet jet = jet_from_extension(sums.value.v[i], gradient, hessian, direction);
-  if constexpr (order < 2) jet.hessian.setZero();
-  return jet;
 }
 
 }  // namespace
