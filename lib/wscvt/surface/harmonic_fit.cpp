@@ -61,15 +61,12 @@ struct RadialGrid {
 RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& execution) {
   RadialGrid grid;
   grid.latitudes = gauss_legendre(rows);
-  // The azimuths of HarmonicTransform, which begin at 0.
   std::vector<Vector3> directions;
   directions.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(grid.azimuths()));
+  const std::vector<Eigen::Vector2d> circle = azimuth_circle(grid.azimuths());
   for (const double z : grid.latitudes.nodes) {
     const double sine = std::sqrt((1.0 - z) * (1.0 + z));
-    for (int k = 0; k < grid.azimuths(); ++k) {
-      const double azimuth = 2.0 * pi * k / grid.azimuths();
-      directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), z);
-    }
+    for (const Eigen::Vector2d& p : circle) directions.emplace_back(sine * p.x(), sine * p.y(), z);
   }
   grid.radii = surface.radii(directions, execution);
   for (const double radius : grid.radii) {

@@ -24,6 +24,16 @@ Eigen::Index first_column(int m) { return m > 0 ? 2 * m - 1 : 0; }
 
 }  // namespace
 
+std::vector<Eigen::Vector2d> azimuth_circle(int count) {
+  std::vector<Eigen::Vector2d> circle;
+  circle.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2.0 * pi * k / count;
+    circle.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return circle;
+}
+
 HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosines,
                                      const std::vector<double>& sines, int azimuths,
                                      const Execution& execution)
@@ -38,16 +48,16 @@ HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosi
                     std::to_string(cosines.size()) + " cosines and " +
                     std::to_string(sines.size()) + " sines.");
   }
-  constexpr double two_pi = 2.0 * pi;
+  // The angles of all orders are among those of the azimuths themselves, whose numbers are reduced
+  // as whole numbers: equal angles get equal bits.
+  const std::vector<Eigen::Vector2d> circle = azimuth_circle(azimuths);
   trigonometric_.resize(azimuths_, 2 * degree + 1);
   for (Eigen::Index k = 0; k < azimuths_; ++k) {
     trigonometric_(k, 0) = 1.0;
     for (int m = 1; m <= degree; ++m) {
-      // The product is reduced in whole numbers, so equal angles get equal bits.
-      const auto turn = static_cast<double>((k * m) % azimuths_);
-      const double angle = two_pi * turn / static_cast<double>(azimuths_);
-      trigonometric_(k, first_column(m)) = std::cos(angle);
-      trigonometric_(k, first_column(m) + 1) = std::sin(angle);
+      const auto turn = static_cast<std::size_t>((k * m) % azimuths_);
+      trigonometric_(k, first_column(m)) = circle[turn].x();
+      trigonometric_(k, first_column(m) + 1) = circle[turn].y();
     }
   }
   legendre_.resize(static_cast<std::size_t>(degree) + 1);

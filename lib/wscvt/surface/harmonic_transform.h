@@ -8,6 +8,9 @@
 
 namespace wscvt {
 
+/// Cosine and sine of each of `count` azimuths phi_k = 2 pi k / count.
+std::vector<Eigen::Vector2d> azimuth_circle(int count);
+
 /// Sums of a series on a grid of parallels, and their transpose, in (degree) rather than (degree)^2
 /// operations a node: Legendre functions along the rows, sines and cosines along the azimuth.
 ///
