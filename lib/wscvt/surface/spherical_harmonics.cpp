@@ -9,14 +9,14 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 
-// The hot loops are compiled twice on x86-64, for every such processor and for those with AVX2.
-// Both give the same bits: the operations and their order are the same, and neither may fuse a
-// multiply with an add.
+// The hot loops are compiled three times on x86-64: for every such processor, for those with AVX2
+// and for those with AVX-512. All give the same bits: the operations and their order are the same,
+// and none may fuse a multiply with an add.
 #if defined(__GNUC__) && defined(__x86_64__)
-#define WSCVT_HAS_AVX2_CLONES 1
+#define WSCVT_HAS_CLONES 1
 #define WSCVT_INLINE inline __attribute__((always_inline))
 #else
-#define WSCVT_HAS_AVX2_CLONES 0
+#define WSCVT_HAS_CLONES 0
 #define WSCVT_INLINE inline
 #endif
 
@@ -213,24 +213,27 @@ void orders_portable(int degree, const LatitudeSums* sums, const Lanes& x, const
   sum_orders<order>(degree, sums, x, y, out);
 }
 
-#if WSCVT_HAS_AVX2_CLONES
-template <int order>
-__attribute__((target("avx2"))) void degrees_avx2(int degree, const HarmonicSeries::Term* terms,
-                                                  const Lanes& z, LatitudeSums* sums) {
-  sum_degrees<order>(degree, terms, z, sums);
-}
-
-template <int order>
-__attribute__((target("avx2"))) void orders_avx2(int degree, const LatitudeSums* sums,
-                                                 const Lanes& x, const Lanes& y,
-                                                 ExtensionLanes& out) {
-  sum_orders<order>(degree, sums, x, y, out);
-}
+#if WSCVT_HAS_CLONES
+#define WSCVT_CLONES(processor, instructions)                                                      \
+  template <int order>                                                                             \
+  __attribute__((target(instructions))) void degrees_##processor(                                  \
+      int degree, const HarmonicSeries::Term* terms, const Lanes& z, LatitudeSums* sums) {         \
+    sum_degrees<order>(degree, terms, z, sums);                                                    \
+  }                                                                                                \
+  template <int order>                                                                             \
+  __attribute__((target(instructions))) void orders_##processor(                                   \
+      int degree, const LatitudeSums* sums, const Lanes& x, const Lanes& y, ExtensionLanes& out) { \
+    sum_orders<order>(degree, sums, x, y, out);                                                    \
+  }
+WSCVT_CLONES(avx2, "avx2")
+WSCVT_CLONES(avx512, "avx512f")
+#undef WSCVT_CLONES
 #endif
 
 template <int order>
 SumFunctions sum_functions() {
-#if WSCVT_HAS_AVX2_CLONES
+#if WSCVT_HAS_CLONES
+  if (__builtin_cpu_supports("avx512f")) return {degrees_avx512<order>, orders_avx512<order>};
   if (__builtin_cpu_supports("avx2")) return {degrees_avx2<order>, orders_avx2<order>};
 #endif
   return {degrees_portable<order>, orders_portable<order>};
