@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <vector>
 
 #include "support/seeds.h"
 
@@ -69,6 +71,21 @@ TEST(Weld, LeavesPointsOutsideOfTheBoxAlone) {
       {0, 0, 0}, {1e300, 0, 0}, {1e300, 0, 0}, {1, 1, 1}, {0, 0, 0}};
   const Weld weld = find_equal_points(points, {{0, 0, 0}, {1, 1, 1}}, 1e-12, Execution(1));
   EXPECT_EQ(weld.first, (std::vector<std::int32_t>{0, 1, 2, 3, 0}));
+}
+
+TEST(Weld, LeavesAloneWhatIsNoNumber) {
+  // Points of no face, which may be anywhere.
+  const double nothing = std::nan("");
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<Vector3> points = {{0, 0, 0},        {nothing, 0, 0},  {nothing, 0, 0},
+                                       {0, infinity, 0}, {0, infinity, 0}, {1, 1, 1},
+                                       {0, 0, 0},        {0, 0, nothing}};
+  const Box box{Vector3(0, 0, 0), Vector3(1, 1, 1)};
+  for (const double tolerance : {0.0, 1e-12, 0.01}) {
+    const Weld weld = find_equal_points(points, box, tolerance, Execution(1));
+    EXPECT_EQ(weld.welded, 1U);
+    EXPECT_EQ(weld.first, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 0, 7}));
+  }
 }
 
 }  // namespace

@@ -105,7 +105,8 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
   execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& p = points[i];
-      if ((p.array() < box.low.array()).any() || (p.array() > box.high.array()).any()) {
+      // Asked so that what is not a number is outside: it has no cell.
+      if (!((p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all())) {
         slots[i] = outside;
         continue;
       }

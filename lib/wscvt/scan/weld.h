@@ -29,8 +29,8 @@ struct Weld {
 /// Merges points that differ by at most `tolerance` (length, >= 0; 0: exact copies, where -0 equals
 /// 0) in each coordinate. In their order, each point is merged into the earliest one kept that is
 /// so near, or is kept: no two kept points are within the tolerance of each other, and none is
-/// moved by more than it. Points outside of `box` (see box_of_faces) are no corners of faces and
-/// are left alone. All coordinates must be finite.
+/// moved by more than it. Points outside of `box` (see box_of_faces), and those at no finite
+/// position, are no corners of faces and are left alone.
 Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, double tolerance,
                        const Execution& execution);
 
