@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -50,6 +51,13 @@ TEST(ConvexHull, TrianglesComeInAnOrderOfTheirOwn) {
   const std::vector<Triangle> triangles = convex_hull_triangles(test::lumpy(4).points);
   EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
   for (const Triangle& t : triangles) EXPECT_EQ(t[0], *std::min_element(t.begin(), t.end()));
+}
+
+TEST(ConvexHull, StopsWhenAskedTo) {
+  // 40,962 points, each of which is asked several times on which side it lies.
+  const std::vector<Vector3> points = test::sphere(6).points;
+  test::expect_to_be_stopped([&](const Execution& execution) { convex_hull(points, execution); },
+                             "Measuring the convex hull", 3);
 }
 
 TEST(ConvexHull, HasNoTrianglesInAPlane) {

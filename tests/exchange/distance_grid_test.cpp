@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/distances.h"
@@ -80,6 +81,16 @@ TEST(DistanceGrid, SameBytesOnAnyNumberOfThreads) {
   const IndexedMesh mesh = test::lumpy(3);
   EXPECT_EQ(distance_grid(mesh, {0.1, 2}, Execution(1)).values,
             distance_grid(mesh, {0.1, 2}, Execution(3)).values);
+}
+
+TEST(DistanceGrid, StopsWhenAskedTo) {
+  // While the tree of 20,480 faces is made, and once a row of points.
+  const IndexedMesh mesh = test::lumpy(5);
+  GridOptions options;
+  options.spacing = 0.25;
+  const auto run = [&](const Execution& execution) { distance_grid(mesh, options, execution); };
+  test::expect_to_be_stopped(run, "Measuring distances", 3);
+  test::expect_to_be_stopped(run, "Measuring the grid of distances", 100);
 }
 
 TEST(DistanceGrid, NumPyFileHoldsEveryNumber) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
@@ -93,6 +94,14 @@ TEST(FormAxes, SameBitsEveryTimeWhereverMemoryLies) {
       EXPECT_EQ(first.longest, again.longest);
     }
   }
+}
+
+TEST(FormAxes, StopsWhenAskedTo) {
+  // Once a direction in which the extreme point is looked for, and once a turn tried.
+  const std::vector<Vector3> points = test::lumpy(5).points;
+  test::expect_to_be_stopped(
+      [&](const Execution& execution) { oriented_box_axes(points, execution); },
+      "Turning the bounding box", 2000 + 500);
 }
 
 TEST(FormAxes, RefusesWhatHasNoBox) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -67,6 +68,17 @@ TEST(InscribedSphere, SameBitsOnAnyNumberOfThreads) {
 
 TEST(InscribedSphere, RefusesAMeshWithoutFaces) {
   EXPECT_ERROR(largest_inscribed_sphere(IndexedMesh(), Execution(1)), InvalidInput);
+}
+
+TEST(InscribedSphere, StopsWhenAskedTo) {
+  const auto run = [](const IndexedMesh& mesh) {
+    return [&mesh](const Execution& execution) { largest_inscribed_sphere(mesh, execution); };
+  };
+  const IndexedMesh small = test::lumpy(2);
+  test::expect_to_be_stopped(run(small), "Fitting the inscribed sphere", 3);
+  // While the tree of 20,480 faces is made, too.
+  const IndexedMesh large = test::sphere(5);
+  test::expect_to_be_stopped(run(large), "Measuring distances", 3);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
@@ -134,6 +135,17 @@ TEST(LeastSquaresRadii, SameBytesOnAnyNumberOfThreads) {
   const Nodes nodes = lattice(300);
   EXPECT_EQ(least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(1)),
             least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(3)));
+}
+
+TEST(LeastSquaresRadii, StopWhenAskedTo) {
+  const Ellipsoid ellipsoid(Vector3(1.0, 1.2, 1.4));
+  const Nodes nodes = lattice(2000);
+  // Twice, once a step of the solver's and about the making of its matrix.
+  test::expect_to_be_stopped(
+      [&](const Execution& execution) {
+        least_squares_radii(nodes.directions, nodes.triangles, ellipsoid, samples, execution);
+      },
+      "Placing the nodes", 2 * (10 + 2));
 }
 
 TEST(LeastSquaresRadii, RefusesNodesOfNoTriangle) {

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -118,6 +119,19 @@ std::uint32_t number_at(const std::string& bytes, std::size_t at) {
   for (std::size_t k = 0; k < 4; ++k)
     value = value << 8U | static_cast<unsigned char>(bytes[at + k]);
   return value;
+}
+
+TEST(Figures, StopWhenAskedTo) {
+  // Before each picture and histogram, and while the tree of 20,480 faces is made.
+  const auto run = [](const IndexedMesh& original) {
+    return [&original](const Execution& execution) {
+      page_figures(ShownMesh{original, "original"}, {test::sphere(1), "remesh"}, execution);
+    };
+  };
+  const IndexedMesh small = test::sphere(2);
+  test::expect_to_be_stopped(run(small), "Drawing the page", 5);
+  const IndexedMesh large = test::sphere(5);
+  test::expect_to_be_stopped(run(large), "Measuring distances", 3);
 }
 
 TEST(Picture, PngReadsBackToItsPixels) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grains/handled_body.h"
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -51,6 +52,14 @@ TEST(Envelope, ClosesTunnelsThatAreNarrowerAndKeepsWiderOnes) {
   const IndexedMesh drilled = test::ball_with_a_tunnel();
   EXPECT_EQ(checked(envelope_of(drilled, opening(20.0), Execution(1))).genus, 0);
   EXPECT_EQ(checked(envelope_of(drilled, opening(2.0), Execution(1))).genus, 1);
+}
+
+TEST(Envelope, StopsWhenAskedTo) {
+  // Faces in blocks of 131,072, their tree in parts of 8,192, and once a step of the wrapping.
+  const IndexedMesh ball = test::sphere(5);
+  test::expect_to_be_stopped(
+      [&](const Execution& execution) { envelope_of(ball, opening(10.0), execution); },
+      "Wrapping the scan", 200);
 }
 
 TEST(Envelope, HasNoneOfTheFlawsOfTheScan) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/convex_hull.h"
 
+#include <CGAL/Convex_hull_traits_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
@@ -12,14 +13,51 @@
 
 namespace wscvt {
 
-std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Point = Kernel::Point_3;
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Hull = CGAL::Surface_mesh<Point>;
+
+/// CGAL's traits, whose question on which side of a face a point lies reports as well: the hull of
+/// a million points takes seconds.
+struct ReportingTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true> {
+  using Base = CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true>;
+
+  struct Has_on_positive_side_3 {
+    using result_type = bool;
+
+    bool operator()(const Base::Plane_3& plane, const Point& point) const {
+      constexpr std::size_t questions_a_report = 1 << 18;  // some hundredths of a second
+      if (++*asked % questions_a_report == 0) execution->report(0.0, "Measuring the convex hull");
+      return on_positive_side(plane, point);
+    }
+
+    Base::Has_on_positive_side_3 on_positive_side;
+    const Execution* execution;
+    std::size_t* asked;
+  };
+  Has_on_positive_side_3 has_on_positive_side_3_object() const {
+    return {Base::has_on_positive_side_3_object(), execution, asked};
+  }
+
+  const Execution* execution;
+  std::size_t* asked;  ///< how often
+};
+
+}  // namespace
+
+std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
+                                            const Execution& execution) {
   std::vector<Point> input;
   input.reserve(points.size());
   for (const Vector3& p : points) input.emplace_back(p.x(), p.y(), p.z());
-  CGAL::Surface_mesh<Point> hull;
-  CGAL::convex_hull_3(input.begin(), input.end(), hull);
+  Hull hull;
+  std::size_t asked = 0;
+  ReportingTraits traits;
+  traits.execution = &execution;
+  traits.asked = &asked;
+  CGAL::convex_hull_3(input.begin(), input.end(), hull, traits);
   std::vector<Triangle> triangles;
   // Of points in one plane CGAL returns the polygon as one face.
   if (hull.num_vertices() < 4 || hull.num_faces() < 4) return triangles;
@@ -52,9 +90,9 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points) 
   return triangles;
 }
 
-IndexedMesh convex_hull(const std::vector<Vector3>& points) {
+IndexedMesh convex_hull(const std::vector<Vector3>& points, const Execution& execution) {
   IndexedMesh hull;
-  hull.triangles = convex_hull_triangles(points);
+  hull.triangles = convex_hull_triangles(points, execution);
   if (hull.triangles.empty()) {
     throw Error(
         ErrorCode::InvalidInput,

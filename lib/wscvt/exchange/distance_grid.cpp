@@ -81,7 +81,7 @@ DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options
   constexpr const char* stage = "Measuring the grid of distances";
   execution.report(0.0, stage);
   DistanceGrid grid = empty_grid(closed, options, execution);
-  const MeshDistance surface(closed);
+  const MeshDistance surface(closed, execution);
   const std::size_t row = grid.counts[2];
   // A layer at a time, so that the work can be cancelled between them.
   for (std::size_t i = 0; i < grid.counts[0]; ++i) {

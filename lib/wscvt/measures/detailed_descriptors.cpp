@@ -63,10 +63,10 @@ DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
   result.orientation = orientation_tensor(mesh, execution);
 
   execution.report(0.1, "Measuring the convex hull");
-  const IndexedMesh hull = convex_hull(mesh.points);
+  const IndexedMesh hull = convex_hull(mesh.points, execution);
   result.convexity = std::min(1.0, result.basic.volume / describe_shape(hull, execution).volume);
   execution.report(0.2, "Turning the bounding box");
-  result.box_axes = oriented_box_axes(hull.points);
+  result.box_axes = oriented_box_axes(hull.points, execution);
   result.box_ratios = form_ratios(result.box_axes);
   result.inscribed_sphere = largest_inscribed_sphere(mesh, execution.part(0.3, 0.8));
 

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/reporting_split.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/face_boxes.h"
 #include "wscvt/surface/mapped_surface.h"
@@ -34,25 +35,6 @@ using Primitive = CGAL::AABB_triangle_primitive<Kernel, Face>;
 using Traits = CGAL::AABB_traits<Kernel, Primitive>;
 using AabbTree = CGAL::AABB_tree<Traits>;
 using PointOnFace = AabbTree::Point_and_primitive_id;
-
-/// Splits the faces of a node in two as the traits do, and reports: the tree of two million faces
-/// takes seconds.
-class ReportingSplit {
- public:
-  ReportingSplit(const Traits& traits, const Execution& execution)
-      : split_(traits.split_primitives_object()), execution_(execution) {}
-
-  template <class Iterator>
-  void operator()(Iterator first, Iterator beyond, const Traits::Bounding_box& box) const {
-    constexpr std::ptrdiff_t faces_a_report = 8192;  // some hundredths of a second
-    if (beyond - first > faces_a_report) execution_.report(0.0, stage);
-    split_(first, beyond, box);
-  }
-
- private:
-  Traits::Split_primitives split_;
-  const Execution& execution_;
-};
 
 /// Points from which the search for the nearest face starts. A few of them bring the start within
 /// some edges of the surface, which is near enough; all would take as long as the tree itself.
@@ -119,7 +101,8 @@ MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution)
   tree_->tree.insert(tree_->faces.cbegin(), tree_->faces.cend());
   // Now, not at the first query, which may come from several threads.
   const Traits& traits = tree_->tree.traits();
-  tree_->tree.custom_build(traits.compute_bbox_object(), ReportingSplit(traits, execution));
+  tree_->tree.custom_build(traits.compute_bbox_object(),
+                           ReportingSplit<Traits>(traits, execution, stage));
   const std::vector<PointOnFace> starts = search_starts(tree_->faces);
   tree_->tree.accelerate_distance_queries(starts.begin(), starts.end());
 }

@@ -18,14 +18,18 @@ namespace wscvt {
 
 namespace {
 
+constexpr const char* stage = "Turning the bounding box";
+
 /// More points than this are thinned before the box is turned.
 constexpr std::size_t maximum_points = 2000;
 constexpr int thinning_directions = 2000;
 
 /// The extreme points in directions spread over the sphere.
-std::vector<Vector3> extreme_points(const std::vector<Vector3>& points) {
+std::vector<Vector3> extreme_points(const std::vector<Vector3>& points,
+                                    const Execution& execution) {
   std::vector<std::size_t> extremes;
   for (const Vector3& direction : fibonacci_lattice(thinning_directions)) {
+    execution.report(0.0, stage);
     std::size_t farthest = 0;
     double reach = direction.dot(points[0]);
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -45,9 +49,28 @@ std::vector<Vector3> extreme_points(const std::vector<Vector3>& points) {
   return result;
 }
 
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// CGAL's traits, which report as well with each turn that is tried: thousands of them in a second.
+struct ReportingTraits : CGAL::Oriented_bounding_box_traits_3<Kernel> {
+  using Base = CGAL::Oriented_bounding_box_traits_3<Kernel>;
+
+  // CGAL's code asks for a default, which it does not use.
+  explicit ReportingTraits(const Execution* to = nullptr) : execution(to) {}
+
+  // CGAL's name.
+  // NOLINTNEXTLINE(readability-identifier-naming)
+  Matrix get_Q(const Matrix& m) const {
+    execution->report(0.0, stage);
+    return Base::get_Q(m);
+  }
+
+  const Execution* execution;
+};
+
 }  // namespace
 
-FormAxes oriented_box_axes(const std::vector<Vector3>& points) {
+FormAxes oriented_box_axes(const std::vector<Vector3>& points, const Execution& execution) {
   if (points.size() < 4) {
     throw Error(ErrorCode::InvalidInput, "A box about " + std::to_string(points.size()) +
                                              " points has no volume; give at least four points.");
@@ -60,11 +83,11 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points) {
                                              "there is no box about it; remove it.");
   }
   check_scan_size(points);
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Vector3> local(points);
   for (Vector3& p : local) p -= points.front();
   std::vector<Kernel::Point_3> candidates;
-  for (const Vector3& p : local.size() > maximum_points ? extreme_points(local) : local) {
+  for (const Vector3& p :
+       local.size() > maximum_points ? extreme_points(local, execution) : local) {
     candidates.emplace_back(p.x(), p.y(), p.z());
   }
   CGAL::Aff_transformation_3<Kernel> turn;
@@ -72,7 +95,8 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points) {
   // convex hull gives the points in an order that goes by addresses, and with it the last digits
   // would change from call to call.
   CGAL::oriented_bounding_box(candidates, turn,
-                              CGAL::parameters::random_seed(1U).use_convex_hull(false));
+                              CGAL::parameters::random_seed(1U).use_convex_hull(false).geom_traits(
+                                  ReportingTraits(&execution)));
 
   std::array<double, 3> edges{};
   for (int k = 0; k < 3; ++k) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -19,8 +20,10 @@ struct FormAxes {
 /// SO(3,R)", ACM Trans. Graph. 30, 122 (CGAL::oriented_bounding_box, fixed seed): near the
 /// smallest, not proved so; more than 2,000 points are first thinned to the extreme ones in 2,000
 /// directions. The edges bound the points exactly. Throws Error(InvalidInput) for fewer than four
-/// points, coordinates that are not finite and sizes that check_scan_size refuses.
-FormAxes oriented_box_axes(const std::vector<Vector3>& points);
+/// points, coordinates that are not finite and sizes that check_scan_size refuses,
+/// Error(Cancelled). Takes one thread.
+FormAxes oriented_box_axes(const std::vector<Vector3>& points,
+                           const Execution& execution = Execution(1));
 
 /// Ratios of the three dimensions; none has a unit.
 struct FormRatios {

@@ -49,7 +49,8 @@ void climb(const MeshDistance& surface, InscribedSphere& sphere, double first_st
 }  // namespace
 
 InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Execution& execution) {
-  const MeshDistance surface(mesh);
+  execution.report(0.0, "Fitting the inscribed sphere");
+  const MeshDistance surface(mesh, execution);
   Vector3 lower = mesh.points[mesh.triangles.front()[0]];
   Vector3 upper = lower;
   for (const Triangle& t : mesh.triangles) {

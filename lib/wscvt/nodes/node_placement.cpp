@@ -20,6 +20,7 @@ namespace {
 // unknowns 1/r_i, and the best radii come from one sparse linear solve; in r itself the problem
 // would have to be linearised again and again.
 
+constexpr const char* stage = "Placing the nodes";
 /// Each triangle reads tens of radii off the surface, so that a few dozen fill a task.
 constexpr std::size_t block_size = 64;
 /// A fit that goes further has no surface to follow: its triangles span a right angle and more, as
@@ -143,15 +144,35 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
       }
     }
   }
+  execution.report(0.0, stage);
   equations.matrix.resize(nodes, nodes);
   equations.matrix.setFromTriplets(entries.begin(), entries.end());
+  execution.report(0.0, stage);
   return equations;
 }
 
+/// Reports each time it is asked: once a step. At a million nodes all of them take a second.
+class ReportingPreconditioner : public Eigen::DiagonalPreconditioner<double> {
+ public:
+  void report_to(const Execution& execution) { execution_ = &execution; }
+
+  template <class Residual>
+  auto solve(const Eigen::MatrixBase<Residual>& residual) const {
+    execution_->report(0.0, stage);
+    return Eigen::DiagonalPreconditioner<double>::solve(residual);
+  }
+
+ private:
+  const Execution* execution_ = nullptr;
+};
+
 /// A weighted mass matrix, whose condition does not grow with its size once the diagonal is scaled
 /// out: conjugate gradients take some 25 steps, where a factorisation would fill in.
-Eigen::VectorXd solve(const NormalEquations& equations, const Eigen::VectorXd& guess) {
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
+Eigen::VectorXd solve(const NormalEquations& equations, const Eigen::VectorXd& guess,
+                      const Execution& execution) {
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower, ReportingPreconditioner>
+      solver;
+  solver.preconditioner().report_to(execution);
   solver.setTolerance(1e-14);  // to rounding: what is left would show in the bytes of the mesh
   solver.setMaxIterations(1000);
   solver.compute(equations.matrix);
@@ -194,7 +215,8 @@ std::vector<double> least_squares_radii(const std::vector<Vector3>& directions,
   const Eigen::VectorXd own = Eigen::Map<const Eigen::VectorXd>(radii.data(), count).cwiseInverse();
   const auto fitted = [&](const Eigen::VectorXd& guess, const Eigen::VectorXd* fit) {
     const Eigen::VectorXd inverse_radii =
-        solve(normal_equations(triangles, count, readings, barycentric, fit, execution), guess);
+        solve(normal_equations(triangles, count, readings, barycentric, fit, execution), guess,
+              execution);
     return Eigen::VectorXd(
         inverse_radii.cwiseMax(own / largest_radius_change).cwiseMin(own * largest_radius_change));
   };

@@ -16,6 +16,8 @@ namespace wscvt {
 
 namespace {
 
+/// Reported before each step, of which one over a million vertices takes tenths of a second.
+constexpr const char* stage = "Drawing the page";
 constexpr std::size_t bins = 60;
 constexpr const char* reference_colour = "#6e6e6e";
 constexpr const char* shown_colour = "#0a58b4";
@@ -65,11 +67,13 @@ Figure picture_figure(const Picture& picture, const std::string& caption,
 }
 
 void add_triangle_histograms(std::vector<Figure>& figures,
-                             const std::optional<ShownMesh>& reference, const ShownMesh& shown) {
+                             const std::optional<ShownMesh>& reference, const ShownMesh& shown,
+                             const Execution& execution) {
   std::vector<NamedHistogram> lengths;
   std::vector<NamedHistogram> ratios;
   std::vector<NamedHistogram> angles;
   const auto add = [&](const ShownMesh& mesh, const std::string& colour) {
+    execution.report(0.0, stage);
     QualityHistograms histograms = quality_histograms(mesh.mesh, bins);
     lengths.push_back({mesh.name, colour, std::move(histograms.relative_edge_length)});
     ratios.push_back({mesh.name, colour, std::move(histograms.edge_ratio)});
@@ -91,26 +95,29 @@ void add_triangle_histograms(std::vector<Figure>& figures,
 PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownMesh& shown,
                          const Execution& execution) {
   PageFigures figures;
+  execution.report(0.0, stage);
   // Both are to be seen whole: a few nodes that enclose the same volume stand far out of the scan.
   std::vector<const IndexedMesh*> both = {&shown.mesh};
   if (reference) both.push_back(&reference->mesh);
   const MeshView view = view_of(both, drawn_pixels);
   if (reference) {
+    execution.report(0.0, stage);
     // On a dense scan the edges would hide the surface.
     figures.pictures.push_back(picture_figure(
         draw(reference->mesh, look_at(reference->mesh, view), view, false, {}),
         reference->name + ": " + std::to_string(reference->mesh.points.size()) + " vertices, " +
             std::to_string(reference->mesh.triangles.size()) + " faces"));
   }
+  execution.report(0.0, stage);
   const SeenMesh seen = look_at(shown.mesh, view);
   figures.pictures.push_back(
       picture_figure(draw(shown.mesh, seen, view, true, {}),
                      shown.name + ": " + std::to_string(shown.mesh.points.size()) + " vertices, " +
                          std::to_string(shown.mesh.triangles.size()) + " faces"));
-  add_triangle_histograms(figures.distributions, reference, shown);
+  add_triangle_histograms(figures.distributions, reference, shown, execution);
   if (!reference) return figures;
 
-  const MeshDistance surface(reference->mesh);
+  const MeshDistance surface(reference->mesh, execution);
   const std::vector<double> distances =
       signed_distances(surface, area_uniform_samples(shown.mesh, distance_samples), execution);
   const double usual = usual_distance(distances);

@@ -4,13 +4,17 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
+#include <CGAL/version.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/reporting_split.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -19,6 +23,59 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Wrap = CGAL::Surface_mesh<Kernel::Point_3>;
+
+// What CGAL::alpha_wrap_3 is made of. It takes seconds to minutes, and the function itself cannot
+// be stopped while it makes its tree of the faces, which at a million vertices takes a second.
+namespace parts = CGAL::Alpha_wraps_3::internal;
+using Oracle = parts::Triangle_soup_oracle<Kernel>;
+
+constexpr const char* stage = "Wrapping the scan";
+
+/// Faces given to the oracle at once: some hundredths of a second.
+constexpr std::size_t faces_a_report = 1 << 17;
+
+/// Reports before each step of the wrapping, which takes milliseconds at most.
+struct ReportingVisitor : parts::Wrapping_default_visitor {
+  explicit ReportingVisitor(const Execution& to) : execution(to) {}
+
+  template <class Wrapper, class Gate>
+  void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
+    execution.report(0.1, stage);
+  }
+
+  const Execution& execution;
+};
+
+/// As CGAL::alpha_wrap_3, with the same result, but reports.
+Wrap alpha_wrap(const std::vector<Kernel::Point_3>& points, const std::vector<Triangle>& triangles,
+                double alpha, double offset, const Execution& execution) {
+  Oracle oracle(alpha);
+  std::vector<std::array<std::size_t, 3>> faces;
+  for (std::size_t begin = 0; begin < triangles.size(); begin += faces_a_report) {
+    execution.report(0.0, stage);
+    faces.clear();
+    for (std::size_t f = begin; f < std::min(triangles.size(), begin + faces_a_report); ++f) {
+      const Triangle& t = triangles[f];
+      faces.push_back({static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                       static_cast<std::size_t>(t[2])});
+    }
+    oracle.add_triangle_soup(points, faces);
+  }
+  auto& tree = oracle.tree();
+  using Traits = typename std::decay_t<decltype(tree)>::AABB_traits;
+  tree.custom_build(tree.traits().compute_bbox_object(),
+                    ReportingSplit<Traits>(tree.traits(), execution, stage));
+  Wrap wrap;
+  ReportingVisitor visitor(execution);
+  const auto parameters = CGAL::parameters::visitor(visitor);
+#if CGAL_VERSION_NR < CGAL_VERSION_NUMBER(6, 0, 0)
+  parts::Alpha_wrap_3<Oracle>{oracle}(alpha, offset, wrap, parameters);
+#else
+  parts::Alpha_wrapper_3<Oracle>{oracle}(alpha, offset, wrap, parameters,
+                                         CGAL::parameters::default_values());
+#endif
+  return wrap;
+}
 
 /// Of the opening: nearer to the scan the wrap takes several times as long, and the remesher brings
 /// the volume of what it is given back exactly.
@@ -48,7 +105,7 @@ IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
                 "There is nothing to put an envelope about; give a mesh with faces and an opening "
                 "above 0.");
   }
-  execution.report(0.0, "Wrapping the scan");
+  execution.report(0.0, stage);
   // In units of the diagonal about the middle: digits do not depend on where and how large it is.
   const double unit = box.diagonal().norm();
   const Vector3 middle = box.center();
@@ -58,17 +115,11 @@ IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
     const Vector3 local = (p - middle) / unit;
     points.emplace_back(local.x(), local.y(), local.z());
   }
-  std::vector<std::array<std::size_t, 3>> faces;
-  faces.reserve(scan.triangles.size());
-  for (const Triangle& t : scan.triangles) {
-    faces.push_back({static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
-                     static_cast<std::size_t>(t[2])});
-  }
   const double opening = 0.01 * options.opening_percent;
   // CGAL's alpha is the radius of the empty balls that the outside is made of.
-  Wrap wrap;
-  CGAL::alpha_wrap_3(points, faces, 0.5 * opening, offset_share * opening, wrap);
-  execution.report(1.0, "Wrapping the scan");
+  const Wrap wrap =
+      alpha_wrap(points, scan.triangles, 0.5 * opening, offset_share * opening, execution);
+  execution.report(1.0, stage);
   IndexedMesh result;
   std::vector<std::int32_t> number(wrap.number_of_vertices() + wrap.number_of_removed_vertices());
   for (const auto v : wrap.vertices()) {

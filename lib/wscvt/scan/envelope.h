@@ -34,7 +34,7 @@ inline constexpr double smallest_opening_percent = 1.0;
 /// scan, and its volume larger. Handles wider than the opening stay.
 ///
 /// Throws Error(InvalidInput) for an opening out of range, below smallest_opening_percent, or a
-/// scan without faces or extent; Error(Cancelled), but only before and after the wrapping.
+/// scan without faces or extent; Error(Cancelled). Takes one thread.
 IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
                         const Execution& execution);
 

@@ -22,6 +22,9 @@ namespace wscvt {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr const char* stage = "Cutting handles";
+
 /// Places a shortest loop is looked for at; every handle has two.
 constexpr std::size_t maximum_roots = 64;
 /// Steps of fairing, each half way to the mean of the neighbours: after five the caps are most of
@@ -51,9 +54,12 @@ class TreeCotree {
 
   /// Loops through the root's tree that do not separate the surface, of at most 2 `reach` before
   /// the common way to them is taken off. They are independent; without a bound there are two for
-  /// every handle.
-  std::vector<Loop> loops(std::int32_t root, double reach) {
+  /// every handle. `rest` is called between the steps, each of which takes tenths of a second on a
+  /// scan of a million vertices.
+  template <class Rest>
+  std::vector<Loop> loops(std::int32_t root, double reach, const Rest& rest) {
     grow_tree(root, reach);
+    rest();
     std::vector<std::pair<double, std::int32_t>> candidates;
     boost::disjoint_sets_with_storage<> joined(mesh_.triangles.size());
     const auto join = [&](std::int32_t a, std::int32_t b) {
@@ -74,10 +80,12 @@ class TreeCotree {
         join(h / 3, other / 3);
       }
     }
+    rest();
     // Longest first: the faces are joined across what would make long loops. An edge whose faces
     // are joined already closes a loop that the way from the one face to the other crosses once;
     // so the loop does not separate the surface.
     std::sort(candidates.begin(), candidates.end(), std::greater<>());
+    rest();
     std::vector<Loop> result;
     for (const auto& [length, h] : candidates) {
       if (!join(h / 3, links_.opposite[h] / 3)) result.push_back(loop_through(h));
@@ -100,7 +108,9 @@ class TreeCotree {
     distances_[root] = 0.0;
     queue.emplace(0.0, root);
     while (!queue.empty()) {
-      const auto [distance, v] = queue.top();
+      // Not a structured binding: Clang 14 lets no lambda capture one.
+      const double distance = queue.top().first;
+      const std::int32_t v = queue.top().second;
       queue.pop();
       if (distance > distances_[v]) continue;
       visit_outgoing(links_.opposite, links_.first[v], [&](std::int32_t h) {
@@ -152,7 +162,8 @@ const Loop* shortest_of(const std::vector<Loop>& loops) {
 
 /// A loop as short as searches from all handles find it.
 Loop short_loop(const IndexedMesh& mesh, const HalfEdges& links, const Execution& execution) {
-  std::vector<Loop> found = TreeCotree(mesh, links).loops(0, infinity);
+  std::vector<Loop> found =
+      TreeCotree(mesh, links).loops(0, infinity, [&] { execution.report(0.0, stage); });
   // Every handle has a loop here, but from afar: the root of the next search stands on it.
   std::vector<std::int32_t> roots;
   for (const Loop& loop : found) {
@@ -170,7 +181,7 @@ Loop short_loop(const IndexedMesh& mesh, const HalfEdges& links, const Execution
   const double reach = 0.5 * first->length;
   execution.parallel_for(roots.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::vector<Loop> loops = TreeCotree(mesh, links).loops(roots[i], reach);
+      const std::vector<Loop> loops = TreeCotree(mesh, links).loops(roots[i], reach, [] {});
       const Loop* const shortest = shortest_of(loops);
       if (shortest != nullptr) candidates[i] = *shortest;
     }
@@ -280,8 +291,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
   for (std::size_t left = genus; left > 0; --left) {
-    execution.report(static_cast<double>(genus - left) / static_cast<double>(genus),
-                     "Cutting handles");
+    execution.report(static_cast<double>(genus - left) / static_cast<double>(genus), stage);
     const Loop loop = short_loop(mesh, links, execution);
     CutHandle handle;
     handle.length = loop.length;
@@ -312,7 +322,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
   }
   if (genus > 0) result.report.volume_change = volume_of(mesh) / volume - 1.0;
   result.mesh = std::move(mesh);
-  execution.report(1.0, "Cutting handles");
+  execution.report(1.0, stage);
   return result;
 }
 

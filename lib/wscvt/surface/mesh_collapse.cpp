@@ -22,13 +22,16 @@ namespace {
 constexpr std::int32_t largest_valence = 16;
 /// From here on a vertex counts as a hub, whose ring is not walked to look for one neighbour.
 constexpr std::int32_t hub_valence = 24;
-/// How many collapses pass between two reports of progress.
+/// How many collapses pass between two reports of progress, and how many vertices and faces are
+/// made ready for them.
 constexpr std::size_t report_interval = 4096;
+constexpr std::size_t preparation_interval = 65536;
+constexpr const char* stage = "Collapsing the scan";
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidInput, what); }
 
 /// What is wrong with a mesh that ought to be one sphere; returns its half-edges.
-HalfEdges linked_sphere(const IndexedMesh& mesh) {
+HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
   const std::string advice = " Run check_mesh on it first, and close holes and handles it reports.";
   if (vertices < 4 || mesh.triangles.size() < 4) {
@@ -67,6 +70,7 @@ HalfEdges linked_sphere(const IndexedMesh& mesh) {
              " does not lie between two faces that run along it in opposite ways." + advice);
     }
   }
+  execution.report(0.0, stage);
   // Every corner must be met going once round its vertex, and every face from the first one.
   std::size_t corners = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -78,6 +82,7 @@ HalfEdges linked_sphere(const IndexedMesh& mesh) {
   if (corners != links.opposite.size()) {
     refuse("The mesh touches itself in a vertex." + advice);
   }
+  execution.report(0.0, stage);
   std::vector<char> met(mesh.triangles.size(), 0);
   std::vector<std::int32_t> stack{0};
   met[0] = 1;
@@ -169,8 +174,8 @@ std::vector<Vector3> normalised(const IndexedMesh& mesh) {
 }  // namespace
 
 MeshCollapse::MeshCollapse(const IndexedMesh& mesh, const Execution& execution) {
-  HalfEdges links = linked_sphere(mesh);
-  execution.report(0.0, "Collapsing the scan");
+  HalfEdges links = linked_sphere(mesh, execution);
+  execution.report(0.0, stage);
   triangles_ = mesh.triangles;
   opposite_ = std::move(links.opposite);
   first_ = std::move(links.first);
@@ -254,7 +259,7 @@ MeshCollapse::Undone MeshCollapse::undo() {
 /// The vertices that wait for their collapse, cheapest first, and what their costs need.
 class MeshCollapse::Queue {
  public:
-  explicit Queue(MeshCollapse& mesh) : mesh_(mesh) {
+  Queue(MeshCollapse& mesh, const Execution& execution) : mesh_(mesh) {
     const std::size_t count = mesh.points_.size();
     quadrics_.resize(count);
     // What no triangle stands behind still has a weight to divide by.
@@ -264,6 +269,7 @@ class MeshCollapse::Queue {
     marks_.assign(count, 0);
     const std::vector<char> absent = mesh.absent_triangles();
     for (std::size_t f = 0; f < mesh.triangles_.size(); ++f) {
+      if (f % preparation_interval == 0) execution.report(0.0, stage);
       const Triangle& t = mesh.triangles_[f];
       if (absent[f] != 0) continue;
       const Vector3& a = mesh.points_[t[0]];
@@ -282,6 +288,7 @@ class MeshCollapse::Queue {
       if (mesh.has_vertex(v) && mesh.valences_[i] > hub_valence) make_hub(v);
     }
     for (std::size_t i = 0; i < count; ++i) {
+      if (i % preparation_interval == 0) execution.report(0.0, stage);
       const auto v = static_cast<std::int32_t>(i);
       if (!mesh.has_vertex(v) || mesh.valences_[i] > largest_valence) continue;
       entries_.push_back({choose(v), v});
@@ -502,14 +509,14 @@ class MeshCollapse::Queue {
 void MeshCollapse::collapse_to(std::size_t vertices, const Execution& execution) {
   const std::size_t aim = std::max<std::size_t>(vertices, 4);
   if (alive_ > aim) {
-    Queue queue(*this);
+    Queue queue(*this, execution);
     const std::size_t start = alive_;
     log_.reserve(log_.size() + alive_ - aim);
     while (alive_ > aim) {
       queue.collapse_next();
       if (alive_ % report_interval == 0) {
         execution.report(static_cast<double>(start - alive_) / static_cast<double>(start - aim),
-                         "Collapsing the scan");
+                         stage);
       }
     }
   }
