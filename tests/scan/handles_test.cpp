@@ -175,6 +175,57 @@ TEST(Handles, SameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
 }
 
+TEST(Handles, OfACheckedScanLeaveItsReportWithTheMeasuresOfWhatIsLeft) {
+  // Faces of a handle that was wound the wrong way, and a point of no face: both counts stay.
+  IndexedMesh scan = test::ball_with_a_bridge();
+  for (std::size_t f = 0; f < 10; ++f) std::swap(scan.triangles[f][0], scan.triangles[f][1]);
+  scan.points.emplace_back(9.0, 9.0, 9.0);
+  const CheckedMesh before = check_mesh(scan, {}, Execution(1));
+  ASSERT_EQ(before.report.genus, 1);
+  CheckedMesh checked = before;
+  const HandleReport report = cut_handles(checked, {}, Execution(1));
+
+  const HandleFreeMesh free = remove_handles(before.mesh, {}, Execution(1));
+  EXPECT_EQ(checked.mesh.points, free.mesh.points);
+  EXPECT_EQ(checked.mesh.triangles, free.mesh.triangles);
+  ASSERT_EQ(report.cut.size(), 1U);
+  EXPECT_EQ(report.cut[0].place, free.report.cut[0].place);
+  EXPECT_EQ(report.cut[0].length, free.report.cut[0].length);
+  EXPECT_EQ(report.cut[0].edges, free.report.cut[0].edges);
+  EXPECT_EQ(report.volume_change, free.report.volume_change);
+
+  // Seen by itself what is left measures the same, but for the genus: that is what was scanned.
+  const MeshCheckReport left = check_mesh(checked.mesh, {}, Execution(1)).report;
+  EXPECT_EQ(left.genus, 0);
+  EXPECT_EQ(checked.report.genus, 1);
+  EXPECT_EQ(checked.report.vertices, left.vertices);
+  EXPECT_EQ(checked.report.faces, left.faces);
+  EXPECT_EQ(checked.report.sliver_faces, left.sliver_faces);
+  EXPECT_EQ(checked.report.volume, left.volume);
+  EXPECT_EQ(checked.report.area, left.area);
+  EXPECT_EQ(checked.report.centroid, left.centroid);
+  EXPECT_EQ(checked.report.equivalent_radius, left.equivalent_radius);
+  EXPECT_NEAR(checked.report.volume / before.report.volume - 1.0, report.volume_change, 1e-12);
+  EXPECT_NE(checked.report.volume, before.report.volume);
+  EXPECT_NE(checked.report.area, before.report.area);
+  EXPECT_EQ(checked.report.input_vertices, scan.points.size());
+  EXPECT_EQ(checked.report.input_faces, scan.triangles.size());
+  EXPECT_EQ(checked.report.reoriented_faces, 10U);
+  EXPECT_EQ(checked.report.unreferenced_vertices, 1U);
+}
+
+TEST(Handles, OfACheckedScanWithoutAnyLeaveItAsItIs) {
+  const CheckedMesh before = check_mesh(test::lumpy(3), {}, Execution(1));
+  CheckedMesh checked = before;
+  const HandleReport report = cut_handles(checked, {}, Execution(1));
+  EXPECT_TRUE(report.cut.empty());
+  EXPECT_EQ(report.volume_change, 0.0);
+  EXPECT_EQ(checked.mesh.points, before.mesh.points);
+  EXPECT_EQ(checked.mesh.triangles, before.mesh.triangles);
+  EXPECT_EQ(checked.report.volume, before.report.volume);
+  EXPECT_EQ(checked.report.genus, 0);
+}
+
 TEST(Handles, RefusesWhatItCannotUse) {
   IndexedMesh open = test::sphere(1);
   open.triangles.pop_back();
@@ -183,6 +234,8 @@ TEST(Handles, RefusesWhatItCannotUse) {
   HandleOptions options;
   options.length_limit = -1.0;
   EXPECT_ERROR(remove_handles(test::sphere(1), options, Execution(1)), InvalidInput);
+  CheckedMesh checked = check_mesh(test::sphere(1), {}, Execution(1));
+  EXPECT_ERROR(cut_handles(checked, options, Execution(1)), InvalidInput);
 }
 
 TEST(Handles, StopsWhenAskedTo) {

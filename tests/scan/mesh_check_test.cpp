@@ -667,6 +667,77 @@ TEST(MeshCheck, RefusesOtherOptionsOutOfRange) {
   }
 }
 
+MeshCheckReport measured(const IndexedMesh& mesh, int threads = 1) {
+  MeshCheckReport report;
+  report.input_vertices = 7;
+  report.welded_vertices = 5;
+  report.components = 3;
+  measure_closed(mesh, Execution(threads), report);
+  return report;
+}
+
+TEST(MeasureClosed, FillsInTheMeasuresAndLeavesTheRest) {
+  const Vector3 place(3e5, -2e5, 1e5);
+  const MeshCheckReport report = measured(moved(box(1.0, 2.0, 3.0), 1.0, place));
+  // In map coordinates; about the origin the volume would have nine digits.
+  EXPECT_NEAR(report.volume, 6.0, 1e-12);
+  EXPECT_NEAR(report.area, 22.0, 1e-12);
+  EXPECT_LT((report.centroid - place).norm(), 1e-9);
+  EXPECT_NEAR(4.0 * test::pi / 3.0 * std::pow(report.equivalent_radius, 3), 6.0, 1e-12);
+  EXPECT_EQ(report.vertices, 8U);
+  EXPECT_EQ(report.faces, 12U);
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_EQ(report.sliver_faces, 0U);
+  EXPECT_EQ(report.input_vertices, 7U);
+  EXPECT_EQ(report.input_faces, 0U);
+  EXPECT_EQ(report.welded_vertices, 5U);
+  EXPECT_EQ(report.components, 3U);
+}
+
+TEST(MeasureClosed, OverwritesWhatWasMeasuredBefore) {
+  MeshCheckReport report = measured(torus(2.0, 0.5, 12));
+  EXPECT_EQ(report.genus, 1);
+  IndexedMesh mesh = box(1.0, 1.0, 1.0);
+  // A vertex on an edge: the face between it and the edge has no area.
+  mesh.points.emplace_back(0.0, -0.5, -0.5);
+  mesh.triangles[1] = {0, 3, 8};
+  mesh.triangles.push_back({8, 3, 1});
+  mesh.triangles.push_back({0, 8, 1});
+  measure_closed(mesh, Execution(1), report);
+  EXPECT_EQ(bad_edges(mesh), 0U);
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_EQ(report.sliver_faces, 1U);
+  EXPECT_EQ(report.vertices, 9U);
+  EXPECT_EQ(report.faces, 14U);
+  EXPECT_NEAR(report.volume, 1.0, 1e-15);
+  EXPECT_NEAR(report.area, 6.0, 1e-14);
+  EXPECT_LT(report.centroid.norm(), 1e-15);
+}
+
+TEST(MeasureClosed, RefusesWhatHasNoVolumeInside) {
+  IndexedMesh inward = box(1.0, 1.0, 1.0);
+  for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
+  for (const IndexedMesh& mesh : {inward, box(1.0, 1.0, 0.0), box(1.0, 1.0, 1e-9)}) {
+    try {
+      measured(mesh);
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+      expect_mentions(error.what(), {"encloses no volume", "load the closed surface of a grain"});
+    }
+  }
+  EXPECT_NEAR(measured(box(1.0, 1.0, 1e-7)).volume, 1e-7, 1e-20);
+}
+
+TEST(MeasureClosed, SameBytesOnAnyNumberOfThreads) {
+  const IndexedMesh mesh = moved(test::lumpy(5), 1.3, Vector3(1.0, 2.0, 3.0));
+  const MeshCheckReport one = measured(mesh, 1);
+  const MeshCheckReport two = measured(mesh, 2);
+  EXPECT_EQ(one.volume, two.volume);
+  EXPECT_EQ(one.area, two.area);
+  EXPECT_EQ(one.centroid, two.centroid);
+}
+
 TEST(MeshCheck, StopsWhenToldTo) {
   const Execution execution(1, [](double, const std::string&) { return false; });
   try {
