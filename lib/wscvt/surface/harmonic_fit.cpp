@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -105,30 +106,42 @@ std::vector<double> project(const RadialGrid& grid, int degree, const Execution&
   return transform.analyze(products, execution);
 }
 
-/// Distances from points to the series: three steps along its tangent plane find the foot of each.
-/// A step leaves an error of second order in the bend of the surface between the two feet.
+/// Distances from points to the series: steps along its tangent plane find the foot of each. A step
+/// leaves an error of second order in the bend of the surface between the two feet, so most points
+/// take one and few all three.
 std::vector<double> distances_to(const HarmonicSurface& series,
                                  const std::vector<Vector3>& points) {
   constexpr int steps = 3;
+  // A step shorter than this share of the distance would shorten it by less than 5e-5.
+  constexpr double shortest_step = 0.01;
+  std::vector<std::size_t> moving(points.size());
+  std::iota(moving.begin(), moving.end(), std::size_t{0});
   std::vector<Vector3> directions;
   directions.reserve(points.size());
   for (const Vector3& point : points) directions.push_back(point.normalized());
   std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
   std::vector<RadialJet> jets(points.size());
-  for (int step = 0; step <= steps; ++step) {
+  for (int step = 0; step <= steps && !moving.empty(); ++step) {
     series.evaluate(directions.data(), directions.size(),
                     step < steps ? Derivatives::First : Derivatives::None, jets.data());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      Vector3& direction = directions[i];
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const Vector3& point = points[moving[i]];
+      const Vector3 direction = directions[i];
       const Vector3 foot = jets[i].radius * direction;
-      const Vector3 offset = points[i] - foot;
-      nearest[i] = std::min(nearest[i], offset.norm());
-      if (step == steps) continue;
-      const Vector3 normal = (jets[i].radius * direction - jets[i].gradient).normalized();
-      const Vector3 next = foot + offset - offset.dot(normal) * normal;
+      const Vector3 offset = point - foot;
+      nearest[moving[i]] = std::min(nearest[moving[i]], offset.norm());
+      const Vector3 normal = surface_normal(jets[i], direction);
+      const Vector3 along = offset - offset.dot(normal) * normal;
+      if (along.norm() <= shortest_step * offset.norm()) continue;
       // A point far off a bend may be sent past the origin: then the foot stays where it is.
-      if (next.dot(direction) > 0.0) direction = next.normalized();
+      const Vector3 next = foot + along;
+      if (!(next.dot(direction) > 0.0)) continue;
+      directions[kept] = next.normalized();
+      moving[kept++] = moving[i];
     }
+    directions.resize(kept);
+    moving.resize(kept);
   }
   return nearest;
 }
