@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [engines] [package] [slurm] [hosts] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [format] [tidy] [page] [engines] [package] [pip] [slurm] [hosts] [debian12] [debian13] [sid]
 # Without arguments: install and release. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -52,6 +52,11 @@ for step in "$@"; do
     package)
       # After release. A step of its own, because it installs and removes packages of the system.
       tests/packages.sh build/release build/packages ;;
+    pip)
+      # After release, whose program the module is held against. A step of its own, because pip builds
+      # the whole library anew.
+      tests/install_packages.sh python3-pip python3-venv python3-setuptools python3-wheel
+      tests/python_install.sh build/release/lib/wscvt build/pip ;;
     slurm)
       # After release; as root.
       tests/install_packages.sh slurm-wlm parallel
