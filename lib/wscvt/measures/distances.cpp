@@ -140,12 +140,20 @@ std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
   return result;
 }
 
-std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count) {
+std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count,
+                                           const std::vector<double>& densities) {
+  if (!densities.empty() && densities.size() != mesh.points.size()) {
+    throw Error(ErrorCode::InvalidInput,
+                "There are " + std::to_string(densities.size()) + " densities for a mesh of " +
+                    std::to_string(mesh.points.size()) + " vertices; give one each, or none.");
+  }
   std::vector<double> accumulated;
   accumulated.reserve(mesh.triangles.size());
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    area += triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+    const double density =
+        densities.empty() ? 1.0 : (densities[t[0]] + densities[t[1]] + densities[t[2]]) / 3.0;
+    area += density * triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     accumulated.push_back(area);
   }
   if (!(area > 0.0)) {

@@ -102,9 +102,11 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
                     const Execution& execution);
 
-/// The `count` places that measure_distances spreads over a surface. Throws Error(InvalidInput) if
-/// the mesh has no faces or no area.
-std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count);
+/// The `count` places that measure_distances spreads over a surface; with `densities`, one > 0 at
+/// each vertex, as many more of them where the mean density of a face is higher. Throws
+/// Error(InvalidInput) if the mesh has no faces or no area, or for another number of densities.
+std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count,
+                                           const std::vector<double>& densities = {});
 
 /// The points of these places. Throws the same.
 std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count);
