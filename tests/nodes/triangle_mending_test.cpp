@@ -174,6 +174,45 @@ TEST(TriangleMending, TakesNodesFromWhereTheyCrowd) {
   EXPECT_TRUE(std::is_sorted(mended.relocated.begin(), mended.relocated.end()));
 }
 
+TEST(TriangleMending, TakesNodesOutOfTrianglesThatMeet) {
+  // A node and its neighbours change places with those of the other side of the body.
+  Jammed crossed = even_nodes();
+  std::size_t farthest = 0;
+  for (std::size_t i = 0; i < crossed.nodes.points.size(); ++i) {
+    const auto away = [&](std::size_t v) {
+      return (crossed.nodes.points[v] - crossed.nodes.points[0]).norm();
+    };
+    if (away(i) > away(farthest)) farthest = i;
+  }
+  std::swap(crossed.nodes.points[0], crossed.nodes.points[farthest]);
+  std::swap(crossed.places[0], crossed.places[farthest]);
+  ASSERT_FALSE(self_intersections(crossed.nodes).empty());
+  TriangleMendingOptions options;
+  options.smallest_angle = 0.0;  // no angle is too small: only what meets is to be mended
+  const MendedTriangles mended =
+      mend_triangles(crossed.nodes, crossed.places, crossed.surface, options, Execution(1));
+  expect_closed(mended.mesh, 400);
+  EXPECT_TRUE(self_intersections(mended.mesh).empty());
+  EXPECT_GT(mended.report.relocations, 0);
+}
+
+TEST(TriangleMending, PartsSheetsThatMeet) {
+  // Sheets nearer to each other than the chords of their nodes are deep.
+  constexpr double thickness = 0.006;
+  IndexedMesh bowl = test::sphere(5);
+  for (Vector3& p : bowl.points) {
+    if (p.z() < 0.0)
+      p = (1.0 - thickness * std::min(1.0, -10.0 * p.z())) * Vector3(p.x(), p.y(), -p.z());
+  }
+  const Jammed bad = slivered(nodes_on(std::move(bowl)), 0.2);
+  const MendedTriangles mended =
+      mend_triangles(bad.nodes, bad.places, bad.surface, {}, Execution(1));
+  const std::size_t before = self_intersections(bad.nodes).size();
+  ASSERT_GT(before, 100U);
+  // Seen: a twentieth of them.
+  EXPECT_LT(self_intersections(mended.mesh).size(), before / 10);
+}
+
 TEST(TriangleMending, RefusesOptionsOutOfRange) {
   const Jammed even = even_nodes();
   const auto mend = [&](TriangleMendingOptions options, std::size_t places) {

@@ -48,6 +48,30 @@ std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh) {
   return pairs;
 }
 
+bool triangles_meet(const std::vector<Vector3>& points, const Triangle& a, const Triangle& b) {
+  const auto point = [&](std::int32_t v) {
+    return Kernel::Point_3(points[v].x(), points[v].y(), points[v].z());
+  };
+  const auto triangle = [&](const Triangle& t) {
+    return Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
+  };
+  const auto is_in = [](const Triangle& t, std::int32_t v) {
+    return std::find(t.begin(), t.end(), v) != t.end();
+  };
+  int shared = 0;
+  for (const std::int32_t v : a) shared += is_in(b, v) ? 1 : 0;
+  if (shared == 0) return CGAL::do_intersect(triangle(a), triangle(b));
+  if (shared > 1) return false;
+  // They meet in more than the corner where the far side of one passes through the other.
+  const auto far_side = [&](const Triangle& t, const Triangle& other) {
+    std::size_t k = 0;
+    while (!is_in(other, t[k])) ++k;
+    return Kernel::Segment_3(point(t[(k + 1) % 3]), point(t[(k + 2) % 3]));
+  };
+  return CGAL::do_intersect(far_side(a, b), triangle(b)) ||
+         CGAL::do_intersect(far_side(b, a), triangle(a));
+}
+
 std::vector<std::int32_t> vertices_of(const std::vector<TrianglePair>& pairs,
                                       const std::vector<Triangle>& triangles) {
   std::vector<std::int32_t> vertices;

@@ -19,6 +19,12 @@ using TrianglePair = std::pair<std::int32_t, std::int32_t>;
 /// Error(InvalidInput) otherwise.
 std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh);
 
+/// Whether two triangles of a mesh, named by their corners, meet elsewhere than in what they share:
+/// nothing, a corner or an edge. Exact. Triangles of the same three corners do not count, nor do
+/// two that lie on each other from an edge on, which no place but the edge's turn tells from two
+/// that go on.
+bool triangles_meet(const std::vector<Vector3>& points, const Triangle& a, const Triangle& b);
+
 /// The vertices of those triangles, in ascending order, each once.
 std::vector<std::int32_t> vertices_of(const std::vector<TrianglePair>& pairs,
                                       const std::vector<Triangle>& triangles);

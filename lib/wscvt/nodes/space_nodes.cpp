@@ -15,6 +15,7 @@
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/nodes/triangle_mending.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/tessellation/sample_elimination.h"
 #include "wscvt/tessellation/space_relaxation.h"
 #include "wscvt/tessellation/space_weights.h"
 
@@ -40,8 +41,18 @@ MultilevelOptions levels_in_space(const MultilevelOptions& levels, SeedStart sta
   return result;
 }
 
+/// Where the seeds of a coarsest level come from.
+enum class SpaceStart {
+  /// Vertices that the map's collapse kept longest: they lie where the shape is, and rough scans
+  /// are
+  /// met 3 % closer from there.
+  Survivors,
+  /// Places spread by area: thin rims and long limbs get their share, which survivors crowd.
+  Spread,
+};
+
 SpaceTessellation tessellate(const Grain& grain, int node_count,
-                             const SpaceTessellationOptions& options,
+                             const SpaceTessellationOptions& options, SpaceStart from,
                              const std::vector<double>& densities, const Execution& execution) {
   const SeedingOptions& seeding = options.seeding;
   const RelaxationOptions& relaxation = options.relaxation;
@@ -56,10 +67,11 @@ SpaceTessellation tessellate(const Grain& grain, int node_count,
   }
   const MultilevelOptions in_space = levels_in_space(options.levels, seeding.start, node_count);
   const int coarsest = level_sizes(node_count, in_space.coarsest_seeds).front();
-  std::vector<Vector3> start = surviving_seeds(surface, grain.map.collapse_order, coarsest);
-  if (seeding.start == SeedStart::Random && coarsest > 50) {
-    start = random_directions(coarsest, seeding.random_seed);
-  }
+  std::vector<Vector3> start = seeding.start == SeedStart::Random && coarsest > 50
+                                   ? random_directions(coarsest, seeding.random_seed)
+                               : from == SpaceStart::Spread
+                                   ? spread_seeds(surface, densities, coarsest, execution)
+                                   : surviving_seeds(surface, grain.map.collapse_order, coarsest);
   return relax_in_space(std::move(start), node_count, surface, densities, relaxation, in_space,
                         execution);
 }
@@ -147,27 +159,44 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
                 "are put on to it.");
   }
   execution.report(0.0, "Weighing the seeds");
+  SpaceStart from = SpaceStart::Survivors;
   std::vector<double> densities =
       densities_in_space(grain.mapped->mesh(), options.weighting, node_count, execution);
   SpaceTessellation tessellation =
-      tessellate(grain, node_count, options, densities, execution.part(0.05, 0.7));
+      tessellate(grain, node_count, options, from, densities, execution.part(0.05, 0.5));
   SpaceNodes result;
   Flaws flaws = flaws_of(tessellation, volume);
-
-  constexpr int most_repairs = 3;
   const bool relaxes = options.seeding.sampling == Sampling::Weighted;
-  while (relaxes && !flaws.pairs.empty() && result.report.repairs < most_repairs) {
-    raise_densities(*grain.mapped, tessellation, flaws.pairs, densities, execution);
+  if (relaxes && !flaws.pairs.empty()) {
+    SpaceTessellation other = tessellate(grain, node_count, options, SpaceStart::Spread, densities,
+                                         execution.part(0.5, 0.7));
+    Flaws its = flaws_of(other, volume);
+    const auto rank = [](const Flaws& found, const SpaceTessellation& of) {
+      return std::pair(found.pairs.size(), of.report.history.back().displacement);
+    };
+    if (rank(its, other) < rank(flaws, tessellation)) {
+      from = SpaceStart::Spread;
+      tessellation = std::move(other);
+      flaws = std::move(its);
+    }
+  }
+
+  // A repair that helps little may be what the next one needs: the best of all is taken.
+  constexpr int most_repairs = 5;
+  SpaceTessellation latest = tessellation;
+  std::vector<TrianglePair> pairs = flaws.pairs;
+  for (int repair = 1; relaxes && !flaws.pairs.empty() && repair <= most_repairs; ++repair) {
+    raise_densities(*grain.mapped, latest, pairs, densities, execution);
     RelaxationOptions local = options.relaxation;
     local.maximum_iterations = std::min(local.maximum_iterations, 200);
-    SpaceTessellation denser =
-        relax_in_space(tessellation.seeds, tessellation.triangulation, *grain.mapped, densities,
-                       local, execution.part(0.7, 0.8));
-    ++result.report.repairs;
-    Flaws left = flaws_of(denser, volume);
-    if (left.pairs.size() >= flaws.pairs.size()) break;
-    denser.report.coarser_levels = tessellation.report.coarser_levels;
-    tessellation = std::move(denser);
+    latest = relax_in_space(latest.seeds, latest.triangulation, *grain.mapped, densities, local,
+                            execution.part(0.7, 0.8));
+    Flaws left = flaws_of(latest, volume);
+    pairs = left.pairs;
+    if (left.pairs.size() >= flaws.pairs.size()) continue;
+    result.report.repairs = repair;
+    latest.report.coarser_levels = tessellation.report.coarser_levels;
+    tessellation = latest;
     flaws = std::move(left);
   }
 
@@ -181,7 +210,7 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     for (int k = 1; k <= most_doublings && (node_count << k) <= 20000; ++k) {
       const int more = node_count << k;
       const SpaceTessellation trial =
-          tessellate(grain, more, quick,
+          tessellate(grain, more, quick, from,
                      densities_in_space(grain.mapped->mesh(), options.weighting, more, execution),
                      execution.part(0.8, 0.85));
       if (flaws_of(trial, volume).any()) continue;

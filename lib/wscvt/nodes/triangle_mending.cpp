@@ -2,6 +2,9 @@
 #include "wscvt/nodes/triangle_mending.h"
 
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -23,6 +26,9 @@ constexpr double least_gain = 1e-6;
 /// Angles below 8 degrees, and turns above 130.
 const double sliver_cosine = std::cos(8.0 * pi / 180.0);
 const double folded_cosine = std::cos(130.0 * pi / 180.0);
+/// Of triangles with angles below 3 degrees: moves no longer open them, so that a node is not taken
+/// out at that price.
+const double flat_cosine = std::cos(3.0 * pi / 180.0);
 
 /// Rings about a small angle in which nodes may move and edges flip.
 constexpr int active_rings = 2;
@@ -54,6 +60,7 @@ class Mender {
     mesh_.request_face_status();
     mesh_.request_halfedge_status();
     for (std::size_t i = 0; i < origin_.size(); ++i) origin_[i] = static_cast<std::int32_t>(i);
+    build_boxes();
   }
 
   /// Of all triangles; their edges are not looked at.
@@ -104,6 +111,62 @@ class Mender {
     return count;
   }
 
+  /// Pairs of triangles that meet, the lower number first, ascending.
+  std::vector<TrianglePair> meeting_pairs() const {
+    std::vector<TrianglePair> pairs;
+    for (const auto face : mesh_.faces()) {
+      const Triangle corners = corners_of(face);
+      const auto look_at = [&](const BoxedFace& other) {
+        if (other.second <= face.idx()) return;
+        if (triangles_meet(points_, corners, corners_of(OpenMesh::FaceHandle(other.second)))) {
+          pairs.emplace_back(face.idx(), other.second);
+        }
+      };
+      tree_.query(boost::geometry::index::intersects(box_of(corners_of(face))),
+                  boost::make_function_output_iterator(look_at));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  /// Takes a node out of every pair of triangles that meet, where fewer do so without it, whatever
+  /// becomes of the angles, and puts it in elsewhere as relocate does; returns how many.
+  int separate(TriangleMendingReport& report) {
+    int count = 0;
+    for (const auto& [first, second] : meeting_pairs()) {
+      OpenMesh::HalfedgeHandle best;
+      int most = 0;
+      double smallest_cosine = 1.0;
+      for (const int f : {first, second}) {
+        const OpenMesh::FaceHandle face(f);
+        if (mesh_.status(face).deleted()) continue;
+        for (const auto side : mesh_.fh_range(face)) {
+          const OpenMesh::HalfedgeHandle back = mesh_.opposite_halfedge_handle(side);
+          for (const OpenMesh::HalfedgeHandle h : {OpenMesh::HalfedgeHandle(side), back}) {
+            if (!may_collapse(h)) continue;
+            const auto [then, now] = meetings_before_and_after(h);
+            const Worst after = worst_without(h);
+            if (after.angle > flat_cosine) continue;
+            if (then - now < most || (then - now == most && after.angle >= smallest_cosine))
+              continue;
+            if (then == now) continue;
+            best = h;
+            most = then - now;
+            smallest_cosine = after.angle;
+          }
+        }
+      }
+      if (!best.is_valid()) continue;
+      const std::int32_t removed = mesh_.from_vertex_handle(best).idx();
+      collapse(best);
+      insert(origin_[removed]);
+      ++count;
+    }
+    if (count > 0) compact();
+    report.relocations += count;
+    return count;
+  }
+
   IndexedMesh result(std::vector<std::int32_t>& relocated) const {
     IndexedMesh mesh;
     mesh.points.resize(points_.size());
@@ -124,6 +187,12 @@ class Mender {
   }
 
  private:
+  using Faces = std::vector<OpenMesh::FaceHandle>;
+  using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+  using Box = boost::geometry::model::box<Corner>;
+  using BoxedFace = std::pair<Box, int>;
+  using Tree = boost::geometry::index::rtree<BoxedFace, boost::geometry::index::rstar<16>>;
+
   /// The node that a vertex stands for: its own, or, of one that was put in, that of the one taken
   /// out for it.
   std::int32_t number_of(std::int32_t vertex) const {
@@ -194,6 +263,65 @@ class Mender {
     return after.turn >= std::min(sliver ? folded_cosine : turn_limit_, before.turn - least_gain);
   }
 
+  Box box_of(const Triangle& t) const {
+    const Vector3 low = points_[t[0]].cwiseMin(points_[t[1]]).cwiseMin(points_[t[2]]);
+    const Vector3 high = points_[t[0]].cwiseMax(points_[t[1]]).cwiseMax(points_[t[2]]);
+    return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
+  }
+
+  void build_boxes() {
+    boxes_.clear();
+    for (const auto face : mesh_.faces()) boxes_.push_back({box_of(corners_of(face)), face.idx()});
+    tree_ = Tree(boxes_);
+  }
+
+  /// After faces changed, vanished or came.
+  void update_boxes(const Faces& faces) {
+    for (const OpenMesh::FaceHandle face : faces) {
+      const auto f = static_cast<std::size_t>(face.idx());
+      if (f < boxes_.size()) {
+        tree_.remove(boxes_[f]);
+      } else {
+        boxes_.resize(f + 1);
+      }
+      if (mesh_.status(face).deleted()) continue;
+      boxes_[f] = {box_of(corners_of(face)), face.idx()};
+      tree_.insert(boxes_[f]);
+    }
+  }
+
+  /// Pairs of triangles that meet, one of them or both among some faces, whose boxes need not be up
+  /// to date.
+  int meetings(const Faces& faces) const {
+    std::vector<Triangle> triangles;
+    for (const OpenMesh::FaceHandle face : faces) triangles.push_back(corners_of(face));
+    return meetings(triangles, faces);
+  }
+
+  /// Pairs of triangles that meet, one of them or both among some that stand for `replaced` faces.
+  int meetings(const std::vector<Triangle>& triangles, const Faces& replaced) const {
+    int count = 0;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      const auto look_at = [&](const BoxedFace& other) {
+        const OpenMesh::FaceHandle face(other.second);
+        if (std::find(replaced.begin(), replaced.end(), face) != replaced.end()) return;
+        count += triangles_meet(points_, triangles[k], corners_of(face)) ? 1 : 0;
+      };
+      tree_.query(boost::geometry::index::intersects(box_of(triangles[k])),
+                  boost::make_function_output_iterator(look_at));
+      for (std::size_t j = 0; j < k; ++j) {
+        count += triangles_meet(points_, triangles[k], triangles[j]) ? 1 : 0;
+      }
+    }
+    return count;
+  }
+
+  Faces faces_around(OpenMesh::VertexHandle vertex) const {
+    Faces faces;
+    for (const auto face : mesh_.vf_range(vertex)) faces.push_back(face);
+    return faces;
+  }
+
   void mark_active() {
     active_.assign(points_.size(), 0);
     for (const auto face : mesh_.faces()) {
@@ -220,9 +348,21 @@ class Mender {
       return false;
     }
     const Worst before = worst_at(h);
+    const Faces both = {mesh_.face_handle(h), mesh_.face_handle(mesh_.opposite_halfedge_handle(h))};
     mesh_.flip(edge);
     const Worst after = worst_at(h);
-    if (after.angle < before.angle - least_gain && turns_less(after, before)) return true;
+    if (after.angle < before.angle - least_gain && turns_less(after, before)) {
+      const int meeting = meetings(both);
+      if (meeting == 0) {
+        update_boxes(both);
+        return true;
+      }
+      mesh_.flip(edge);
+      if (meeting > meetings(both)) return false;
+      mesh_.flip(edge);
+      update_boxes(both);
+      return true;
+    }
     mesh_.flip(edge);
     return false;
   }
@@ -253,13 +393,26 @@ class Mender {
                                                       : after.angle < angle_limit_;
       // Steps of a thousandth of the way would go on for ever.
       const bool moves = (points_[v] - start).norm() > 1e-3 * shortest_about(vertex);
-      if (better && moves && turns_less(after, before)) {
+      if (better && moves && turns_less(after, before) && !meets_more(vertex, start)) {
         places_[v] = place;
+        update_boxes(faces_around(vertex));
         return true;
       }
     }
     points_[v] = start;
     return false;
+  }
+
+  /// Whether the triangles around a vertex meet more others than they did with it at `before`.
+  bool meets_more(OpenMesh::VertexHandle vertex, const Vector3& before) {
+    const Faces faces = faces_around(vertex);
+    const int now = meetings(faces);
+    if (now == 0) return false;
+    const Vector3 here = points_[vertex.idx()];
+    points_[vertex.idx()] = before;
+    const int then = meetings(faces);
+    points_[vertex.idx()] = here;
+    return now > then;
   }
 
   double shortest_about(OpenMesh::VertexHandle vertex) const {
@@ -268,8 +421,8 @@ class Mender {
     return shortest;
   }
 
-  /// Whether the vertex that the half-edge starts at goes into the one it ends at, which stays.
-  bool try_collapse(OpenMesh::HalfedgeHandle h) {
+  /// Whether the mesh stays closed, with valences that triangles of some angle can have.
+  bool may_collapse(OpenMesh::HalfedgeHandle h) {
     const OpenMesh::VertexHandle from = mesh_.from_vertex_handle(h);
     const OpenMesh::VertexHandle to = mesh_.to_vertex_handle(h);
     if (!mesh_.is_collapse_ok(h) ||
@@ -282,6 +435,14 @@ class Mender {
         return false;
       }
     }
+    return true;
+  }
+
+  /// Whether the vertex that the half-edge starts at goes into the one it ends at, which stays.
+  bool try_collapse(OpenMesh::HalfedgeHandle h) {
+    if (!may_collapse(h)) return false;
+    const OpenMesh::VertexHandle from = mesh_.from_vertex_handle(h);
+    const OpenMesh::VertexHandle to = mesh_.to_vertex_handle(h);
     const Worst at_from = worst_around(from);
     Worst before = worst_around(to);
     before.angle = std::max(before.angle, at_from.angle);
@@ -298,8 +459,31 @@ class Mender {
     const bool better = after.angle < before.angle - least_gain ||
                         (after.angle <= before.angle && after.small < before.small);
     if (!better || !turns_less(after, before)) return false;
-    mesh_.collapse(h);
+    const auto [then, now] = meetings_before_and_after(h);
+    if (now > then) return false;
+    collapse(h);
     return true;
+  }
+
+  void collapse(OpenMesh::HalfedgeHandle h) {
+    const Faces faces = faces_around(mesh_.from_vertex_handle(h));
+    mesh_.collapse(h);
+    update_boxes(faces);
+  }
+
+  /// Meetings of the triangles around the vertex that the half-edge starts at, as they are and as
+  /// they would be if it went into the one it ends at.
+  std::pair<int, int> meetings_before_and_after(OpenMesh::HalfedgeHandle h) {
+    const OpenMesh::VertexHandle from = mesh_.from_vertex_handle(h);
+    const OpenMesh::VertexHandle to = mesh_.to_vertex_handle(h);
+    const Faces faces = faces_around(from);
+    std::vector<Triangle> left;
+    for (const OpenMesh::FaceHandle face : faces) {
+      if (goes(face, from, to)) continue;
+      left.push_back(corners_of(face));
+      std::replace(left.back().begin(), left.back().end(), from.idx(), to.idx());
+    }
+    return {meetings(faces), meetings(left, faces)};
   }
 
   /// What worst_around `to` would be after the collapse.
@@ -372,6 +556,7 @@ class Mender {
     places_.push_back(place);
     origin_.push_back(-1 - (node >= 0 ? node : -1 - node));
     mesh_.split(longest, added);
+    update_boxes(faces_around(added));
   }
 
   /// Closes the gaps in the arrays that collapses left.
@@ -398,6 +583,7 @@ class Mender {
     points_ = std::move(points);
     places_ = std::move(places);
     origin_ = std::move(origin);
+    build_boxes();
   }
 
   const MappedSurface& surface_;
@@ -406,6 +592,8 @@ class Mender {
   std::vector<MeshPlace> places_;
   std::vector<std::int32_t> origin_;  ///< node of each vertex; -1 - node of one that was put in
   std::vector<char> active_;
+  std::vector<BoxedFace> boxes_;  ///< of each face, as they stand in the tree
+  Tree tree_;
   double angle_limit_;
   double turn_limit_;
 };
@@ -432,39 +620,38 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   Mender mender(nodes, places, surface, options);
   const Worst before = mender.worst();
   unchanged.report.left = before.small;
-  if (unchanged.report.left == 0) return unchanged;
+  std::size_t meeting = mender.meeting_pairs().size();
+  if (unchanged.report.left == 0 && meeting == 0) return unchanged;
 
-  // Relocations may leave more small angles for a while, so the best of all rounds is looked for.
-  std::vector<MendedTriangles> better;
+  // Relocations may leave more small angles for a while, so the best of all rounds is taken: the
+  // one in which the fewest triangles meet, and of those the one with the fewest small angles.
+  MendedTriangles best = unchanged;
+  std::size_t fewest_meeting = meeting;
   TriangleMendingReport report = unchanged.report;
-  int fewest = report.left;
-  for (int round = 0; round < options.rounds && report.left > 0; ++round) {
+  for (int round = 0; round < options.rounds && (report.left > 0 || meeting > 0); ++round) {
     execution.report(0.0, "Mending triangles");
     int changes = mender.improve(report);
     // Moves come first: most angles need no more.
     constexpr int rounds_a_relocation = 4;
     if (changes == 0 || round % rounds_a_relocation == rounds_a_relocation - 1) {
+      if (meeting > 0) changes += mender.separate(report);
       changes += mender.relocate(report);
     }
     if (changes == 0) break;
     const Worst now = mender.worst();
     report.left = now.small;
+    meeting = mender.meeting_pairs().size();
     // Fewer small angles are no gain where one of them is smaller than any was: a node that was
     // relocated may lie all but on another.
-    if (report.left < fewest && now.angle <= before.angle) {
-      fewest = report.left;
-      MendedTriangles mended;
-      mended.mesh = mender.result(mended.relocated);
-      mended.report = report;
-      better.push_back(std::move(mended));
-    }
+    const bool is_better =
+        meeting < fewest_meeting ||
+        (meeting == fewest_meeting && report.left < best.report.left && now.angle <= before.angle);
+    if (!is_better) continue;
+    fewest_meeting = meeting;
+    best.mesh = mender.result(best.relocated);
+    best.report = report;
   }
-  const std::size_t crossings = better.empty() ? 0 : self_intersections(nodes).size();
-  for (; !better.empty(); better.pop_back()) {
-    execution.report(0.5, "Mending triangles");
-    if (self_intersections(better.back().mesh).size() <= crossings) return std::move(better.back());
-  }
-  return unchanged;
+  return best;
 }
 
 }  // namespace wscvt

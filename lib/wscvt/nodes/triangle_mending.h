@@ -49,9 +49,11 @@ struct MendedTriangles {
 /// sphere is not asked: the result has places on the scan, but no longer directions. Every other
 /// triangle stays as it is.
 ///
+/// No change makes more triangles meet than met before, and out of pairs that do meet a node is
+/// taken, wherever fewer meet without it, and put in elsewhere.
+///
 /// `nodes` is a closed mesh, its points at `places`. In fixed order on one thread: the same input
-/// gives the same bytes. If more pairs of triangles meet afterwards than before, everything is as
-/// it was. Throws Error: InvalidInput for options out of range or other numbers of places,
+/// gives the same bytes. Throws Error: InvalidInput for options out of range or other numbers of places,
 /// Cancelled.
 MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
                                const MappedSurface& surface, const TriangleMendingOptions& options,
