@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# yade -n -x yade_packing.py NODES_CSV GRID_NPY SEED OUTPUT_CSV: the packing of the paper's figure 11
-# in Yade: 54 grains of 0.1 m, in 6 layers of 3 x 3, thrown down at 2 m/s into a box; normal and
+# yade -n -x yade_packing.py NODES_CSV GRID_NPY SEED OUTPUT_CSV [SIDE LAYERS SECONDS]: the packing of the
+# paper's figure 11 in Yade: grains of 0.1 m, in LAYERS (6) of SIDE x SIDE (3), thrown down at 2 m/s into a
+# box as wide as they are, until SECONDS (1.2) have passed; normal and
 # tangential stiffness 2e6 and 1e6 N/m, friction 0.5, Yade's damping 0.3. Starts go by the seed alone,
 # so that those of different nodes are paired. Columns: time, kinetic, potential and elastic energy,
-# mean overlap of grains in contact as Yade sees it / radius; the last line is the cost.
+# mean overlap of grains in contact as Yade sees it / radius; the last line is the cost. Beside it, in
+# OUTPUT_CSV.poses, place and quaternion w, x, y, z of each grain at the end.
 import math
 import os
 import sys
@@ -17,8 +19,10 @@ from yade import (Bo1_LevelSet_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2
                   NewtonIntegrator, O, Quaternion, Vector3, utils)
 from yade_grain import Grain
 
-nodes_csv, grid_npy, seed, output = sys.argv[-4:]
-radius, side, layers, seconds, step, gravity = 0.05, 3, 6, 0.8, 1e-4, 9.81
+arguments = sys.argv[1:]
+nodes_csv, grid_npy, seed, output = arguments[:4]
+side, layers, seconds = (int(arguments[4]), int(arguments[5]), float(arguments[6])) if arguments[4:] else (3, 6, 1.2)
+radius, step, gravity = 0.05, 1e-4, 9.81
 box = 2.8 * radius * side
 grain = Grain(nodes_csv, grid_npy)
 material = FrictMat(young=1e8, poisson=0.3, frictionAngle=math.atan(0.5), density=2650.0)
@@ -70,6 +74,9 @@ while O.time < seconds - 0.5 * step:
     rows.append(row())
 numpy.savetxt(output, rows, delimiter=",", header="time,kinetic,potential,elastic,overlap",
               comments="", fmt="%.8g", footer="# %.4f ms a step" % (1e3 * cost * step / seconds))
+numpy.savetxt(output + ".poses", [[*body.state.pos, body.state.ori[3], *[body.state.ori[k] for k in range(3)]]
+                                  for body in grains], delimiter=",", header="x,y,z,qw,qx,qy,qz",
+              comments="", fmt="%.10g")
 print("Yade packing: %d nodes, seed %s: mean height %.4f radii, kinetic %.3g J, elastic %.3g J, overlap "
       "%.3f %% of the radius, %.2f ms a step" %
       (len(grain.nodes), seed, rows[-1][2] / (grain.volume * 2650.0 * gravity * len(grains)) / radius,

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Packings in Yade by several choices of nodes, from paired starts; see yade_packing.py.
 #   tests/study/yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]
-# PROGRAM is wscvt. Packages: tests/run_all.sh engines. A line for each packing in packings.txt.
+# PROGRAM is wscvt. Packages: tests/run_all.sh engines. A line for each packing in packings.txt;
+# packing_table.py FOLDER makes a table of them.
 set -eu
 program=$(realpath "${1:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
 folder=$(realpath -m "${2:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
@@ -12,14 +13,21 @@ shift 3
 here=$(realpath "$(dirname "$0")")
 mkdir -p "$folder"
 cd "$folder"
+# What the packings are held against: as many nodes on the scan as it has vertices.
+"$program" remesh -q "$here/../../meshes/sand_7228.ply" vertices.ply -n 7228 -p scan \
+  --frame principal --size 0.1 --node-table vertices.csv --sdf vertices.npy
 for set in "$@"; do
   nodes=${set%:*}
   placement=${set#*:}
   name=${placement}_$nodes
   "$program" remesh -q "$here/../../meshes/sand_7228.ply" "$name.ply" -n "$nodes" -p "$placement" \
     --frame principal --size 0.1 --node-table "$name.csv" --sdf "$name.npy"
-  for seed in $seeds; do
-    printf '%s ' "$placement" >> packings.txt
+done
+# Seed by seed, so that a study that is stopped has every set as often.
+for seed in $seeds; do
+  for set in "$@"; do
+    name=${set#*:}_${set%:*}
+    printf '%s ' "${set#*:}" >> packings.txt
     yade -n -x "$here/yade_packing.py" "$name.csv" "$name.npy" "$seed" "${name}_$seed.csv" \
       > "${name}_$seed.log" 2>&1 || { tail -n 20 "${name}_$seed.log" >&2; exit 1; }
     grep '^Yade packing' "${name}_$seed.log" | tee -a packings.txt
