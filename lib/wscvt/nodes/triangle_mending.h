@@ -53,8 +53,8 @@ struct MendedTriangles {
 /// taken, wherever fewer meet without it, and put in elsewhere.
 ///
 /// `nodes` is a closed mesh, its points at `places`. In fixed order on one thread: the same input
-/// gives the same bytes. Throws Error: InvalidInput for options out of range or other numbers of places,
-/// Cancelled.
+/// gives the same bytes. Throws Error: InvalidInput for options out of range or other numbers of
+/// places, Cancelled.
 MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
                                const MappedSurface& surface, const TriangleMendingOptions& options,
                                const Execution& execution);
