@@ -126,6 +126,37 @@ TEST(RemeshSpherical, TooFewNodesAreSaidWithTheNumberThatWouldDo) {
   EXPECT_FALSE(says(enough.warnings, "too few"));
 }
 
+TEST(RemeshSpherical, RefusesShapesThatAreTooMuchWithAdviceThatWorks) {
+  // A bowl's 4 nodes lie in a plane or inside out; the 21 enclose a volume until they are mended.
+  const auto is_refused = [](const IndexedMesh& scan, RemeshOptions options) {
+    try {
+      remesh(scan, options, Execution(2));
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
+      const std::string what = error.what();
+      const std::string said = "their mesh encloses no volume; ";
+      const std::size_t place = what.find(said);
+      EXPECT_NE(place, std::string::npos) << what;
+      if (place == std::string::npos) return true;
+      const std::string advice = what.substr(place + said.size());
+      const bool names_a_number = advice.find(" would do.") != std::string::npos;
+      EXPECT_TRUE(names_a_number || advice == "ask for many more.") << what;
+      options.node_count = names_a_number ? std::stoi(advice) : 100 * options.node_count;
+      EXPECT_NO_THROW(remesh(scan, options, Execution(2))) << what;
+      return true;
+    }
+  };
+  int refused = 0;
+  const IndexedMesh bowl = test::bent_grain_mesh(test::bent_grain("bowl"), 3000);
+  const IndexedMesh c_shape = test::bent_grain_mesh(test::bent_grain("C-shape"), 3000);
+  for (const NodePlacement placement : {NodePlacement::Scan, NodePlacement::LeastSquares}) {
+    for (const int nodes : {4, 19, 21}) refused += is_refused(bowl, options_of(nodes, placement));
+    refused += is_refused(c_shape, options_of(10, placement));
+  }
+  EXPECT_GE(refused, 4);
+}
+
 TEST(RemeshSpherical, RadialDistanceIsTheAreaWeightingAndSaysSo) {
   RemeshOptions options = options_of(150);
   const IndexedMesh hook = body("hook");

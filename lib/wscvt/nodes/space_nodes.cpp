@@ -137,9 +137,12 @@ void refine_in_space(const Grain& grain, const MeshDistance* to_scan,
   offset_to_volume(normals, nodes.mesh.triangles, volume, nodes.mesh.points, execution);
 }
 
-std::string advice(int enough_nodes) {
-  return enough_nodes > 0 ? "; " + std::to_string(enough_nodes) + " would do."
-                          : "; ask for many more.";
+[[noreturn]] void refuse_shape(std::size_t nodes, int enough_nodes) {
+  throw Error(
+      ErrorCode::NumericalFailure,
+      "The shape is too much for " + std::to_string(nodes) +
+          " nodes: their mesh encloses no volume; " +
+          (enough_nodes > 0 ? std::to_string(enough_nodes) + " would do." : "ask for many more."));
 }
 
 }  // namespace
@@ -220,9 +223,7 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   }
   result.report.volume_loss = flaws.volume_loss;
   if (!(flaws.volume_loss < 1.0)) {
-    throw Error(ErrorCode::NumericalFailure,
-                "The shape is too much for " + std::to_string(tessellation.seeds.size()) +
-                    " nodes: their mesh encloses no volume" + advice(result.report.enough_nodes));
+    refuse_shape(tessellation.seeds.size(), result.report.enough_nodes);
   }
 
   execution.report(0.85, "Placing the nodes");
@@ -235,6 +236,10 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   if (relaxes && !refines) {
     mended = mend_triangles(mended.mesh, grain.mapped->locate(tessellation.seeds, execution),
                             *grain.mapped, TriangleMendingOptions(), execution.part(0.85, 0.87));
+  }
+  // A dozen nodes may enclose so little that mending takes it away.
+  if (!(enclosed_volume(mended.mesh.points, mended.mesh.triangles) > 0.0)) {
+    refuse_shape(tessellation.seeds.size(), result.report.enough_nodes);
   }
   const bool changed = mended.report.flips + mended.report.moves + mended.report.relocations > 0;
   result.report.mending = mended.report;
