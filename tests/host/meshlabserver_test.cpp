@@ -9,9 +9,11 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calls.h"
+#include "grains/bent_grain.h"
 #include "grains/handled_body.h"
 #include "programs.h"
 #include "sample_meshes.h"
@@ -157,6 +159,24 @@ TEST(Server, RefusesANodeCountThatCannotBeRead) {
   }
 }
 
+TEST(Server, WritesNothingWhenAnotherNumberCannotBeRead) {
+  // This MeshLab drops what it cannot read and ends itself by an assertion before the filter is
+  // asked; the default is not what was asked for.
+  const std::pair<const char*, const char*> garbled[] = {
+      {"HarmonicDegree", "abc"},     {"RefinementRounds", "2.5"}, {"ErrorTarget", "1,5"},
+      {"RandomSeed", "99999999999"}, {"MaxIterations", "1e3"},    {"FoldLimit", ""},
+      {"CurvatureAlpha", "one"},     {"Threads", "0x2"}};
+  for (const auto& [name, value] : garbled) {
+    SCOPED_TRACE(std::string(name) + " = " + value);
+    QTemporaryDir folder;
+    const QString output = folder.filePath("remeshed.ply");
+    const Outcome outcome = run_call({"", grain(), {{name, value}}, {}}, folder, output);
+    ASSERT_TRUE(outcome.ended);
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_FALSE(QFile::exists(output));
+  }
+}
+
 /// A refusal, and what MeshLab does when its advice is followed.
 struct Advice {
   std::string name;
@@ -289,6 +309,30 @@ TEST_P(ServerAdvises, WhatLeadsToARemesh) {
 
 INSTANTIATE_TEST_SUITE_P(, ServerAdvises, ::testing::ValuesIn(all_advice()),
                          [](const auto& test) { return test.param.name; });
+
+TEST(Server, AdvisesANumberOfNodesThatWouldDo) {
+  const IndexedMesh bowl = test::bent_grain_mesh(test::bent_grain("bowl"), 3000);
+  QTemporaryDir folder;
+  const QString output = folder.filePath("remeshed.ply");
+  // Which handful of nodes encloses nothing goes by their weighing: the first that is refused with
+  // another number.
+  const QRegularExpression advice("encloses no volume; (\\d+) would do");
+  QString enough;
+  for (int nodes = 4; nodes <= 24 && enough.isEmpty(); ++nodes) {
+    const Call call{"", bowl, {{"NodeCount", std::to_string(nodes)}}, {}};
+    const Outcome refusal = run_call(call, folder, output);
+    if (QFile::remove(output)) continue;
+    EXPECT_EQ(refusal.exit_code, refused);
+    enough = advice.match(refusal.output).captured(1);
+  }
+  ASSERT_FALSE(enough.isEmpty());
+  const Call call{"", bowl, {{"NodeCount", enough.toStdString()}}, {}};
+  const Outcome outcome = run_call(call, folder, output);
+  SCOPED_TRACE(outcome.output.toStdString());
+  ASSERT_TRUE(QFile::exists(output));
+  EXPECT_EQ(read_mesh(output.toStdString()).points.size(), enough.toUInt());
+  EXPECT_FALSE(outcome.output.contains("would do"));
+}
 
 class ServerCopesWith : public ::testing::TestWithParam<Call> {};
 

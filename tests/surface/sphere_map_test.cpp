@@ -164,6 +164,28 @@ TEST(SphereMap, OrderBeginsWithASpreadSubset) {
   }
 }
 
+TEST(SphereMap, RefusesNeedlesWithAdviceThatWorks) {
+  // Two cones of a thousand needles each, 160,000 times as long as wide.
+  constexpr double height = 1000.0;
+  const IndexedMesh needles = test::scaled(test::bicone(1000), Vector3(1.0, 1.0, height));
+  try {
+    map_to_sphere(needles, {}, Execution(1));
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
+    EXPECT_NE(std::string(error.what()).find("Remove needle-shaped faces"), std::string::npos)
+        << error.what();
+  }
+  // The advice: the same body by faces that are only as long as it is itself.
+  IndexedMesh even = test::sphere(5);
+  for (Vector3& p : even.points) {
+    p /= std::hypot(p.x(), p.y()) + std::abs(p.z());
+    p.z() *= height;
+  }
+  const SphereMap map = map_to_sphere(even, {}, Execution(1));
+  EXPECT_EQ(map.directions.size(), even.points.size());
+}
+
 TEST(SphereMap, StopsWhenAskedTo) {
   const IndexedMesh body = test::sphere(5);
   std::set<std::string> stages;
