@@ -127,7 +127,7 @@ TEST(RemeshSpherical, TooFewNodesAreSaidWithTheNumberThatWouldDo) {
 }
 
 TEST(RemeshSpherical, RefusesShapesThatAreTooMuchWithAdviceThatWorks) {
-  // A bowl's 4 nodes lie in a plane or inside out; the 21 enclose a volume until they are mended.
+  // A handful of nodes lies in a plane or inside out, some only once they are mended.
   const auto is_refused = [](const IndexedMesh& scan, RemeshOptions options) {
     try {
       remesh(scan, options, Execution(2));
@@ -148,13 +148,14 @@ TEST(RemeshSpherical, RefusesShapesThatAreTooMuchWithAdviceThatWorks) {
     }
   };
   int refused = 0;
-  const IndexedMesh bowl = test::bent_grain_mesh(test::bent_grain("bowl"), 3000);
-  const IndexedMesh c_shape = test::bent_grain_mesh(test::bent_grain("C-shape"), 3000);
-  for (const NodePlacement placement : {NodePlacement::Scan, NodePlacement::LeastSquares}) {
-    for (const int nodes : {4, 19, 21}) refused += is_refused(bowl, options_of(nodes, placement));
-    refused += is_refused(c_shape, options_of(10, placement));
+  for (const char* name : {"bowl", "C-shape"}) {
+    IndexedMesh scan = test::bent_grain_mesh(test::bent_grain(name), 3000);
+    for (Vector3& p : scan.points) p = p.cast<float>().cast<double>();  // as most files have it
+    for (int nodes = 4; nodes <= 15; ++nodes) {
+      refused += is_refused(scan, options_of(nodes, NodePlacement::LeastSquares));
+    }
   }
-  EXPECT_GE(refused, 4);
+  EXPECT_GE(refused, 2);
 }
 
 TEST(RemeshSpherical, RadialDistanceIsTheAreaWeightingAndSaysSo) {

@@ -24,6 +24,7 @@ using Hull = CGAL::Surface_mesh<Point>;
 struct ReportingTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true> {
   using Base = CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true>;
 
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that CGAL asks for
   struct Has_on_positive_side_3 {
     using result_type = bool;
 
