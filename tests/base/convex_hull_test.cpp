@@ -9,6 +9,7 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/measures/shape_descriptors.h"
 
 namespace wscvt {
@@ -51,6 +52,34 @@ TEST(ConvexHull, TrianglesComeInAnOrderOfTheirOwn) {
   const std::vector<Triangle> triangles = convex_hull_triangles(test::lumpy(4).points);
   EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
   for (const Triangle& t : triangles) EXPECT_EQ(t[0], *std::min_element(t.begin(), t.end()));
+}
+
+TEST(ConvexHull, PlaneFacesAreCutAlikeWhateverTheAddresses) {
+  // A lattice's hull has faces of four corners and more, which CGAL cuts one way or the other.
+  std::vector<Vector3> points;
+  for (int x = -6; x <= 6; ++x) {
+    for (int y = -6; y <= 6; ++y) {
+      for (int z = -6; z <= 6; ++z) {
+        if (x * x + y * y + z * z <= 40) points.emplace_back(x, y, z);
+      }
+    }
+  }
+  const std::vector<Triangle> once = convex_hull_triangles(points);
+  std::vector<std::vector<char>> in_the_way;
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_EQ(convex_hull_triangles(points), once);
+    in_the_way.emplace_back(static_cast<std::size_t>(1000 + 977 * k));
+  }
+  // About its first corner each: no edge within a plane lies farther from it than that corner.
+  const std::vector<std::int32_t> opposite = link_half_edges(once, points.size()).opposite;
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(opposite.size()); ++h) {
+    const std::int32_t c = origin_of(once, previous_half_edge(h));
+    const std::int32_t d = origin_of(once, previous_half_edge(opposite[h]));
+    const Vector3& a = points[origin_of(once, h)];
+    const Vector3 normal = (points[target_of(once, h)] - a).cross(points[c] - a);
+    if (normal.dot(points[d] - a) != 0.0) continue;  // whole numbers: exact
+    EXPECT_LT(std::min(origin_of(once, h), target_of(once, h)), std::min(c, d));
+  }
 }
 
 TEST(ConvexHull, StopsWhenAskedTo) {

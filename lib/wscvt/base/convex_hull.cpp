@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 
 namespace wscvt {
 
@@ -45,6 +46,49 @@ struct ReportingTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true
   const Execution* execution;
   std::size_t* asked;  ///< how often
 };
+
+/// Cuts every plane face of more than three corners into triangles about its first corner: which
+/// of its triangulations CGAL returns goes by addresses, and with it the last digits of sums over
+/// the triangles. By flips of edges within the plane towards the smaller corner, of which none is
+/// left when that corner is joined to all others.
+void cut_planes_alike(const std::vector<Point>& points, std::vector<Triangle>& triangles) {
+  std::vector<std::int32_t> opposite = link_half_edges(triangles, points.size()).opposite;
+  const auto halves = static_cast<std::int32_t>(opposite.size());
+  const auto pair_up = [&](std::int32_t h, std::int32_t other) {
+    opposite[h] = other;
+    opposite[other] = h;
+  };
+  for (bool flips = true; flips;) {
+    flips = false;
+    for (std::int32_t h = 0; h < halves; ++h) {
+      const std::int32_t other = opposite[h];
+      const std::int32_t a = origin_of(triangles, h);
+      const std::int32_t b = origin_of(triangles, other);
+      const std::int32_t c = origin_of(triangles, previous_half_edge(h));
+      const std::int32_t d = origin_of(triangles, previous_half_edge(other));
+      if (std::min(c, d) >= std::min(a, b) ||
+          !CGAL::coplanar(points[a], points[b], points[c], points[d]) ||
+          CGAL::coplanar_orientation(points[c], points[d], points[a], points[b]) !=
+              CGAL::NEGATIVE) {
+        continue;
+      }
+      const std::int32_t bc = opposite[next_half_edge(h)];
+      const std::int32_t ca = opposite[previous_half_edge(h)];
+      const std::int32_t ad = opposite[next_half_edge(other)];
+      const std::int32_t db = opposite[previous_half_edge(other)];
+      const auto t = static_cast<std::int32_t>(face_of(h));
+      const auto u = static_cast<std::int32_t>(face_of(other));
+      triangles[index(t)] = {c, a, d};
+      triangles[index(u)] = {d, b, c};
+      pair_up(3 * t, ca);
+      pair_up(3 * t + 1, ad);
+      pair_up(3 * t + 2, 3 * u + 2);
+      pair_up(3 * u, db);
+      pair_up(3 * u + 1, bc);
+      flips = true;
+    }
+  }
+}
 
 }  // namespace
 
@@ -84,7 +128,8 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
       triangles.push_back({corners[0], corners[k - 1], corners[k]});
     }
   }
-  // CGAL's order goes by addresses, and with it the last digits of sums over the triangles.
+  cut_planes_alike(input, triangles);
+  // So does CGAL's order of them.
   for (Triangle& t : triangles)
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   std::sort(triangles.begin(), triangles.end());
