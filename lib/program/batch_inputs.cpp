@@ -47,6 +47,10 @@ void add_matches(const std::string& pattern, std::vector<std::string>& files) {
 
 void add_input(const std::string& input, std::vector<std::string>& files);
 
+[[noreturn]] void refuse_list_in(const std::string& list, const std::string& named) {
+  refuse("The list \"" + list + "\" names the list \"" + named + "\"; name it in the call.");
+}
+
 void add_list(const std::string& list, std::vector<std::string>& files) {
   std::ifstream lines(list);
   if (!lines.is_open()) {
@@ -56,9 +60,7 @@ void add_list(const std::string& list, std::vector<std::string>& files) {
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     // A list of lists could name itself.
-    if (!line.empty() && line.front() == '@') {
-      refuse("The list \"" + list + "\" names the list \"" + line + "\"; name it in the call.");
-    }
+    if (!line.empty() && line.front() == '@') refuse_list_in(list, line);
     if (!line.empty()) add_input(line, files);
   }
 }
