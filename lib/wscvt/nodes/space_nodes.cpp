@@ -235,7 +235,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   const bool refines = placement.refinement.rounds > 0;
   if (relaxes && !refines) {
     mended = mend_triangles(mended.mesh, grain.mapped->locate(tessellation.seeds, execution),
-                            *grain.mapped, TriangleMendingOptions(), execution.part(0.85, 0.87));
+                            *grain.mapped, TriangleMendingOptions(), execution.part(0.85, 0.87),
+                            flaws.pairs.size());
   }
   // A dozen nodes may enclose so little that mending takes it away.
   if (!(enclosed_volume(mended.mesh.points, mended.mesh.triangles) > 0.0)) {

@@ -60,7 +60,13 @@ class Mender {
     mesh_.request_face_status();
     mesh_.request_halfedge_status();
     for (std::size_t i = 0; i < origin_.size(); ++i) origin_[i] = static_cast<std::int32_t>(i);
-    build_boxes();
+  }
+
+  /// Once, before any of the following.
+  void build_boxes() {
+    boxes_.clear();
+    for (const auto face : mesh_.faces()) boxes_.push_back({box_of(corners_of(face)), face.idx()});
+    tree_ = Tree(boxes_);
   }
 
   /// Of all triangles; their edges are not looked at.
@@ -145,14 +151,13 @@ class Mender {
           for (const OpenMesh::HalfedgeHandle h : {OpenMesh::HalfedgeHandle(side), back}) {
             if (!may_collapse(h)) continue;
             const auto [then, now] = meetings_before_and_after(h);
-            const Worst after = worst_without(h);
-            if (after.angle > flat_cosine) continue;
-            if (then - now < most || (then - now == most && after.angle >= smallest_cosine))
-              continue;
-            if (then == now) continue;
+            const double angle = worst_without(h).angle;
+            if (now >= then || angle > flat_cosine) continue;
+            // The most pairs parted, and of those the widest angles.
+            if (std::pair(now - then, angle) >= std::pair(-most, smallest_cosine)) continue;
             best = h;
             most = then - now;
-            smallest_cosine = after.angle;
+            smallest_cosine = angle;
           }
         }
       }
@@ -267,12 +272,6 @@ class Mender {
     const Vector3 low = points_[t[0]].cwiseMin(points_[t[1]]).cwiseMin(points_[t[2]]);
     const Vector3 high = points_[t[0]].cwiseMax(points_[t[1]]).cwiseMax(points_[t[2]]);
     return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
-  }
-
-  void build_boxes() {
-    boxes_.clear();
-    for (const auto face : mesh_.faces()) boxes_.push_back({box_of(corners_of(face)), face.idx()});
-    tree_ = Tree(boxes_);
   }
 
   /// After faces changed, vanished or came.
@@ -608,7 +607,8 @@ void check_options(const TriangleMendingOptions& options) {
 
 MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
                                const MappedSurface& surface, const TriangleMendingOptions& options,
-                               const Execution& execution) {
+                               const Execution& execution,
+                               std::optional<std::size_t> known_meeting) {
   check_options(options);
   if (places.size() != nodes.points.size()) {
     throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(nodes.points.size()) +
@@ -620,8 +620,9 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   Mender mender(nodes, places, surface, options);
   const Worst before = mender.worst();
   unchanged.report.left = before.small;
-  std::size_t meeting = mender.meeting_pairs().size();
+  std::size_t meeting = known_meeting ? *known_meeting : self_intersections(nodes).size();
   if (unchanged.report.left == 0 && meeting == 0) return unchanged;
+  mender.build_boxes();
 
   // Relocations may leave more small angles for a while, so the best of all rounds is taken: the
   // one in which the fewest triangles meet, and of those the one with the fewest small angles.
@@ -630,6 +631,7 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   TriangleMendingReport report = unchanged.report;
   for (int round = 0; round < options.rounds && (report.left > 0 || meeting > 0); ++round) {
     execution.report(0.0, "Mending triangles");
+    const int relocations = report.relocations;
     int changes = mender.improve(report);
     // Moves come first: most angles need no more.
     constexpr int rounds_a_relocation = 4;
@@ -640,7 +642,8 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
     if (changes == 0) break;
     const Worst now = mender.worst();
     report.left = now.small;
-    meeting = mender.meeting_pairs().size();
+    // Nothing else makes any meet, and looking through all takes as long as the rest of a round.
+    if (meeting > 0 || report.relocations > relocations) meeting = mender.meeting_pairs().size();
     // Fewer small angles are no gain where one of them is smaller than any was: a node that was
     // relocated may lie all but on another.
     const bool is_better =
