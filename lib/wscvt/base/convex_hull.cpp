@@ -54,10 +54,6 @@ struct ReportingTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true
 void cut_planes_alike(const std::vector<Point>& points, std::vector<Triangle>& triangles) {
   std::vector<std::int32_t> opposite = link_half_edges(triangles, points.size()).opposite;
   const auto halves = static_cast<std::int32_t>(opposite.size());
-  const auto pair_up = [&](std::int32_t h, std::int32_t other) {
-    opposite[h] = other;
-    opposite[other] = h;
-  };
   for (bool flips = true; flips;) {
     flips = false;
     for (std::int32_t h = 0; h < halves; ++h) {
@@ -72,19 +68,7 @@ void cut_planes_alike(const std::vector<Point>& points, std::vector<Triangle>& t
               CGAL::NEGATIVE) {
         continue;
       }
-      const std::int32_t bc = opposite[next_half_edge(h)];
-      const std::int32_t ca = opposite[previous_half_edge(h)];
-      const std::int32_t ad = opposite[next_half_edge(other)];
-      const std::int32_t db = opposite[previous_half_edge(other)];
-      const auto t = static_cast<std::int32_t>(face_of(h));
-      const auto u = static_cast<std::int32_t>(face_of(other));
-      triangles[index(t)] = {c, a, d};
-      triangles[index(u)] = {d, b, c};
-      pair_up(3 * t, ca);
-      pair_up(3 * t + 1, ad);
-      pair_up(3 * t + 2, 3 * u + 2);
-      pair_up(3 * u, db);
-      pair_up(3 * u + 1, bc);
+      flip_edge(h, triangles, opposite);
       flips = true;
     }
   }

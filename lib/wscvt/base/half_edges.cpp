@@ -34,4 +34,30 @@ HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t ve
   return result;
 }
 
+void flip_edge(std::int32_t half_edge, std::vector<Triangle>& triangles,
+               std::vector<std::int32_t>& opposite) {
+  const std::int32_t other = opposite[index(half_edge)];
+  const std::int32_t t = 3 * static_cast<std::int32_t>(face_of(half_edge));
+  const std::int32_t u = 3 * static_cast<std::int32_t>(face_of(other));
+  const std::int32_t a = origin_of(triangles, half_edge);
+  const std::int32_t b = origin_of(triangles, other);
+  const std::int32_t c = origin_of(triangles, previous_half_edge(half_edge));
+  const std::int32_t d = origin_of(triangles, previous_half_edge(other));
+  const std::int32_t beyond_bc = opposite[index(next_half_edge(half_edge))];
+  const std::int32_t beyond_ca = opposite[index(previous_half_edge(half_edge))];
+  const std::int32_t beyond_ad = opposite[index(next_half_edge(other))];
+  const std::int32_t beyond_db = opposite[index(previous_half_edge(other))];
+  triangles[face_of(t)] = {c, a, d};
+  triangles[face_of(u)] = {d, b, c};
+  const auto link = [&](std::int32_t h, std::int32_t g) {
+    opposite[index(h)] = g;
+    if (g >= 0) opposite[index(g)] = h;
+  };
+  link(t, beyond_ca);
+  link(t + 1, beyond_ad);
+  link(u, beyond_db);
+  link(u + 1, beyond_bc);
+  link(t + 2, u + 2);
+}
+
 }  // namespace wscvt

@@ -58,6 +58,13 @@ struct HalfEdges {
 /// mesh. Indices must lie in [0, vertices), which is not checked.
 HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices);
 
+/// Replaces an edge by the other diagonal of its two triangles abc and bad, about ab: they become
+/// cad and dbc, in the same two slots, and what lies beyond their outer edges is linked anew.
+/// Afterwards half-edge 3 t runs from c, 3 t + 1 from a, 3 u from d and 3 u + 1 from b, t and u
+/// being the triangles of the half-edge and of its opposite. The edge must not lie on a border.
+void flip_edge(std::int32_t half_edge, std::vector<Triangle>& triangles,
+               std::vector<std::int32_t>& opposite);
+
 /// Calls visit(h) for every half-edge that starts at the vertex of `start`, counter-clockwise, once
 /// round. The mesh must be closed about the vertex.
 template <class Visit>

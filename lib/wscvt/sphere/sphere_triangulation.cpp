@@ -170,34 +170,10 @@ bool SphereTriangulation::keeps_determinants(std::int32_t half_edge,
 }
 
 void SphereTriangulation::flip(std::int32_t half_edge) {
-  // Triangles abc and bad about the edge ab become cad and dbc about cd, in the same two slots.
-  // Their four outer edges get new half-edges, so what lies beyond them is linked anew.
-  const std::int32_t other = opposite_[half_edge];
-  const std::int32_t ab = half_edge / 3 * 3;
-  const std::int32_t ba = other / 3 * 3;
-  const std::int32_t a = origin(half_edge);
-  const std::int32_t b = origin(other);
-  const std::int32_t c = origin(previous(half_edge));
-  const std::int32_t d = origin(previous(other));
-  const std::int32_t beyond_bc = opposite_[next(half_edge)];
-  const std::int32_t beyond_ca = opposite_[previous(half_edge)];
-  const std::int32_t beyond_ad = opposite_[next(other)];
-  const std::int32_t beyond_db = opposite_[previous(other)];
-  triangles_[ab / 3] = {c, a, d};
-  triangles_[ba / 3] = {d, b, c};
-  const auto link = [&](std::int32_t h, std::int32_t g) {
-    opposite_[h] = g;
-    opposite_[g] = h;
-  };
-  link(ab, beyond_ca);
-  link(ab + 1, beyond_ad);
-  link(ba, beyond_db);
-  link(ba + 1, beyond_bc);
-  link(ab + 2, ba + 2);
-  first_half_edge_[c] = ab;
-  first_half_edge_[a] = ab + 1;
-  first_half_edge_[d] = ba;
-  first_half_edge_[b] = ba + 1;
+  const std::int32_t t = half_edge / 3 * 3;
+  const std::int32_t u = opposite_[half_edge] / 3 * 3;
+  flip_edge(half_edge, triangles_, opposite_);
+  for (const std::int32_t h : {t, t + 1, u, u + 1}) first_half_edge_[origin(h)] = h;
 }
 
 void SphereTriangulation::replace(const std::vector<std::int32_t>& triangles,
