@@ -140,13 +140,16 @@ std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
   return result;
 }
 
+void check_densities(const IndexedMesh& mesh, const std::vector<double>& densities) {
+  if (densities.empty() || densities.size() == mesh.points.size()) return;
+  throw Error(ErrorCode::InvalidInput,
+              "There are " + std::to_string(densities.size()) + " densities for a mesh of " +
+                  std::to_string(mesh.points.size()) + " vertices; give one each, or none.");
+}
+
 std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count,
                                            const std::vector<double>& densities) {
-  if (!densities.empty() && densities.size() != mesh.points.size()) {
-    throw Error(ErrorCode::InvalidInput,
-                "There are " + std::to_string(densities.size()) + " densities for a mesh of " +
-                    std::to_string(mesh.points.size()) + " vertices; give one each, or none.");
-  }
+  check_densities(mesh, densities);
   std::vector<double> accumulated;
   accumulated.reserve(mesh.triangles.size());
   double area = 0.0;

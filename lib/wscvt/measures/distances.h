@@ -108,6 +108,10 @@ double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t 
 std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count,
                                            const std::vector<double>& densities = {});
 
+/// Throws Error(InvalidInput) unless there is a density for each vertex of the mesh, or none at
+/// all.
+void check_densities(const IndexedMesh& mesh, const std::vector<double>& densities);
+
 /// The points of these places. Throws the same.
 std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t count);
 

@@ -26,6 +26,13 @@ inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
   return p + place.weights[1] * (mesh.points[b] - p) + place.weights[2] * (mesh.points[c] - p);
 }
 
+/// What is given at the vertices of a mesh, at a place on it; linear on each face.
+inline double value_at(const IndexedMesh& mesh, const std::vector<double>& values,
+                       const MeshPlace& place) {
+  const auto& [a, b, c] = mesh.triangles[place.triangle];
+  return place.weights[0] * values[a] + place.weights[1] * values[b] + place.weights[2] * values[c];
+}
+
 /// A scan spread over the unit sphere, one to one (sphere_map.h): every direction u has one place
 /// on the mesh, x(u). Within the spherical triangle of a face with corners at the directions a, b,
 /// c the weights are those of u = alpha a + beta b + gamma c scaled to sum 1, so x(u) runs straight

@@ -64,9 +64,7 @@ Candidates candidates_of(const MappedSurface& surface, const std::vector<double>
     result.points.push_back(surface.position(place));
     result.normals.push_back(surface.normal(place));
     if (densities.empty()) continue;
-    const Triangle& t = surface.mesh().triangles[place.triangle];
-    const double density = place.weights[0] * densities[t[0]] + place.weights[1] * densities[t[1]] +
-                           place.weights[2] * densities[t[2]];
+    const double density = value_at(surface.mesh(), densities, place);
     areas += 1.0 / density;
     result.stretches.push_back(density);
   }
@@ -155,11 +153,8 @@ std::vector<Vector3> spread_seeds(const MappedSurface& surface,
                 "A tessellation needs at least 4 seeds, not " + std::to_string(count) + ".");
   }
   const Candidates candidates = candidates_of(surface, densities, count);
-  double area = 0.0;
-  for (const Triangle& t : surface.mesh().triangles) {
-    const std::vector<Vector3>& points = surface.mesh().points;
-    area += triangle_area(points[t[0]], points[t[1]], points[t[2]]);
-  }
+  const IndexedMesh& mesh = surface.mesh();
+  const double area = mesh_sums(mesh.points, mesh.triangles, mesh.points[0], execution).area();
   // Twice the radius of the discs of the densest packing in the plane.
   const double reach = 2.0 * std::sqrt(area / (2.0 * std::sqrt(3.0) * count));
   const std::vector<char> is_left = eliminate(neighbours_of(candidates, reach, execution), count);

@@ -12,6 +12,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/distances.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/tessellation/power_cells.h"
 #include "wscvt/tessellation/step_control.h"
@@ -36,14 +37,6 @@ constexpr double smallest_determinant = 1e-12;
 /// relaxation ends at this share of its tolerance: going on to a hundredth lowered the mean edge
 /// ratio of such scans from 1.133 to 1.123, for ten times the iterations.
 constexpr double settled_share = 0.5;
-
-double linear(const std::vector<double>& values, const MappedSurface& surface,
-              const MeshPlace& place) {
-  const Triangle& corners = surface.mesh().triangles[place.triangle];
-  double value = 0.0;
-  for (int k = 0; k < 3; ++k) value += place.weights[k] * values[corners[k]];
-  return value;
-}
 
 /// Calls visit(second, third) for the corners of every triangle about a vertex, counter-clockwise.
 template <class Visit>
@@ -97,7 +90,7 @@ class Relaxation {
       for (std::size_t i = begin; i < end; ++i) {
         places_[i] = surface_.locate(seeds_[i], places_[i].triangle);
         positions_[i] = surface_.position(places_[i]);
-        if (!wanted_.empty()) wanted_[i] = linear(densities_, surface_, places_[i]);
+        if (!wanted_.empty()) wanted_[i] = value_at(surface_.mesh(), densities_, places_[i]);
       }
     });
     const auto repair = triangulation_->restore_surface_delaunay(seeds_, positions_, execution_,
@@ -353,15 +346,6 @@ void subdivide(const MappedSurface& surface, const SpaceTessellation& coarse,
   }
 }
 
-void check_densities(const MappedSurface& surface, const std::vector<double>& densities) {
-  const std::size_t vertices = surface.mesh().points.size();
-  if (!densities.empty() && densities.size() != vertices) {
-    throw Error(ErrorCode::InvalidInput,
-                "There are " + std::to_string(densities.size()) + " densities for a mesh of " +
-                    std::to_string(vertices) + " vertices; give one each, or none.");
-  }
-}
-
 }  // namespace
 
 std::vector<Vector3> surviving_seeds(const MappedSurface& surface,
@@ -389,7 +373,7 @@ SpaceTessellation relax_in_space(std::vector<Vector3> seeds, SphereTriangulation
                                  const MappedSurface& surface, const std::vector<double>& densities,
                                  const RelaxationOptions& options, const Execution& execution) {
   check_relaxation_options(options);
-  check_densities(surface, densities);
+  check_densities(surface.mesh(), densities);
   if (seeds.size() != triangulation.vertex_count()) {
     throw Error(ErrorCode::InvalidInput,
                 "The triangulation has " + std::to_string(triangulation.vertex_count()) +
@@ -406,7 +390,7 @@ SpaceTessellation relax_in_space(std::vector<Vector3> start, int count,
                                  const Execution& execution) {
   check_relaxation_options(options);
   check_multilevel_options(levels);
-  check_densities(surface, densities);
+  check_densities(surface.mesh(), densities);
   const std::vector<int> sizes = level_sizes(count, levels.coarsest_seeds);
   if (static_cast<int>(start.size()) != sizes.front()) {
     throw Error(ErrorCode::InvalidInput, "The coarsest level has " + std::to_string(start.size()) +
