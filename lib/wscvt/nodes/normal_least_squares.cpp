@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "wscvt/base/error.h"
@@ -311,7 +312,7 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
   NormalFit fit;
   fit.report.samples = samples.size();
   const Shape before = shape_of(positions, triangles, half_edges, execution);
-  const std::size_t crossings_before = self_intersections(nodes).size();
+  std::optional<std::size_t> crossings_before;  // counted when some are found, which is rare
   const double widest_cosine = std::cos(options.smallest_angle * pi / 180.0);
   const double turned_cosine = std::cos(options.largest_turn * pi / 180.0);
   // Halvings of each node's step; beyond the last it takes none.
@@ -342,7 +343,9 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
     if (held) continue;
     fit.report.offset = offset_to_volume(normals, triangles, volume, fit.positions, execution);
     const auto crossings = self_intersections({fit.positions, triangles});
-    if (crossings.size() <= crossings_before) break;
+    if (crossings.empty()) break;
+    if (!crossings_before) crossings_before = self_intersections(nodes).size();
+    if (crossings.size() <= *crossings_before) break;
     for (const std::int32_t v : vertices_of(crossings, triangles)) held |= hold_back(v);
     if (!held) break;
   }

@@ -43,9 +43,8 @@ MultilevelOptions levels_in_space(const MultilevelOptions& levels, SeedStart sta
 
 /// Where the seeds of a coarsest level come from.
 enum class SpaceStart {
-  /// Vertices that the map's collapse kept longest: they lie where the shape is, and rough scans
-  /// are
-  /// met 3 % closer from there.
+  /// Vertices that the map's collapse kept longest: they lie where the shape is, and from there
+  /// rough scans are met 3 % closer.
   Survivors,
   /// Places spread by area: thin rims and long limbs get their share, which survivors crowd.
   Spread,
@@ -114,6 +113,32 @@ Flaws flaws_of(const SpaceTessellation& tessellation, double volume) {
           1.0 - enclosed_volume(tessellation.positions, triangles) / volume};
 }
 
+/// Relaxations that give the places where triangles meet more nodes, each from where the one before
+/// came to: one that helps little may be what the next one needs. Leaves the best of them in
+/// `tessellation` and its flaws in `flaws`, and returns how many led to it.
+int repair(const MappedSurface& surface, const RelaxationOptions& options, double volume,
+           std::vector<double> densities, SpaceTessellation& tessellation, Flaws& flaws,
+           const Execution& execution) {
+  constexpr int most_repairs = 5;
+  RelaxationOptions local = options;
+  local.maximum_iterations = std::min(local.maximum_iterations, 200);
+  SpaceTessellation latest = tessellation;
+  Flaws left = flaws;
+  int best = 0;
+  for (int count = 1; count <= most_repairs && !flaws.pairs.empty(); ++count) {
+    raise_densities(surface, latest, left.pairs, densities, execution);
+    latest = relax_in_space(std::move(latest.seeds), std::move(latest.triangulation), surface,
+                            densities, local, execution);
+    left = flaws_of(latest, volume);
+    if (left.pairs.size() >= flaws.pairs.size()) continue;
+    best = count;
+    latest.report.coarser_levels = tessellation.report.coarser_levels;
+    tessellation = latest;
+    flaws = left;
+  }
+  return best;
+}
+
 /// Refines fitted nodes over the map, mends what small angles the sphere's guard has left, and
 /// makes the volume exact again.
 void refine_in_space(const Grain& grain, const MeshDistance* to_scan,
@@ -170,7 +195,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   SpaceNodes result;
   Flaws flaws = flaws_of(tessellation, volume);
   const bool relaxes = options.seeding.sampling == Sampling::Weighted;
-  if (relaxes && !flaws.pairs.empty()) {
+  // Who asks for a random start gets that.
+  if (relaxes && options.seeding.start != SeedStart::Random && !flaws.pairs.empty()) {
     SpaceTessellation other = tessellate(grain, node_count, options, SpaceStart::Spread, densities,
                                          execution.part(0.5, 0.7));
     Flaws its = flaws_of(other, volume);
@@ -184,23 +210,9 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     }
   }
 
-  // A repair that helps little may be what the next one needs: the best of all is taken.
-  constexpr int most_repairs = 5;
-  SpaceTessellation latest = tessellation;
-  std::vector<TrianglePair> pairs = flaws.pairs;
-  for (int repair = 1; relaxes && !flaws.pairs.empty() && repair <= most_repairs; ++repair) {
-    raise_densities(*grain.mapped, latest, pairs, densities, execution);
-    RelaxationOptions local = options.relaxation;
-    local.maximum_iterations = std::min(local.maximum_iterations, 200);
-    latest = relax_in_space(latest.seeds, latest.triangulation, *grain.mapped, densities, local,
-                            execution.part(0.7, 0.8));
-    Flaws left = flaws_of(latest, volume);
-    pairs = left.pairs;
-    if (left.pairs.size() >= flaws.pairs.size()) continue;
-    result.report.repairs = repair;
-    latest.report.coarser_levels = tessellation.report.coarser_levels;
-    tessellation = latest;
-    flaws = std::move(left);
+  if (relaxes && !flaws.pairs.empty()) {
+    result.report.repairs = repair(*grain.mapped, options.relaxation, volume, densities,
+                                   tessellation, flaws, execution.part(0.7, 0.8));
   }
 
   if (flaws.any() && relaxes) {

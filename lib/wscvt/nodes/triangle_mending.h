@@ -51,8 +51,8 @@ struct MendedTriangles {
 /// sphere is not asked: the result has places on the scan, but no longer directions. Every other
 /// triangle stays as it is.
 ///
-/// No change makes more triangles meet than met before, and out of pairs that do meet a node is
-/// taken, wherever fewer meet without it, and put in elsewhere.
+/// No more triangles meet afterwards than before, and out of pairs that do meet a node is taken,
+/// wherever fewer meet without it, and put in elsewhere.
 ///
 /// `nodes` is a closed mesh, its points at `places`; `known_meeting` is the number of its pairs of
 /// triangles that meet, where it is known: self_intersections takes longer than the rest where
