@@ -62,6 +62,16 @@ Jammed slivered(Jammed result, double height) {
 /// The same on a lumpy body, where they are even as well.
 Jammed even_nodes() { return nodes_on(test::lumpy(5)); }
 
+/// Half a ball, hollow: the lower half of a sphere folded up into the upper one.
+IndexedMesh thin_bowl(double thickness) {
+  IndexedMesh bowl = test::sphere(5);
+  for (Vector3& p : bowl.points) {
+    if (p.z() < 0.0)
+      p = (1.0 - thickness * std::min(1.0, -10.0 * p.z())) * Vector3(p.x(), p.y(), -p.z());
+  }
+  return bowl;
+}
+
 void expect_closed(const IndexedMesh& mesh, std::size_t nodes) {
   ASSERT_EQ(mesh.points.size(), nodes);
   ASSERT_EQ(mesh.triangles.size(), 2 * nodes - 4);
@@ -130,12 +140,7 @@ TEST(TriangleMending, CutsNoRidgeBeyondTheLimit) {
 TEST(TriangleMending, NodesStayOnTheirSheet) {
   // A bowl so thin that the middle of a node's neighbours lies nearer to the other sheet.
   constexpr double thickness = 0.006;
-  IndexedMesh bowl = test::sphere(5);
-  for (Vector3& p : bowl.points) {
-    if (p.z() < 0.0)
-      p = (1.0 - thickness * std::min(1.0, -10.0 * p.z())) * Vector3(p.x(), p.y(), -p.z());
-  }
-  const Jammed bad = slivered(nodes_on(std::move(bowl)), 0.2);
+  const Jammed bad = slivered(nodes_on(thin_bowl(thickness)), 0.2);
   const MendedTriangles mended =
       mend_triangles(bad.nodes, bad.places, bad.surface, {}, Execution(1));
   EXPECT_GT(mended.report.moves, 10);
@@ -198,13 +203,7 @@ TEST(TriangleMending, TakesNodesOutOfTrianglesThatMeet) {
 
 TEST(TriangleMending, PartsSheetsThatMeet) {
   // Sheets nearer to each other than the chords of their nodes are deep.
-  constexpr double thickness = 0.006;
-  IndexedMesh bowl = test::sphere(5);
-  for (Vector3& p : bowl.points) {
-    if (p.z() < 0.0)
-      p = (1.0 - thickness * std::min(1.0, -10.0 * p.z())) * Vector3(p.x(), p.y(), -p.z());
-  }
-  const Jammed bad = slivered(nodes_on(std::move(bowl)), 0.2);
+  const Jammed bad = slivered(nodes_on(thin_bowl(0.006)), 0.2);
   const MendedTriangles mended =
       mend_triangles(bad.nodes, bad.places, bad.surface, {}, Execution(1));
   const std::size_t before = self_intersections(bad.nodes).size();

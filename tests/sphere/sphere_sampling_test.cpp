@@ -5,28 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "support/expect_error.h"
+#include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 
 namespace wscvt {
 namespace {
 
-double smallest_distance(const std::vector<Vector3>& points) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      smallest = std::min(smallest, (points[i] - points[j]).norm());
-    }
-  }
-  return smallest;
-}
-
 void expect_distinct_unit_vectors(const std::vector<Vector3>& points) {
   for (const Vector3& point : points) EXPECT_NEAR(point.norm(), 1.0, 1e-15 * 4);
-  EXPECT_GT(smallest_distance(points), 0.0);
+  EXPECT_GT(test::smallest_distance(points), 0.0);
 }
 
 TEST(GaussLegendre, IntegratesPolynomialsUpToTheirDegreeExactly) {
@@ -66,7 +56,7 @@ TEST(SphereSampling, LatticesHaveTheCountAskedForAndStandApart) {
   }
   // The densest packing of N points has neighbours 3.81/sqrt(N) apart; a lattice fit to start from
   // keeps at least two fifths of that everywhere, poles included.
-  EXPECT_GT(smallest_distance(fibonacci_lattice(1000)), 1.5 / std::sqrt(1000.0));
+  EXPECT_GT(test::smallest_distance(fibonacci_lattice(1000)), 1.5 / std::sqrt(1000.0));
 }
 
 TEST(SphereSampling, RandomDirectionsRepeatWithTheSeedAndAreCentred) {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "wscvt/base/mesh.h"
 #include "wscvt/base/pi.h"
@@ -54,6 +56,17 @@ inline IndexedMesh subdivided(IndexedMesh mesh, int times) {
     mesh.triangles = std::move(finer);
   }
   return mesh;
+}
+
+/// The smallest distance between two of some points.
+inline double smallest_distance(const std::vector<Vector3>& points) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      smallest = std::min(smallest, (points[i] - points[j]).norm());
+    }
+  }
+  return smallest;
 }
 
 /// Unit sphere of 20 * 4^times faces with vertices on the sphere.

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
@@ -24,12 +24,8 @@ MappedSurface ellipsoid(const Vector3& semi_axes) {
 }
 
 double area_of(const MappedSurface& surface) {
-  const std::vector<Vector3>& p = surface.mesh().points;
-  double area = 0.0;
-  for (const Triangle& t : surface.mesh().triangles) {
-    area += 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
-  }
-  return area;
+  const IndexedMesh& mesh = surface.mesh();
+  return mesh_sums(mesh.points, mesh.triangles, Vector3::Zero(), Execution(1)).area();
 }
 
 /// Where seeds lie on the surface.
@@ -44,16 +40,6 @@ std::vector<Vector3> spread(const MappedSurface& surface, int count,
   return positions;
 }
 
-double smallest_distance(const std::vector<Vector3>& points) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      smallest = std::min(smallest, (points[i] - points[j]).norm());
-    }
-  }
-  return smallest;
-}
-
 /// The distance of neighbours in the densest packing of the plane.
 double densest_spacing(const MappedSurface& surface, int count) {
   return 2.0 * std::sqrt(area_of(surface) / (2.0 * std::sqrt(3.0) * count));
@@ -66,7 +52,7 @@ constexpr double expected_spacing = 0.6;
 TEST(SpreadSeeds, KeepTheirDistance) {
   const MappedSurface ball = ellipsoid({1.0, 1.0, 1.0});
   const std::vector<Vector3> seeds = spread(ball, 300);
-  EXPECT_GT(smallest_distance(seeds), expected_spacing * densest_spacing(ball, 300));
+  EXPECT_GT(test::smallest_distance(seeds), expected_spacing * densest_spacing(ball, 300));
   // And leave no hole: a disc around a hole's middle would be as large as one of a seed.
   for (const Vector3& p : ball.mesh().points) {
     double nearest = 2.0;
@@ -83,7 +69,7 @@ TEST(SpreadSeeds, AreAsManyAtOneEndOfALongBodyAsAtTheOther) {
   const std::vector<Vector3>& p = needle.mesh().points;
   for (const Triangle& t : needle.mesh().triangles) {
     faces.emplace_back((p[t[0]].x() + p[t[1]].x() + p[t[2]].x()) / 3.0,
-                       0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm());
+                       triangle_area(p[t[0]], p[t[1]], p[t[2]]));
   }
   std::sort(faces.begin(), faces.end());
   std::sort(seeds.begin(), seeds.end(),
@@ -110,8 +96,8 @@ TEST(SpreadSeeds, FollowDensities) {
   // Nine tenths, but for half a row at the equator, of 24 below and 72 above it.
   EXPECT_NEAR(static_cast<double>(upper.size()), 360.0, 15.0);
   // Each half has the spacing of its own density.
-  EXPECT_GT(smallest_distance(upper), expected_spacing * densest_spacing(ball, 720));
-  EXPECT_GT(smallest_distance(lower), expected_spacing * densest_spacing(ball, 80));
+  EXPECT_GT(test::smallest_distance(upper), expected_spacing * densest_spacing(ball, 720));
+  EXPECT_GT(test::smallest_distance(lower), expected_spacing * densest_spacing(ball, 80));
 }
 
 TEST(SpreadSeeds, OfTwoSheetsDoNotCrowdEachOther) {
@@ -123,7 +109,7 @@ TEST(SpreadSeeds, OfTwoSheetsDoNotCrowdEachOther) {
     for (const Vector3& p : seeds) {
       if (side * p.z() > 0.0) of_side.push_back(p);
     }
-    EXPECT_GT(smallest_distance(of_side), expected_spacing * densest_spacing(flake, 300));
+    EXPECT_GT(test::smallest_distance(of_side), expected_spacing * densest_spacing(flake, 300));
   }
 }
 
