@@ -110,6 +110,36 @@ class RunOnDocument {
   Layers& layers_;
 };
 
+/// "A", "A and B", "A, B and C".
+std::string enumerated(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k > 0) text += k + 1 < names.size() ? ", " : " and ";
+    text += names[k];
+  }
+  return text;
+}
+
+/// A sentence about parameters that have no value; none when all have one. Dialogs give all: it is
+/// a script that lacks them, or a host that dropped what it could not read and says nothing.
+std::optional<std::string> remark_on_missing(const ParameterList& parameters,
+                                             const ParameterValues& values) {
+  std::vector<std::string> given;
+  std::vector<std::string> missing;
+  for (const FilterParameter& parameter : parameters) {
+    (values.count(parameter.name) > 0 ? given : missing).push_back(parameter.name);
+  }
+  if (missing.empty()) return std::nullopt;
+  if (given.empty()) return "The script gives no parameter, or none that can be read: defaults.";
+  // A script that holds only what it changes lacks many.
+  if (given.size() < missing.size()) {
+    return "Of the script's parameters only " + enumerated(given) +
+           " could be read; all others took their defaults.";
+  }
+  return enumerated(missing) + (missing.size() == 1 ? " is" : " are") +
+         " missing from the script, or cannot be read there, and took the default.";
+}
+
 FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValues& values,
                            Layers& layers, const ProgressCallback& progress) {
   const Stopwatch stopwatch;
@@ -214,6 +244,22 @@ FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
   return outcome;
 }
 
+FilterOutcome run_on(FilterId filter, const ParameterList& parameters,
+                     const ParameterValues& values, Layers& layers,
+                     const ProgressCallback& progress) {
+  const Execution execution(0, progress);
+  switch (filter) {
+    case FilterId::Create:
+      return create_layer(values, layers, execution);
+    case FilterId::Describe:
+      return describe_layer(values, layers, execution);
+    case FilterId::Everyday:
+    case FilterId::Remesh:
+      break;
+  }
+  return remesh_layer(parameters, values, layers, progress);
+}
+
 }  // namespace
 
 std::vector<Filter> all_filters() {
@@ -239,18 +285,13 @@ Filter filter_with_number(int number) {
 FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers& layers,
                          const ProgressCallback& progress) {
   const RunOnDocument run(layers);
-  const Execution execution(0, progress);
-  switch (filter) {
-    case FilterId::Create:
-      return create_layer(values, layers, execution);
-    case FilterId::Describe:
-      return describe_layer(values, layers, execution);
-    case FilterId::Everyday:
-    case FilterId::Remesh:
-      break;
+  const ParameterList parameters = filter_with_number(static_cast<int>(filter)).parameters;
+  FilterOutcome outcome = run_on(filter, parameters, values, layers, progress);
+  if (const std::optional<std::string> remark = remark_on_missing(parameters, values)) {
+    // After the empty line with which a log begins.
+    outcome.log.insert(outcome.log.begin() + 1, {*remark, true});
   }
-  return remesh_layer(filter_with_number(static_cast<int>(filter)).parameters, values, layers,
-                      progress);
+  return outcome;
 }
 
 std::string sentence_of_current_exception() {

@@ -45,8 +45,8 @@ struct FilterOutcome {
   std::map<std::string, double> values;  ///< results by name, for scripts
 };
 
-/// Runs a filter on the current layer. Values that are missing take their defaults. Throws Error;
-/// the document is then as it was.
+/// Runs a filter on the current layer. Values that are missing take their defaults, and the log
+/// warns of it. Throws Error; the document is then as it was.
 FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers& layers,
                          const ProgressCallback& progress);
 
