@@ -39,10 +39,12 @@ std::vector<std::string> short_table(const RemeshResult& result) {
   // A surface from a formula has neither vertices nor triangles.
   const bool is_scan = result.input.input_vertices > 0;
   const double none = std::numeric_limits<double>::quiet_NaN();
-  add("vertices", is_scan ? static_cast<double>(result.input.vertices) : none,
-      static_cast<double>(result.mesh.points.size()));
-  add("faces", is_scan ? static_cast<double>(result.input.faces) : none,
-      static_cast<double>(result.mesh.triangles.size()));
+  // Counts in full, however large.
+  const auto add_count = [&](const std::string& label, std::size_t from, std::size_t to) {
+    cells.push_back({"  " + label, is_scan ? std::to_string(from) : "-", std::to_string(to), ""});
+  };
+  add_count("vertices", result.input.vertices, result.mesh.points.size());
+  add_count("faces", result.input.faces, result.mesh.triangles.size());
   for (const DescriptorComparison& row :
        compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh))) {
     const auto label = short_labels.find(row.key);

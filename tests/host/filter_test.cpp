@@ -27,6 +27,7 @@
 #include "parameters.h"
 #include "programs.h"
 #include "remesh_filter.h"
+#include "remesh_report.h"
 #include "sample_meshes.h"
 #include "wscvt/remesh.h"
 
@@ -639,6 +640,20 @@ TEST(Filter, LogBeginsEmptyAndHoldsTheTableSecondsAndSeed) {
                             "Seed        42", "300", "596"}) {
     EXPECT_TRUE(log.contains(words, Qt::CaseInsensitive)) << words << " is not in\n"
                                                           << log.toStdString();
+  }
+}
+
+TEST(Filter, LogHoldsCountsInFull) {
+  RemeshResult result;
+  result.input.input_vertices = 1234567;
+  result.input.vertices = 1234567;
+  result.input.faces = 2469130;
+  result.mesh.points.resize(100000);
+  result.mesh.triangles.resize(199996);
+  std::string log;
+  for (const filter::LogLine& line : filter::log_lines(result, 0.1)) log += line.text + "\n";
+  for (const char* count : {" 1234567 ", " 2469130 ", " 100000", " 199996"}) {
+    EXPECT_NE(log.find(count), std::string::npos) << count << " is not in\n" << log;
   }
 }
 
