@@ -3,6 +3,7 @@
 // The paper's study, repeated on the samples: tables and the data its figures are drawn from.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "study/reference_particles.h"
 #include "study/sampling_errors.h"
 #include "study/table.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/scan/mesh_io.h"
 
@@ -48,7 +50,35 @@ Table errors_by_nodes(const Table& errors, const std::string& scan, const std::s
   return table;
 }
 
-void run(const std::string& folder, const std::string& particles, int poses) {
+/// Appends the scans of a folder, by name, to the samples' errors. One that cannot be read or
+/// described by a series is told and left out.
+void add_scans_of(const std::string& scans_folder, int poses, SamplingErrors& errors,
+                  std::vector<std::string>& names, const wscvt::Execution& execution) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(scans_folder)) {
+    if (wscvt::is_mesh_file(entry.path().string())) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  const auto append = [](Table& all, const Table& table) {
+    all.insert(all.end(), table.begin() + 1, table.end());
+  };
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.stem().string();
+    try {
+      const SamplingErrors of_scan =
+          sampling_errors({{name, wscvt::read_mesh(file.string())}}, poses, execution);
+      append(errors.errors, of_scan.errors);
+      append(errors.roughness, of_scan.roughness);
+      append(errors.far_nodes, of_scan.far_nodes);
+      names.push_back(name);
+    } catch (const wscvt::Error& error) {
+      std::cout << name << " is left out: " << error.what() << std::endl;
+    }
+  }
+}
+
+void run(const std::string& folder, const std::string& particles, const std::string& scans_folder,
+         int poses) {
   const wscvt::Execution execution;
   std::filesystem::create_directories(folder);
   std::vector<Scan> scans;
@@ -76,16 +106,19 @@ void run(const std::string& folder, const std::string& particles, int poses) {
   write_csv(folder + "/figure7_quality.csv", distributions);
   tell("Figure 7: scans and WSCVT-D remeshes with as many nodes", distributions);
 
-  const SamplingErrors sampled = sampling_errors(scans, poses, execution);
+  SamplingErrors sampled = sampling_errors(scans, poses, execution);
+  std::vector<std::string> names;
+  for (const Scan& scan : scans) names.push_back(scan.name);
+  if (!scans_folder.empty()) add_scans_of(scans_folder, poses, sampled, names, execution);
   write_csv(folder + "/errors.csv", sampled.errors);
   write_csv(folder + "/roughness.csv", sampled.roughness);
   write_csv(folder + "/far_nodes.csv", sampled.far_nodes);
-  for (const Scan& scan : scans) {
+  for (const std::string& name : names) {
     for (const char* measure : {"volume", "area", "aspect_ratio", "sphericity", "sdq"}) {
       const std::string figure = measure == std::string("sdq") ? "Figure 10" : "Figure 8";
-      tell(figure + ": " + measure + " of " + scan.name + ", mean over " + std::to_string(poses) +
+      tell(figure + ": " + measure + " of " + name + ", mean over " + std::to_string(poses) +
                " poses of |error| in % against the scan (against the fitted surface)",
-           errors_by_nodes(sampled.errors, scan.name, measure));
+           errors_by_nodes(sampled.errors, name, measure));
     }
   }
   tell("Sdq of the scans, and its printed form (eq. 17) of the fitted surface over the poses",
@@ -112,17 +145,21 @@ int main(int argc, char** argv) {
   CLI::App app{"Repeat the paper's study on the sample grains."};
   std::string folder;
   std::string particles;
+  std::string scans;
   int poses = 4;
   app.add_option("folder", folder, "Where tables and figure data go")->required();
   app.add_option("--particles", particles,
                  "Folder with NIST/VCCTL particles (*.dat) and their *-geom.csv tables")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--scans", scans,
+                 "Folder with scans whose errors are measured as the samples' are")
       ->check(CLI::ExistingDirectory);
   app.add_option("--poses", poses, "Poses that the errors are means over")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    run(folder, particles, poses);
+    run(folder, particles, scans, poses);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return EXIT_FAILURE;

@@ -99,6 +99,7 @@ struct Sums {
 RemeshOptions paper_options(const Method& method, int node_count) {
   RemeshOptions options;
   options.method = wscvt::Method::AsPublished;
+  options.surface.parametrization = Parametrization::Radial;  // nothing else has the series
   options.measures.advice = false;
   options.seeding.sampling = method.sampling;
   options.weighting.kind = method.weighting;
