@@ -21,9 +21,10 @@ using wscvt::test::CtOptions;
 using wscvt::test::Grain;
 
 /// A scan of exactly `vertices` vertices: the voxel size is brought near, then the grid is shifted
-/// until the number is met.
-IndexedMesh exact_count(const Grain& grain, std::size_t vertices) {
+/// until the number is met. `blur` is that of the scanner.
+IndexedMesh exact_count(const Grain& grain, std::size_t vertices, double blur) {
   CtOptions options;
+  options.blur = blur;
   std::mt19937_64 engine(vertices);
   const auto target = static_cast<double>(vertices);
   for (int attempt = 0; attempt < 4000; ++attempt) {
@@ -46,16 +47,20 @@ int main(int argc, char** argv) {
   }
   try {
     const std::string folder = argv[1];
+    // Texture that voxels blur away would be none; of the rough grain there is enough either way.
+    constexpr double sharp = 0.4;
+    constexpr double soft = 0.7;
     const struct {
       const char* file;
       Grain grain;
       std::size_t vertices;
-    } samples[] = {{"sand_7228.ply", wscvt::test::sand_grain(5), 7228},
-                   {"sand_5658.ply", wscvt::test::sand_grain(12), 5658},
-                   {"angular_6000.ply", wscvt::test::angular_grain(7), 6000},
-                   {"elongated_rough_8000.ply", wscvt::test::rough_grain(23), 8000}};
+      double blur;
+    } samples[] = {{"sand_7228.ply", wscvt::test::textured_sand_grain(5), 7228, sharp},
+                   {"sand_5658.ply", wscvt::test::textured_sand_grain(12), 5658, sharp},
+                   {"angular_6000.ply", wscvt::test::textured_angular_grain(7), 6000, sharp},
+                   {"elongated_rough_8000.ply", wscvt::test::rough_grain(23), 8000, soft}};
     for (const auto& sample : samples) {
-      const IndexedMesh mesh = exact_count(sample.grain, sample.vertices);
+      const IndexedMesh mesh = exact_count(sample.grain, sample.vertices, sample.blur);
       wscvt::write_mesh(mesh, folder + "/" + sample.file, wscvt::PlyCoordinates::Float);
       std::cout << sample.file << ": " << mesh.points.size() << " vertices, "
                 << mesh.triangles.size() << " faces\n";

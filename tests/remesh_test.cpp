@@ -159,8 +159,9 @@ TEST(Remesh, RotatedScanGivesTheSameDescriptors) {
   EXPECT_NEAR(b.original.sdq / a.original.sdq, 1.0, 1e-9);
   // The series of a rotated scan is the rotated series; only its lattice of nodes differs, so what
   // is left is a share of the discretisation error (volume 0.7 %, Sdq 1 % at N = 1000).
-  // The residual is read at other points: 2 % is their scatter.
-  EXPECT_NEAR(b.fit.residual / a.fit.residual, 1.0, 0.02);
+  // The residual is read at other points, 3,000 of them: the rms of normal noise scatters by 1.3 %
+  // then, and the quotient of two by 1.8 %. Three times that.
+  EXPECT_NEAR(b.fit.residual / a.fit.residual, 1.0, 0.055);
   EXPECT_NEAR(b.remesh.volume / a.remesh.volume, 1.0, 1e-3);
   EXPECT_NEAR(b.remesh.area / a.remesh.area, 1.0, 1e-3);
   EXPECT_NEAR(b.remesh.sphericity / a.remesh.sphericity, 1.0, 1e-3);
@@ -251,9 +252,11 @@ TEST(Remesh, CellAreasAddUpToTheSurface) {
     const RemeshResult result =
         remesh(sand(), options_of(2000, Weighting::Area, metric), Execution(1));
     const double total = std::accumulate(result.cell_areas.begin(), result.cell_areas.end(), 0.0);
-    // On the sphere a cell counts as its solid angle times g at its seed, second order in h; flat
-    // fans lose as much again. h^2 = 4 pi / N is 0.6 %, of which this grain's slopes make 1.2 %.
-    EXPECT_NEAR(total / result.original.area, 1.0, 0.02);
+    // The nodes lie on the series, which has 1.3 % less area than this scan. On the sphere a cell
+    // counts as its solid angle times g at its seed, second order in h; flat fans lose as much
+    // again. h^2 = 4 pi / N is 0.6 %, of which this grain's slopes make 1.2 %.
+    const double area = integrate(HarmonicSurface(result.coefficients), 80, Execution(1)).area;
+    EXPECT_NEAR(total / area, 1.0, 0.02);
   }
 }
 
@@ -761,7 +764,9 @@ TEST(RemeshContact, NodesLieFartherOutTheSmallerTheBallsAndAdviceIsNotGiven) {
     for (const double cell : result.cell_areas) area += cell;
     EXPECT_NEAR(area / result.remesh.area, 1.0, 1e-12);
   }
-  EXPECT_LT(volume, 1.06);
+  // Small balls touch hills alone: 200 nodes on the scan lose 3.3 % to chords, and these win no
+  // more than twice as much back, and the volume of hills of 0.5 % of R.
+  EXPECT_LT(volume, 1.08);
   RemeshOptions wrong = options_of(200, Weighting::RadialDistance);
   wrong.placement.contact_radius = 0.0;
   EXPECT_ERROR(remesh(sand(), wrong, Execution(1)), InvalidInput);
@@ -782,6 +787,12 @@ TEST(RemeshLeastSquares, KeepsTheVolumeAndComesNearerThanNodesOnTheSurface) {
     // Four faces are too far from the surface for "nearest" to mean much.
     if (nodes > 4) {
       EXPECT_LT(fitted.distances->root_mean_square, on.distances->root_mean_square);
+    }
+    // Refinement lessens the distance from the scan to the planes of the triangles that its points
+    // lie in, to where it can. With a dozen faces, half a radius from a rough scan, the distance to
+    // the nearest triangle and back need not follow.
+    EXPECT_LT(refined.refinement.history.back().distance, refined.refinement.start_distance);
+    if (nodes >= 60) {
       EXPECT_LT(refined.distances->root_mean_square, fitted.distances->root_mean_square);
     }
     EXPECT_EQ(on.refinement.history.size(), 0U);

@@ -73,6 +73,14 @@ RadiusFunction polyhedron(const Vector3& axes, int faces, double sharpness, std:
   });
 }
 
+RadiusFunction sand_polyhedron(std::uint64_t seed) {
+  return polyhedron(Vector3(1.0, 0.75, 0.6), 16, 24.0, seed);
+}
+
+RadiusFunction crushed_polyhedron(std::uint64_t seed) {
+  return polyhedron(Vector3(1.0, 0.85, 0.7), 13, 80.0, seed);
+}
+
 /// 1 + harmonics of degree first to last, of amplitude falling with degree^-decay, and rms `rms`.
 RadiusFunction roughness(int first, int last, double decay, double rms, std::uint64_t seed) {
   RandomNumbers random(seed);
@@ -184,8 +192,13 @@ Grain superellipsoid_grain() {
 }
 
 Grain sand_grain(std::uint64_t seed) {
-  return scaled_grain("sand", product(polyhedron(Vector3(1.0, 0.75, 0.6), 16, 24.0, seed),
-                                      roughness(2, 15, 1.2, 0.045, seed + 1)));
+  return scaled_grain("sand",
+                      product(sand_polyhedron(seed), roughness(2, 15, 1.2, 0.045, seed + 1)));
+}
+
+Grain textured_sand_grain(std::uint64_t seed) {
+  return scaled_grain("textured sand",
+                      product(sand_polyhedron(seed), roughness(2, 60, 1.0, 0.047, seed + 1)));
 }
 
 Grain rough_grain(std::uint64_t seed) {
@@ -194,8 +207,13 @@ Grain rough_grain(std::uint64_t seed) {
 }
 
 Grain angular_grain(std::uint64_t seed) {
-  return scaled_grain("angular", product(polyhedron(Vector3(1.0, 0.85, 0.7), 13, 80.0, seed),
-                                         roughness(4, 25, 1.0, 0.008, seed + 1)));
+  return scaled_grain("angular",
+                      product(crushed_polyhedron(seed), roughness(4, 25, 1.0, 0.008, seed + 1)));
+}
+
+Grain textured_angular_grain(std::uint64_t seed) {
+  return scaled_grain("textured angular",
+                      product(crushed_polyhedron(seed), roughness(4, 60, 1.0, 0.022, seed + 1)));
 }
 
 std::vector<Grain> reference_grains() {

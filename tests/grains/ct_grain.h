@@ -30,11 +30,18 @@ Grain superellipsoid_grain();
 /// Sand: a smoothed polyhedron of 16 faces times (1 + harmonics of degree 2 to 15, rms 0.045).
 Grain sand_grain(std::uint64_t seed);
 
+/// The same polyhedron with fine roughness too, times (1 + harmonics of degree 2 to 60, rms 0.047),
+/// whose amplitude falls with 1 / degree: scanned, a spectrum near that of scans of real sand.
+Grain textured_sand_grain(std::uint64_t seed);
+
 /// Rough: ellipsoid 2 : 1 : 1 times (1 + harmonics of degree 3 to 30, rms 0.045).
 Grain rough_grain(std::uint64_t seed);
 
 /// Crushed: a polyhedron of 13 faces with sharp edges, lightly roughened.
 Grain angular_grain(std::uint64_t seed);
+
+/// The same polyhedron with fine roughness, times (1 + harmonics of degree 4 to 60, rms 0.022).
+Grain textured_angular_grain(std::uint64_t seed);
 
 /// The four grains that limits are known for: ellipsoid, superellipsoid, sand, rough.
 std::vector<Grain> reference_grains();

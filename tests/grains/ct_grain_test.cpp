@@ -71,8 +71,16 @@ TEST(MarchingCubes, FindTheSphere) {
   for (const Vector3& p : sphere.mesh.points) EXPECT_NEAR(p.norm(), 1.0, 0.06 * 0.06 / 8.0);
 }
 
+/// The reference grains and those of the samples.
+std::vector<test::Grain> grains() {
+  std::vector<test::Grain> all = test::reference_grains();
+  all.push_back(test::textured_sand_grain(5));
+  all.push_back(test::textured_angular_grain(7));
+  return all;
+}
+
 TEST(CtGrain, HasTheVolumeOfTheUnitSphere) {
-  for (const test::Grain& grain : test::reference_grains()) {
+  for (const test::Grain& grain : grains()) {
     SCOPED_TRACE(grain.name);
     const CheckedMesh exact = checked(test::exact_mesh(grain, test::sphere(5)));
     // Chords of 20480 faces lose 0.03 % on a sphere, a few times that on a rough grain.
@@ -81,7 +89,7 @@ TEST(CtGrain, HasTheVolumeOfTheUnitSphere) {
 }
 
 TEST(CtGrain, IsScannedToAClosedStarShapedMesh) {
-  for (const test::Grain& grain : test::reference_grains()) {
+  for (const test::Grain& grain : grains()) {
     SCOPED_TRACE(grain.name);
     const CheckedMesh scan = checked(test::ct_mesh_of_about(grain, 4000));
     EXPECT_NEAR(static_cast<double>(scan.report.vertices), 4000.0, 80.0);

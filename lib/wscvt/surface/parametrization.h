@@ -33,8 +33,8 @@ struct EnumerationTable<Parametrization> {
 /// A flank is steep where the surface's normal turns from the radius by more than this, in degrees.
 inline constexpr double steep_flank_angle = 75.0;
 
-/// Auto takes the radial map up to this share. Smooth grains have none (below 0.0001 on the
-/// project's samples, and up to 7.5 : 1 on ellipsoids, whose steepest flank has the tangent
+/// Auto takes the radial map up to this share. Gentle grains have none (the project's samples, as
+/// rough as they are, and ellipsoids up to 7.5 : 1, whose steepest flank has the tangent
 /// (a^2 - b^2) / (2 a b)); the least rough scans of crushed rock, soil grains and stone tools
 /// tried have 0.006, others up to 0.08, and bodies with undercuts 0.1 and more.
 inline constexpr double steep_share_limit = 0.005;
