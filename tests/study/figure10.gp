@@ -7,7 +7,7 @@ grain = ''
 measure = 'sdq'
 load path.'/errors.gp'
 set ylabel '|error of Sdq| in %'
-set yrange [0.3:20]
+set yrange [0.3:30]
 set multiplot layout 4,2
 do for [grain in 'sand_7228 sand_5658 angular_6000 elongated_rough_8000'] {
   do for [from in '8 9'] {
