@@ -440,7 +440,7 @@ TEST(Window, ApplyDuringARunIsRefusedAndTheRunGoesOn) {
   EXPECT_TRUE(meshlab.wait_for_log("is still running; wait until it is done"))
       << meshlab.log().toStdString();
   ASSERT_TRUE(meshlab.wait_for_log(everyday_menu_text + " in ")) << meshlab.log().toStdString();
-  EXPECT_TRUE(meshlab.log().contains("7228   100000")) << meshlab.log().toStdString();
+  EXPECT_TRUE(meshlab.log().contains("7228  100000")) << meshlab.log().toStdString();
   // The advice: once it is done.
   apply_with("300");
   EXPECT_TRUE(meshlab.wait_for_log("7228      300")) << meshlab.log().toStdString();
