@@ -19,8 +19,9 @@ std::uint64_t setting(const char* name, std::uint64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-/// The bodies are dealt to this many tests, so that they can run at the same time.
-constexpr int hands = 10;
+/// The bodies are dealt to this many tests, so that they can run at the same time, and that none
+/// with several slow bodies comes near the limit of a test on a busy machine.
+constexpr int hands = 25;
 
 class Promises : public ::testing::TestWithParam<int> {
  protected:
