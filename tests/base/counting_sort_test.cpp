@@ -40,17 +40,11 @@ TEST(CountingSort, PutsEveryItemIntoItsGroups) {
     for (const std::size_t group : groups_of[item]) visit(group);
   };
   EXPECT_EQ(sets_of(counting_sort(groups_of.size(), groups, visit_groups)), expected);
-  for (const int threads : {1, 4}) {
-    const Groups sorted = counting_sort(groups_of.size(), groups, visit_groups, Execution(threads));
-    EXPECT_EQ(sets_of(sorted), expected) << threads << " threads";
-  }
 }
 
 TEST(CountingSort, LeavesGroupsEmpty) {
   const auto into_three = [](std::size_t, const auto& visit) { visit(3); };
-  EXPECT_EQ(sets_of(counting_sort(2, 5, into_three, Execution(1))), (Sets{{}, {}, {}, {0, 1}, {}}));
-  EXPECT_EQ(sets_of(counting_sort(0, 2, into_three, Execution(1))), (Sets{{}, {}}));
-  EXPECT_EQ(counting_sort(0, 0, into_three, Execution(1)).starts, std::vector<std::size_t>{0});
+  EXPECT_EQ(sets_of(counting_sort(0, 2, into_three)), (Sets{{}, {}}));
   EXPECT_EQ(sets_of(counting_sort(2, 5, into_three)), (Sets{{}, {}, {}, {0, 1}, {}}));
   EXPECT_EQ(counting_sort(0, 0, into_three).starts, std::vector<std::size_t>{0});
 }

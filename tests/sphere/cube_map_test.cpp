@@ -40,11 +40,12 @@ TEST(CubeMap, VisitsEveryCellThatSeesATriangle) {
         const Vector3& a = d[i];
         const Vector3 b = a + size * d[i + 1];
         const Vector3 c = a + size * d[i + 2];
+        const CubeMap::Image images[3] = {CubeMap::image(a), CubeMap::image(b), CubeMap::image(c)};
         std::set<std::size_t> visited;
-        cube.visit_cells(a, b, c, [&](std::size_t cell) {
+        cube.visit_cells(images[0], images[1], images[2], [&](std::size_t cell) {
           EXPECT_TRUE(visited.insert(cell).second) << "twice";
         });
-        EXPECT_EQ(cube.count_cells(a, b, c), visited.size());
+        EXPECT_EQ(cube.count_cells(images[0], images[1], images[2]), visited.size());
         for (int p = 0; p <= 10; ++p) {
           for (int q = 0; q <= 10 - p; ++q) {
             const Vector3 point = (p * a + q * b + (10 - p - q) * c) / 10.0;
@@ -66,8 +67,8 @@ TEST(CubeMap, VisitsFewCellsMore) {
   const std::vector<Vector3> d = random_directions(3000, test::announced(5));
   for (std::size_t i = 0; i + 2 < d.size(); i += 3) {
     const double size = 1.0 / resolution;
-    cube.visit_cells(d[i], d[i] + size * d[i + 1], d[i] + size * d[i + 2],
-                     [&](std::size_t) { ++visits; });
+    cube.visit_cells(CubeMap::image(d[i]), CubeMap::image(d[i] + size * d[i + 1]),
+                     CubeMap::image(d[i] + size * d[i + 2]), [&](std::size_t) { ++visits; });
   }
   EXPECT_LT(visits, 8 * 1000U);
 }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "wscvt/base/execution.h"
 
 namespace wscvt {
 
@@ -41,47 +37,6 @@ Groups counting_sort(std::size_t count, std::size_t groups, const VisitGroups& v
     });
   }
   result.starts.pop_back();
-  return result;
-}
-
-/// The same on the threads of `execution`, for items whose groups take long to find: twice the time
-/// of the other where finding them costs nothing. The result does not depend on the threads.
-template <class VisitGroups>
-Groups counting_sort(std::size_t count, std::size_t groups, const VisitGroups& visit_groups,
-                     const Execution& execution) {
-  constexpr std::size_t block_size = 8192;
-  std::vector<std::atomic<std::size_t>> places(groups);
-  for (auto& place : places) place.store(0, std::memory_order_relaxed);
-  const auto for_each = [&](const auto& visit) {
-    execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t item = begin; item < end; ++item) {
-        visit_groups(item, [&](std::size_t group) { visit(item, group); });
-      }
-    });
-  };
-  for_each([&](std::size_t, std::size_t group) {
-    places[group].fetch_add(1, std::memory_order_relaxed);
-  });
-  Groups result;
-  result.starts.resize(groups + 1);
-  std::size_t sum = 0;
-  for (std::size_t group = 0; group < groups; ++group) {
-    result.starts[group] = sum;
-    sum += places[group].exchange(sum, std::memory_order_relaxed);
-  }
-  result.starts.back() = sum;
-  result.items.resize(sum);
-  for_each([&](std::size_t item, std::size_t group) {
-    result.items[places[group].fetch_add(1, std::memory_order_relaxed)] =
-        static_cast<std::int32_t>(item);
-  });
-  // Threads fill a group in any order.
-  execution.parallel_for(groups, block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t group = begin; group < end; ++group) {
-      std::sort(result.items.data() + result.starts[group],
-                result.items.data() + result.starts[group + 1]);
-    }
-  });
   return result;
 }
 

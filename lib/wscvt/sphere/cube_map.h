@@ -26,30 +26,53 @@ class CubeMap {
     int axis = 0;
     direction.cwiseAbs().maxCoeff(&axis);
     const double depth = std::abs(direction[axis]);
-    return cell(axis, direction[axis] < 0.0, coordinate(direction[(axis + 1) % 3] / depth),
+    return cell(face_of(axis, direction[axis] < 0.0), coordinate(direction[(axis + 1) % 3] / depth),
                 coordinate(direction[(axis + 2) % 3] / depth));
+  }
+
+  /// Where a point is seen on the cube. Of the corners of many triangles it is found once for all.
+  struct Image {
+    Vector3 point;
+    int face = -1;   ///< -1 on and beside the cube's edges
+    double s = 0.0;  ///< on the face, in [-1, 1]
+    double t = 0.0;
+  };
+  static Image image(const Vector3& point) {
+    Image image;
+    image.point = point;
+    int axis = 0;
+    const double depth = point.cwiseAbs().maxCoeff(&axis);
+    const double s = point[(axis + 1) % 3];
+    const double t = point[(axis + 2) % 3];
+    const double inside = depth * (1.0 - margin);
+    if (std::abs(s) < inside && std::abs(t) < inside) {
+      image.face = face_of(axis, point[axis] < 0.0);
+      image.s = s / depth;
+      image.t = t / depth;
+    }
+    return image;
   }
 
   /// Calls visit(cell) for a set of cells that holds every direction in which the triangle a, b, c
   /// is seen from the origin, and some more: those of the rectangle about its image on each face of
   /// the cube. Cells come in ascending order on each face, none twice.
   template <class Visit>
-  void visit_cells(const Vector3& a, const Vector3& b, const Vector3& c, const Visit& visit) const {
-    visit_images(a, b, c, [&](int axis, bool negative, const Rectangle& image) {
-      const CellRange range = cells_of(image);
+  void visit_cells(const Image& a, const Image& b, const Image& c, const Visit& visit) const {
+    visit_rectangles(a, b, c, [&](int face, const Rectangle& rectangle) {
+      const CellRange range = cells_of(rectangle);
       for (int row = range.first_row; row <= range.last_row; ++row) {
         for (int column = range.first_column; column <= range.last_column; ++column) {
-          visit(cell(axis, negative, row, column));
+          visit(cell(face, row, column));
         }
       }
     });
   }
 
   /// How many cells visit_cells visits, without going through them.
-  std::size_t count_cells(const Vector3& a, const Vector3& b, const Vector3& c) const {
+  std::size_t count_cells(const Image& a, const Image& b, const Image& c) const {
     std::size_t count = 0;
-    visit_images(a, b, c, [&](int, bool, const Rectangle& image) {
-      const CellRange range = cells_of(image);
+    visit_rectangles(a, b, c, [&](int, const Rectangle& rectangle) {
+      const CellRange range = cells_of(rectangle);
       count += static_cast<std::size_t>(range.last_row - range.first_row + 1) *
                static_cast<std::size_t>(range.last_column - range.first_column + 1);
     });
@@ -71,35 +94,21 @@ class CubeMap {
     }
   };
 
-  /// Calls visit(axis, negative, rectangle) for the image of the triangle on every face of the cube
-  /// that it is seen on.
+  static int face_of(int axis, bool negative) { return 2 * axis + (negative ? 1 : 0); }
+
+  /// Calls visit(face, rectangle) for the image of the triangle on every face of the cube that it
+  /// is seen on.
   template <class Visit>
-  void visit_images(const Vector3& a, const Vector3& b, const Vector3& c,
-                    const Visit& visit) const {
-    const std::array<const Vector3*, 3> corners{&a, &b, &c};
-    int axis = 0;
-    a.cwiseAbs().maxCoeff(&axis);
-    const bool negative = a[axis] < 0.0;
-    Rectangle image;
-    bool on_one_face = true;
-    for (const Vector3* corner : corners) {
-      const double depth = negative ? -(*corner)[axis] : (*corner)[axis];
-      const double inside = depth * (1.0 - margin);
-      const double s = (*corner)[(axis + 1) % 3];
-      const double t = (*corner)[(axis + 2) % 3];
-      if (!(std::abs(s) < inside && std::abs(t) < inside)) {
-        on_one_face = false;
-        break;
-      }
-      image.add(s / depth, t / depth);
-    }
-    if (on_one_face) {
-      visit(axis, negative, image);
+  static void visit_rectangles(const Image& a, const Image& b, const Image& c, const Visit& visit) {
+    if (a.face >= 0 && a.face == b.face && a.face == c.face) {
+      Rectangle rectangle;
+      for (const Image* corner : {&a, &b, &c}) rectangle.add(corner->s, corner->t);
+      visit(a.face, rectangle);
       return;
     }
     for (int face = 0; face < 6; ++face) {
-      const Rectangle part = clipped(corners, face / 2, face % 2 != 0);
-      if (!part.empty()) visit(face / 2, face % 2 != 0, part);
+      const Rectangle part = clipped({&a.point, &b.point, &c.point}, face / 2, face % 2 != 0);
+      if (!part.empty()) visit(face, part);
     }
   }
 
@@ -108,11 +117,10 @@ class CubeMap {
     return std::clamp(static_cast<int>(scaled), 0, resolution_ - 1);
   }
 
-  std::size_t cell(int axis, bool negative, int row, int column) const {
+  std::size_t cell(int face, int row, int column) const {
     const auto n = static_cast<std::size_t>(resolution_);
-    const int face_index = 2 * axis + (negative ? 1 : 0);
-    const auto face = static_cast<std::size_t>(face_index);
-    return (face * n + static_cast<std::size_t>(row)) * n + static_cast<std::size_t>(column);
+    return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n +
+           static_cast<std::size_t>(column);
   }
 
   struct CellRange {
@@ -122,9 +130,9 @@ class CubeMap {
     int last_column;
   };
 
-  CellRange cells_of(const Rectangle& image) const {
-    return {coordinate(image.low[0] - margin), coordinate(image.high[0] + margin),
-            coordinate(image.low[1] - margin), coordinate(image.high[1] + margin)};
+  CellRange cells_of(const Rectangle& rectangle) const {
+    return {coordinate(rectangle.low[0] - margin), coordinate(rectangle.high[0] + margin),
+            coordinate(rectangle.low[1] - margin), coordinate(rectangle.high[1] + margin)};
   }
 
   /// Image of the part of a triangle in front of one face of the cube: cut by the four planes
@@ -140,33 +148,40 @@ class CubeMap {
       if (negative) p.z() = -p.z();
       polygon.points[polygon.count++] = p;
     }
+    const auto height = [](int plane, const Vector3& p) {
+      const double side = plane % 2 == 0 ? p[plane / 2] : -p[plane / 2];
+      return p.z() * (1.0 + margin) - side;
+    };
+    // Most faces of the cube see nothing of a triangle, which one of their planes tells.
     for (int plane = 0; plane < 4; ++plane) {
-      const auto height = [&](const Vector3& p) {
-        const double side = plane % 2 == 0 ? p[plane / 2] : -p[plane / 2];
-        return p.z() * (1.0 + margin) - side;
-      };
+      if (height(plane, polygon.points[0]) < 0.0 && height(plane, polygon.points[1]) < 0.0 &&
+          height(plane, polygon.points[2]) < 0.0) {
+        return Rectangle();
+      }
+    }
+    for (int plane = 0; plane < 4; ++plane) {
       Polygon kept;
       for (std::size_t i = 0; i < polygon.count; ++i) {
         const Vector3& p = polygon.points[i];
         const Vector3& q = polygon.points[(i + 1) % polygon.count];
-        const double hp = height(p);
-        const double hq = height(q);
+        const double hp = height(plane, p);
+        const double hq = height(plane, q);
         if (hp >= 0.0) kept.points[kept.count++] = p;
         if ((hp < 0.0) != (hq < 0.0)) kept.points[kept.count++] = p + hp / (hp - hq) * (q - p);
       }
       polygon = kept;
     }
-    Rectangle image;
+    Rectangle rectangle;
     for (std::size_t i = 0; i < polygon.count; ++i) {
       const Vector3& p = polygon.points[i];
       if (p.z() > 0.0) {
-        image.add(p.x() / p.z(), p.y() / p.z());
+        rectangle.add(p.x() / p.z(), p.y() / p.z());
       } else {  // the origin itself
-        image.add(-1.0, -1.0);
-        image.add(1.0, 1.0);
+        rectangle.add(-1.0, -1.0);
+        rectangle.add(1.0, 1.0);
       }
     }
-    return image;
+    return rectangle;
   }
 
   int resolution_;

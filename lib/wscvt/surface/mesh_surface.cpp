@@ -41,21 +41,27 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   execution.parallel_for(mesh.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) mesh_.points[i] = (mesh.points[i] - centre) / unit;
   });
-  if (folded_solid_angle(mesh_, Vector3::Zero(), execution) >= 1.0) {
+  const double folded = folded_solid_angle(mesh_, Vector3::Zero(), execution);
+  if (folded >= 1.0) {
     throw Error(ErrorCode::InvalidInput,
                 "The centre lies outside the mesh or on it, so rays from it do not go round the "
                 "surface once; take a centre inside, e.g. the centroid of a compact grain.");
   }
 
-  const std::vector<Vector3>& points = mesh_.points;
+  star_shaped_ = folded == 0.0;
+
+  std::vector<CubeMap::Image> images(mesh_.points.size());
+  execution.parallel_for(images.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) images[i] = CubeMap::image(mesh_.points[i]);
+  });
   const auto entries = [&] {
     return execution.parallel_sum(mesh_.triangles.size(), block_size, std::size_t{0},
                                   [&](std::size_t begin, std::size_t end) {
                                     std::size_t part = 0;
                                     for (std::size_t f = begin; f < end; ++f) {
                                       const Triangle& t = mesh_.triangles[f];
-                                      part += cube_.count_cells(points[t[0]], points[t[1]],
-                                                                points[t[2]]);
+                                      part += cube_.count_cells(images[t[0]], images[t[1]],
+                                                                images[t[2]]);
                                     }
                                     return part;
                                   });
@@ -68,15 +74,11 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
     cube_ = CubeMap(resolution);
   }
 
-  bins_ = counting_sort(
-      mesh_.triangles.size(), cube_.cells(),
-      [&](std::size_t f, const auto& visit) {
+  bins_ =
+      counting_sort(mesh_.triangles.size(), cube_.cells(), [&](std::size_t f, const auto& visit) {
         const Triangle& t = mesh_.triangles[f];
-        cube_.visit_cells(points[static_cast<std::size_t>(t[0])],
-                          points[static_cast<std::size_t>(t[1])],
-                          points[static_cast<std::size_t>(t[2])], visit);
-      },
-      execution);
+        cube_.visit_cells(images[t[0]], images[t[1]], images[t[2]], visit);
+      });
 }
 
 MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
@@ -107,11 +109,15 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
     const double w = bx * ay - by * ax;
     // By extremes and not one by one: which of the three fails first no processor foresees, and its
     // wrong guesses took a third of the time of a ray.
-    const bool outside = std::min(std::min(u, v), w) < 0.0 && std::max(std::max(u, v), w) > 0.0;
+    const double low = std::min(std::min(u, v), w);
+    const double high = std::max(std::max(u, v), w);
     const double sum = u + v + w;
-    if (outside || sum == 0.0) continue;
+    if ((low < 0.0 && high > 0.0) || sum == 0.0) continue;
     const double radius = (u * a[axis] + v * b[axis] + w * c[axis]) / (sum * direction[axis]);
-    if (radius > hit.radius) hit = {*triangle, radius};
+    if (!(radius > hit.radius)) continue;
+    hit = {*triangle, radius};
+    // No other triangle is there, where none folds over another; an edge has two, though.
+    if (star_shaped_ && (low > 0.0 || high < 0.0)) break;
   }
   if (hit.triangle < 0) {
     throw Error(ErrorCode::NumericalFailure,

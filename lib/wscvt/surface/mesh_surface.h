@@ -39,6 +39,7 @@ class MeshSurface : public RadialSurface {
 
  private:
   IndexedMesh mesh_;
+  bool star_shaped_ = false;  ///< every ray from the origin meets one point
   CubeMap cube_;
   Groups bins_;  ///< the triangles that each cell may show
 };

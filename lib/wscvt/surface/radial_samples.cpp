@@ -28,7 +28,10 @@ void hide_vertices(const IndexedMesh& mesh, const std::vector<double>& angles,
   for (std::size_t f = 0; f < angles.size(); ++f) {
     if (angles[f] >= 0.0) continue;
     const Triangle& t = mesh.triangles[f];
-    cube.visit_cells(mesh.points[index(t[0])], mesh.points[index(t[1])], mesh.points[index(t[2])],
+    const auto image = [&](std::int32_t corner) {
+      return CubeMap::image(mesh.points[index(corner)]);
+    };
+    cube.visit_cells(image(t[0]), image(t[1]), image(t[2]),
                      [&](std::size_t cell) { folded[cell] = 1; });
   }
   const MeshSurface surface(mesh, Vector3::Zero(), 1.0, execution);
