@@ -3,51 +3,92 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include "support/expect_error.h"
+#include "support/seeds.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/sphere/solid_angle.h"
 
 namespace wscvt {
 namespace {
 
-double distance(const FaceBoxes& boxes, const Vector3& point) {
-  return boxes.distances({point}, Execution(1)).front();
+std::vector<Vector3> points_about(const IndexedMesh& mesh, std::uint64_t seed) {
+  std::mt19937_64 engine(test::announced(seed));
+  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+  std::vector<Vector3> points;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3 p(uniform(engine), uniform(engine), uniform(engine));
+    points.push_back(i % 3 > 0 ? mesh.points[engine() % mesh.points.size()] + 0.01 * p : p);
+  }
+  return points;
 }
 
-TEST(FaceBoxes, AgreeWithCgalsTreeNearAndFarInWhateverOrderThePointsCome) {
-  const std::uint64_t seed = 8;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 engine(seed);
-  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+TEST(FaceBoxes, AgreeWithAllFacesOneByOneNearAndFarInWhateverOrderThePointsCome) {
   const IndexedMesh mesh = test::lumpy(3);
   const FaceBoxes boxes(mesh, Execution(1), "");
-  const MeshDistance query(mesh);
-  std::vector<Vector3> points;
-  for (int i = 0; i < 2000; ++i) {
-    const Vector3 p(uniform(engine), uniform(engine), uniform(engine));
-    points.push_back(i % 3 > 0 ? query.nearest_point(p) + 0.01 * p : p);
-  }
+  const std::vector<Vector3> points = points_about(mesh, 8);
   const std::vector<double> distances = boxes.distances(points, Execution(1));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_NEAR(distances[i], query.distance(points[i]), 1e-14);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Triangle& t : mesh.triangles) {
+      const Vector3& a = mesh.points[t[0]];
+      const Vector3& b = mesh.points[t[1]];
+      const Vector3& c = mesh.points[t[2]];
+      const Vector3 weights = nearest_weights(a, b, c, points[i]);
+      nearest =
+          std::min(nearest, (weights[0] * a + weights[1] * b + weights[2] * c - points[i]).norm());
+    }
+    // Rounding of coordinates of order 1.
+    EXPECT_NEAR(distances[i], nearest, 1e-14);
+    EXPECT_EQ(boxes.distance(points[i]), distances[i]);
+    EXPECT_NEAR((boxes.nearest_point(points[i]) - points[i]).norm(), nearest, 1e-14);
+    EXPECT_NEAR(boxes.distance(boxes.nearest_point(points[i])), 0.0, 1e-14);
   }
   EXPECT_EQ(boxes.distances(points, Execution(3)), distances);
+}
+
+TEST(FaceBoxes, AreTheSameOnAnyNumberOfThreads) {
+  // 81,920 faces: more than one part.
+  const IndexedMesh mesh = test::lumpy(6);
+  const FaceBoxes one(mesh, Execution(1), "");
+  const FaceBoxes three(mesh, Execution(3), "");
+  for (const Vector3& point : points_about(mesh, 9)) {
+    EXPECT_EQ(one.nearest_point(point), three.nearest_point(point));
+  }
+}
+
+TEST(FaceBoxes, AreMetAnOddNumberOfTimesFromInside) {
+  const IndexedMesh mesh = test::lumpy(4);
+  const FaceBoxes boxes(mesh, Execution(1), "");
+  for (const Vector3& point : points_about(mesh, 10)) {
+    // Seen from inside, and only from there, the faces' solid angles fill the sphere.
+    double angle = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+      angle += solid_angle((mesh.points[t[0]] - point).normalized(),
+                           (mesh.points[t[1]] - point).normalized(),
+                           (mesh.points[t[2]] - point).normalized());
+    }
+    EXPECT_EQ(boxes.faces_met(point) % 2 == 1, angle > 2.0 * pi);
+  }
 }
 
 TEST(FaceBoxes, FarFromTheOriginTheyAreAsGood) {
   const Vector3 shift(1e6, 1e6, 1e6);
   const FaceBoxes boxes(test::transformed(test::box(1, 1, 1), Eigen::Matrix3d::Identity(), shift),
                         Execution(1), "");
-  EXPECT_NEAR(distance(boxes, shift + Vector3(0.125, 0.0, 0.0)), 0.375, 1e-15);
+  EXPECT_NEAR(boxes.distance(shift + Vector3(0.125, 0.0, 0.0)), 0.375, 1e-15);
 }
 
 TEST(FaceBoxes, PassOverFacesWithoutArea) {
   IndexedMesh mesh = test::box(1, 1, 1);
   mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
   const FaceBoxes boxes(mesh, Execution(1), "");
-  EXPECT_NEAR(distance(boxes, {0, 0, 2}), 1.5, 1e-15);
+  EXPECT_NEAR(boxes.distance({0, 0, 2}), 1.5, 1e-15);
   mesh.triangles.resize(1);
   EXPECT_TRUE(FaceBoxes(mesh, Execution(1), "").empty());
   EXPECT_ERROR(rms_distance(test::box(1, 1, 1), mesh, 10, Execution(1)), InvalidInput);

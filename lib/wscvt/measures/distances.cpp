@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/measures/distances.h"
 
-// CGAL 6 calls two of these headers *_3.h, which CGAL 5 does not have.
-#define CGAL_NO_DEPRECATION_WARNINGS
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/reporting_split.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/face_boxes.h"
 #include "wscvt/surface/mapped_surface.h"
@@ -26,27 +18,6 @@ namespace {
 constexpr std::size_t block_size = 256;
 
 constexpr const char* stage = "Measuring distances";
-
-// Decides exactly what a ray meets.
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Faces = std::vector<Kernel::Triangle_3>;
-using Face = Faces::const_iterator;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Face>;
-using Traits = CGAL::AABB_traits<Kernel, Primitive>;
-using AabbTree = CGAL::AABB_tree<Traits>;
-using PointOnFace = AabbTree::Point_and_primitive_id;
-
-/// Points from which the search for the nearest face starts. A few of them bring the start within
-/// some edges of the surface, which is near enough; all would take as long as the tree itself.
-std::vector<PointOnFace> search_starts(const Faces& faces) {
-  constexpr std::size_t most = 100000;
-  const std::size_t stride = 1 + faces.size() / most;
-  std::vector<PointOnFace> starts;
-  for (std::size_t f = 0; f < faces.size(); f += stride) {
-    starts.emplace_back(faces[f].vertex(0), faces.cbegin() + static_cast<std::ptrdiff_t>(f));
-  }
-  return starts;
-}
 
 void require_faces(const IndexedMesh& mesh) {
   if (!mesh.triangles.empty()) return;
@@ -63,81 +34,29 @@ void require_area(bool has_area) {
 
 }  // namespace
 
-struct MeshDistance::Tree {
-  Vector3 origin = Vector3::Zero();  ///< of the tree's coordinates: differences stay exact far away
-  Faces faces;
-  AabbTree tree;
-
-  Kernel::Point_3 local(const Vector3& p) const {
-    return {p.x() - origin.x(), p.y() - origin.y(), p.z() - origin.z()};
-  }
-
-  /// `face` is where the search starts, and becomes the nearest one.
-  double distance(const Vector3& point, Face& face) const {
-    const Kernel::Point_3 p = local(point);
-    const Kernel::Point_3 start = Kernel().construct_projected_point_3_object()(*face, p);
-    // A start as far as a face is large is no better than one of those that the tree has.
-    const bool is_near =
-        CGAL::squared_distance(p, start) < CGAL::squared_distance(face->vertex(0), face->vertex(1));
-    const PointOnFace nearest = is_near ? tree.closest_point_and_primitive(p, {start, face})
-                                        : tree.closest_point_and_primitive(p);
-    face = nearest.second;
-    return std::sqrt(CGAL::squared_distance(p, nearest.first));
-  }
-};
-
-MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution)
-    : tree_(std::make_unique<Tree>()) {
+MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution) {
   require_faces(mesh);
-  tree_->origin = mesh.points[mesh.triangles.front()[0]];
-  tree_->faces.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Kernel::Triangle_3 face(tree_->local(mesh.points[t[0]]), tree_->local(mesh.points[t[1]]),
-                                  tree_->local(mesh.points[t[2]]));
-    // Its neighbours cover what a face without area covers, and the tree cannot project on it.
-    if (!face.is_degenerate()) tree_->faces.push_back(face);
-  }
-  require_area(!tree_->faces.empty());
-  tree_->tree.insert(tree_->faces.cbegin(), tree_->faces.cend());
-  // Now, not at the first query, which may come from several threads.
-  const Traits& traits = tree_->tree.traits();
-  tree_->tree.custom_build(traits.compute_bbox_object(),
-                           ReportingSplit<Traits>(traits, execution, stage));
-  const std::vector<PointOnFace> starts = search_starts(tree_->faces);
-  tree_->tree.accelerate_distance_queries(starts.begin(), starts.end());
+  boxes_ = std::make_unique<FaceBoxes>(mesh, execution, stage);
+  require_area(!boxes_->empty());
 }
 
 MeshDistance::~MeshDistance() = default;
 MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
 
-double MeshDistance::distance(const Vector3& point) const {
-  return std::sqrt(tree_->tree.squared_distance(tree_->local(point)));
-}
+double MeshDistance::distance(const Vector3& point) const { return boxes_->distance(point); }
 
 Vector3 MeshDistance::nearest_point(const Vector3& point) const {
-  const Kernel::Point_3 p = tree_->tree.closest_point(tree_->local(point));
-  return tree_->origin + Vector3(p.x(), p.y(), p.z());
+  return boxes_->nearest_point(point);
 }
 
 bool MeshDistance::contains(const Vector3& point) const {
-  // Whether a ray meets a triangle is decided exactly; a direction without pattern keeps it off
-  // edges and vertices.
-  const Kernel::Vector_3 direction(0.5377102934, 0.3142870195, 0.7823519467);
-  const Kernel::Ray_3 ray(tree_->local(point), direction);
-  return tree_->tree.number_of_intersected_primitives(ray) % 2 == 1;
+  return boxes_->faces_met(point) % 2 == 1;
 }
 
 std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
                                             const Execution& execution) const {
-  std::vector<double> result(points.size());
-  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    // Where points follow each other along a surface the nearest face is mostly the one of the
-    // point before, and half the time is saved.
-    Face face = tree_->faces.cbegin();
-    for (std::size_t i = begin; i < end; ++i) result[i] = tree_->distance(points[i], face);
-  });
-  return result;
+  return boxes_->distances(points, execution);
 }
 
 void check_densities(const IndexedMesh& mesh, const std::vector<double>& densities) {
@@ -281,11 +200,8 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
                     const Execution& execution) {
   check_distance_options({samples});
-  require_faces(to);
-  const FaceBoxes boxes(to, execution, stage);
-  require_area(!boxes.empty());
   const std::vector<double> distances =
-      boxes.distances(area_uniform_samples(from, samples), execution);
+      MeshDistance(to, execution).distances(area_uniform_samples(from, samples), execution);
   return std::sqrt(sums_of(distances, execution).squares / static_cast<double>(samples));
 }
 

@@ -11,14 +11,15 @@
 
 namespace wscvt {
 
+class FaceBoxes;
 struct MeshPlace;
 
 /// A triangle mesh that answers how far points are from it: exact point-to-triangle distances over
-/// a tree of bounding boxes (CGAL's AABB tree). Const calls may come from several threads.
+/// a tree of boxes. Const calls may come from several threads.
 class MeshDistance {
  public:
-  /// Copies what it needs of the mesh; about 300 bytes a face. `execution` is for progress and
-  /// cancel; the work runs on one thread. Throws Error(InvalidInput) if the mesh has no faces.
+  /// Copies what it needs of the mesh; about 150 bytes a face. Throws Error(InvalidInput) if the
+  /// mesh has no faces, or none with an area.
   explicit MeshDistance(const IndexedMesh& mesh, const Execution& execution = Execution(1));
   ~MeshDistance();
   MeshDistance(MeshDistance&&) noexcept;
@@ -39,8 +40,7 @@ class MeshDistance {
                                 const Execution& execution) const;
 
  private:
-  struct Tree;
-  std::unique_ptr<Tree> tree_;
+  std::unique_ptr<FaceBoxes> boxes_;
 };
 
 struct DistanceOptions {

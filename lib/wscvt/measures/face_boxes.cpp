@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/measures/face_boxes.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "wscvt/base/triangle_geometry.h"
 
@@ -10,74 +14,163 @@ namespace wscvt {
 
 namespace {
 
-double squared_distance(const std::array<Vector3, 3>& corners, const Vector3& point) {
+constexpr std::size_t block_size = 256;
+
+Vector3 nearest_of(const std::array<Vector3, 3>& corners, const Vector3& point) {
   const auto& [a, b, c] = corners;
   const Vector3 weights = nearest_weights(a, b, c, point);
   // About the point, so that far from the origin no digits are lost.
-  return (weights[0] * (a - point) + weights[1] * (b - point) + weights[2] * (c - point))
-      .squaredNorm();
+  return weights[0] * (a - point) + weights[1] * (b - point) + weights[2] * (c - point);
+}
+
+double squared_distance(const std::array<Vector3, 3>& corners, const Vector3& point) {
+  const double square = nearest_of(corners, point).squaredNorm();
+  // Of a needle whose area is lost in rounding nothing is known; its neighbours cover it.
+  return square >= 0.0 ? square : std::numeric_limits<double>::infinity();
+}
+
+/// Without pattern, which keeps rays off edges and vertices; no component is 0.
+const Vector3& ray_direction() {
+  static const Vector3 direction(0.5377102934, 0.3142870195, 0.7823519467);
+  return direction;
 }
 
 }  // namespace
 
-FaceBoxes::FaceBoxes(const IndexedMesh& mesh, const Execution& execution,
-                     const std::string& stage) {
-  faces_.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Corners corners = {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
-    // Its neighbours cover what a face without area covers.
-    if (triangle_area(corners[0], corners[1], corners[2]) > 0.0) faces_.push_back(corners);
-  }
-  if (faces_.empty()) return;
-  nodes_.reserve(2 * faces_.size() - 1);
-  build(0, faces_.size(), execution, stage);
-}
-
-void FaceBoxes::build(std::size_t begin, std::size_t end, const Execution& execution,
-                      const std::string& stage) {
-  constexpr std::size_t faces_a_report = 8192;  // some hundredths of a second
-  if (end - begin > faces_a_report) execution.report(0.0, stage);
-  Node node{faces_[begin][0], faces_[begin][0], 0, -1};
-  for (std::size_t f = begin; f < end; ++f) {
-    for (const Vector3& corner : faces_[f]) {
-      node.low = node.low.cwiseMin(corner);
-      node.high = node.high.cwiseMax(corner);
+/// Faces are dealt out by their middles, half to each child along the axis on which they are spread
+/// most, so that every node's place follows from the number of faces before it: parts of the tree
+/// can be built in any order.
+class FaceBoxes::Builder {
+ public:
+  Builder(const IndexedMesh& mesh, FaceBoxes& boxes) : boxes_(boxes) {
+    for (const Triangle& t : mesh.triangles) {
+      const Corners corners = {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+      // Its neighbours cover what a face without area covers.
+      if (!(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) continue;
+      middles_.push_back({corners[0] + corners[1] + corners[2], faces_.size()});
+      faces_.push_back(corners);
     }
   }
-  const std::size_t place = nodes_.size();
-  nodes_.push_back(node);
-  if (end - begin == 1) {
-    nodes_[place].face = static_cast<std::int32_t>(begin);
-  } else {
-    int axis = 0;
-    (node.high - node.low).maxCoeff(&axis);
-    const auto centre = [axis](const Corners& corners) {
-      return corners[0][axis] + corners[1][axis] + corners[2][axis];
-    };
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [this](std::size_t f) {
-      return faces_.begin() + static_cast<std::ptrdiff_t>(f);
-    };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [&](const Corners& a, const Corners& b) { return centre(a) < centre(b); });
-    build(begin, middle, execution, stage);
-    build(middle, end, execution, stage);
+
+  void run(const Execution& execution, const std::string& stage) {
+    const std::size_t count = faces_.size();
+    if (count == 0) return;
+    boxes_.faces_.resize(count);
+    boxes_.nodes_.resize(2 * ((count + faces_a_leaf - 1) / faces_a_leaf) - 1);
+    deal({0, count, 0}, execution, stage);
+    execution.parallel_for(parts_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) build(parts_[i]);
+    });
+    // What lies above the parts, from the leaves up.
+    for (auto part = upper_.rbegin(); part != upper_.rend(); ++part) join(*part);
   }
-  nodes_[place].beyond = static_cast<std::int32_t>(nodes_.size());
+
+ private:
+  struct Middle {
+    Vector3 sum;  ///< of the corners
+    std::size_t face;
+  };
+  /// A node and its faces, in the order of the leaves.
+  struct Part {
+    std::size_t begin;
+    std::size_t end;
+    std::size_t node;
+
+    bool is_leaf() const { return end - begin <= faces_a_leaf; }
+    /// Of the leaves that go to the first child, all of them full; its nodes are twice as many but
+    /// one.
+    std::size_t first_leaves() const { return (end - begin + faces_a_leaf - 1) / faces_a_leaf / 2; }
+    std::size_t middle() const { return begin + faces_a_leaf * first_leaves(); }
+    Part first() const { return {begin, middle(), node + 1}; }
+    Part second() const { return {middle(), end, node + 2 * first_leaves()}; }
+  };
+
+  void split(const Part& part) {
+    Vector3 low = middles_[part.begin].sum;
+    Vector3 high = low;
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      low = low.cwiseMin(middles_[i].sum);
+      high = high.cwiseMax(middles_[i].sum);
+    }
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    const auto at = [this](std::size_t i) {
+      return middles_.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    std::nth_element(
+        at(part.begin), at(part.middle()), at(part.end),
+        [axis](const Middle& a, const Middle& b) { return a.sum[axis] < b.sum[axis]; });
+  }
+
+  /// Splits until the parts are small enough to be a few hundredths of a second's work.
+  void deal(const Part& part, const Execution& execution, const std::string& stage) {
+    constexpr std::size_t faces_a_part = 32768;
+    if (part.end - part.begin <= faces_a_part) {
+      parts_.push_back(part);
+      return;
+    }
+    execution.report(0.0, stage);
+    split(part);
+    upper_.push_back(part);
+    deal(part.first(), execution, stage);
+    deal(part.second(), execution, stage);
+  }
+
+  void build(const Part& part) {
+    if (part.is_leaf()) {
+      const Vector3& corner = faces_[middles_[part.begin].face][0];
+      Node leaf{corner, corner, static_cast<std::int32_t>(part.node + 1),
+                static_cast<std::int32_t>(part.begin)};
+      for (std::size_t i = part.begin; i < part.end; ++i) {
+        const Corners& corners = faces_[middles_[i].face];
+        for (const Vector3& p : corners) {
+          leaf.low = leaf.low.cwiseMin(p);
+          leaf.high = leaf.high.cwiseMax(p);
+        }
+        boxes_.faces_[i] = corners;
+      }
+      boxes_.nodes_[part.node] = leaf;
+      return;
+    }
+    split(part);
+    build(part.first());
+    build(part.second());
+    join(part);
+  }
+
+  /// The node about its two children.
+  void join(const Part& part) {
+    const Node& first = boxes_.nodes_[part.first().node];
+    const Node& second = boxes_.nodes_[part.second().node];
+    boxes_.nodes_[part.node] = {first.low.cwiseMin(second.low), first.high.cwiseMax(second.high),
+                                second.beyond, -1};
+  }
+
+  FaceBoxes& boxes_;
+  std::vector<Corners> faces_;  ///< in the mesh's order
+  std::vector<Middle> middles_;
+  std::vector<Part> parts_;
+  std::vector<Part> upper_;
+};
+
+FaceBoxes::FaceBoxes(const IndexedMesh& mesh, const Execution& execution,
+                     const std::string& stage) {
+  execution.report(0.0, stage);
+  Builder(mesh, *this).run(execution, stage);
 }
 
 std::size_t FaceBoxes::nearby_face(const Vector3& point) const {
   std::size_t i = 0;
-  while (nodes_[i].face < 0) {
+  while (nodes_[i].faces < 0) {
     const std::size_t first = i + 1;
     const auto second = static_cast<std::size_t>(nodes_[first].beyond);
     i = nodes_[first].squared_distance(point) <= nodes_[second].squared_distance(point) ? first
                                                                                         : second;
   }
-  return static_cast<std::size_t>(nodes_[i].face);
+  return static_cast<std::size_t>(nodes_[i].faces);
 }
 
-double FaceBoxes::distance(const Vector3& point, std::size_t& face) const {
+double FaceBoxes::search(const Vector3& point, std::size_t& face) const {
   double nearest = squared_distance(faces_[face], point);
   // A start as far as the face is large is no better than what a walk down the tree comes to.
   if (nearest > (faces_[face][1] - faces_[face][0]).squaredNorm()) {
@@ -91,25 +184,63 @@ double FaceBoxes::distance(const Vector3& point, std::size_t& face) const {
       continue;
     }
     ++i;
-    if (node.face < 0) continue;
-    const double distance = squared_distance(faces_[static_cast<std::size_t>(node.face)], point);
-    if (distance < nearest) {
+    if (node.faces < 0) continue;
+    visit_faces(node, [&](std::size_t candidate) {
+      const double distance = squared_distance(faces_[candidate], point);
+      if (!(distance < nearest)) return;
       nearest = distance;
-      face = static_cast<std::size_t>(node.face);
-    }
+      face = candidate;
+    });
   }
-  return std::sqrt(nearest);
+  return nearest;
+}
+
+Vector3 FaceBoxes::nearest_point(const Vector3& point) const {
+  std::size_t face = 0;
+  search(point, face);
+  return point + nearest_of(faces_[face], point);
+}
+
+double FaceBoxes::distance(const Vector3& point) const {
+  std::size_t face = 0;
+  return std::sqrt(search(point, face));
 }
 
 std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,
                                          const Execution& execution) const {
-  constexpr std::size_t block_size = 256;
   std::vector<double> result(points.size());
   execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
     std::size_t face = 0;
-    for (std::size_t i = begin; i < end; ++i) result[i] = distance(points[i], face);
+    for (std::size_t i = begin; i < end; ++i) result[i] = std::sqrt(search(points[i], face));
   });
   return result;
+}
+
+std::size_t FaceBoxes::faces_met(const Vector3& point) const {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const auto local = [&](const Vector3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
+  const Vector3& d = ray_direction();
+  const Kernel::Ray_3 ray(local(point), Kernel::Vector_3(d.x(), d.y(), d.z()));
+  // Rounding must not lose a box that the ray grazes (Ize, J. Comput. Graph. Tech. 2 (2013) 12-27).
+  constexpr double wider = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
+  const Vector3 inverse = d.cwiseInverse();
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < nodes_.size();) {
+    const Node& node = nodes_[i];
+    const double enters = std::max(0.0, (node.low - point).cwiseProduct(inverse).maxCoeff());
+    const double leaves = (node.high - point).cwiseProduct(inverse).minCoeff() * wider;
+    if (!(enters <= leaves)) {
+      i = static_cast<std::size_t>(node.beyond);
+      continue;
+    }
+    ++i;
+    if (node.faces < 0) continue;
+    visit_faces(node, [&](std::size_t face) {
+      const auto& [a, b, c] = faces_[face];
+      met += CGAL::do_intersect(ray, Kernel::Triangle_3(local(a), local(b), local(c))) ? 1U : 0U;
+    });
+  }
+  return met;
 }
 
 }  // namespace wscvt
