@@ -152,6 +152,8 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
     result.relaxation = std::move(relaxed.report);
     nodes = place_nodes(grain, std::move(relaxed), metric, prepared.original.volume,
                         options.placement, execution.part(0.7, 0.9));
+    result.space.mending = nodes.mending;
+    result.space.fit = nodes.fit;
   }
   result.mesh = std::move(nodes.mesh);
   result.directions = std::move(nodes.directions);

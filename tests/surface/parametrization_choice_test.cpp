@@ -68,6 +68,17 @@ TEST(Parametrization, AutoFollowsTheFlanksAndTheSeriesTheFolds) {
   EXPECT_EQ(taken(needle, given, true), Parametrization::Spherical);
   given.parametrization = Parametrization::Radial;
   EXPECT_EQ(taken(needle, given, false), Parametrization::Radial);
+  // A dent behind the edge of which a hundredth of a per cent is hidden, and hardly any flank steep.
+  IndexedMesh dented = test::sphere(5);
+  for (Vector3& p : dented.points) {
+    const double off = (p - Vector3::UnitX()).norm();
+    if (off < 0.06) p += (1.0 - off / 0.06) * Vector3(0.0, 0.1, 0.0);
+  }
+  const ParametrizationChoice fold =
+      choose_parametrization(dented, Vector3::Zero(), automatic, false, Execution(1));
+  EXPECT_GT(fold.folded_share, 0.0);
+  EXPECT_LT(fold.steep_share, steep_share_limit);
+  EXPECT_EQ(fold.taken, Parametrization::Spherical);
   const IndexedMesh bent = test::bent_grain_mesh(test::bent_grains().front(), 6000);
   EXPECT_EQ(taken(bent, automatic, true), Parametrization::Spherical);
 }

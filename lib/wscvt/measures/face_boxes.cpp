@@ -104,7 +104,7 @@ class FaceBoxes::Builder {
 
   /// Splits until the parts are small enough to be a few hundredths of a second's work.
   void deal(const Part& part, const Execution& execution, const std::string& stage) {
-    constexpr std::size_t faces_a_part = 32768;
+    constexpr std::size_t faces_a_part = 8192;
     if (part.end - part.begin <= faces_a_part) {
       parts_.push_back(part);
       return;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/contact_fit.h"
+#include "wscvt/nodes/mended_fit.h"
 #include "wscvt/nodes/node_placement.h"
 #include "wscvt/nodes/node_refinement.h"
 
@@ -28,6 +30,23 @@ void take_polar_coordinates(PlacedNodes& nodes) {
     nodes.radii[i] = nodes.mesh.points[i].norm();
     nodes.directions[i] = nodes.mesh.points[i] / nodes.radii[i];
   }
+}
+
+void mend(const Grain& grain, SphereTriangulation triangulation, double volume, PlacedNodes& nodes,
+          const Execution& execution) {
+  std::vector<Vector3> on_scan = nodes.directions;
+  const std::vector<double> radii = grain.rays->radii(nodes.directions, execution);
+  for (std::size_t i = 0; i < radii.size(); ++i) on_scan[i] *= radii[i];
+  const SpaceTessellation tessellation{
+      nodes.directions, std::move(on_scan), std::move(triangulation), {}, {}};
+  std::optional<MendedNodes> mended =
+      mend_radial_nodes(grain.mesh, nodes.mesh, tessellation, volume, execution);
+  if (!mended) return;
+  nodes.mesh = std::move(mended->mesh);
+  nodes.mending = mended->mending;
+  nodes.fit = mended->fit;
+  take_polar_coordinates(nodes);
+  nodes.cell_areas = vertex_areas(nodes.mesh);
 }
 
 void place_by_least_squares(const MeshSurface& scan, SphereTriangulation triangulation,
@@ -93,8 +112,12 @@ PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, Relaxation
   triangulation.restore_surface_delaunay(nodes.directions, nodes.mesh.points, execution);
   nodes.mesh.triangles = triangulation.triangles();
   if (is_fitted(options.kind)) {
-    place_by_least_squares(*grain.rays, std::move(triangulation), volume, options.refinement, nodes,
+    place_by_least_squares(*grain.rays, triangulation, volume, options.refinement, nodes,
                            execution);
+  }
+  if (options.kind == NodePlacement::LeastSquares && options.refinement.rounds == 0 &&
+      metric == RelaxationMetric::Surface && grain.is_scan) {
+    mend(grain, std::move(triangulation), volume, nodes, execution.part(0.5, 1.0));
   }
   if (options.kind == NodePlacement::Contact) {
     nodes.mesh.points = fit_to_contacts(nodes.mesh, grain.mesh, nullptr, options.contact_radius,

@@ -6,6 +6,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/nodes/placement_options.h"
+#include "wscvt/nodes/space_report.h"
 #include "wscvt/surface/grain.h"
 #include "wscvt/tessellation/relaxation.h"
 
@@ -22,11 +23,15 @@ struct PlacedNodes {
   /// Surface area of each node's power cell, or, after refinement, a third of its triangles'.
   std::vector<double> cell_areas;
   RefinementReport refinement;
+  TriangleMendingReport mending;  ///< of fitted nodes with small angles, see mend_radial_nodes
+  NormalFitReport fit;            ///< of those
 };
 
 /// Puts relaxed seeds where `options` want them. `metric` is the one they were relaxed in, which
 /// says what their cells' areas are; `volume` (> 0) is what the mesh encloses after a least-squares
 /// placement. The triangulation becomes the intrinsic Delaunay one of the nodes on their surface.
+/// Seeds relaxed in the surface metric and fitted without refinement are mended, where triangles of
+/// a scan's are left with small angles (mend_radial_nodes).
 /// Throws Error: InvalidInput for options out of range or rays that are needed and missing,
 /// NumericalFailure, Cancelled.
 PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, RelaxationMetric metric,

@@ -10,6 +10,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/contact_fit.h"
+#include "wscvt/nodes/mended_fit.h"
 #include "wscvt/nodes/node_refinement.h"
 #include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/self_intersections.h"
@@ -254,17 +255,11 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   if (!(enclosed_volume(mended.mesh.points, mended.mesh.triangles) > 0.0)) {
     refuse_shape(tessellation.seeds.size(), result.report.enough_nodes);
   }
-  const bool changed = mended.report.flips + mended.report.moves + mended.report.relocations > 0;
+  const bool changed = has_mended(mended.report);
   result.report.mending = mended.report;
   if (is_fitted(placement.kind)) {
-    const NormalFitOptions fitting;
-    std::vector<FitSample> samples = deal_out(
-        mapped_samples(*grain.mapped, grain.is_level ? to_scan : nullptr,
-                       std::max(fitting.samples, 10 * tessellation.seeds.size()), execution),
-        tessellation.positions, tessellation.seeds, triangles, execution);
-    if (changed) samples = deal_on(samples, triangles, mended.mesh, mended.relocated);
-    NormalFit fit =
-        fit_along_normals(mended.mesh, samples, volume, fitting, execution.part(0.87, 0.9));
+    NormalFit fit = fit_mended(*grain.mapped, grain.is_level ? to_scan : nullptr, tessellation,
+                               mended, volume, execution.part(0.87, 0.9));
     mended.mesh.points = std::move(fit.positions);
     result.report.fit = fit.report;
   } else if (grain.is_level) {

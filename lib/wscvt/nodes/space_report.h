@@ -20,7 +20,7 @@ struct TriangleMendingReport {
   int left = 0;         ///< triangles that still have a smaller angle
 };
 
-/// What became of nodes on a mapped surface.
+/// What became of nodes on a mapped surface; of those on the radial map, mending and fit alone.
 struct SpaceNodesReport {
   std::size_t self_intersections = 0;  ///< pairs of triangles of the mesh that meet, exactly
   int repairs = 0;                     ///< relaxations with more nodes where triangles had met

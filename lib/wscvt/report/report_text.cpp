@@ -135,7 +135,7 @@ void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
   lines.push_back(line("Fit", text));
 }
 
-void append_space(const RemeshResult& result, std::vector<std::string>& lines) {
+void append_meeting(const RemeshResult& result, std::vector<std::string>& lines) {
   if (result.parametrization != Parametrization::Spherical) return;
   const SpaceNodesReport& space = result.space;
   std::string text = counted(space.self_intersections, "pair", "pairs") +
@@ -150,6 +150,9 @@ void append_space(const RemeshResult& result, std::vector<std::string>& lines) {
   if (result.options.placement.kind == NodePlacement::Series) {
     lines.push_back(line("Placement", "on the scan; a spherical map has no fitted series"));
   }
+}
+
+void append_mending(const SpaceNodesReport& space, std::vector<std::string>& lines) {
   const TriangleMendingReport& mending = space.mending;
   if (mending.flips + mending.moves + mending.relocations > 0) {
     lines.push_back(line(
@@ -306,7 +309,8 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   append_input(result, lines);
   append_handles(result, lines);
   append_fit(result, lines);
-  append_space(result, lines);
+  append_meeting(result, lines);
+  append_mending(result.space, lines);
   append_search(result, lines);
   append_relaxation(result, lines);
   append_refinement(result, lines);

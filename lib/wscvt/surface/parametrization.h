@@ -9,7 +9,8 @@ namespace wscvt {
 
 /// How the grain's surface is laid over the sphere.
 enum class Parametrization {
-  Auto,       ///< radial where steep_share is at most steep_share_limit, else spherical
+  Auto,       ///< radial where nothing folds and steep_share is at most steep_share_limit, else
+              ///< spherical
   Radial,     ///< one radius a direction: the published method, for star-shaped grains
   Spherical,  ///< a bijective map of the scan, for any closed surface of genus 0
 };
@@ -20,8 +21,8 @@ struct EnumerationTable<Parametrization> {
   static constexpr std::string_view subject = "parametrization";
   static constexpr Enumerator<Parametrization> rows[] = {
       {Parametrization::Auto, "auto", "auto",
-       "radial where hardly any flank is steep, seen from the centroid, and spherical elsewhere; "
-       "the log says which"},
+       "radial where nothing folds and hardly any flank is steep, seen from the centroid, and "
+       "spherical elsewhere; the log says which"},
       {Parametrization::Radial, "radial", "radial",
        "one radius in each direction, the published method, for star-shaped grains"},
       {Parametrization::Spherical, "spherical", "spherical",

@@ -48,7 +48,9 @@ ParametrizationChoice choose_parametrization(const IndexedMesh& mesh, const Vect
   ParametrizationChoice choice;
   choice.steep_share = steep_share(mesh, centre, execution);
   choice.folded_share = folded_solid_angle(mesh, centre, execution);
-  const bool steep = choice.steep_share > steep_share_limit;
+  // What folds, however little, has no radius in each direction; its nodes are jammed before the
+  // fold, where no mending reaches them.
+  const bool steep = choice.steep_share > steep_share_limit || choice.folded_share > 0.0;
   const bool too_folded = choice.folded_share > 0.01 * options.fold_limit_percent;
   if (options.parametrization == Parametrization::Spherical ||
       (options.parametrization == Parametrization::Auto && (needs_series ? too_folded : steep))) {

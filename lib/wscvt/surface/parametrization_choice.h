@@ -14,8 +14,8 @@ struct ParametrizationChoice {
   double folded_share = 0.0;                        ///< see folded_solid_angle
 };
 
-/// Decides Auto for a closed, outward mesh about `centre`: radial where steep_share is at most
-/// steep_share_limit. With `needs_series` (a series is that of the radial map) it is radial
+/// Decides Auto for a closed, outward mesh about `centre`: radial where it folds nowhere and
+/// steep_share is at most steep_share_limit. With `needs_series` (a series is that of the radial map) it is radial
 /// wherever the fold limit allows one. Throws Error(InvalidInput) for options out of range,
 /// Error(Cancelled).
 ParametrizationChoice choose_parametrization(const IndexedMesh& mesh, const Vector3& centre,
