@@ -622,6 +622,11 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   unchanged.report.left = before.small;
   std::size_t meeting = known_meeting ? *known_meeting : self_intersections(nodes).size();
   if (unchanged.report.left == 0 && meeting == 0) return unchanged;
+  // On a body flat as paper there is nothing to part, or nodes that are put in elsewhere make
+  // thousands of pairs meet, more from round to round: each step then asks hundreds of nearly
+  // coplanar triangles of each other, exactly, which takes minutes and leads nowhere.
+  const auto is_lost = [&] { return meeting > nodes.points.size(); };
+  if (is_lost()) return unchanged;
   mender.build_boxes();
 
   // Relocations may leave more small angles for a while, so the best of all rounds is taken: the
@@ -629,7 +634,8 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   MendedTriangles best = unchanged;
   std::size_t fewest_meeting = meeting;
   TriangleMendingReport report = unchanged.report;
-  for (int round = 0; round < options.rounds && (report.left > 0 || meeting > 0); ++round) {
+  for (int round = 0; round < options.rounds && (report.left > 0 || meeting > 0) && !is_lost();
+       ++round) {
     execution.report(0.0, "Mending triangles");
     const int relocations = report.relocations;
     int changes = mender.improve(report);

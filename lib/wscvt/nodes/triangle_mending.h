@@ -52,7 +52,8 @@ struct MendedTriangles {
 /// triangle stays as it is.
 ///
 /// No more triangles meet afterwards than before, and out of pairs that do meet a node is taken,
-/// wherever fewer meet without it, and put in elsewhere.
+/// wherever fewer meet without it, and put in elsewhere. Where more pairs meet than there are nodes
+/// nothing more is mended.
 ///
 /// `nodes` is a closed mesh, its points at `places`; `known_meeting` is the number of its pairs of
 /// triangles that meet, where it is known: self_intersections takes longer than the rest where
