@@ -68,7 +68,7 @@ TEST(Parametrization, AutoFollowsTheFlanksAndTheSeriesTheFolds) {
   EXPECT_EQ(taken(needle, given, true), Parametrization::Spherical);
   given.parametrization = Parametrization::Radial;
   EXPECT_EQ(taken(needle, given, false), Parametrization::Radial);
-  // A dent behind the edge of which a hundredth of a per cent is hidden, and hardly any flank steep.
+  // A dent that hides a little of itself behind its edge, with hardly any flank steep.
   IndexedMesh dented = test::sphere(5);
   for (Vector3& p : dented.points) {
     const double off = (p - Vector3::UnitX()).norm();

@@ -29,12 +29,6 @@ double squared_distance(const std::array<Vector3, 3>& corners, const Vector3& po
   return square >= 0.0 ? square : std::numeric_limits<double>::infinity();
 }
 
-/// Without pattern, which keeps rays off edges and vertices; no component is 0.
-const Vector3& ray_direction() {
-  static const Vector3 direction(0.5377102934, 0.3142870195, 0.7823519467);
-  return direction;
-}
-
 }  // namespace
 
 /// Faces are dealt out by their middles, half to each child along the axis on which they are spread
@@ -219,7 +213,8 @@ std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,
 std::size_t FaceBoxes::faces_met(const Vector3& point) const {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const auto local = [&](const Vector3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
-  const Vector3& d = ray_direction();
+  // Without pattern, which keeps rays off edges and vertices; no component is 0.
+  const Vector3 d(0.5377102934, 0.3142870195, 0.7823519467);
   const Kernel::Ray_3 ray(local(point), Kernel::Vector_3(d.x(), d.y(), d.z()));
   // Rounding must not lose a box that the ray grazes (Ize, J. Comput. Graph. Tech. 2 (2013) 12-27).
   constexpr double wider = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
