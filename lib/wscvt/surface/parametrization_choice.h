@@ -15,9 +15,9 @@ struct ParametrizationChoice {
 };
 
 /// Decides Auto for a closed, outward mesh about `centre`: radial where it folds nowhere and
-/// steep_share is at most steep_share_limit. With `needs_series` (a series is that of the radial map) it is radial
-/// wherever the fold limit allows one. Throws Error(InvalidInput) for options out of range,
-/// Error(Cancelled).
+/// steep_share is at most steep_share_limit. With `needs_series` (a series is that of the radial
+/// map) it is radial wherever the fold limit allows one. Throws Error(InvalidInput) for options out
+/// of range, Error(Cancelled).
 ParametrizationChoice choose_parametrization(const IndexedMesh& mesh, const Vector3& centre,
                                              const SurfaceOptions& options, bool needs_series,
                                              const Execution& execution);
