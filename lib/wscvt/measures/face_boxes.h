@@ -44,8 +44,7 @@ class FaceBoxes {
  private:
   using Corners = std::array<Vector3, 3>;
 
-  /// Only the last leaf may have fewer. With one the tree takes half as much memory again, and is
-  /// no faster.
+  /// Only the last leaf may have fewer. With one the tree would take half as much memory again.
   static constexpr std::size_t faces_a_leaf = 2;
 
   /// Nodes stand in the order of a walk through the tree: after an inner node its first child with

@@ -582,7 +582,7 @@ void MeshCollapse::collapse_to(std::size_t vertices, const Execution& execution)
                        stage);
     };
     // One by one, cheapest first, the vertices of a dense scan are jumped to all over the memory;
-    // whole rounds take a third of the time, on two threads a fifth, and the queue still has the
+    // whole rounds take half of the time, on two threads a quarter, and the queue still has the
     // last choice of every other vertex.
     const std::size_t rounds_to = std::max(2 * aim, fewest_for_rounds);
     while (alive_ > rounds_to) {
