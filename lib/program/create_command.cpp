@@ -81,12 +81,14 @@ int run(const CreateArguments& arguments) {
 
   Work work(common);
   const RemeshResult result = remesh(arguments.surface, arguments.options, work.execution());
-  work.end();
 
-  write_mesh(result.mesh, arguments.output);
+  work.write(arguments.output,
+             [&](const std::string& path, const Execution&) { write_mesh(result.mesh, path); });
   const ReportOrigin origin = origin_of(surface_name(arguments.surface));
   for (const std::string& report : common.reports) {
-    write_report(report, result, IndexedMesh(), origin, Execution(common.threads));
+    work.write(report, [&](const std::string& path, const Execution& execution) {
+      write_report(path, result, IndexedMesh(), origin, execution);
+    });
   }
   work.print(result.warnings, report_lines(result));
   return Done;

@@ -24,7 +24,6 @@
 #include "remesh_command.h"
 #include "signals.h"
 #include "standard_streams.h"
-#include "wscvt/base/error.h"
 #include "wscvt/base/version.h"
 
 namespace {
@@ -112,10 +111,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    // The library, which is cancelled before anything is written, knows of no files.
-    const auto* known = dynamic_cast<const wscvt::Error*>(&error);
-    const bool cancelled = known != nullptr && known->code() == wscvt::ErrorCode::Cancelled;
-    std::fprintf(stderr, "%s%s\n", error.what(), cancelled ? " Nothing was written." : "");
+    std::fprintf(stderr, "%s\n", error.what());
     // As a shell gives it for a program that the signal ended.
     const int signal = program::noted_signal();
     return signal == 0 ? program::Failed : 128 + signal;

@@ -31,15 +31,19 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
     check_descriptor_report(report, reference.has_value());
   }
   Work work(common);
-  work.execution().report(0.0, "Reading");
-  NamedMesh grain = {arguments.grain, read_mesh(arguments.grain)};
+  const auto read = [&](const std::string& path, double begin, double end) {
+    return NamedMesh{path, read_mesh(path, work.execution().part(begin, end))};
+  };
+  NamedMesh grain = read(arguments.grain, 0.0, 0.5 * reading_share);
   std::optional<NamedMesh> compared;
-  if (reference) compared = NamedMesh{*reference, read_mesh(*reference)};
+  if (reference) compared = read(*reference, 0.5 * reading_share, reading_share);
   const GrainMeasures measures =
-      measure_grain(std::move(grain), std::move(compared), arguments.options, work.execution());
-  work.end();
+      measure_grain(std::move(grain), std::move(compared), arguments.options,
+                    work.execution().part(reading_share, 1.0));
   for (const std::string& report : common.reports) {
-    write_report(report, measures, origin_of(arguments.grain), Execution(common.threads));
+    work.write(report, [&](const std::string& path, const Execution& execution) {
+      write_report(path, measures, origin_of(arguments.grain), execution);
+    });
   }
   work.print(remarks(measures), descriptor_lines(measures));
 }

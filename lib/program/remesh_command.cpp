@@ -64,26 +64,38 @@ int run(const RemeshArguments& arguments) {
       (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
 
   Work work(common);
-  work.execution().report(0.0, "Reading the scan");
-  IndexedMesh scan = read_mesh(arguments.scan);
+  IndexedMesh scan = read_mesh(arguments.scan, work.execution().part(0.0, reading_share));
   IndexedMesh shown;
   if (is_shown) shown = scan;
-  const RemeshResult result = remesh(std::move(scan), options, work.execution());
-  work.end();
+  const RemeshResult result =
+      remesh(std::move(scan), options, work.execution().part(reading_share, 1.0));
+  shown = used_scan(std::move(shown), result.options, work.execution().part(1.0, 1.0));
 
-  const Execution execution(common.threads);
-  shown = used_scan(std::move(shown), result.options, execution);
+  const ReportOrigin origin = origin_of(arguments.scan);
   const SimulationFrame frame = simulation_frame(result.original, simulation.options.frame);
-  write_mesh(in_frame(result.mesh, frame), arguments.output);
-  for (const std::string& path : simulation.nodes) write_nodes(path, result, simulation.options);
-  for (const std::string& path : simulation.grids) {
-    write_distance_grid(path, result, shown, simulation.options, origin_of(arguments.scan),
-                        execution);
+  work.write(arguments.output, [&](const std::string& path, const Execution&) {
+    write_mesh(in_frame(result.mesh, frame), path);
+  });
+  for (const std::string& nodes : simulation.nodes) {
+    work.write(nodes, [&](const std::string& path, const Execution&) {
+      write_nodes(path, result, simulation.options);
+    });
+  }
+  for (const std::string& grid : simulation.grids) {
+    work.write(grid, [&](const std::string& path, const Execution& execution) {
+      write_distance_grid(path, result, shown, simulation.options, origin, execution);
+    });
   }
   for (const std::string& report : common.reports) {
-    write_report(report, result, shown, origin_of(arguments.scan), execution);
+    work.write(report, [&](const std::string& path, const Execution& execution) {
+      write_report(path, result, shown, origin, execution);
+    });
   }
-  if (!arguments.coefficients.empty()) write_coefficients(arguments.coefficients, result);
+  if (!arguments.coefficients.empty()) {
+    work.write(arguments.coefficients, [&](const std::string& path, const Execution&) {
+      write_coefficients(path, result);
+    });
+  }
   work.print(result.warnings, report_lines(result));
   return Done;
 }

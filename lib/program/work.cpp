@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "signals.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 
 namespace wscvt::program {
@@ -20,6 +21,21 @@ std::string today() {
   return std::strftime(text, sizeof text, "%Y-%m-%d", &local) == 0 ? "" : text;
 }
 
+/// The library's own sentence knows of no files.
+[[noreturn]] void cancel(const std::string& stage, const std::vector<std::string>& written) {
+  std::string sentence = "Cancelled during: " + stage + ". ";
+  if (written.empty()) {
+    sentence += "Nothing was written.";
+  } else {
+    sentence += "Written before that:";
+    for (const std::string& path : written) {
+      sentence += (&path == &written.front() ? " \"" : ", \"") + path + "\"";
+    }
+    sentence += ".";
+  }
+  throw Error(ErrorCode::Cancelled, sentence);
+}
+
 }  // namespace
 
 Work::Work(const CommonArguments& arguments)
@@ -27,19 +43,15 @@ Work::Work(const CommonArguments& arguments)
       line_(!arguments.quiet),
       execution_(arguments.threads, [this](double fraction, const std::string& stage) {
         line_.show(fraction, stage);
-        return noted_signal() == 0;
+        if (noted_signal() != 0) cancel(stage, written_);
+        return true;
       }) {
   if (!quiet_) check_writable("/dev/stdout");
   note_signals();
 }
 
-void Work::end() {
-  execution_.report(1.0, "Writing");
+void Work::print(const std::vector<std::string>& warnings, const std::vector<std::string>& lines) {
   line_.clear();
-}
-
-void Work::print(const std::vector<std::string>& warnings,
-                 const std::vector<std::string>& lines) const {
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "Warning: %s\n", warning.c_str());
   }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/used_scan.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 namespace {
@@ -143,6 +145,17 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
     spherical(o);
     o.node_count = 100000;
   });
+  for (const std::string ending : {".ply", ".obj", ".off", ".stl"}) {
+    runs.push_back(
+        {"reading " + ending, [&scan, ending](const Execution& execution) {
+           const std::string path =
+               (std::filesystem::temp_directory_path() / ("wscvt_gaps" + ending)).string();
+           write_mesh(scan, path);
+           execution.report(0.0, "Written");
+           read_mesh(path, execution);
+           std::filesystem::remove(path);
+         }});
+  }
   runs.push_back({"remesh of a soup", [&scan](const Execution& execution) {
                     remesh(test::unwelded(scan), {}, execution);
                   }});

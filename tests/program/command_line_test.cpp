@@ -167,29 +167,40 @@ TEST_F(CommandLine, TakesPointsOnlyWhenTold) {
   EXPECT_NE(told.errors.find("taken as points"), std::string::npos) << told.errors;
 }
 
+/// Starts the program in a folder, where said.txt gets what it says on the standard error.
+template <class... Words>
+pid_t start(const fs::path& folder, Words... words) {
+  const pid_t child = fork();
+  if (child == 0) {
+    // Not inherited: the shell that started the test may ignore it.
+    std::signal(SIGINT, SIG_DFL);
+    if (chdir(folder.c_str()) != 0) _exit(99);
+    if (std::freopen("said.txt", "w", stderr) == nullptr) _exit(97);
+    execl(WSCVT_PROGRAM, "wscvt", words..., nullptr);
+    _exit(98);
+  }
+  return child;
+}
+
+/// What the program exits with; -1 when a signal ended it.
+int exit_code_of(pid_t child) {
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
   // The program waits for a scan from a pipe, gets the signal, then the scan, and cancels.
   ASSERT_EQ(mkfifo((folder_ / "scan.ply").c_str(), 0600), 0);
   for (const int number : {SIGINT, SIGTERM}) {
-    const pid_t child = fork();
+    const pid_t child = start(folder_, "scan.ply", "remesh.ply", "-n", "1000", "-q");
     ASSERT_NE(child, -1);
-    if (child == 0) {
-      // Not inherited: the shell that started the test may ignore it.
-      std::signal(SIGINT, SIG_DFL);
-      if (chdir(folder_.c_str()) != 0) _exit(99);
-      if (std::freopen("said.txt", "w", stderr) == nullptr) _exit(97);
-      execl(WSCVT_PROGRAM, "wscvt", "scan.ply", "remesh.ply", "-n", "1000", "-q", nullptr);
-      _exit(98);
-    }
     {
       std::ofstream scan(folder_ / "scan.ply", std::ios::binary);  // opens when the program does
       ASSERT_EQ(kill(child, number), 0);
       scan << std::ifstream(WSCVT_MESHES_DIR "/sand_7228.ply", std::ios::binary).rdbuf();
     }
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 128 + number);
+    EXPECT_EQ(exit_code_of(child), 128 + number);
     fs::directory_iterator left(folder_);
     EXPECT_EQ(std::distance(begin(left), end(left)), 2)
         << "something is left beside the scan and what the program said";
@@ -197,6 +208,24 @@ TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
     EXPECT_EQ(said.rfind("Cancelled during: ", 0), 0U) << said;
     EXPECT_NE(said.find(". Nothing was written.\n"), std::string::npos) << said;
   }
+}
+
+TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
+  // Signed distances at 100 million points take minutes; the remesh is there before them.
+  const pid_t child = start(folder_, WSCVT_MESHES_DIR "/sand_7228.ply", "remesh.ply", "-n", "100",
+                            "-q", "--size", "1", "--sdf", "grid.npy", "--sdf-spacing", "0.002");
+  ASSERT_NE(child, -1);
+  while (!exists("remesh.ply")) {
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << content("said.txt");
+  }
+  ASSERT_EQ(kill(child, SIGTERM), 0);
+  EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
+  EXPECT_EQ(read_mesh(path("remesh.ply")).points.size(), 100U);
+  EXPECT_FALSE(exists("grid.npy"));
+  const std::string said = content("said.txt");
+  EXPECT_EQ(said.rfind("Cancelled during: ", 0), 0U) << said;
+  EXPECT_NE(said.find(". Written before that: \"remesh.ply\".\n"), std::string::npos) << said;
 }
 
 }  // namespace

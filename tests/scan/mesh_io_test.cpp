@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/read_content.h"
 #include "support/test_shapes.h"
@@ -248,6 +249,19 @@ TEST_F(MeshIo, ReadsFromAPipe) {
   const IndexedMesh back = read_mesh(path("pipe.stl"));
   writer.join();
   EXPECT_EQ(back.points, read_mesh(path("a.stl")).points);
+}
+
+TEST_F(MeshIo, ReportsAndStopsWithinAFile) {
+  const IndexedMesh mesh = test::lumpy(6);
+  for (const std::string ending : {".ply", ".obj", ".off", ".stl"}) {
+    const std::string name = path("a" + ending);
+    write_mesh(mesh, name);
+    // From buffer to buffer, of 256 KiB each.
+    const int buffers = static_cast<int>(fs::file_size(name) / (1 << 18));
+    ASSERT_GE(buffers, 2) << ending;
+    test::expect_to_be_stopped([&](const Execution& execution) { read_mesh(name, execution); },
+                               "Reading", buffers);
+  }
 }
 
 TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {

@@ -9,7 +9,8 @@
 namespace wscvt {
 
 IndexedMesh used_scan(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
-  if (options.points && !scan.points.empty()) scan = mesh_of_points(std::move(scan.points));
+  if (options.points && !scan.points.empty())
+    scan = mesh_of_points(std::move(scan.points), execution);
   if (scan.triangles.empty()) return scan;
   if (options.envelope.opening_percent > 0.0) scan = envelope_of(scan, options.envelope, execution);
   return check_mesh(std::move(scan), options.check, execution).mesh;

@@ -16,11 +16,18 @@ constexpr std::size_t block_size = std::size_t{1} << 18;
 
 }  // namespace
 
-ByteReader::ByteReader(std::istream& stream, std::uintmax_t size, std::string path)
-    : stream_(stream), path_(std::move(path)), buffer_(block_size), unread_(size) {}
+ByteReader::ByteReader(std::istream& stream, std::uintmax_t size, std::string path,
+                       Execution execution)
+    : stream_(stream),
+      path_(std::move(path)),
+      buffer_(block_size),
+      size_(size),
+      unread_(size),
+      execution_(std::move(execution)) {}
 
 bool ByteReader::fill(std::size_t count) {
   if (count > remaining()) return false;
+  execution_.report(1.0 - static_cast<double>(unread_) / static_cast<double>(size_), "Reading");
   if (begin_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/execution.h"
 
 namespace wscvt {
 
@@ -21,7 +22,10 @@ namespace wscvt {
 class ByteReader {
  public:
   /// Reads `stream`, which holds `size` bytes and stands at its beginning; `path` is for sentences.
-  ByteReader(std::istream& stream, std::uintmax_t size, std::string path);
+  /// Progress is reported from buffer to buffer, some milliseconds of text: what reads may throw
+  /// Error(Cancelled).
+  ByteReader(std::istream& stream, std::uintmax_t size, std::string path,
+             Execution execution = Execution(1));
 
   /// Bytes that are not read yet.
   std::uintmax_t remaining() const { return unread_ + (end_ - begin_); }
@@ -64,9 +68,11 @@ class ByteReader {
   std::vector<char> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
+  std::uintmax_t size_;
   std::uintmax_t unread_;  ///< in the stream
   std::size_t line_number_ = 0;
   char line_end_ = '\n';
+  Execution execution_;
 };
 
 /// A number of a binary file.

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/reporting_split.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/scan/reporting_split.h"
 
 namespace wscvt {
 

@@ -148,7 +148,7 @@ bool write_as(std::ostream& stream, Format format, const IndexedMesh& mesh,
 
 }  // namespace
 
-IndexedMesh read_mesh(const std::string& path) {
+IndexedMesh read_mesh(const std::string& path, const Execution& execution) {
   const Format format = format_of(path);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
@@ -162,12 +162,12 @@ IndexedMesh read_mesh(const std::string& path) {
     // How much a pipe holds is known at its end.
     std::stringstream content;
     content << file.rdbuf();
-    ByteReader reader(content, content.str().size(), path);
+    ByteReader reader(content, content.str().size(), path, execution);
     return read_as(reader, format);
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) fail(path, "cannot be read; check that the file is there and readable.");
-  ByteReader reader(file, size, path);
+  ByteReader reader(file, size, path, execution);
   return read_as(reader, format);
 }
 

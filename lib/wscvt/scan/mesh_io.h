@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -16,8 +17,8 @@ namespace wscvt {
 /// Takes memory for what is there, never for what a file claims. Throws Error(InputOutput), which
 /// names the line of a text or the element of a binary file, when the file cannot be read, is cut
 /// short, names vertices it does not hold or has only faces of less than three corners, or when the
-/// extension is not known.
-IndexedMesh read_mesh(const std::string& path);
+/// extension is not known, and Error(Cancelled).
+IndexedMesh read_mesh(const std::string& path, const Execution& execution = Execution(1));
 
 /// Whether the extension of a path is that of one of the formats.
 bool is_mesh_file(const std::string& path);
