@@ -33,13 +33,14 @@ struct EnumerationTable<NodePlacement> {
   };
 };
 
+/// How the nodes are placed.
 struct PlacementOptions {
   NodePlacement kind = NodePlacement::LeastSquares;
-  RefinementOptions refinement;  ///< of the nodes towards the scan; needs is_fitted, and Radial
-  /// Of the balls that nodes placed by Contact are fitted to touch, equivalent radii; see
-  /// fit_to_contacts. At these the mean error of a first contact is least, measured in tests/study:
-  /// 0.4 for nodes against the surface of another grain, 1.3 where the nodes of both are looked at
-  /// and the deepest decides, 5 for flat walls.
+  RefinementOptions refinement;  ///< of the nodes towards the scan, on any map; needs is_fitted
+  /// Of the balls that nodes placed by Contact are fitted to touch, equivalent radii, in (0, 100];
+  /// see fit_to_contacts. At these the mean error of a first contact is least, measured in
+  /// tests/study: 0.4 for nodes against the surface of another grain, 1.3 where the nodes of both
+  /// are looked at and the deepest decides, 5 for flat walls.
   double contact_radius = 0.4;
   /// Refuse a result in which triangles meet, which a radial one never has.
   bool refuse_self_intersections = false;
@@ -56,7 +57,7 @@ inline constexpr NumberOption<double> contact_radius_option = {
     "grains are looked at, 5 for flat walls"};
 inline constexpr FlagOption refuse_self_intersections_option = {
     "refuse-self-intersections", "refusal of self-intersections",
-    "refuse a remesh in which triangles meet, instead of warning"};
+    "(triangles that meet) in a remesh, instead of a warning"};
 
 /// Whether nodes leave the surface to fit it.
 inline bool is_fitted(NodePlacement placement) {

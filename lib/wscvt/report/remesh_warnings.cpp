@@ -151,7 +151,7 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
                        format_number(result.relaxation.weight_scale, 3) +
                        ", because seeds would have lost their cells; " +
                        (result.options.weighting.kind == Weighting::Curvature
-                            ? "lower the curvature exponent alpha."
+                            ? "lower the strength alpha of the curvature weighting."
                             : "ask for more nodes, or for another weighting."));
   }
 }

@@ -304,7 +304,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
           ErrorCode::InvalidInput,
           "Of the scan's " + std::to_string(genus) + (genus == 1 ? " handle " : " handles ") +
               std::to_string(genus - left) + " could be cut; the shortest loop left is " +
-              format_number(loop.length / radius) + " equal-volume radii long, about (" +
+              format_number(loop.length / radius) + " equivalent radii long, about (" +
               format_number(handle.place.x()) + ", " + format_number(handle.place.y()) + ", " +
               format_number(handle.place.z()) + "), above the limit of " +
               format_number(options.length_limit) +

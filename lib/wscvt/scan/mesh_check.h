@@ -9,14 +9,15 @@
 
 namespace wscvt {
 
+/// What of a scan may be mended.
 struct MeshCheckOptions {
   /// Points nearer to each other than this share of the diagonal of the mesh's box, in each
-  /// coordinate, are welded; 0: exact copies only. The poles of published asteroids
+  /// coordinate, are welded; 0 to 0.01, 0: exact copies only. The poles of published asteroids
   /// lie 1e-17 apart; the default is far above what writing and reading numbers does, and far below
   /// the accuracy of any scan.
   double weld_tolerance = 1e-12;
-  /// Largest share of the area that may be mended, in %: of the faces dropped where more than
-  /// two met in an edge and of those put into holes. Above it the mesh is refused.
+  /// Largest share of the area that may be mended, in %, 0 to 100: of the faces dropped where more
+  /// than two met in an edge and of those put into holes. Above it the mesh is refused.
   double mended_area_limit_percent = 5.0;
   /// Largest share in (0, 1) of the total volume that may be dropped with other bodies; above it
   /// there is no main body and the mesh is refused.
@@ -27,7 +28,7 @@ inline constexpr NumberOption<double> weld_tolerance_option = {
     "weld-tolerance", "tolerance of welding / size of the scan", 0.0, 0.01,
     Ends::Both,       "points nearer to each other are one"};
 inline constexpr NumberOption<double> mended_area_limit_option = {
-    "mend-limit", "largest share of the area to mend, in %,",
+    "mend-limit", "largest share of the area to mend in %",
     0.0,          100.0,
     Ends::Both,   "above it the scan is refused"};
 inline constexpr NumberOption<double> dropped_volume_limit_option = {

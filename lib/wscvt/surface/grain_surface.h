@@ -22,18 +22,18 @@ struct EnumerationTable<SurfaceKind> {
       {SurfaceKind::Ellipsoid, "ellipsoid", "ellipsoid", "of the three semi-axes"},
       {SurfaceKind::Superellipsoid, "superellipsoid", "superellipsoid",
        "of the semi-axes and the two exponents"},
-      {SurfaceKind::Harmonics, "harmonics", "harmonics from a file", "of the coefficients in it"},
+      {SurfaceKind::Harmonics, "harmonics", "harmonics from a file", "of their coefficients"},
   };
 };
 
 /// A surface that is known exactly, by what a user says of it.
 struct GrainSurface {
   SurfaceKind kind = SurfaceKind::Ellipsoid;
-  Vector3 semi_axes = Vector3::Ones();  ///< length; not of Harmonics
-  double polar_exponent = 1.0;          ///< of a Superellipsoid
-  double azimuthal_exponent = 1.0;      ///< of a Superellipsoid
+  Vector3 semi_axes = Vector3::Ones();  ///< length, 1e-6 to 1e6; not of Harmonics
+  double polar_exponent = 1.0;          ///< of a Superellipsoid, 0.1 to 2; no unit
+  double azimuthal_exponent = 1.0;      ///< of a Superellipsoid, 0.1 to 2; no unit
   std::string coefficients_file;        ///< of Harmonics: .dat or .json (see harmonic_io.h)
-  int coefficient_degree = -1;          ///< the text form (.dat) is cut there; -1: all
+  int coefficient_degree = -1;          ///< the text form (.dat) is cut there; -1 to 200, -1: all
 };
 
 /// What floats, which many programs' meshes are made of, hold with room for areas and volumes.

@@ -27,11 +27,12 @@ struct EnumerationTable<RelaxationMetric> {
   };
 };
 
+/// How cells are made centroidal, and when that is done. Ranges stand at the options below.
 struct RelaxationOptions {
   RelaxationMetric metric = RelaxationMetric::Surface;
   int maximum_iterations = 1000;
-  double displacement_tolerance = 1e-3;  ///< rms displacement / h
-  double area_tolerance = 0.07;          ///< spread of cell area / target
+  double displacement_tolerance = 1e-3;  ///< rms displacement / h, see RelaxationStep; no unit
+  double area_tolerance = 0.07;          ///< spread of cell area / target; no unit
   bool acceleration = true;              ///< momentum with restarts on top of the over-relaxed step
   /// Step factor towards the centroid: in (0, 2) without acceleration, where 1.8 does well, and in
   /// (0, 4/3) with it. Those are the limits of stability of the sphere metric, whose step goes down
@@ -49,7 +50,7 @@ inline constexpr NumberOption<double> displacement_tolerance_option = {
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::NotMinimum,
-    "the relaxation ends below this, in cell sizes, and the next"};
+    "in cell sizes; the relaxation ends below this and the area tolerance"};
 inline constexpr NumberOption<double> area_tolerance_option = {
     "area-tolerance", "tolerance of the spread of cell area / target", 0.0,
     std::numeric_limits<double>::infinity(), Ends::NotMinimum};
@@ -106,15 +107,17 @@ struct RelaxationLevel {
   RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
 };
 
+/// How a relaxation went.
 struct RelaxationReport {
   RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
   int iterations = 0;                           ///< with all the seeds
   std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
   int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
   double weight_scale = 1.0;  ///< below 1: weights were damped so that no seed lost its cell
-  std::vector<RelaxationStep> history;
+  std::vector<RelaxationStep> history;  ///< with all the seeds, from the start on
 };
 
+/// How the seeds grow in number, level by level. Ranges stand at the options below.
 struct MultilevelOptions {
   /// Smallest number of seeds of a level. A tessellation of fewer than four times as many has
   /// one level.
