@@ -12,6 +12,11 @@ class HarmonicMap;
 class RadialSurface;
 struct GrainSurface;
 
+// "The paper" of this library's comments is F. Wu, L. Huang, Z. Lai, "A spherical Voronoi
+// tessellation-based approach for particle surface discretization and reconstruction", Engineering
+// Mechanics, 2022, doi 10.6052/j.issn.1000-4750.2022.07.0614. "Length" is the unit of the mesh's
+// coordinates, "equivalent radius" that of the sphere of the scan's volume.
+
 /// Remeshes a dense scan to exactly N nodes. The scan is taken by value, since it is mended and
 /// centred; a caller that needs it no more moves it in. Throws Error: InvalidInput
 /// for options out of range and meshes that cannot be mended (see check_mesh), NotStarShaped when
@@ -26,9 +31,10 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
 /// Discretises a surface given by a formula or by coefficients, about its own origin, in the same
 /// way. The surface takes the place of the fitted series, and of the scan where that is asked for;
 /// volume, area and sphericity of `original` are integrals over it, everything else is measured on
-/// a mesh of 40,962 of its points. The options `check`, `surface` and `weighting.curvature_source`
-/// have no meaning here. Throws Error: InvalidInput for options out of range and surfaces that
-/// cannot be integrated (see integrate), NumericalFailure, Cancelled.
+/// a mesh of 40,962 of its points. The options `points`, `envelope`, `check`, `handles`, `surface`,
+/// `weighting.curvature_source` and `measures.advice` have no meaning here. Throws Error:
+/// InvalidInput for options out of range and surfaces that cannot be integrated (see integrate),
+/// NumericalFailure, Cancelled.
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
                     const Execution& execution = Execution());
 

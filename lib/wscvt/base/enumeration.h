@@ -23,8 +23,8 @@ struct Enumerator {
   std::string_view meaning = {};  ///< what it does, for help texts; empty where the label says it
 };
 
-/// The table of an enumeration; specialised beside it with `key` and `subject`, as in Option, and
-/// `rows`, an array of Enumerator in the order of the values 0, 1, 2, ...
+/// The table of an enumeration; specialised beside it with `key` and `subject`, as in
+/// NumberOption, and `rows`, an array of Enumerator in the order of the values 0, 1, 2, ...
 template <class Enumeration>
 struct EnumerationTable;
 

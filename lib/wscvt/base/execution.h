@@ -13,7 +13,8 @@ namespace wscvt {
 /// name of the stage. Returning false cancels: the library throws Error(Cancelled).
 using ProgressCallback = std::function<bool(double fraction, const std::string& stage)>;
 
-/// How to run: number of threads, and progress with cancel. Cheap to copy.
+/// How to run: number of threads, and progress with cancel. Cheap to copy. Whatever takes one may
+/// throw Error(Cancelled), also where its comment does not say so.
 ///
 /// Results never depend on the number of threads: work is cut into blocks whose bounds follow from
 /// the problem size alone, and partial sums are added in block order.
@@ -26,11 +27,12 @@ class Execution {
   /// to the part of the work this Execution stands for (see `part`).
   void report(double fraction, const std::string& stage) const;
 
-  /// The same execution, whose progress fills only [begin, end] of this one's.
+  /// The same execution, whose progress fills only [begin, end] of this one's; 0 <= begin <= end
+  /// <= 1.
   Execution part(double begin, double end) const;
 
-  /// Calls body(begin, end) for consecutive blocks of at most `block` indices covering [0, count),
-  /// possibly at the same time. Exceptions from the body reach the caller.
+  /// Calls body(begin, end) for consecutive blocks of at most `block` >= 1 indices covering [0,
+  /// count), possibly at the same time. Exceptions from the body reach the caller.
   void parallel_for(std::size_t count, std::size_t block,
                     const std::function<void(std::size_t, std::size_t)>& body) const;
 

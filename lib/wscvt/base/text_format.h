@@ -9,7 +9,7 @@ namespace wscvt {
 
 // Numbers and tables as text, the same in every locale.
 
-/// A number for reading, with `significant` digits; "-" for one that is not a number.
+/// A number for reading, with `significant` >= 1 digits; "-" for one that is not a number.
 std::string format_number(double value, int significant = 6);
 
 /// The shortest decimal text that reads back as the same number, written as a person types it:

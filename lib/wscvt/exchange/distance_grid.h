@@ -22,9 +22,10 @@ struct DistanceGrid {
   std::vector<double> values;
 };
 
+/// How fine and how large a grid is.
 struct GridOptions {
-  double spacing = 0.0;  ///< length; 0: a fiftieth of the equivalent diameter
-  int margin = 4;        ///< cells between the surface's box and the edge of the grid
+  double spacing = 0.0;  ///< length, >= 0; 0: a fiftieth of the equivalent diameter
+  int margin = 4;        ///< cells between the surface's box and the edge of the grid, 1 to 1000
 };
 
 inline constexpr NumberOption<double> grid_spacing_option = {

@@ -10,9 +10,11 @@ namespace wscvt {
 
 /// The nodes of a grain as contact laws take them.
 struct NodeTable {
-  IndexedMesh mesh;              ///< the nodes are its points
-  std::vector<Vector3> normals;  ///< unit, outward; see vertex_normals
-  std::vector<double> areas;     ///< see vertex_areas: they add up to the mesh's; length^2
+  IndexedMesh mesh;  ///< the nodes are its points
+  /// Unit, outward: the mean of the normals of the triangles about the node, by area.
+  std::vector<Vector3> normals;
+  /// A third of the triangles' about the node, so that all add up to the mesh's; length^2.
+  std::vector<double> areas;
 };
 
 /// Of a closed, outward mesh without points that no triangle uses.

@@ -29,6 +29,7 @@ struct EnumerationTable<Frame> {
   };
 };
 
+/// Units of length that files may be in.
 enum class LengthUnit { Metre, Centimetre, Millimetre, Micrometre, Nanometre, Inch };
 
 /// What the keys of a unit are, whatever it is the unit of.
@@ -48,12 +49,13 @@ struct EnumerationTable<LengthUnit> {
   static constexpr const auto& rows = length_unit_rows;
 };
 
-/// Metres in a unit.
+/// Metres in a unit. Throws Error(InvalidInput) for a value that is none.
 double metres_in(LengthUnit unit);
 
+/// In which frame, size and unit a grain is written.
 struct FrameOptions {
   Frame frame = Frame::Input;
-  /// What lengths are multiplied with, beside what the units ask for.
+  /// What lengths are multiplied with, beside what the units ask for; > 0.
   double scale = 1.0;
   /// Equivalent diameter that the grain is brought to, in the unit written; 0: as it is scaled.
   double size = 0.0;

@@ -21,15 +21,17 @@ struct DescriptorValue {
 
 /// One descriptor of two meshes.
 struct DescriptorComparison {
-  std::string key;
+  std::string key;  ///< as in DescriptorValue, and so the next two
   std::string label;
   std::string unit;
-  double reference = 0.0;
-  double value = 0.0;
+  double reference = 0.0;  ///< of the original; in `unit`
+  double value = 0.0;      ///< of the other mesh; in `unit`
   double error_percent =
       0.0;  ///< 100 (value / reference - 1); NaN where that says nothing, see compare_descriptors
 };
 
+/// The descriptors as rows, always in the same order. Those of a radius that does not exist (see
+/// DetailedDescriptors::has_radius) are NaN.
 std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& descriptors);
 std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& descriptors);
 

@@ -14,13 +14,14 @@
 
 namespace wscvt {
 
+/// What describe_shape_in_detail reads the radius by.
 struct DetailedOptions {
-  /// Degree of the harmonic series whose curvature roundness reads.
+  /// Degree of the harmonic series whose curvature roundness reads, 1 to 60.
   int roundness_degree = 15;
-  /// Degree of the low-degree shape that roughness is measured from.
+  /// Degree of the low-degree shape that roughness is measured from, 0 to 60.
   int roughness_degree = 8;
-  /// Gauss-Legendre nodes in cos(theta) of the rays cast, times twice as many azimuths; above both
-  /// degrees.
+  /// Gauss-Legendre nodes in cos(theta) of the rays cast, times twice as many azimuths; 16 to 1024,
+  /// above both degrees.
   int polar_nodes = 128;
 };
 

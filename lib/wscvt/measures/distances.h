@@ -43,9 +43,10 @@ class MeshDistance {
   std::unique_ptr<FaceBoxes> boxes_;
 };
 
+/// Where distances are taken.
 struct DistanceOptions {
-  /// Points spread evenly by area over each of the two surfaces. See measure_distances for what
-  /// they decide.
+  /// Points spread evenly by area over each of the two surfaces, 1 to 1e8. See measure_distances
+  /// for what they decide.
   std::size_t samples = 100000;
 };
 
@@ -67,6 +68,7 @@ struct OneSidedDistance {
   double mean = 0.0;              ///< over the surface, by area
 };
 
+/// Distances between two surfaces; length.
 struct MeshDistances {
   OneSidedDistance to_reference;    ///< from the mesh to the reference
   OneSidedDistance from_reference;  ///< from the reference to the mesh

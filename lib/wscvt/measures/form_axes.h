@@ -39,6 +39,8 @@ struct FormRatios {
   /// 64-72).
   double krumbein_sphericity = 0.0;
 };
+
+/// Of dimensions > 0. Throws nothing.
 FormRatios form_ratios(const FormAxes& axes);
 
 }  // namespace wscvt

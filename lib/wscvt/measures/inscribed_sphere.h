@@ -10,9 +10,9 @@ namespace wscvt {
 
 /// A sphere inside a body, and how much larger the largest one can be at most.
 struct InscribedSphere {
-  Vector3 centre = Vector3::Zero();
-  double radius = 0.0;       ///< length; the sphere lies inside
-  double upper_bound = 0.0;  ///< length; no sphere inside is larger than this
+  Vector3 centre = Vector3::Zero();  ///< length
+  double radius = 0.0;               ///< length; the sphere lies inside
+  double upper_bound = 0.0;          ///< length; no sphere inside is larger than this
 };
 
 /// The largest sphere inside a closed mesh, whose radius Wadell's roundness refers to (see

@@ -12,7 +12,9 @@ struct MassProperties {
   Vector3 centroid = Vector3::Zero();                        ///< length
   Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();  ///< about the centroid; length^5
   Vector3 principal_moments = Vector3::Zero();               ///< ascending; length^5
-  Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();  ///< see principal_axes()
+  /// Unit quaternion q: a point p of the principal frame is centroid + q p in the mesh's. x runs
+  /// along the longest axis, z along the shortest; lib/README.md says how signs are chosen.
+  Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
 };
 
 /// Of a body whose descriptors are known. Throws nothing.

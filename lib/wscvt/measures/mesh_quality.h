@@ -9,7 +9,7 @@
 
 namespace wscvt {
 
-/// Mean and standard deviation (population) with extremes.
+/// Mean and standard deviation (population) with extremes, in the unit of what is measured.
 struct Statistics {
   double mean = 0.0;
   double standard_deviation = 0.0;
@@ -32,7 +32,7 @@ struct MeshQuality {
   Statistics edge_ratio;             ///< longest / shortest edge over the triangles; >= 1
   double smallest_angle = 0.0;       ///< degrees
   double mean_smallest_angle = 0.0;  ///< mean over the triangles of each one's smallest, degrees
-  double valence_six_share = 0.0;    ///< share of the vertices with six neighbours
+  double valence_six_share = 0.0;    ///< share of the vertices with six neighbours, 0 to 1
 };
 
 /// Measures a closed, consistently oriented mesh without edges of no length (what check_mesh

@@ -38,7 +38,7 @@ struct ShapeDescriptors {
   Vector3 inertia_semi_axes = Vector3::Zero();
   /// Tensor of inertia about the centroid at unit density (Lien and Kajiya; Mirtich); length^5.
   Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();
-  /// Turns the principal axes into the mesh's (see principal_axes()); no unit.
+  /// Unit quaternion that turns the principal axes into the mesh's, as in MassProperties; no unit.
   Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
 };
 
@@ -50,7 +50,7 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
 double relative_error_percent(double value, double reference);
 
 /// Largest absolute entry of the difference of two inertia tensors, in the principal axes of the
-/// reference, in % of the reference's largest principal moment.
+/// reference, in % of the reference's largest principal moment: a measure of this library.
 double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference);
 
 /// Descriptors measured in lengths of `unit` about `centre`, in plain lengths.

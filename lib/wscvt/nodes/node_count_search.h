@@ -13,8 +13,8 @@ namespace wscvt {
 /// Node count by error: the smallest N that meets it is looked for (see smallest_node_count).
 struct ErrorTarget {
   ErrorMeasure measure = ErrorMeasure::Distance;
-  double percent = 0.0;            ///< 0: none, N is the options' node_count
-  int largest_node_count = 20000;  ///< the search goes no further
+  double percent = 0.0;            ///< 0 to 100; 0: none, N is the options' node_count
+  int largest_node_count = 20000;  ///< the search goes no further; 4 to 1000000
 };
 
 inline constexpr NumberOption<double> error_target_option = {
@@ -28,11 +28,13 @@ inline constexpr NumberOption<int> largest_node_count_option = {"largest",
                                                                 Ends::Both,
                                                                 "with an error target"};
 
+/// One number of nodes that was tried.
 struct NodeCountTrial {
   int node_count = 0;
   double error = 0.0;  ///< >= 0, any unit
 };
 
+/// What a search found.
 struct NodeCountSearch {
   bool met = false;  ///< the target was reached within the limits
   int node_count =

@@ -7,9 +7,9 @@ namespace wscvt {
 
 /// How nodes were fitted along their normals.
 struct NormalFitReport {
-  std::size_t samples = 0;
-  int held_back = 0;    ///< nodes that went less than the whole step, for a guard
-  double offset = 0.0;  ///< along all normals, that made the volume exact; length
+  std::size_t samples = 0;  ///< of the scan, that the triangles were fitted to; 0: no such fit
+  int held_back = 0;        ///< nodes that went less than the whole step, for a guard
+  double offset = 0.0;      ///< along all normals, that made the volume exact; length
 };
 
 /// What mending of triangles did (triangle_mending.h).
@@ -17,7 +17,7 @@ struct TriangleMendingReport {
   int flips = 0;        ///< of edges
   int moves = 0;        ///< of nodes along the surface
   int relocations = 0;  ///< of nodes, from where they crowd to where they are sparse
-  int left = 0;         ///< triangles that still have a smaller angle
+  int left = 0;         ///< triangles that still have a smaller angle than asked for
 };
 
 /// What became of nodes on a mapped surface; of those on the radial map, mending and fit alone.
@@ -33,7 +33,8 @@ struct SpaceNodesReport {
   NormalFitReport fit;            ///< of a least-squares placement
 };
 
-/// No number of nodes up to sixteen times that asked for would do.
+/// No number of nodes tried would do: twice that asked for and so on, up to sixteen times or
+/// 20,000.
 inline constexpr int too_many_nodes = -1;
 
 }  // namespace wscvt

@@ -37,18 +37,18 @@ struct RemeshResult {
   std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
-  /// Surface area of each node's power cell, or, after refinement, a third of its triangles';
-  /// length^2
+  /// Surface area of each node's cell, or, where nodes were mended, refined or fitted to contacts,
+  /// a third of its triangles'; length^2
   std::vector<double> cell_areas;
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
   Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
-  MeshCheckReport input;
+  MeshCheckReport input;                 ///< what of the scan was mended, and its measures
   HandleReport handles;       ///< cut for a spherical map, lengths and places of the input
   double folded_share = 0.0;  ///< see folded_solid_angle
   Parametrization parametrization = Parametrization::Radial;  ///< the one taken: not Auto
   double steep_share = 0.0;  ///< of the scan, by which Auto decides; see steep_share
   SphereMapReport map;       ///< of a Spherical one
-  SpaceNodesReport space;    ///< of a Spherical one
+  SpaceNodesReport space;    ///< of a Spherical one; of a Radial one mending and fit alone
   HarmonicFitReport fit;     ///< of the series; of a Radial one
   std::vector<double>
       coefficients;  ///< of the fitted series about `centre`, length; of a Radial one
@@ -56,16 +56,16 @@ struct RemeshResult {
   /// for.
   std::array<std::vector<double>, 3> map_coefficients;
   RelaxationReport relaxation;
-  RefinementReport refinement;
+  RefinementReport refinement;  ///< of no rounds where none were asked for
   /// Rms distance from the scan to the remesh; length. Over the samples of `distances`, or over
-  /// 20,000 points of the scan where those were not asked for.
+  /// 10,000 points of the scan where those were not asked for.
   double misfit = 0.0;
   std::vector<TriedChange> tried;  ///< where the remesh misses the scan; see misses_the_scan
   std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for
   std::optional<NodeCountSearch> search;   ///< what each N tried cost, in %; with an error target
-  MeshQuality original_quality;
-  MeshQuality quality;
-  ShapeDescriptors original;
+  MeshQuality original_quality;            ///< of the scan as it was mended
+  MeshQuality quality;                     ///< of the remesh
+  ShapeDescriptors original;               ///< of the scan as it was mended
   ShapeDescriptors remesh;
   RemeshOptions options;              ///< as used
   std::vector<std::string> warnings;  ///< sentences for the user

@@ -7,6 +7,7 @@
 
 namespace wscvt {
 
+/// Whether a scan is taken by its envelope, and how coarse that is.
 struct EnvelopeOptions {
   /// Openings up to this wide are closed, in % of the diagonal of the scan's bounding box; 0: the
   /// scan itself is taken.
@@ -38,7 +39,8 @@ inline constexpr double smallest_opening_percent = 1.0;
 IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
                         const Execution& execution);
 
-/// Throws Error(InvalidInput), with the range, for options out of range.
+/// Throws Error(InvalidInput), with the range, for an opening that is neither 0 nor from
+/// smallest_opening_percent to 50.
 void check_envelope_options(const EnvelopeOptions& options);
 
 }  // namespace wscvt

@@ -11,10 +11,11 @@
 
 namespace wscvt {
 
+/// Which handles are cut.
 struct HandleOptions {
-  /// Longest loop along which a handle is cut, in equal-volume radii. Scanner noise makes handles
-  /// of a few voxels, up to half a radius on a rough scan; a ring, whose hole is real, has no loop
-  /// below 0.7 radii unless its tube is 150 times thinner than the ring is wide.
+  /// Longest loop along which a handle is cut, in equivalent radii; >= 0. Scanner noise makes
+  /// handles of a few voxels, up to half a radius on a rough scan; a ring, whose hole is real, has
+  /// no loop below 0.7 radii unless its tube is 150 times thinner than the ring is wide.
   double length_limit = 0.7;
   /// Scans with more handles are refused before one is cut: they are porous, and no sheet of nodes
   /// that a simulation can afford follows their pores. Rough scans had up to 5, a coral 149.
@@ -41,9 +42,11 @@ struct CutHandle {
   int edges = 0;                    ///< of the loop
 };
 
+/// Which handles were cut.
 struct HandleReport {
   std::vector<CutHandle> cut;  ///< in the order in which they were cut, shortest loops first
-  /// Volume afterwards / before, less 1: what filling tunnels adds, cutting bridges takes away.
+  /// Volume afterwards / before, less 1, no unit: what filling tunnels adds, cutting bridges takes
+  /// away.
   double volume_change = 0.0;
 };
 
@@ -70,7 +73,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                               const Execution& execution);
 
 /// The same for a checked scan, whose report then has the measures of what is left, but for the
-/// genus, which stays that of the scan.
+/// genus, which stays that of the scan. Throws the same.
 HandleReport cut_handles(CheckedMesh& scan, const HandleOptions& options,
                          const Execution& execution);
 

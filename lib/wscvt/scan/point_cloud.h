@@ -24,7 +24,7 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
 
 /// The scan itself, or, with `points_only`, mesh_of_points of its points. Throws
 /// Error(InvalidInput), which says how to choose points, for points without faces that were not
-/// chosen: a scan that has lost its faces must not pass for a cloud.
+/// chosen: a scan that has lost its faces must not pass for a cloud. Throws as mesh_of_points does.
 IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution);
 
 /// Puts into the report on a surface made of points, or of an envelope, what was given: so many

@@ -26,6 +26,7 @@ enum class HarmonicKind {
   Map,     ///< three, of x, y and z over the map to the sphere
 };
 
+/// Which of the two a file holds; Radial where it has no "kind".
 HarmonicKind read_harmonic_kind(const std::string& path);
 
 /// Reads what `write_harmonics` writes. A file without "kind" is taken for a radial one.

@@ -49,6 +49,7 @@ struct HarmonicMapReport {
   double turned_area_share = 0.0;
 };
 
+/// A series and how its fit went.
 struct HarmonicMapFit {
   HarmonicMap map;
   HarmonicMapReport report;

@@ -25,14 +25,15 @@ inline constexpr NumberOption<double> azimuthal_exponent_option = {
     "azimuthal-exponent", "azimuthal exponent of the superellipsoid", polar_exponent_option.minimum,
     polar_exponent_option.maximum};
 
-/// Superellipsoid (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981), with
-/// e1 = `polar_exponent`, e2 = `azimuthal_exponent`; both 1 give the ellipsoid, towards 0 a box.
-/// Derivatives are analytic. Second ones do not exist on the coordinate planes when an exponent
-/// exceeds 1, nor at the poles when the polar one is 1 and the azimuthal one is not: there they
-/// stay finite, and mean nothing.
+/// Superellipsoid (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981,
+/// "Superquadrics and angle-preserving transformations", IEEE Comput. Graph. Appl. 1 (1), 11-23),
+/// with e1 = `polar_exponent`, e2 = `azimuthal_exponent`; both 1 give the ellipsoid, towards 0 a
+/// box. Derivatives are analytic. Second ones do not exist on the coordinate planes when an
+/// exponent exceeds 1, nor at the poles when the polar one is 1 and the azimuthal one is not: there
+/// they stay finite, and mean nothing.
 class Superellipsoid : public RadialSurface {
  public:
-  /// Semi-axes > 0, exponents in their ranges, else Error(InvalidInput).
+  /// Semi-axes in length units, each > 0 and finite, exponents 0.1 to 2, else Error(InvalidInput).
   Superellipsoid(const Vector3& semi_axes, double polar_exponent, double azimuthal_exponent);
 
   void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,

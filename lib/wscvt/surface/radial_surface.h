@@ -54,7 +54,7 @@ class RadialSurface {
   std::vector<double> radii(const std::vector<Vector3>& directions,
                             const Execution& execution) const;
 
-  /// Radius in one direction.
+  /// Radius in one direction, a unit vector; length.
   double radius(const Vector3& direction) const;
 };
 
@@ -80,7 +80,7 @@ RadialJet jet_from_extension(double radius, const Vector3& gradient, const Vecto
 struct SurfaceIntegrals {
   double volume = 0.0;                 ///< length^3
   double area = 0.0;                   ///< length^2
-  Vector3 centroid = Vector3::Zero();  ///< of the enclosed volume
+  Vector3 centroid = Vector3::Zero();  ///< of the enclosed volume; length
   double gradient_square = 0.0;        ///< integral of |grad_Omega r|^2 dOmega, length^2
 };
 

@@ -51,6 +51,7 @@ struct EnumerationTable<SeedStart> {
   };
 };
 
+/// How the nodes' directions are chosen.
 struct SeedingOptions {
   Sampling sampling = Sampling::Weighted;  ///< the others ignore weighting and relaxation
   SeedStart start = SeedStart::Multilevel;

@@ -7,14 +7,16 @@
 
 namespace wscvt {
 
-/// What a seed weighs, and so how large its cell becomes.
+/// What a seed weighs, and so how large its cell becomes: w in steradian, for N seeds on a surface
+/// of area S, at radius r and area per solid angle g = dA/dOmega. The paper is that of remesh.h.
 enum class Weighting {
   Constant,        ///< equal solid angles
   RadialDistance,  ///< WSCVT-D, eq. 10 as printed: w = S / (N pi r^2)
   Curvature,       ///< WSCVT-C, eqs. 11 to 14: more nodes where curvature is high
-  Area,            ///< equal surface areas: w = S / (3.118 N g), g = dA/dOmega
-  /// Nodes where flat triangles err most: node density g k^(2/3). Curvatures below 0.3 of their
-  /// median count as that, so that flat faces keep nodes enough to be seen as flat.
+  Area,            ///< equal surface areas, ours: w = S / (3.118 N g), as cells are 3.118 w + C
+  /// Nodes where flat triangles err most, ours: node density g k^(2/3), k the curvature. Curvatures
+  /// below 0.3 of their median count as that, so that flat faces keep nodes enough to be seen as
+  /// flat.
   ErrorAdaptive,
 };
 
@@ -51,10 +53,11 @@ struct EnumerationTable<CurvatureSource> {
   };
 };
 
+/// How cells are weighed.
 struct WeightingOptions {
   Weighting kind = Weighting::RadialDistance;
-  double curvature_alpha = 1.0;          ///< alpha of eq. 11
-  double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive
+  double curvature_alpha = 1.0;          ///< alpha of eq. 11, -3 to 3
+  double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, 0 to 1.5
   /// A formula has its own only, and a grain that is mapped whole has no series: quadrics there.
   CurvatureSource curvature_source = CurvatureSource::Series;
 };
