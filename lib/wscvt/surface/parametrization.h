@@ -10,7 +10,7 @@ namespace wscvt {
 /// How the grain's surface is laid over the sphere.
 enum class Parametrization {
   Auto,       ///< radial where nothing folds and steep_share is at most steep_share_limit, else
-              ///< spherical
+              ///< spherical; for nodes on the series radial up to the fold limit
   Radial,     ///< one radius a direction: the published method, for star-shaped grains
   Spherical,  ///< a bijective map of the scan, for any closed surface of genus 0
 };
