@@ -68,7 +68,7 @@ bool is_volume(const std::string& path);
 ///   plain or packed by zlib;
 /// - .tif, .tiff: TIFF of a page a slice, in strips, packed by what libtiff knows, or as ImageJ
 ///   writes stacks above 4 GiB; a folder: of the TIFF files in it, by name, numbers in their order;
-/// - .json: a description of a raw file (see open_raw in raw_volume.h).
+/// - .json: a description of a raw file (see open_raw in volume_formats.h).
 /// `voxel_size`, along x, y and z, replaces the file's, and its axes then are those of the lattice.
 ///
 /// Throws Error: InputOutput when the file cannot be read, is cut short or of a form that is not

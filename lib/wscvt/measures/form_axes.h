@@ -20,7 +20,7 @@ struct FormAxes {
 /// SO(3,R)", ACM Trans. Graph. 30, 122 (CGAL::oriented_bounding_box, fixed seed): near the
 /// smallest, not proved so; more than 2,000 points are first thinned to the extreme ones in 2,000
 /// directions. The edges bound the points exactly. Throws Error(InvalidInput) for fewer than four
-/// points, coordinates that are not finite and sizes that check_scan_size refuses,
+/// points, coordinates that are not finite and extents not between 1e-60 and 1e60,
 /// Error(Cancelled). Takes one thread.
 FormAxes oriented_box_axes(const std::vector<Vector3>& points,
                            const Execution& execution = Execution(1));

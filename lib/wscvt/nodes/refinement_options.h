@@ -19,12 +19,9 @@ struct RefinementOptions {
 };
 
 inline constexpr NumberOption<int> refinement_rounds_option = {
-    "refine",
-    "number of refinement rounds",
-    0,
-    1000,
-    Ends::Both,
-    "moving nodes and flipping edges towards the scan; 0 for none; needs least squares"};
+    "refine",   "number of refinement rounds",
+    0,          1000,
+    Ends::Both, "moving nodes and flipping edges towards the scan, for least squares and contact"};
 inline constexpr NumberOption<double> refinement_angle_option = {
     "refine-angle", "smallest angle that the refinement makes, in degrees", 0.0, 40.0};
 inline constexpr NumberOption<double> refinement_tolerance_option = {

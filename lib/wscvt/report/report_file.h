@@ -26,7 +26,7 @@ ReportFormat report_format(const std::string& path);
 bool shows_scan(const std::string& path);
 
 /// Refuses before the work what could not be written after it: another ending or a table with other
-/// columns (InvalidInput), and what check_writable refuses.
+/// columns (InvalidInput), and a place that cannot be written to (InputOutput).
 void check_remesh_report(const std::string& path);
 
 /// The same for a report of descriptors, whose tables have more columns with a reference.

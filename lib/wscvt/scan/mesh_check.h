@@ -93,9 +93,9 @@ struct CheckedMesh {
 /// A clean scan goes through unchanged.
 ///
 /// Throws Error(InvalidInput) with what to do about it when the mesh is empty, has indices out of
-/// range, is too large or too small to compute with, is not orientable, encloses no volume, falls
-/// into parts of comparable volume, or would need more of its area mended than the limit; and when
-/// an option is out of range.
+/// range, is too large or too small to compute with (1e-60 to 1e60), is not orientable, encloses no
+/// volume, falls into parts of comparable volume, or would need more of its area mended than the
+/// limit; and when an option is out of range.
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution);
 

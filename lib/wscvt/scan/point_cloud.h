@@ -18,7 +18,7 @@ namespace wscvt {
 /// Its volume and area are its own, not the body's.
 ///
 /// Throws Error(InvalidInput) for fewer than 4 different points, coordinates that are not finite or
-/// a size outside of the limits of check_scan_size, Error(NumericalFailure) when the points do not
+/// an extent not between 1e-60 and 1e60, Error(NumericalFailure) when the points do not
 /// surround their centre or two lie on one ray, Error(Cancelled).
 IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution = Execution(1));
 
