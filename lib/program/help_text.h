@@ -39,7 +39,7 @@ class HelpFormatter : public CLI::Formatter {
 
 // Descriptions of options, of one paragraph or more; HelpFormatter breaks their lines.
 
-/// "Number of nodes, of the remesh: 4 to 1000000. Default: 1000".
+/// "Random seed, 0 or more: of the random start. Default: 1".
 template <class Number>
 std::string help_of(Number value, const NumberOption<Number>& option) {
   std::string text = capitalised(option.subject) + ", " + range_text(option);
