@@ -76,6 +76,7 @@ class Watch {
 struct Run {
   std::string name;
   std::function<void(const Execution&)> body;
+  std::function<void()> prepare = [] {};  ///< not watched
 };
 
 /// A torus of that many vertices: its one handle is cut.
@@ -146,15 +147,14 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
     o.node_count = 100000;
   });
   for (const std::string ending : {".ply", ".obj", ".off", ".stl"}) {
-    runs.push_back(
-        {"reading " + ending, [&scan, ending](const Execution& execution) {
-           const std::string path =
-               (std::filesystem::temp_directory_path() / ("wscvt_gaps" + ending)).string();
-           write_mesh(scan, path);
-           execution.report(0.0, "Written");
-           read_mesh(path, execution);
-           std::filesystem::remove(path);
-         }});
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("wscvt_progress_gaps" + ending)).string();
+    runs.push_back({"reading " + ending,
+                    [path](const Execution& execution) {
+                      read_mesh(path, execution);
+                      std::filesystem::remove(path);
+                    },
+                    [&scan, path] { write_mesh(scan, path); }});
   }
   runs.push_back({"remesh of a soup", [&scan](const Execution& execution) {
                     remesh(test::unwelded(scan), {}, execution);
@@ -190,6 +190,7 @@ int main(int argc, char** argv) {
     bool chosen = argc <= 2;
     for (int i = 2; i < argc; ++i) chosen = chosen || run.name.find(argv[i]) != std::string::npos;
     if (!chosen) continue;
+    run.prepare();
     Watch watch;
     std::string ending;
     try {

@@ -5,7 +5,8 @@
 
 namespace wscvt {
 
-HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices) {
+HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
+                          const Execution& execution) {
   const std::size_t count = 3 * triangles.size();
   const Groups outgoing = counting_sort(
       count, vertices, [&](std::size_t h, const auto& visit) { visit(triangles[h / 3][h % 3]); });
@@ -15,22 +16,30 @@ HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t ve
   for (std::size_t v = 0; v < vertices; ++v) {
     if (outgoing.begin(v) != outgoing.end(v)) result.first[v] = *outgoing.begin(v);
   }
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(count); ++h) {
+  const auto opposite_of = [&](std::int32_t h) {
     const std::int32_t from = origin_of(triangles, h);
     const std::int32_t to = target_of(triangles, h);
     // The other way round is among the half-edges that leave `to` and among those that reach
     // `from`. The shorter list is searched: the hub of a fan of thousands would cost their square.
+    std::int32_t found = -1;
     if (outgoing.size(to) <= outgoing.size(from)) {
       for (auto other = outgoing.begin(to); other != outgoing.end(to); ++other) {
-        if (target_of(triangles, *other) == from) result.opposite[h] = *other;
+        if (target_of(triangles, *other) == from) found = *other;
       }
     } else {
       for (auto next = outgoing.begin(from); next != outgoing.end(from); ++next) {
         const std::int32_t reaching = previous_half_edge(*next);
-        if (origin_of(triangles, reaching) == to) result.opposite[h] = reaching;
+        if (origin_of(triangles, reaching) == to) found = reaching;
       }
     }
-  }
+    return found;
+  };
+  constexpr std::size_t block_size = 16384;
+  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = begin; h < end; ++h) {
+      result.opposite[h] = opposite_of(static_cast<std::int32_t>(h));
+    }
+  });
   return result;
 }
 

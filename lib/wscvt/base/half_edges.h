@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -56,7 +57,8 @@ struct HalfEdges {
 
 /// Finds the opposite half-edges, in time linear in the triangles whatever the valences of a planar
 /// mesh. Indices must lie in [0, vertices), which is not checked.
-HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices);
+HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
+                          const Execution& execution = Execution(1));
 
 /// Replaces an edge by the other diagonal of its two triangles abc and bad, about ab: they become
 /// cad and dbc, in the same two slots, and what lies beyond their outer edges is linked anew.

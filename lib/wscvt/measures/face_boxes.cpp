@@ -36,8 +36,15 @@ double squared_distance(const std::array<Vector3, 3>& corners, const Vector3& po
 /// can be built in any order.
 class FaceBoxes::Builder {
  public:
-  Builder(const IndexedMesh& mesh, FaceBoxes& boxes) : boxes_(boxes) {
-    for (const Triangle& t : mesh.triangles) {
+  Builder(const IndexedMesh& mesh, FaceBoxes& boxes, const Execution& execution,
+          const std::string& stage)
+      : boxes_(boxes) {
+    constexpr std::size_t faces_a_report = 1 << 18;  // some hundredths of a second
+    faces_.reserve(mesh.triangles.size());
+    middles_.reserve(mesh.triangles.size());
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      if (f % faces_a_report == 0) execution.report(0.0, stage);
+      const Triangle& t = mesh.triangles[f];
       const Corners corners = {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
       // Its neighbours cover what a face without area covers.
       if (!(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) continue;
@@ -51,6 +58,7 @@ class FaceBoxes::Builder {
     if (count == 0) return;
     boxes_.faces_.resize(count);
     boxes_.nodes_.resize(2 * ((count + faces_a_leaf - 1) / faces_a_leaf) - 1);
+    execution.report(0.0, stage);
     deal({0, count, 0}, execution, stage);
     execution.parallel_for(parts_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) build(parts_[i]);
@@ -149,8 +157,7 @@ class FaceBoxes::Builder {
 
 FaceBoxes::FaceBoxes(const IndexedMesh& mesh, const Execution& execution,
                      const std::string& stage) {
-  execution.report(0.0, stage);
-  Builder(mesh, *this).run(execution, stage);
+  Builder(mesh, *this, execution, stage).run(execution, stage);
 }
 
 std::size_t FaceBoxes::nearby_face(const Vector3& point) const {

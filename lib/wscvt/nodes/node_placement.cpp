@@ -55,7 +55,9 @@ std::vector<Sample> read_surface(const std::vector<Vector3>& directions,
                                  const std::vector<Vector3>& barycentric,
                                  const RadialSurface& surface, const Execution& execution) {
   const std::size_t count = barycentric.size();
+  execution.report(0.0, stage);  // a million nodes' samples take half a gigabyte
   std::vector<Sample> samples(triangles.size() * count);
+  execution.report(0.0, stage);
   execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
     std::vector<Vector3> sample_directions(count);
     std::vector<RadialJet> jets(count);
@@ -118,6 +120,7 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
                                  const std::vector<Sample>& samples,
                                  const std::vector<Vector3>& barycentric,
                                  const Eigen::VectorXd* fit, const Execution& execution) {
+  execution.report(0.0, stage);  // a million nodes' take a quarter of a gigabyte
   std::vector<LocalSystem> systems(triangles.size());
   execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
@@ -128,6 +131,7 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
                                 fit != nullptr ? &at_corners : nullptr);
     }
   });
+  execution.report(0.0, stage);
   // Triangles are added up in their order, on one thread: the sums' bits do not depend on threads.
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(6 * triangles.size());

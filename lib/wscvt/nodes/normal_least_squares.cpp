@@ -342,9 +342,9 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
     }
     if (held) continue;
     fit.report.offset = offset_to_volume(normals, triangles, volume, fit.positions, execution);
-    const auto crossings = self_intersections({fit.positions, triangles});
+    const auto crossings = self_intersections({fit.positions, triangles}, execution);
     if (crossings.empty()) break;
-    if (!crossings_before) crossings_before = self_intersections(nodes).size();
+    if (!crossings_before) crossings_before = self_intersections(nodes, execution).size();
     if (crossings.size() <= *crossings_before) break;
     for (const std::int32_t v : vertices_of(crossings, triangles)) held |= hold_back(v);
     if (!held) break;

@@ -41,10 +41,12 @@ RefinementSamples RadialTarget::samples(std::size_t triangles, const Execution& 
   RefinementSamples samples;
   samples.points.resize(places.size());
   std::vector<Vector3> directions(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    samples.points[i] = point_at(mesh, places[i]);
-    directions[i] = samples.points[i].normalized();
-  }
+  execution.parallel_for(places.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      samples.points[i] = point_at(mesh, places[i]);
+      directions[i] = samples.points[i].normalized();
+    }
+  });
   const std::vector<double> radii = scan_.radii(directions, execution);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

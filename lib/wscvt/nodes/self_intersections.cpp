@@ -2,71 +2,102 @@
 #include "wscvt/nodes/self_intersections.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
 
 #include <algorithm>
-#include <iterator>
-
-#include "wscvt/base/error.h"
+#include <cstddef>
 
 namespace wscvt {
 
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
+
+constexpr const char* stage = "Looking for triangles that meet";
+
+Kernel::Point_3 exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+
+CGAL::Bbox_3 box_of(const std::vector<Vector3>& points, const Triangle& t) {
+  const Vector3 low = points[t[0]].cwiseMin(points[t[1]]).cwiseMin(points[t[2]]);
+  const Vector3 high = points[t[0]].cwiseMax(points[t[1]]).cwiseMax(points[t[2]]);
+  return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
+}
 
 }  // namespace
 
-std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh) {
-  SurfaceMesh surface;
-  surface.reserve(static_cast<SurfaceMesh::size_type>(mesh.points.size()),
-                  static_cast<SurfaceMesh::size_type>(3 * mesh.triangles.size() / 2),
-                  static_cast<SurfaceMesh::size_type>(mesh.triangles.size()));
-  for (const Vector3& p : mesh.points) surface.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z()));
-  using Vertex = SurfaceMesh::Vertex_index;
-  const auto vertex = [](std::int32_t v) { return Vertex(static_cast<SurfaceMesh::size_type>(v)); };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    // A face that cannot be added is what makes the mesh no manifold.
-    if (surface.add_face(vertex(a), vertex(b), vertex(c)) == SurfaceMesh::null_face()) {
-      throw Error(ErrorCode::InvalidInput,
-                  "The mesh is no oriented 2-manifold, so that it cannot be checked for "
-                  "self-intersections; mend it first.");
+std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh, const Execution& execution) {
+  execution.report(0.0, stage);
+  const std::vector<Vector3>& points = mesh.points;
+  std::vector<TrianglePair> pairs;
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const auto number = static_cast<std::int32_t>(t);
+    if (CGAL::collinear(exact(points[a]), exact(points[b]), exact(points[c]))) {
+      pairs.emplace_back(number, number);
+    } else {
+      boxes.emplace_back(box_of(points, mesh.triangles[t]), number);
     }
   }
-  std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> found;
-  CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(found));
-  std::vector<TrianglePair> pairs;
-  pairs.reserve(found.size());
-  for (const auto& [first, second] : found) {
-    const auto a = static_cast<std::int32_t>(first.idx());
-    const auto b = static_cast<std::int32_t>(second.idx());
-    pairs.emplace_back(std::minmax(a, b));
-  }
+  // Not CGAL's Polygon_mesh_processing::self_intersections, which asks the same of the same pairs
+  // of boxes: it wants a half-edge mesh made first, and cannot be stopped.
+  std::vector<TrianglePair> candidates;
+  std::vector<char> meet;
+  const auto decide = [&] {
+    constexpr std::size_t block_size = 256;
+    meet.assign(candidates.size(), 0);
+    execution.parallel_for(candidates.size(), block_size, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto& [a, b] = candidates[i];
+        meet[i] = triangles_meet(points, mesh.triangles[a], mesh.triangles[b]) ? 1 : 0;
+      }
+    });
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (meet[i] != 0) pairs.push_back(candidates[i]);
+    }
+    candidates.clear();
+  };
+  constexpr std::size_t candidates_at_once = 1 << 16;  // some hundredths of a second
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    candidates.emplace_back(std::minmax(a.info(), b.info()));
+    if (candidates.size() == candidates_at_once) decide();
+  });
+  decide();
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
 bool triangles_meet(const std::vector<Vector3>& points, const Triangle& a, const Triangle& b) {
-  const auto point = [&](std::int32_t v) {
-    return Kernel::Point_3(points[v].x(), points[v].y(), points[v].z());
-  };
+  const auto point = [&](std::int32_t v) { return exact(points[v]); };
   const auto triangle = [&](const Triangle& t) {
     return Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
   };
   const auto is_in = [](const Triangle& t, std::int32_t v) {
     return std::find(t.begin(), t.end(), v) != t.end();
   };
-  int shared = 0;
-  for (const std::int32_t v : a) shared += is_in(b, v) ? 1 : 0;
+  /// The corners of a triangle, from one on that the condition holds for.
+  const auto turned = [](Triangle t, const auto& is_first) {
+    std::rotate(t.begin(), std::find_if(t.begin(), t.end(), is_first), t.end());
+    return t;
+  };
+  const auto shared = std::count_if(a.begin(), a.end(), [&](auto v) { return is_in(b, v); });
   if (shared == 0) return CGAL::do_intersect(triangle(a), triangle(b));
-  if (shared > 1) return false;
+  if (shared == 3) return true;
+  if (shared == 2) {
+    const Triangle t = turned(a, [&](auto v) { return !is_in(b, v); });
+    const Triangle other = turned(b, [&](auto v) { return !is_in(a, v); });
+    // From a common edge on they lie on each other in one plane, or meet nowhere.
+    return CGAL::coplanar(point(t[1]), point(t[2]), point(t[0]), point(other[0])) &&
+           CGAL::coplanar_orientation(point(t[1]), point(t[2]), point(t[0]), point(other[0])) ==
+               CGAL::POSITIVE;
+  }
   // They meet in more than the corner where the far side of one passes through the other.
   const auto far_side = [&](const Triangle& t, const Triangle& other) {
-    std::size_t k = 0;
-    while (!is_in(other, t[k])) ++k;
-    return Kernel::Segment_3(point(t[(k + 1) % 3]), point(t[(k + 2) % 3]));
+    const Triangle from_corner = turned(t, [&](auto v) { return is_in(other, v); });
+    return Kernel::Segment_3(point(from_corner[1]), point(from_corner[2]));
   };
   return CGAL::do_intersect(far_side(a, b), triangle(b)) ||
          CGAL::do_intersect(far_side(b, a), triangle(a));

@@ -108,9 +108,9 @@ struct Flaws {
   bool any() const { return !pairs.empty() || volume_loss > largest_volume_loss; }
 };
 
-Flaws flaws_of(const SpaceTessellation& tessellation, double volume) {
+Flaws flaws_of(const SpaceTessellation& tessellation, double volume, const Execution& execution) {
   const std::vector<Triangle>& triangles = tessellation.triangulation.triangles();
-  return {self_intersections({tessellation.positions, triangles}),
+  return {self_intersections({tessellation.positions, triangles}, execution),
           1.0 - enclosed_volume(tessellation.positions, triangles) / volume};
 }
 
@@ -130,7 +130,7 @@ int repair(const MappedSurface& surface, const RelaxationOptions& options, doubl
     raise_densities(surface, latest, left.pairs, densities, execution);
     latest = relax_in_space(std::move(latest.seeds), std::move(latest.triangulation), surface,
                             densities, local, execution);
-    left = flaws_of(latest, volume);
+    left = flaws_of(latest, volume, execution);
     if (left.pairs.size() >= flaws.pairs.size()) continue;
     best = count;
     latest.report.coarser_levels = tessellation.report.coarser_levels;
@@ -194,13 +194,13 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   SpaceTessellation tessellation =
       tessellate(grain, node_count, options, from, densities, execution.part(0.05, 0.5));
   SpaceNodes result;
-  Flaws flaws = flaws_of(tessellation, volume);
+  Flaws flaws = flaws_of(tessellation, volume, execution.part(0.5, 0.5));
   const bool relaxes = options.seeding.sampling == Sampling::Weighted;
   // Who asks for a random start gets that.
   if (relaxes && options.seeding.start != SeedStart::Random && !flaws.pairs.empty()) {
     SpaceTessellation other = tessellate(grain, node_count, options, SpaceStart::Spread, densities,
                                          execution.part(0.5, 0.7));
-    Flaws its = flaws_of(other, volume);
+    Flaws its = flaws_of(other, volume, execution.part(0.7, 0.7));
     const auto rank = [](const Flaws& found, const SpaceTessellation& of) {
       return std::pair(found.pairs.size(), of.report.history.back().displacement);
     };
@@ -229,7 +229,7 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
           tessellate(grain, more, quick, from,
                      densities_in_space(grain.mapped->mesh(), options.weighting, more, execution),
                      execution.part(0.8, 0.85));
-      if (flaws_of(trial, volume).any()) continue;
+      if (flaws_of(trial, volume, execution.part(0.8, 0.8)).any()) continue;
       result.report.enough_nodes = more;
       break;
     }
@@ -275,7 +275,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     nodes.mesh.points = fit_to_contacts(nodes.mesh, grain.mesh, to_scan, placement.contact_radius,
                                         execution.part(0.95, 1.0));
   }
-  result.report.self_intersections = self_intersections(nodes.mesh).size();
+  result.report.self_intersections =
+      self_intersections(nodes.mesh, execution.part(1.0, 1.0)).size();
   if (result.report.self_intersections > 0 && placement.refuse_self_intersections) {
     throw Error(ErrorCode::NumericalFailure,
                 "In the mesh with " + std::to_string(tessellation.seeds.size()) + " nodes " +

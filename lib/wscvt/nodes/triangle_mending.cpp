@@ -47,8 +47,10 @@ struct Worst {
 class Mender {
  public:
   Mender(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
-         const MappedSurface& surface, const TriangleMendingOptions& options)
+         const MappedSurface& surface, const TriangleMendingOptions& options,
+         const Execution& execution)
       : surface_(surface),
+        execution_(execution),
         mesh_(to_mesh(nodes)),
         points_(nodes.points),
         places_(places),
@@ -64,6 +66,7 @@ class Mender {
 
   /// Once, before any of the following.
   void build_boxes() {
+    report_progress();
     boxes_.clear();
     for (const auto face : mesh_.faces()) boxes_.push_back({box_of(corners_of(face)), face.idx()});
     tree_ = Tree(boxes_);
@@ -78,9 +81,11 @@ class Mender {
 
   /// Flips and moves about the small angles; returns how many.
   int improve(TriangleMendingReport& report) {
+    report_progress();
     mark_active();
     const int before = report.flips + report.moves;
     for (const auto edge : mesh_.edges()) report.flips += try_flip(edge) ? 1 : 0;
+    report_progress();
     for (const auto vertex : mesh_.vertices()) {
       if (active_[vertex.idx()] != 0) report.moves += try_move(vertex) ? 1 : 0;
     }
@@ -119,8 +124,10 @@ class Mender {
 
   /// Pairs of triangles that meet, the lower number first, ascending.
   std::vector<TrianglePair> meeting_pairs() const {
+    constexpr int faces_a_report = 16384;  // some hundredths of a second
     std::vector<TrianglePair> pairs;
     for (const auto face : mesh_.faces()) {
+      if (face.idx() % faces_a_report == 0) report_progress();
       const Triangle corners = corners_of(face);
       const auto look_at = [&](const BoxedFace& other) {
         if (other.second <= face.idx()) return;
@@ -192,6 +199,8 @@ class Mender {
   }
 
  private:
+  void report_progress() const { execution_.report(0.0, "Mending triangles"); }
+
   using Faces = std::vector<OpenMesh::FaceHandle>;
   using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
   using Box = boost::geometry::model::box<Corner>;
@@ -586,6 +595,7 @@ class Mender {
   }
 
   const MappedSurface& surface_;
+  const Execution& execution_;
   Mesh mesh_;  ///< only how the triangles hang together; the positions are in points_
   std::vector<Vector3> points_;
   std::vector<MeshPlace> places_;
@@ -617,10 +627,11 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   }
   MendedTriangles unchanged;
   unchanged.mesh = nodes;
-  Mender mender(nodes, places, surface, options);
+  Mender mender(nodes, places, surface, options, execution);
   const Worst before = mender.worst();
   unchanged.report.left = before.small;
-  std::size_t meeting = known_meeting ? *known_meeting : self_intersections(nodes).size();
+  std::size_t meeting =
+      known_meeting ? *known_meeting : self_intersections(nodes, execution).size();
   if (unchanged.report.left == 0 && meeting == 0) return unchanged;
   // On a body flat as paper there is nothing to part, or nodes that are put in elsewhere make
   // thousands of pairs meet, more from round to round: each step then asks hundreds of nearly
@@ -636,7 +647,6 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   TriangleMendingReport report = unchanged.report;
   for (int round = 0; round < options.rounds && (report.left > 0 || meeting > 0) && !is_lost();
        ++round) {
-    execution.report(0.0, "Mending triangles");
     const int relocations = report.relocations;
     int changes = mender.improve(report);
     // Moves come first: most angles need no more.

@@ -9,8 +9,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/coordinates.h"
-#include "wscvt/sphere/orientation.h"
-#include "wscvt/sphere/sphere_delaunay.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
@@ -18,31 +16,6 @@ namespace wscvt {
 namespace {
 
 constexpr const char* stage = "Making a surface of the points";
-
-/// As SphereTriangulation, but with progress: a million points take seconds.
-std::vector<Triangle> triangulate(const std::vector<Vector3>& directions,
-                                  const Execution& execution) {
-  const bool finite = std::all_of(directions.begin(), directions.end(),
-                                  [](const Vector3& direction) { return direction.allFinite(); });
-  std::vector<Triangle> triangles;
-  if (finite) triangles = sphere_delaunay(directions, execution.part(0.0, 0.8));
-  execution.report(0.8, stage);
-  const bool covers =
-      triangles.size() == 2 * directions.size() - 4 &&
-      std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
-        return counter_clockwise(directions[t[0]], directions[t[1]], directions[t[2]]);
-      });
-  if (!covers) return SphereTriangulation(directions).triangles();
-  execution.report(0.85, stage);
-  SphereTriangulation triangulation(directions, std::move(triangles));
-  execution.report(0.9, stage);
-  if (!triangulation.restore_regular(directions, {}, execution).complete()) {
-    return SphereTriangulation(directions).triangles();
-  }
-  execution.report(0.95, stage);
-  // In the order that does not depend on CGAL's.
-  return SphereTriangulation(directions, triangulation.triangles()).triangles();
-}
 
 }  // namespace
 
@@ -78,8 +51,8 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
       directions[i] = (mesh.points[i] - centre).normalized();
     }
     const Execution part = execution.part(0.5 * round, 0.5 * (round + 1));
-    mesh.triangles = triangulate(directions, part);
-    centre += mesh_sums(mesh.points, mesh.triangles, centre, Execution(1)).centroid();
+    mesh.triangles = SphereTriangulation(directions, std::vector<double>(), part).triangles();
+    centre += mesh_sums(mesh.points, mesh.triangles, centre, part).centroid();
   }
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wscvt/base/convex_hull.h"
+#include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -20,6 +21,8 @@ namespace {
 /// Beyond this many steradian exp(w / 2) may leave the range in which the predicates' products
 /// neither overflow nor underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
 constexpr double weight_limit = 200.0;
+
+constexpr std::size_t block_size = 4096;
 
 bool can_be_lifted(const std::vector<double>& weights) {
   return std::all_of(weights.begin(), weights.end(),
@@ -50,29 +53,40 @@ std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<d
 
 /// Whether the triangles are as many as cover the sphere once, and all counter-clockwise: by
 /// Euler's formula they then leave no gap and lie on each other nowhere.
-bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vector3>& seeds) {
+bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vector3>& seeds,
+                   const Execution& execution) {
   if (triangles.size() != 2 * seeds.size() - 4) return false;
-  return std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
-    return counter_clockwise(seeds[t[0]], seeds[t[1]], seeds[t[2]]);
-  });
+  const std::size_t turned = execution.parallel_sum(
+      triangles.size(), block_size, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto& [a, b, c] = triangles[i];
+          if (!counter_clockwise(seeds[a], seeds[b], seeds[c])) ++count;
+        }
+        return count;
+      });
+  return turned == 0;
 }
 
 }  // namespace
 
 SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
-                                         const std::vector<double>& weights) {
-  if (const char* reason = build(seeds, weights)) fail(reason);
+                                         const std::vector<double>& weights,
+                                         const Execution& execution) {
+  if (const char* reason = build(seeds, weights, execution)) fail(reason);
 }
 
 std::optional<SphereTriangulation> SphereTriangulation::try_build(
-    const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
+    const std::vector<Vector3>& seeds, const std::vector<double>& weights,
+    const Execution& execution) {
   SphereTriangulation result;
-  if (result.build(seeds, weights) != nullptr) return std::nullopt;
+  if (result.build(seeds, weights, execution) != nullptr) return std::nullopt;
   return result;
 }
 
 const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
-                                       const std::vector<double>& weights) {
+                                       const std::vector<double>& weights,
+                                       const Execution& execution) {
   if (seeds.size() < 4) {
     throw Error(ErrorCode::InvalidInput,
                 "A triangulation of the sphere needs at least 4 seeds, not " +
@@ -96,35 +110,36 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
   // The Delaunay triangulation and flips are several times as fast as a convex hull, and with
   // moderate weights few edges differ. Far apart, weights may leave edges that no flip gets rid of
   // (Edelsbrunner and Shah 1996: flips in the plane get stuck); then the hull decides.
-  const Execution serial(1);
-  std::vector<Triangle> triangles = sphere_delaunay(seeds, serial);
-  if (covers_sphere(triangles, seeds)) {
-    set_triangles(std::move(triangles), seeds.size());
+  std::vector<Triangle> triangles = sphere_delaunay(seeds, execution);
+  if (covers_sphere(triangles, seeds, execution)) {
+    set_triangles(triangles, seeds.size(), execution);
     // Also brings CGAL's choice among cocircular seeds under our own predicate.
-    if (restore_regular(seeds, weights, serial).complete()) {
-      set_triangles(std::move(triangles_), seeds.size());
+    if (restore_regular(seeds, weights, execution).complete()) {
+      triangles = std::move(triangles_);
+      set_triangles(triangles, seeds.size(), execution);
       return nullptr;
     }
   }
-  triangles = convex_hull_triangles(weights.empty() ? seeds : lift(seeds, weights));
-  if (!covers_sphere(triangles, seeds)) {
+  triangles = convex_hull_triangles(weights.empty() ? seeds : lift(seeds, weights), execution);
+  if (!covers_sphere(triangles, seeds, execution)) {
     return "they do not surround the grain's centre, two coincide, or a weight is so low that its "
            "seed has no cell. Use more nodes, or a smaller curvature exponent.";
   }
-  set_triangles(std::move(triangles), seeds.size());
+  set_triangles(triangles, seeds.size(), execution);
   return nullptr;
 }
 
 SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
-                                         std::vector<Triangle> triangles) {
+                                         const std::vector<Triangle>& triangles,
+                                         const Execution& execution) {
   const auto count = static_cast<std::int32_t>(seeds.size());
   bool usable = count >= 4 && std::all_of(seeds.begin(), seeds.end(),
                                           [](const Vector3& seed) { return seed.allFinite(); });
   for (const Triangle& t : triangles) {
     for (const std::int32_t v : t) usable = usable && v >= 0 && v < count;
   }
-  if (usable && covers_sphere(triangles, seeds)) {
-    set_triangles(std::move(triangles), seeds.size());
+  if (usable && covers_sphere(triangles, seeds, execution)) {
+    set_triangles(triangles, seeds.size(), execution);
     usable = std::find(opposite_.begin(), opposite_.end(), -1) == opposite_.end();
   } else {
     usable = false;
@@ -135,15 +150,29 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
   }
 }
 
-void SphereTriangulation::set_triangles(std::vector<Triangle> triangles, std::size_t vertices) {
+void SphereTriangulation::set_triangles(const std::vector<Triangle>& triangles,
+                                        std::size_t vertices, const Execution& execution) {
   // Triangles in an order of their own, from their smallest corner on: the same seeds get the same
-  // arrays, whichever way they were triangulated.
-  for (Triangle& t : triangles) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  }
-  std::sort(triangles.begin(), triangles.end());
-  triangles_ = std::move(triangles);
-  HalfEdges links = link_half_edges(triangles_, vertices);
+  // arrays, whichever way they were triangulated. Grouped by that corner first, a million are
+  // sorted in a third of the time.
+  const Groups groups =
+      counting_sort(triangles.size(), vertices, [&](std::size_t t, const auto& visit) {
+        visit(
+            static_cast<std::size_t>(*std::min_element(triangles[t].begin(), triangles[t].end())));
+      });
+  triangles_.resize(triangles.size());
+  execution.parallel_for(vertices, block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      auto next = triangles_.begin() + static_cast<std::ptrdiff_t>(groups.starts[v]);
+      const auto first = next;
+      for (const std::int32_t* t = groups.begin(v); t != groups.end(v); ++t, ++next) {
+        *next = triangles[*t];
+        std::rotate(next->begin(), std::min_element(next->begin(), next->end()), next->end());
+      }
+      std::sort(first, next);
+    }
+  });
+  HalfEdges links = link_half_edges(triangles_, vertices, execution);
   opposite_ = std::move(links.opposite);
   first_half_edge_ = std::move(links.first);
 }

@@ -24,16 +24,19 @@ class SphereTriangulation {
   /// cell, or when a weight's absolute value is above 200 steradian or not a number; and
   /// Error(InvalidInput) for fewer than 4 seeds or another number of weights.
   explicit SphereTriangulation(const std::vector<Vector3>& seeds,
-                               const std::vector<double>& weights = {});
+                               const std::vector<double>& weights = {},
+                               const Execution& execution = Execution(1));
 
   /// The same, but nothing where the constructor would throw NumericalFailure: for callers who have
   /// other seeds to try.
   static std::optional<SphereTriangulation> try_build(const std::vector<Vector3>& seeds,
-                                                      const std::vector<double>& weights = {});
+                                                      const std::vector<double>& weights = {},
+                                                      const Execution& execution = Execution(1));
 
   /// Takes over given triangles. Throws Error(InvalidInput) unless they are 2 N - 4 triangles,
   /// counter-clockwise on the sphere, that form a closed 2-manifold on all N seeds.
-  SphereTriangulation(const std::vector<Vector3>& seeds, std::vector<Triangle> triangles);
+  SphereTriangulation(const std::vector<Vector3>& seeds, const std::vector<Triangle>& triangles,
+                      const Execution& execution = Execution(1));
 
   std::size_t vertex_count() const { return first_half_edge_.size(); }
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -90,13 +93,15 @@ class SphereTriangulation {
  private:
   SphereTriangulation() = default;
   /// Triangulates; returns why that is not possible, or null.
-  const char* build(const std::vector<Vector3>& seeds, const std::vector<double>& weights);
+  const char* build(const std::vector<Vector3>& seeds, const std::vector<double>& weights,
+                    const Execution& execution);
   template <class NeedsFlip>
   Repair flip_while(const std::vector<Vector3>& seeds, const NeedsFlip& needs_flip,
                     const Execution& execution, double smallest_determinant = 0.0);
   bool keeps_determinants(std::int32_t half_edge, const std::vector<Vector3>& seeds,
                           double smallest) const;
-  void set_triangles(std::vector<Triangle> triangles, std::size_t vertices);
+  void set_triangles(const std::vector<Triangle>& triangles, std::size_t vertices,
+                     const Execution& execution);
 
   // Three parallel arrays instead of a half-edge structure: triangle t holds its corners, and its
   // half-edges 3 t to 3 t + 2 need no entry but the one that runs the other way.

@@ -90,7 +90,8 @@ class Evaluation {
     // until every seed has one; with equal weights every seed has.
     constexpr int most_halvings = 10;
     double scale = 1.0;
-    triangulation_ = SphereTriangulation::try_build(seeds, weights_);
+    const Execution start = execution_.part(0.0, 0.0);
+    triangulation_ = SphereTriangulation::try_build(seeds, weights_, start);
     for (int halvings = 0; !triangulation_ && !weights_.empty(); ++halvings) {
       scale *= 0.5;
       if (halvings == most_halvings) {
@@ -98,7 +99,7 @@ class Evaluation {
         scale = 0.0;
       }
       for (double& weight : weights_) weight *= 0.5;
-      triangulation_ = SphereTriangulation::try_build(seeds, weights_);
+      triangulation_ = SphereTriangulation::try_build(seeds, weights_, start);
     }
     if (!triangulation_) return false;
     report.weight_scale = std::min(report.weight_scale, scale);
@@ -112,7 +113,7 @@ class Evaluation {
       if (!repair.turned_over) return true;
       ++report.rebuilds;
     }
-    triangulation_ = SphereTriangulation::try_build(seeds);
+    triangulation_ = SphereTriangulation::try_build(seeds, {}, execution_.part(0.0, 0.0));
     if (!triangulation_) return false;
     flips_ += triangulation_->restore_surface_delaunay(seeds, positions_, execution_).flips;
     return true;
