@@ -52,7 +52,9 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
                              "harmonics grain.ply --coefficients grain.json"},
                             "Of the placements, series means on the surface itself.",
                             true});
-  add_choice(app, "surface", arguments.surface.kind)->required();
+  add_choice(app, "surface", arguments.surface.kind)
+      ->required()
+      ->description(help_of_choices<decltype(arguments.surface.kind)>());
   add_file_argument(app, "output", arguments.output, "Mesh: PLY, STL, OBJ or OFF")->required();
   add_semi_axes(app, arguments.surface.semi_axes);
   add_number(app, "--" + std::string(polar_exponent_option.key), arguments.surface.polar_exponent,

@@ -52,17 +52,23 @@ inline std::string help_of(bool value, const FlagOption& option) {
          (value ? ". Default: on" : "");
 }
 
-/// The subject, the choices and the default, then every value with its meaning on a line of its
-/// own.
+/// The subject and the choices of what must be given, then every value with its meaning on a line
+/// of its own.
 template <class Enumeration>
-std::string help_of(Enumeration value) {
+std::string help_of_choices(const std::string& after_them = "") {
   std::string text = capitalised(EnumerationTable<Enumeration>::subject);
-  text += ": " + keys_of<Enumeration>() + ". Default: " + key_of(value);
+  text += ": " + keys_of<Enumeration>() + after_them;
   for (const Enumerator<Enumeration>& row : enumerators<Enumeration>()) {
     const std::string_view meaning = row.meaning.empty() ? row.label : row.meaning;
     text.append("\n").append(row.key).append(": ").append(meaning);
   }
   return text;
+}
+
+/// The same of what has a default.
+template <class Enumeration>
+std::string help_of(Enumeration value) {
+  return help_of_choices<Enumeration>(". Default: " + key_of(value));
 }
 
 }  // namespace wscvt::program

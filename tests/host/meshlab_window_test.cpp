@@ -177,6 +177,14 @@ class Window {
     press("Return");
     return wait_until([&] { return window(open_title).isEmpty(); }, patience);
   }
+  /// Waits for the message that says why a filter failed, takes its picture and closes it.
+  void expect_failure(const QString& picture) {
+    EXPECT_TRUE(wait_for_window("Filter Failure")) << log().toStdString();
+    screenshot(picture);
+    focus("Filter Failure");
+    press("Return");
+  }
+
   void apply_script() { click(script_title, 0.64, 26); }
   /// Opens the dialog of parameters of the script's first filter.
   bool edit_script() {
@@ -355,10 +363,7 @@ TEST(Window, RefusalShowsAMessageAndMeshLabGoesOn) {
   ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
   ASSERT_TRUE(meshlab.open_filter(remesh_menu_text)) << meshlab.log().toStdString();
   meshlab.apply(remesh_menu_text);
-  ASSERT_TRUE(meshlab.wait_for_window("Filter Failure")) << meshlab.log().toStdString();
-  meshlab.screenshot("refusal.png");
-  meshlab.focus("Filter Failure");
-  meshlab.press("Return");
+  meshlab.expect_failure("refusal.png");
   ASSERT_TRUE(meshlab.wait_for_log("failed: ")) << meshlab.log().toStdString();
   EXPECT_TRUE(meshlab.log().contains("boundary", Qt::CaseInsensitive))
       << meshlab.log().toStdString();
@@ -395,10 +400,7 @@ TEST(WindowScript, IsRefusedWhenItsNumberOfNodesCannotBeRead) {
   meshlab.apply_script();
   // 2020.09 shows no message for a script, but its log has the sentence.
   if (host_version != "2020.09") {
-    ASSERT_TRUE(meshlab.wait_for_window("Filter Failure")) << meshlab.log().toStdString();
-    meshlab.screenshot("script_refused.png");
-    meshlab.focus("Filter Failure");
-    meshlab.press("Return");
+    meshlab.expect_failure("script_refused.png");
   }
   EXPECT_TRUE(meshlab.wait_for_log("NodeCount is missing from the script"))
       << meshlab.log().toStdString();
@@ -440,10 +442,7 @@ TEST(Window, ApplyDuringARunIsRefusedAndTheRunGoesOn) {
   apply_with("100000");
   QThread::msleep(300);
   meshlab.apply(everyday_menu_text);
-  ASSERT_TRUE(meshlab.wait_for_window("Filter Failure")) << meshlab.log().toStdString();
-  meshlab.screenshot("applied_twice.png");
-  meshlab.focus("Filter Failure");
-  meshlab.press("Return");
+  meshlab.expect_failure("applied_twice.png");
   EXPECT_TRUE(meshlab.wait_for_log("is still running; wait until it is done"))
       << meshlab.log().toStdString();
   ASSERT_TRUE(meshlab.wait_for_log(everyday_menu_text + " in ")) << meshlab.log().toStdString();

@@ -109,7 +109,7 @@ void warn_of_space(const RemeshResult& result, const RemeshOptions& asked, Sente
                      " of the volume, or their triangles meet" +
                      (result.space.enough_nodes > 0
                           ? "; " + std::to_string(result.space.enough_nodes) + " would do."
-                          : "; so would sixteen times as many."));
+                          : "; so are twice to sixteen times as many, as far as tried."));
 }
 
 void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {

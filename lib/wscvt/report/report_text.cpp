@@ -5,6 +5,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
+#include "wscvt/nodes/triangle_mending.h"
 #include "wscvt/report/mass_table.h"
 #include "wscvt/report/report.h"
 #include "wscvt/tessellation/space_weights.h"
@@ -152,14 +153,18 @@ void append_meeting(const RemeshResult& result, std::vector<std::string>& lines)
   }
 }
 
-void append_mending(const SpaceNodesReport& space, std::vector<std::string>& lines) {
+void append_mending(const RemeshResult& result, std::vector<std::string>& lines) {
+  const SpaceNodesReport& space = result.space;
   const TriangleMendingReport& mending = space.mending;
+  const RefinementOptions& refinement = result.options.placement.refinement;
   if (mending.flips + mending.moves + mending.relocations > 0) {
     lines.push_back(line(
         "Mended",
-        "triangles with angles below 35 degrees, by " +
-            counted(static_cast<std::size_t>(mending.flips), "flip", "flips") + ", " +
-            counted(static_cast<std::size_t>(mending.moves), "move", "moves") + " and " +
+        "triangles with angles below " +
+            format_number(refinement.rounds > 0 ? refinement.smallest_angle
+                                                : TriangleMendingOptions().smallest_angle) +
+            " degrees, by " + counted(static_cast<std::size_t>(mending.flips), "flip", "flips") +
+            ", " + counted(static_cast<std::size_t>(mending.moves), "move", "moves") + " and " +
             counted(static_cast<std::size_t>(mending.relocations), "relocation", "relocations") +
             " of nodes; " + std::to_string(mending.left) + " left"));
   }
@@ -310,7 +315,7 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   append_handles(result, lines);
   append_fit(result, lines);
   append_meeting(result, lines);
-  append_mending(result.space, lines);
+  append_mending(result, lines);
   append_search(result, lines);
   append_relaxation(result, lines);
   append_refinement(result, lines);

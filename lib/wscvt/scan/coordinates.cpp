@@ -68,12 +68,16 @@ void check_scan_size(const std::vector<Vector3>& points) {
     high = high.cwiseMax(p);
     if (!p.allFinite()) return;
   }
-  const double size = (high - low).maxCoeff();
+  check_scan_size(high - low);
+}
+
+void check_scan_size(const Vector3& extents) {
+  const double size = extents.maxCoeff();
   if (size == 0.0 || (size >= smallest_scan_size && size <= largest_scan_size)) return;
   throw Error(
       ErrorCode::InvalidInput,
       "The scan is " + format_number(size) +
-          " units long, which is outside of what can be computed with; scale it to between " +
+          " units across, which is outside of what can be computed with; scale it to between " +
           format_number(smallest_scan_size) + " and " + format_number(largest_scan_size) +
           " units.");
 }

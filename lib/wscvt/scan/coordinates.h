@@ -18,6 +18,9 @@ inline constexpr double largest_scan_size = 1e60;
 /// refuse.
 void check_scan_size(const std::vector<Vector3>& points);
 
+/// The same of the extents along the axes.
+void check_scan_size(const Vector3& extents);
+
 /// A sentence when the steps in which the coordinates come are coarse for the faces; empty when
 /// they are not. Steps are told from rounding to single precision, which a scan far from the origin
 /// suffers from, and to a number of decimals, which counts where faces have lost their corners.

@@ -16,6 +16,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/closing_advice.h"
 #include "wscvt/scan/components.h"
+#include "wscvt/scan/coordinates.h"
 #include "wscvt/scan/degenerate_faces.h"
 #include "wscvt/scan/edge_rings.h"
 #include "wscvt/scan/enclosure.h"
@@ -112,18 +113,6 @@ void drop_lost_faces(IndexedMesh& mesh, const Execution& execution, MeshCheckRep
            std::to_string(first) + " at (" + coordinate(p.x()) + ", " + coordinate(p.y()) + ", " +
            coordinate(p.z()) + "); the file or the program that made it is at fault.");
   }
-}
-
-/// Volumes (length^3) and fifth powers of length occur; these keep both among the numbers.
-constexpr double smallest_size = 1e-60;
-constexpr double largest_size = 1e60;
-
-void refuse_size(const Box& box) {
-  const double size = (box.high - box.low).norm();
-  if (size == 0.0 || (size > smallest_size && size < largest_size)) return;
-  refuse("The mesh is " + format_number(size, 3) + " across; that is too " +
-         (size < 1.0 ? "small" : "large") + " to compute with: scale it to between " +
-         format_number(smallest_size) + " and " + format_number(largest_size) + ".");
 }
 
 /// A component that is not kept.
@@ -274,7 +263,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   drop_lost_faces(mesh, execution, report);
   {
     const Box box = box_of_faces(mesh, execution);
-    refuse_size(box);
+    check_scan_size(box.high - box.low);
     report.weld_tolerance = options.weld_tolerance * (box.high - box.low).norm();
     const Weld weld = find_equal_points(mesh.points, box, report.weld_tolerance, execution);
     const DegenerateFaces degenerate = drop_degenerate_faces(mesh, weld.first);

@@ -123,7 +123,7 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
   triangles = convex_hull_triangles(weights.empty() ? seeds : lift(seeds, weights), execution);
   if (!covers_sphere(triangles, seeds, execution)) {
     return "they do not surround the grain's centre, two coincide, or a weight is so low that its "
-           "seed has no cell. Use more nodes, or a smaller curvature exponent.";
+           "seed has no cell. Use more nodes, or a smaller strength alpha.";
   }
   set_triangles(triangles, seeds.size(), execution);
   return nullptr;
