@@ -82,8 +82,8 @@ run() {  # name, output file, command...
 server="meshlabserver -i $scan"
 {
   run wscvt "$work/ours.ply" "$program" "$scan" "$work/ours.ply" -n "$nodes" -w area -q
-  run wscvt-surface "$work/surface.ply" \
-    "$program" "$scan" "$work/surface.ply" -n "$nodes" -w area -m surface -q
+  run wscvt-published "$work/published.ply" \
+    "$program" "$scan" "$work/published.ply" -n "$nodes" -w area --method as-published -q
   # shellcheck disable=SC2086
   run meshlab-collapse "$work/collapse.ply" $server -o "$work/collapse.ply" -s "$work/collapse.mlx"
   # shellcheck disable=SC2086
