@@ -21,7 +21,6 @@
 #include "wscvt/remesh.h"
 #include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report_file.h"
-#include "wscvt/report/used_scan.h"
 
 namespace wscvt::filter {
 
@@ -147,17 +146,15 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   // A remesh of a remesh has errors that nobody asks for: the scan it came from is remeshed again.
   const std::optional<Layer> origin = source_of(layers, current.number);
   const Layer scan = origin.value_or(current);
-  const RemeshSettings settings =
+  RemeshSettings settings =
       read_remesh_settings(with_full_names(parameters, values, folder_of(scan)));
-  const IndexedMesh mesh = layers.mesh(scan.number);
+  const std::string& report = settings.result.report_file;
+  settings.options.measures.used_scan = !report.empty() && shows_scan(report);
   const Eigen::Matrix4d transform = layers.transform(scan.number);
   const Execution execution(settings.threads, progress);
-  const RemeshResult result = remesh(mesh, settings.options, execution);
+  const RemeshResult result = remesh(layers.mesh(scan.number), settings.options, execution);
   // Files first: when they cannot be written the document stays as it was.
-  const std::string& report = settings.result.report_file;
-  const bool is_shown = !report.empty() && shows_scan(report);
-  save_report(report, scan.label, result,
-              is_shown ? used_scan(mesh, result.options, Execution()) : IndexedMesh());
+  save_report(report, scan.label, result, result.used_scan);
   if (!settings.coefficients_file.empty()) {
     write_coefficients(settings.coefficients_file, result);
   }

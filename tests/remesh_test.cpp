@@ -238,6 +238,24 @@ TEST(Remesh, SameBytesOnAnyNumberOfThreads) {
   expect_same_bytes_on_two_threads(6000, Weighting::Curvature, RelaxationMetric::Surface);
 }
 
+TEST(Remesh, HandsBackTheScanItUsedWhereAsked) {
+  const IndexedMesh scan = test::lumpy(3);
+  const IndexedMesh soup = test::unwelded(scan);
+  RemeshOptions options;
+  options.node_count = 50;
+  EXPECT_TRUE(remesh(soup, options, Execution(1)).used_scan.points.empty());
+  options.measures.used_scan = true;
+  const RemeshResult result = remesh(soup, options, Execution(1));
+  EXPECT_EQ(result.used_scan.points.size(), scan.points.size());
+  EXPECT_EQ(result.used_scan.triangles.size(), scan.triangles.size());
+  // In the input's coordinates.
+  EXPECT_EQ(result.used_scan.points[result.used_scan.triangles[0][0]], soup.points[0]);
+  options.envelope.opening_percent = 10.0;
+  const RemeshResult wrapped = remesh(scan, options, Execution(1));
+  EXPECT_GT(describe_shape(wrapped.used_scan, Execution(1)).volume,
+            1.01 * describe_shape(scan, Execution(1)).volume);
+}
+
 TEST(Remesh, TwoThreadsGiveTheSameBytesForEveryMetricAndWeighting) {
   for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
     for (const auto weighting : {Weighting::Constant, Weighting::RadialDistance,

@@ -14,7 +14,6 @@
 #include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/report_file.h"
-#include "wscvt/report/used_scan.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
@@ -59,17 +58,14 @@ int run(const RemeshArguments& arguments) {
   options.measures.coefficients = !arguments.coefficients.empty();
 
   // On a page and in signed distances, beside what became of it.
-  const bool is_shown =
+  options.measures.used_scan =
       std::any_of(common.reports.begin(), common.reports.end(), shows_scan) ||
       (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
 
   Work work(common);
   IndexedMesh scan = read_mesh(arguments.scan, work.execution().part(0.0, reading_share));
-  IndexedMesh shown;
-  if (is_shown) shown = scan;
   const RemeshResult result =
       remesh(std::move(scan), options, work.execution().part(reading_share, 1.0));
-  shown = used_scan(std::move(shown), result.options, work.execution().part(1.0, 1.0));
 
   const ReportOrigin origin = origin_of(arguments.scan);
   const SimulationFrame frame = simulation_frame(result.original, simulation.options.frame);
@@ -83,12 +79,12 @@ int run(const RemeshArguments& arguments) {
   }
   for (const std::string& grid : simulation.grids) {
     work.write(grid, [&](const std::string& path, const Execution& execution) {
-      write_distance_grid(path, result, shown, simulation.options, origin, execution);
+      write_distance_grid(path, result, result.used_scan, simulation.options, origin, execution);
     });
   }
   for (const std::string& report : common.reports) {
     work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, result, shown, origin, execution);
+      write_report(path, result, result.used_scan, origin, execution);
     });
   }
   if (!arguments.coefficients.empty()) {

@@ -145,8 +145,10 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& asked, const Execution& execution) {
   check_options(asked);
   const RemeshOptions options = with_method(asked);
-  return finish(prepare(std::move(scan), options, execution.part(0.0, 0.3)), options,
-                execution.part(0.3, 1.0));
+  PreparedGrain prepared = prepare(std::move(scan), options, execution.part(0.0, 0.3));
+  RemeshResult result = finish(prepared, options, execution.part(0.3, 1.0));
+  result.used_scan = std::move(prepared.used_scan);
+  return result;
 }
 
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& asked,

@@ -84,6 +84,7 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   if (wraps) scan = envelope_of(scan, options.envelope, execution.part(0.3, 0.35));
   CheckedMesh checked = check_mesh(std::move(scan), options.check,
                                    execution.part(options.points || wraps ? 0.35 : 0.0, 0.4));
+  if (options.measures.used_scan) prepared.used_scan = checked.mesh;
   // The series is that of the radial map, so a grain that has one keeps it.
   const bool needs_series = options.placement.kind == NodePlacement::Series;
   const ParametrizationChoice choice =

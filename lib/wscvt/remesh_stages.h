@@ -18,9 +18,10 @@
 
 namespace wscvt {
 
-/// All that does not depend on the number of nodes, in the grain's units but for `input`.
+/// All that does not depend on the number of nodes, in the grain's units unless told otherwise.
 struct PreparedGrain {
   Grain grain;
+  IndexedMesh used_scan;  ///< see RemeshResult; in the input's units
   MeshCheckReport input;  ///< in the input's units
   HandleReport handles;   ///< in the input's units
   ShapeDescriptors original;

@@ -19,7 +19,6 @@
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/used_scan.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
@@ -173,8 +172,10 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
   runs.push_back({"signed distances",
                   [&scan](const Execution& execution) { distance_grid(scan, {}, execution); }});
   runs.push_back({"page", [&scan](const Execution& execution) {
-                    const RemeshResult result = remesh(scan, {}, execution);
-                    report_html(result, used_scan(scan, result.options, execution), {}, execution);
+                    RemeshOptions options;
+                    options.measures.used_scan = true;
+                    const RemeshResult result = remesh(scan, options, execution);
+                    report_html(result, result.used_scan, {}, execution);
                   }});
   return runs;
 }

@@ -25,7 +25,6 @@
 #include "wscvt/report/page_figures.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/report_file.h"
-#include "wscvt/report/used_scan.h"
 
 namespace wscvt {
 namespace {
@@ -247,10 +246,11 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_EQ(page, report_html(plain, scan, {"<sand>.ply", "2026-11-21"}, Execution(2)));
 
   // Points alone are triangulated; of a formula there is nothing to compare with.
-  RemeshResult of_points = plain;
-  of_points.options.points = true;
-  const IndexedMesh of_cloud = used_scan({scan.points, {}}, of_points.options, Execution(1));
-  EXPECT_EQ(count_of(report_html(of_points, of_cloud, {}, Execution(1)), "<img"), 3U);
+  RemeshOptions points = options;
+  points.points = true;
+  points.measures.used_scan = true;
+  const RemeshResult cloud = remesh({scan.points, {}}, points, Execution(1));
+  EXPECT_EQ(count_of(report_html(cloud, cloud.used_scan, {}, Execution(1)), "<img"), 3U);
   const std::string alone = report_html(plain, IndexedMesh(), {}, Execution(1));
   EXPECT_EQ(count_of(alone, "<img"), 1U);
   EXPECT_EQ(count_of(alone, "<svg"), 3U);

@@ -12,7 +12,7 @@
 
 #include "support/test_shapes.h"
 #include "wscvt/exchange/simulation_frame.h"
-#include "wscvt/report/used_scan.h"
+#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt::study {
 
@@ -105,7 +105,7 @@ double reach_along(const std::vector<Vector3>& points, const Vector3& direction)
 }  // namespace
 
 IndexedMesh unit_scan(const IndexedMesh& scan, const Execution& execution) {
-  IndexedMesh used = used_scan(scan, RemeshOptions(), execution);
+  IndexedMesh used = check_mesh(scan, MeshCheckOptions(), execution).mesh;
   FrameOptions options;
   options.frame = Frame::Principal;
   options.size = 2.0;

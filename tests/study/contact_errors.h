@@ -39,7 +39,7 @@ struct ContactErrors {
 /// a grid.
 class ContactGrain {
  public:
-  /// `scan` as used_scan gives it, star-shaped, in its principal frame and with an equivalent
+  /// `scan` is checked (see check_mesh), star-shaped, in its principal frame and with an equivalent
   /// radius of 1. `contacts` poses, always the same ones of the same `series`.
   ContactGrain(const IndexedMesh& scan, std::size_t contacts, const Execution& execution,
                std::uint64_t series = 0);

@@ -58,7 +58,7 @@ void write_nodes(const std::string& path, const RemeshResult& result,
 
 /// Writes signed distances in the frame asked for, by the name's ending: grid_npy with a
 /// description beside it (frame, origin, spacing, mass properties of the scan at unit density in
-/// that frame), grid_vti or grid_netdem. `scan` as used_scan gives it; the remesh's grid does
+/// that frame), grid_vti or grid_netdem. `scan` is the result's used_scan; the remesh's grid does
 /// not look at it. Throws Error as check_grid_path, distance_grid and write_file do, and
 /// InvalidInput for the scan of a surface that came from a formula.
 void write_distance_grid(const std::string& path, const RemeshResult& result,

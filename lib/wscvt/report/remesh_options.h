@@ -44,6 +44,7 @@ struct MeasureOptions {
   DistanceOptions distance_sampling;
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
   bool coefficients = false;     ///< fill RemeshResult::map_coefficients of a Spherical one
+  bool used_scan = false;        ///< fill RemeshResult::used_scan
   bool advice = true;            ///< fill RemeshResult::tried where the remesh misses the scan
 };
 

@@ -42,7 +42,11 @@ struct RemeshResult {
   std::vector<double> cell_areas;
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
   Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
-  MeshCheckReport input;                 ///< what of the scan was mended, and its measures
+  /// The scan as it was taken: with a surface where it is points, by its envelope where one is
+  /// asked for, checked and mended, with its handles; if asked for, and not of a surface from a
+  /// formula.
+  IndexedMesh used_scan;
+  MeshCheckReport input;      ///< what of the scan was mended, and its measures
   HandleReport handles;       ///< cut for a spherical map, lengths and places of the input
   double folded_share = 0.0;  ///< see folded_solid_angle
   Parametrization parametrization = Parametrization::Radial;  ///< the one taken: not Auto
