@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support/cancelled_runs.h"
 #include "support/expect_error.h"
@@ -92,6 +93,10 @@ TEST(ConvexHull, StopsWhenAskedTo) {
 TEST(ConvexHull, HasNoTrianglesInAPlane) {
   EXPECT_TRUE(convex_hull_triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}).empty());
   EXPECT_TRUE(convex_hull_triangles({}).empty());
+  // A polygon of more triangles than a tetrahedron: its border has no other side.
+  std::vector<Vector3> circle;
+  for (int k = 0; k < 50; ++k) circle.emplace_back(std::cos(k), std::sin(k), 0.0);
+  EXPECT_TRUE(convex_hull_triangles(circle).empty());
 }
 
 TEST(ConvexHull, RefusesAPlane) {

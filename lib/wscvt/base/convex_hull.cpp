@@ -4,6 +4,7 @@
 #include <CGAL/Convex_hull_traits_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
@@ -88,8 +89,8 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
   traits.asked = &asked;
   CGAL::convex_hull_3(input.begin(), input.end(), hull, traits);
   std::vector<Triangle> triangles;
-  // Of points in one plane CGAL returns the polygon as one face.
-  if (hull.num_vertices() < 4 || hull.num_faces() < 4) return triangles;
+  // Of points in one plane CGAL returns their polygon, whose border has no other side.
+  if (hull.num_vertices() < 4 || !CGAL::is_closed(hull)) return triangles;
 
   // The hull copies its points: find them again by value.
   std::vector<std::int32_t> order(input.size());
