@@ -61,11 +61,11 @@ LayerContent content_of(const RemeshResult& result, const ResultSettings& settin
 }
 
 /// Writes the report of today about a layer; nothing for an empty name.
-template <class... Content>
-void save_report(const std::string& file, const std::string& label, const Content&... content) {
+template <class Content>
+void save_report(const std::string& file, const std::string& label, const Content& content) {
   if (file.empty()) return;
   const std::string today = QDate::currentDate().toString(Qt::ISODate).toStdString();
-  write_report(file, content..., {label, today}, Execution());
+  write_report(file, content, {label, today}, Execution());
 }
 
 /// Errors and values of a remesh, under the names of the reports.
@@ -154,7 +154,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   const Execution execution(settings.threads, progress);
   const RemeshResult result = remesh(layers.mesh(scan.number), settings.options, execution);
   // Files first: when they cannot be written the document stays as it was.
-  save_report(report, scan.label, result, result.used_scan);
+  save_report(report, scan.label, result);
   if (!settings.coefficients_file.empty()) {
     write_coefficients(settings.coefficients_file, result);
   }
@@ -206,7 +206,7 @@ FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
       with_full_names(creation_parameters(), values, folder_at_hand(layers)));
   const RemeshResult result = remesh(settings.surface, settings.options, execution);
   const std::string name = surface_name(settings.surface);
-  save_report(settings.result.report_file, name, result, IndexedMesh());
+  save_report(settings.result.report_file, name, result);
   layers.add(remesh_label(name, nodes_name(result.options), result.mesh.points.size()),
              content_of(result, settings.result), Eigen::Matrix4d::Identity());
 

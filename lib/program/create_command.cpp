@@ -89,7 +89,7 @@ int run(const CreateArguments& arguments) {
   const ReportOrigin origin = origin_of(surface_name(arguments.surface));
   for (const std::string& report : common.reports) {
     work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, result, IndexedMesh(), origin, execution);
+      write_report(path, result, origin, execution);
     });
   }
   work.print(result.warnings, report_lines(result));

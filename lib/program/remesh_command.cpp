@@ -79,12 +79,12 @@ int run(const RemeshArguments& arguments) {
   }
   for (const std::string& grid : simulation.grids) {
     work.write(grid, [&](const std::string& path, const Execution& execution) {
-      write_distance_grid(path, result, result.used_scan, simulation.options, origin, execution);
+      write_distance_grid(path, result, simulation.options, origin, execution);
     });
   }
   for (const std::string& report : common.reports) {
     work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, result, result.used_scan, origin, execution);
+      write_report(path, result, origin, execution);
     });
   }
   if (!arguments.coefficients.empty()) {

@@ -175,7 +175,7 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
                     RemeshOptions options;
                     options.measures.used_scan = true;
                     const RemeshResult result = remesh(scan, options, execution);
-                    report_html(result, result.used_scan, {}, execution);
+                    report_html(result, {}, execution);
                   }});
   return runs;
 }

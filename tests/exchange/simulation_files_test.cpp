@@ -26,6 +26,7 @@ class SimulationFiles : public testing::Test {
                                              test::random_rotation(5), {10, 20, 30}));
     RemeshOptions remesh_options;
     remesh_options.node_count = 120;
+    remesh_options.measures.used_scan = true;
     result = new RemeshResult(remesh(*scan, remesh_options, Execution(2)));
   }
   static void TearDownTestSuite() {
@@ -49,6 +50,13 @@ class SimulationFiles : public testing::Test {
     return text.str();
   }
 
+  /// What a remesh of a formula gives, or one that was not asked for the scan.
+  static RemeshResult without_scan() {
+    RemeshResult copy = *result;
+    copy.used_scan = {};
+    return copy;
+  }
+
   static IndexedMesh* scan;
   static RemeshResult* result;
   SimulationOptions options;
@@ -62,7 +70,7 @@ RemeshResult* SimulationFiles::result = nullptr;
 TEST_F(SimulationFiles, NodesLieWhereTheGridIsZero) {
   options.surface = GridSurface::Remesh;
   write_nodes(path("nodes.csv"), *result, options);
-  write_distance_grid(path("grid.npy"), *result, *scan, options, {}, Execution(2));
+  write_distance_grid(path("grid.npy"), *result, options, {}, Execution(2));
   const auto description = nlohmann::json::parse(content("grid.npy.json"));
   const double spacing = description.at("spacing").get<double>();
   EXPECT_EQ(spacing, 0.01);
@@ -94,7 +102,7 @@ TEST_F(SimulationFiles, NodesLieWhereTheGridIsZero) {
 }
 
 TEST_F(SimulationFiles, DescriptionHoldsTheMassOfTheScanInTheFrame) {
-  write_distance_grid(path("grid.npy"), *result, *scan, options, {"sand.ply", ""}, Execution(2));
+  write_distance_grid(path("grid.npy"), *result, options, {"sand.ply", ""}, Execution(2));
   const auto description = nlohmann::json::parse(content("grid.npy.json"));
   EXPECT_EQ(description.at("source"), "sand.ply");
   EXPECT_EQ(description.at("frame").at("name"), "principal");
@@ -108,9 +116,9 @@ TEST_F(SimulationFiles, DescriptionHoldsTheMassOfTheScanInTheFrame) {
 }
 
 TEST_F(SimulationFiles, GridIsOfTheScanUnlessTheRemeshIsAsked) {
-  write_distance_grid(path("scan.npy"), *result, *scan, options, {}, Execution(2));
+  write_distance_grid(path("scan.npy"), *result, options, {}, Execution(2));
   options.surface = GridSurface::Remesh;
-  write_distance_grid(path("remesh.npy"), *result, {}, options, {}, Execution(2));
+  write_distance_grid(path("remesh.npy"), without_scan(), options, {}, Execution(2));
   EXPECT_NE(content("scan.npy"), content("remesh.npy"));
   const SimulationFrame frame = simulation_frame(result->original, options.frame);
   EXPECT_EQ(content("scan.npy"),
@@ -122,9 +130,9 @@ TEST_F(SimulationFiles, FollowTheirEndings) {
   EXPECT_NE(content("nodes.VTP").find("PolyData"), std::string::npos);
   write_nodes(path("a grain.shp"), *result, options);
   EXPECT_NE(content("a grain.shp").find("name a_grain\n"), std::string::npos);
-  write_distance_grid(path("grid.vti"), *result, *scan, options, {}, Execution(2));
+  write_distance_grid(path("grid.vti"), *result, options, {}, Execution(2));
   EXPECT_NE(content("grid.vti").find("ImageData"), std::string::npos);
-  write_distance_grid(path("grid.json"), *result, *scan, options, {}, Execution(2));
+  write_distance_grid(path("grid.json"), *result, options, {}, Execution(2));
   EXPECT_TRUE(nlohmann::json::parse(content("grid.json")).contains("signed_distance_table"));
   EXPECT_EQ(grid_description_path("grid.vti"), "");
   EXPECT_EQ(grid_description_path("grid.NPY"), "grid.NPY.json");
@@ -132,10 +140,9 @@ TEST_F(SimulationFiles, FollowTheirEndings) {
 
 TEST_F(SimulationFiles, RefuseWhatTheyCannotWrite) {
   EXPECT_ERROR(write_nodes(path("nodes.txt"), *result, options), InvalidInput);
-  EXPECT_ERROR(write_distance_grid(path("grid.csv"), *result, *scan, options, {}, Execution(1)),
+  EXPECT_ERROR(write_distance_grid(path("grid.csv"), *result, options, {}, Execution(1)),
                InvalidInput);
-  // A surface from a formula has no scan.
-  EXPECT_ERROR(write_distance_grid(path("grid.npy"), *result, {}, options, {}, Execution(1)),
+  EXPECT_ERROR(write_distance_grid(path("grid.npy"), without_scan(), options, {}, Execution(1)),
                InvalidInput);
   options.frame.frame = Frame::Centred;
   EXPECT_ERROR(write_nodes(path("nodes.shp"), *result, options), InvalidInput);

@@ -227,8 +227,9 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   RemeshOptions options;
   options.node_count = 100;
   options.surface.degree = 6;
-  const RemeshResult plain = remesh(scan, options, Execution(1));
-  const std::string page = report_html(plain, scan, {"<sand>.ply", "2026-11-21"}, Execution(1));
+  options.measures.used_scan = true;
+  const RemeshResult shown = remesh(scan, options, Execution(1));
+  const std::string page = report_html(shown, {"<sand>.ply", "2026-11-21"}, Execution(1));
   EXPECT_NE(page.find("<title>Remesh of &lt;sand&gt;.ply with 100 nodes"), std::string::npos);
   EXPECT_NE(page.find("Made from &lt;sand&gt;.ply by " + made_by() + " on 2026-11-21."),
             std::string::npos);
@@ -243,15 +244,16 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_EQ(page.find(">-0<"), std::string::npos);
   EXPECT_NE(page.find("<td>--weighting=radial-distance</td>"), std::string::npos);
   EXPECT_NE(page.find("principal moments"), std::string::npos);
-  EXPECT_EQ(page, report_html(plain, scan, {"<sand>.ply", "2026-11-21"}, Execution(2)));
+  EXPECT_EQ(page, report_html(shown, {"<sand>.ply", "2026-11-21"}, Execution(2)));
 
   // Points alone are triangulated; of a formula there is nothing to compare with.
   RemeshOptions points = options;
   points.points = true;
-  points.measures.used_scan = true;
   const RemeshResult cloud = remesh({scan.points, {}}, points, Execution(1));
-  EXPECT_EQ(count_of(report_html(cloud, cloud.used_scan, {}, Execution(1)), "<img"), 3U);
-  const std::string alone = report_html(plain, IndexedMesh(), {}, Execution(1));
+  EXPECT_EQ(count_of(report_html(cloud, {}, Execution(1)), "<img"), 3U);
+  RemeshResult without = shown;
+  without.used_scan = {};
+  const std::string alone = report_html(without, {}, Execution(1));
   EXPECT_EQ(count_of(alone, "<img"), 1U);
   EXPECT_EQ(count_of(alone, "<svg"), 3U);
 
@@ -259,7 +261,7 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   options.target.percent = 3.0;
   options.target.measure = ErrorMeasure::Volume;
   const RemeshResult searched = remesh(scan, options, Execution(1));
-  const std::string with_curve = report_html(searched, scan, {}, Execution(1));
+  const std::string with_curve = report_html(searched, {}, Execution(1));
   EXPECT_EQ(count_of(with_curve, "<svg"), 6U);
   EXPECT_EQ(count_of(with_curve, "<circle"), searched.search->trials.size());
 }
@@ -366,16 +368,17 @@ TEST_F(ReportFiles, FollowTheirEndings) {
   RemeshOptions options;
   options.node_count = 50;
   options.surface.degree = 2;
+  options.measures.used_scan = true;
   const RemeshResult result = remesh(scan, options, Execution(1));
   const ReportOrigin origin = {"scan.ply", "2026-11-21"};
   for (const std::string name : {"r.html", "r.JSON", "r.csv"}) {
     EXPECT_EQ(shows_scan(path(name)), name == "r.html");
     check_remesh_report(path(name));
-    write_report(path(name), result, scan, origin, Execution(1));
+    write_report(path(name), result, origin, Execution(1));
   }
-  EXPECT_EQ(content("r.html"), report_html(result, scan, origin, Execution(1)));
+  EXPECT_EQ(content("r.html"), report_html(result, origin, Execution(1)));
   for (int time = 1; time <= 2; ++time) {
-    if (time == 2) write_report(path("r.csv"), result, scan, origin, Execution(1));
+    if (time == 2) write_report(path("r.csv"), result, origin, Execution(1));
     EXPECT_EQ(content("r.JSON"), report_json(result, origin));
     EXPECT_EQ(count_of(content("r.csv"), "\r\n"), 1U + static_cast<std::size_t>(time));
   }

@@ -99,11 +99,12 @@ void write_nodes(const std::string& path, const RemeshResult& result,
 }
 
 void write_distance_grid(const std::string& path, const RemeshResult& result,
-                         const IndexedMesh& scan, const SimulationOptions& options,
-                         const ReportOrigin& origin, const Execution& execution) {
+                         const SimulationOptions& options, const ReportOrigin& origin,
+                         const Execution& execution) {
   check_grid_path(path);
   const SimulationFrame frame = simulation_frame(result.original, options.frame);
-  const IndexedMesh& surface = options.surface == GridSurface::Remesh ? result.mesh : scan;
+  const IndexedMesh& surface =
+      options.surface == GridSurface::Remesh ? result.mesh : result.used_scan;
   const DistanceGrid grid = distance_grid(in_frame(surface, frame), options.grid, execution);
   const std::string ending = ending_of(path);
   if (ending == ".vti") return write_file(path, grid_vti(grid));

@@ -58,11 +58,11 @@ void write_nodes(const std::string& path, const RemeshResult& result,
 
 /// Writes signed distances in the frame asked for, by the name's ending: grid_npy with a
 /// description beside it (frame, origin, spacing, mass properties of the scan at unit density in
-/// that frame), grid_vti or grid_netdem. `scan` is the result's used_scan; the remesh's grid does
-/// not look at it. Throws Error as check_grid_path, distance_grid and write_file do, and
-/// InvalidInput for the scan of a surface that came from a formula.
+/// that frame), grid_vti or grid_netdem. The scan is the result's used_scan. Throws Error as
+/// check_grid_path, distance_grid and write_file do, and InvalidInput where the scan is asked for
+/// and the result holds none: it came from a formula, or without `measures.used_scan`.
 void write_distance_grid(const std::string& path, const RemeshResult& result,
-                         const IndexedMesh& scan, const SimulationOptions& options,
-                         const ReportOrigin& origin, const Execution& execution);
+                         const SimulationOptions& options, const ReportOrigin& origin,
+                         const Execution& execution);
 
 }  // namespace wscvt

@@ -30,10 +30,10 @@ std::string report_csv(const RemeshResult& result, const ReportOrigin& origin = 
 
 /// The same as a page for reading and printing (HTML), one file that refers to no other: pictures
 /// of scan and remesh and of the distance between them, histograms, descriptors, every option as
-/// one types it, the log; with an error target the error against the number of nodes. `scan` is the
-/// result's used_scan; empty for a surface from a formula. A page of a scan with a million faces
-/// takes 300 MB while it is made. Throws Error(Cancelled).
-std::string report_html(const RemeshResult& result, const IndexedMesh& scan,
-                        const ReportOrigin& origin, const Execution& execution);
+/// one types it, the log; with an error target the error against the number of nodes. The scan is
+/// the result's used_scan; without one (a surface from a formula) the page shows the remesh alone.
+/// A page of a scan with a million faces takes 300 MB while it is made. Throws Error(Cancelled).
+std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
+                        const Execution& execution);
 
 }  // namespace wscvt

@@ -56,11 +56,11 @@ void check_descriptor_report(const std::string& path, bool with_reference) {
   check(path, example_csv(with_reference));
 }
 
-void write_report(const std::string& path, const RemeshResult& result, const IndexedMesh& scan,
-                  const ReportOrigin& origin, const Execution& execution) {
+void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
+                  const Execution& execution) {
   switch (report_format(path)) {
     case ReportFormat::Page:
-      return write_file(path, report_html(result, scan, origin, execution));
+      return write_file(path, report_html(result, origin, execution));
     case ReportFormat::Document:
       return write_file(path, report_json(result, origin));
     case ReportFormat::Row:

@@ -33,10 +33,10 @@ void check_remesh_report(const std::string& path);
 void check_descriptor_report(const std::string& path, bool with_reference);
 
 /// Writes the report in the format of its name: report_html and report_json whole or not at all in
-/// the place of what was there, report_csv as a row more of a table (see append_to_table). `scan`
-/// is the result's used_scan; only a page looks at it. Throws Error as those do.
-void write_report(const std::string& path, const RemeshResult& result, const IndexedMesh& scan,
-                  const ReportOrigin& origin, const Execution& execution);
+/// the place of what was there, report_csv as a row more of a table (see append_to_table). A
+/// page alone looks at the result's used_scan. Throws Error as those do.
+void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
+                  const Execution& execution);
 
 /// The same for descriptors.
 void write_report(const std::string& path, const GrainMeasures& measures,

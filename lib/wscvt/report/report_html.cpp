@@ -55,10 +55,12 @@ Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
 
 }  // namespace
 
-std::string report_html(const RemeshResult& result, const IndexedMesh& scan,
-                        const ReportOrigin& origin, const Execution& execution) {
+std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
+                        const Execution& execution) {
   std::optional<ShownMesh> reference;
-  if (!scan.triangles.empty()) reference.emplace(ShownMesh{scan, "original"});
+  if (!result.used_scan.triangles.empty()) {
+    reference.emplace(ShownMesh{result.used_scan, "original"});
+  }
   const PageFigures figures = page_figures(reference, {result.mesh, "remesh"}, execution);
 
   const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
