@@ -125,9 +125,10 @@ TEST(Execution, ProgressNeverGoesBackWithinARun) {
   whole.report(0.0, "first run");
   whole.part(0.2, 0.6).report(1.0, "stage");
   whole.part(0.2, 0.6).report(0.5, "a stage that runs again");
+  whole.part(0.0, 0.0).report(0.0, "a stage without a share");
   whole.report(1.0, "done");
   whole.report(0.0, "second run");
-  EXPECT_EQ(fractions, (std::vector<double>{0.0, 0.6, 0.6, 1.0, 0.0}));
+  EXPECT_EQ(fractions, (std::vector<double>{0.0, 0.6, 0.6, 0.6, 1.0, 0.0}));
 }
 
 TEST(Execution, MoreThreadsThanTheMachineHasAreNoReasonToWrite) {

@@ -139,9 +139,10 @@ void Execution::report(double fraction, const std::string& stage) const {
   double whole = progress_begin_ + inside * (progress_end_ - progress_begin_);
   {
     // How long a stage takes is an estimate, and stages that run again begin anew: what is shown
-    // never goes back, but for a new beginning.
+    // never goes back, but for a new beginning. A part without a share is none, wherever it lies.
     const std::lock_guard<std::mutex> lock(arena_->mutex);
-    if (whole > 0.0) whole = std::max(whole, arena_->fraction);
+    const bool begins = whole == 0.0 && progress_end_ > progress_begin_;
+    if (!begins) whole = std::max(whole, arena_->fraction);
     arena_->fraction = whole;
     arena_->stage = stage;
   }
