@@ -22,7 +22,8 @@ class SphereTriangulation {
   /// give the same arrays. Throws Error(NumericalFailure) when the seeds do not surround the
   /// origin, when two coincide, when a seed is hidden, that is, its weight is so low that it has no
   /// cell, or when a weight's absolute value is above 200 steradian or not a number; and
-  /// Error(InvalidInput) for fewer than 4 seeds or another number of weights.
+  /// Error(InvalidInput) for fewer than 4 seeds, another number of weights or a seed that is not
+  /// finite; Error(Cancelled). The same on any number of threads, as everything here.
   explicit SphereTriangulation(const std::vector<Vector3>& seeds,
                                const std::vector<double>& weights = {},
                                const Execution& execution = Execution(1));
@@ -34,8 +35,9 @@ class SphereTriangulation {
                                                       const Execution& execution = Execution(1));
 
   /// Takes over given triangles. Throws Error(InvalidInput) unless they are 2 N - 4 triangles,
-  /// counter-clockwise on the sphere, that form a closed 2-manifold on all N seeds.
-  SphereTriangulation(const std::vector<Vector3>& seeds, const std::vector<Triangle>& triangles,
+  /// counter-clockwise on the sphere, that form a closed 2-manifold on all N seeds;
+  /// Error(Cancelled).
+  SphereTriangulation(const std::vector<Vector3>& seeds, std::vector<Triangle> triangles,
                       const Execution& execution = Execution(1));
 
   std::size_t vertex_count() const { return first_half_edge_.size(); }
@@ -100,7 +102,7 @@ class SphereTriangulation {
                     const Execution& execution, double smallest_determinant = 0.0);
   bool keeps_determinants(std::int32_t half_edge, const std::vector<Vector3>& seeds,
                           double smallest) const;
-  void set_triangles(const std::vector<Triangle>& triangles, std::size_t vertices,
+  void set_triangles(std::vector<Triangle> triangles, std::size_t vertices,
                      const Execution& execution);
 
   // Three parallel arrays instead of a half-edge structure: triangle t holds its corners, and its

@@ -148,7 +148,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
     if (options.metric == RelaxationMetric::Surface) model.radii(result.seeds, execution, radii);
     Tessellation fine = subdivide(result.seeds, radii, result.triangulation);
     insert_seeds(fine, sizes[level] - static_cast<int>(fine.seeds.size()));
-    SphereTriangulation triangulation(fine.seeds, fine.triangles, execution);
+    SphereTriangulation triangulation(fine.seeds, std::move(fine.triangles), execution);
     // What happened on any level is told; displacements and outcome are those of the last.
     const int rebuilds = result.report.rebuilds;
     const double weight_scale = result.report.weight_scale;

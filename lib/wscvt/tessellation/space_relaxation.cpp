@@ -418,7 +418,7 @@ SpaceTessellation relax_in_space(std::vector<Vector3> start, int count,
     std::vector<Triangle> triangles;
     subdivide(surface, result, execution, seeds, triangles);
     insert_seeds(surface, sizes[level] - static_cast<int>(seeds.size()), seeds, triangles);
-    SphereTriangulation triangulation(seeds, triangles, execution);
+    SphereTriangulation triangulation(seeds, std::move(triangles), execution);
     result = relax_level(level, std::move(seeds), std::move(triangulation));
   }
   result.report.coarser_levels = std::move(coarser);
