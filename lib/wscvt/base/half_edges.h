@@ -56,7 +56,8 @@ struct HalfEdges {
 };
 
 /// Finds the opposite half-edges, in time linear in the triangles whatever the valences of a planar
-/// mesh. Indices must lie in [0, vertices), which is not checked.
+/// mesh. Indices must lie in [0, vertices), which is not checked. The same on any number of
+/// threads. Throws Error(Cancelled).
 HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
                           const Execution& execution = Execution(1));
 

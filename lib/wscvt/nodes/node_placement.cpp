@@ -179,6 +179,7 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
                              }
                            });
   };
+  // Twice, since a column begins where those before it end.
   for_each_column([&](std::size_t v, const auto& column) {
     starts[v + 1] = static_cast<int>(column.size());
     for (const std::int32_t* c = corners.begin(v); c != corners.end(v); ++c) {

@@ -78,7 +78,7 @@ bool triangles_meet(const std::vector<Vector3>& points, const Triangle& a, const
   const auto is_in = [](const Triangle& t, std::int32_t v) {
     return std::find(t.begin(), t.end(), v) != t.end();
   };
-  /// The corners of a triangle, from one on that the condition holds for.
+  // The corners of a triangle, from one on that the condition holds for.
   const auto turned = [](Triangle t, const auto& is_first) {
     std::rotate(t.begin(), std::find_if(t.begin(), t.end(), is_first), t.end());
     return t;

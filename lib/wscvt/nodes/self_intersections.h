@@ -16,7 +16,7 @@ using TrianglePair = std::pair<std::int32_t, std::int32_t>;
 /// The pairs of triangles that meet elsewhere than in the corners and edges they share, in
 /// ascending order. Exact: bounding boxes sort out the candidates and exact predicates decide, so
 /// that none is missed and none invented. Triangles without area count as pairs with themselves,
-/// and with no other. Throws Error(Cancelled).
+/// and with no other. The same on any number of threads. Throws Error(Cancelled).
 std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh,
                                              const Execution& execution = Execution(1));
 

@@ -67,7 +67,7 @@ struct ReportingVisitor : parts::Wrapping_default_visitor {
   const Execution& execution;
 };
 
-/// As CGAL::alpha_wrap_3, with the same result, but reports.
+/// The steps of CGAL::alpha_wrap_3 on a soup of triangles, with reports between them.
 Wrap alpha_wrap(const std::vector<Kernel::Point_3>& points, const std::vector<Triangle>& triangles,
                 double alpha, double offset, const Execution& execution) {
   SparselyHintedOracle oracle(alpha);
