@@ -670,6 +670,38 @@ TEST(Remesh, PointsAreFittedWhenChosen) {
   EXPECT_FALSE(has_warning(scan, "points"));
 }
 
+TEST(Remesh, PointsBehindOthersAreAdvisedAnEnvelopeWhichTakesThem) {
+  // Points of a ball, and strays inside it as scanners leave them.
+  IndexedMesh cloud = {fibonacci_lattice(4000), {}};
+  for (const Vector3& p : fibonacci_lattice(400)) cloud.points.push_back(0.6 * p);
+  RemeshOptions options = options_of(300, Weighting::Area);
+  options.points = true;
+  const RemeshResult spiky = remesh(cloud, options, Execution(1));
+  EXPECT_TRUE(has_warning(spiky, "Take their envelope")) << spiky.steep_share;
+  options.envelope.opening_percent = 10.0;  // the advice
+  const RemeshResult wrapped = remesh(cloud, options, Execution(1));
+  expect_promises(wrapped, 300);
+  EXPECT_FALSE(has_warning(wrapped, "Take their envelope"));
+  EXPECT_TRUE(has_warning(wrapped, "taken by its envelope"));
+  EXPECT_EQ(wrapped.input.input_vertices, cloud.points.size());
+  // Faces as wide as the opening, .35, cut off up to .35^2 / 6 of the radius.
+  EXPECT_NEAR(wrapped.input.volume / (4.0 * test::pi / 3.0), 1.0, 0.06);
+
+  // Two on one ray have no surface at all, and are told the same.
+  options.envelope.opening_percent = 0.0;
+  try {
+    remesh({{Vector3(1, 0, 0), Vector3(2, 0, 0), Vector3(-1, 0, 0), Vector3(-2, 0, 0),
+             Vector3(0, 1, 0), Vector3(0, -1, 0), Vector3(0, 0, 1), Vector3(0, 0, -1)},
+            {}},
+           options, Execution(1));
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
+    EXPECT_NE(std::string(error.what()).find("Take their envelope"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Remesh, ProgressNeverGoesBackNorFallsSilent) {
   const IndexedMesh scan = test::lumpy(5);
   const auto progress_of = [&](RemeshOptions options) {

@@ -77,11 +77,18 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   PreparedGrain prepared;
   const std::size_t points = scan.points.size();
   const std::size_t faces = scan.triangles.size();
-  scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.3));
+  const bool wraps = options.envelope.opening_percent > 0.0;
+  if (wraps && options.points) {
+    // Not of a surface made of the points by their rays: the envelope sees what lies behind others.
+    scan = {different_points(std::move(scan.points), execution.part(0.0, 0.3)), {}};
+  } else {
+    scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.3));
+  }
   const std::size_t different = scan.points.size();
   prepared.precision_warning = precision_warning(scan);
-  const bool wraps = options.envelope.opening_percent > 0.0;
-  if (wraps) scan = envelope_of(scan, options.envelope, execution.part(0.3, 0.35));
+  if (wraps) {
+    scan = envelope_of(std::move(scan), options.envelope, execution.part(0.3, 0.35));
+  }
   CheckedMesh checked = check_mesh(std::move(scan), options.check,
                                    execution.part(options.points || wraps ? 0.35 : 0.0, 0.4));
   if (options.measures.used_scan) prepared.used_scan = checked.mesh;

@@ -16,5 +16,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const wscvt::test::RandomBody scan = wscvt::test::random_scan(choices);
   const std::string broken = wscvt::test::broken_check(scan.mesh, options);
   promise(broken.empty(), (scan.description + ": " + broken).c_str());
+  // Drawn last, so that older inputs keep what they meant. Coarse, because fine ones take seconds.
+  if (!choices.one_in(4)) return 0;
+  const std::string torn =
+      wscvt::test::broken_envelope(scan.mesh, choices.one_in(8) ? 50.0 : choices.real(10.0, 50.0));
+  promise(torn.empty(), (scan.description + ": " + torn).c_str());
   return 0;
 }

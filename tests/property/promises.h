@@ -17,6 +17,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
+#include "wscvt/scan/envelope.h"
 #include "wscvt/scan/mesh_check.h"
 
 /// What the library promises for every input, as checks that name what is broken; an empty sentence
@@ -123,6 +124,27 @@ inline std::string broken_check(const IndexedMesh& input, const MeshCheckOptions
     const CheckedMesh two = check_mesh(input, options, Execution(2));
     if (two.mesh.points != checked.mesh.points || two.mesh.triangles != checked.mesh.triangles) {
       return "two threads check differently from one";
+    }
+  } catch (const Error& error) {
+    return broken_refusal(error);
+  }
+  return "";
+}
+
+/// The envelope of anything is a surface about a volume, or refused.
+inline std::string broken_envelope(const IndexedMesh& input, double opening_percent) {
+  try {
+    const EnvelopeOptions options = {opening_percent};
+    const IndexedMesh envelope = envelope_of(input, options, Execution(1));
+    const std::string broken = broken_surface(envelope);
+    // Of bodies apart from each other there is one envelope each.
+    if (!broken.empty() && broken != "several parts") return "envelope: " + broken;
+    for (const Vector3& p : envelope.points) {
+      if (!p.allFinite()) return "envelope: a coordinate that is not finite";
+    }
+    const IndexedMesh again = envelope_of(input, options, Execution(2));
+    if (again.points != envelope.points || again.triangles != envelope.triangles) {
+      return "the same envelope twice differs";
     }
   } catch (const Error& error) {
     return broken_refusal(error);

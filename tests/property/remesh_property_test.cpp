@@ -70,6 +70,21 @@ TEST_P(Promises, AreKeptByTheCheckOfDamagedBodiesAndSoups) {
   });
 }
 
+TEST_P(Promises, AreKeptByEnvelopesOfDamagedBodiesAndSoups) {
+  for_each_seed(400, [&](std::uint64_t seed) {
+    test::Choices choices(seed + 2000000011U);
+    test::RandomBody body = test::random_scan(choices);
+    if (choices.one_in(4)) body.mesh.triangles.clear();
+    std::string broken;
+    try {
+      broken = test::broken_envelope(body.mesh, choices.real(10.0, 50.0));
+    } catch (const std::exception& other) {
+      broken = std::string("a foreign exception: ") + other.what();
+    }
+    EXPECT_EQ(broken, "") << "seed " << seed << ": " << body.description;
+  });
+}
+
 INSTANTIATE_TEST_SUITE_P(, Promises, ::testing::Range(0, hands));
 
 }  // namespace

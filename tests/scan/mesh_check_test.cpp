@@ -10,12 +10,14 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <regex>
 #include <set>
 #include <string>
 
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/scan/envelope.h"
 
 namespace wscvt {
 namespace {
@@ -398,6 +400,38 @@ TEST(MeshCheck, RefusesLargeHolesUntilToldToFillThem) {
   EXPECT_NEAR(checked.report.filled_area_share, 1.0 / 3.0, 0.02);
   // The rim runs up and down about the equator by half a row of faces, 0.04.
   EXPECT_NEAR(checked.report.volume, 2.0 * test::pi / 3.0, 0.04 * test::pi);
+}
+
+/// A ball without its cap above a height.
+IndexedMesh without_cap(double height) {
+  IndexedMesh mesh = sphere(4);
+  const auto in_cap = [&](const Triangle& t) {
+    return mesh.points[t[0]].z() + mesh.points[t[1]].z() + mesh.points[t[2]].z() > 3.0 * height;
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), in_cap),
+                       mesh.triangles.end());
+  return mesh;
+}
+
+TEST(MeshCheck, AdvisesAnEnvelopeThatClosesTheHolesAndOnlyWhereOneDoes) {
+  // A hole .49 wide; the box's diagonal is 3.4.
+  MeshCheckOptions options;
+  options.mended_area_limit_percent = 1.0;
+  const IndexedMesh small = without_cap(0.97);
+  std::string sentence = refusal(small, options);
+  std::smatch number;
+  ASSERT_TRUE(std::regex_search(sentence, number, std::regex("envelope of ([0-9]+) %")))
+      << sentence;
+  const double percent = std::stod(number[1]);
+  EXPECT_LE(percent, 20.0);
+  const IndexedMesh closed = envelope_of(small, {percent}, Execution(1));
+  const MeshCheckReport report = check(closed).report;
+  EXPECT_EQ(report.genus, 0);
+  // Of a hole that is not closed the wrap takes both sides, which is next to no volume.
+  EXPECT_NEAR(report.volume, 4.0 * test::pi / 3.0, 0.2 * 4.0 * test::pi / 3.0);
+
+  sentence = refusal(without_cap(0.5));
+  EXPECT_EQ(sentence.find("envelope"), std::string::npos) << sentence;
 }
 
 TEST(MeshCheck, ClosesAnySurfaceWithFacesMissing) {

@@ -5,13 +5,13 @@
 
 namespace wscvt {
 
-// What refusals of scans with openings advise; tests follow it through MeshLab.
-
-/// The filter of MeshLab that closes openings, by its menu and with its settings.
-std::string closing_filter();
+// What refusals and warnings about scans with openings advise; tests follow it.
 
 /// Where the envelope is to be had: its option of the program, and for MeshLab, whose filter has
-/// none, closing_filter().
+/// none, a filter of its own by its menu and with its settings.
 std::string where_envelopes_are();
+
+/// A sentence for points that have no one radius in each direction.
+std::string envelope_of_points_advice();
 
 }  // namespace wscvt

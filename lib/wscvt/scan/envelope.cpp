@@ -11,11 +11,15 @@
 #include <array>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/scan/coordinates.h"
+#include "wscvt/scan/point_cloud.h"
 #include "wscvt/scan/reporting_split.h"
+#include "wscvt/scan/usable_faces.h"
 
 namespace wscvt {
 
@@ -27,19 +31,22 @@ using Wrap = CGAL::Surface_mesh<Kernel::Point_3>;
 // What CGAL::alpha_wrap_3 is made of. It takes seconds to minutes, and the function itself cannot
 // be stopped while it makes its tree of the faces, which at a million vertices takes a second.
 namespace parts = CGAL::Alpha_wraps_3::internal;
-using Oracle = parts::Triangle_soup_oracle<Kernel>;
+// Both search for what is nearest from one of some points of the scan. CGAL takes one of every
+// face, and then sorts them all at once, which at a million vertices nothing can stop for half a
+// second.
 
-/// Searches for the nearest face from one of some points of the scan. CGAL takes one of every face,
-/// and then sorts them all at once, which at a million vertices nothing can stop for half a second.
-struct SparselyHintedOracle : Oracle {
-  using Oracle::Oracle;
+std::size_t hint_stride(std::size_t size) {
+  constexpr std::size_t most = 100000;
+  return 1 + size / most;
+}
+
+struct FaceOracle : parts::Triangle_soup_oracle<Kernel> {
+  using parts::Triangle_soup_oracle<Kernel>::Triangle_soup_oracle;
 
   /// Once the tree is built.
   void choose_hints() {
-    constexpr std::size_t most = 100000;
-    const std::size_t stride = 1 + tree().size() / most;
     std::vector<typename Splitter::AABB_tree::Point_and_primitive_id> hints;
-    for (std::size_t i = 0; i < tree().size(); i += stride) {
+    for (std::size_t i = 0; i < tree().size(); i += hint_stride(tree().size())) {
       const typename Splitter::ID id(i, this->m_dppmb.range()[i]);
       hints.emplace_back(get(this->m_rppm, id), id);
     }
@@ -47,7 +54,27 @@ struct SparselyHintedOracle : Oracle {
   }
 
  private:
-  using Splitter = parts::AABB_tree_splitter_traits<Kernel::Point_3, Oracle::Geom_traits>;
+  using Splitter = parts::AABB_tree_splitter_traits<Kernel::Point_3, Geom_traits>;
+};
+
+struct PointOracle : parts::Point_set_oracle<Kernel> {
+  /// The points must outlive it.
+  explicit PointOracle(const std::vector<Kernel::Point_3>& points) : points_(&points) {
+    tree().insert(points.begin(), points.end());
+  }
+
+  /// Once the tree is built.
+  void choose_hints() {
+    using Tree = std::decay_t<decltype(tree())>;
+    std::vector<typename Tree::Point_and_primitive_id> hints;
+    for (std::size_t i = 0; i < points_->size(); i += hint_stride(points_->size())) {
+      hints.emplace_back((*points_)[i], points_->begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    tree().accelerate_distance_queries(hints.begin(), hints.end());
+  }
+
+ private:
+  const std::vector<Kernel::Point_3>* points_;
 };
 
 constexpr const char* stage = "Wrapping the scan";
@@ -67,22 +94,17 @@ struct ReportingVisitor : parts::Wrapping_default_visitor {
   const Execution& execution;
 };
 
-/// The steps of CGAL::alpha_wrap_3 on a soup of triangles, with reports between them.
-Wrap alpha_wrap(const std::vector<Kernel::Point_3>& points, const std::vector<Triangle>& triangles,
-                double alpha, double offset, const Execution& execution) {
-  SparselyHintedOracle oracle(alpha);
-  std::vector<std::array<std::size_t, 3>> faces;
-  for (std::size_t begin = 0; begin < triangles.size(); begin += faces_a_report) {
-    execution.report(0.0, stage);
-    faces.clear();
-    for (std::size_t f = begin; f < std::min(triangles.size(), begin + faces_a_report); ++f) {
-      const Triangle& t = triangles[f];
-      faces.push_back({static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
-                       static_cast<std::size_t>(t[2])});
-    }
-    oracle.add_triangle_soup(points, faces);
-  }
+[[noreturn]] void refuse_nothing() {
+  throw Error(ErrorCode::InvalidInput,
+              "There is nothing to put an envelope about; give a mesh whose faces have an area, or "
+              "points with an extent, and an opening above 0.");
+}
+
+/// The steps of CGAL::alpha_wrap_3, with reports between them.
+template <class Oracle>
+Wrap alpha_wrap(Oracle oracle, double alpha, double offset, const Execution& execution) {
   auto& tree = oracle.tree();
+  if (tree.empty()) refuse_nothing();  // CGAL leaves out faces without area
   using Traits = typename std::decay_t<decltype(tree)>::AABB_traits;
   tree.custom_build(tree.traits().compute_bbox_object(),
                     ReportingSplit<Traits>(tree.traits(), execution, stage));
@@ -97,7 +119,33 @@ Wrap alpha_wrap(const std::vector<Kernel::Point_3>& points, const std::vector<Tr
   parts::Alpha_wrapper_3<Oracle>{oracle}(alpha, offset, wrap, parameters,
                                          CGAL::parameters::default_values());
 #endif
+  execution.report(0.9, stage);
+  // The wrap stands off, so that it has nothing of the scan's flaws; back at the scan its volume is
+  // not larger by that. A tenth stays, because vertices about one corner come from one point there.
+  for (const auto v : wrap.vertices()) {
+    const Kernel::Vector_3 way = oracle.closest_point(wrap.point(v)) - wrap.point(v);
+    const double length = std::sqrt(way.squared_length());
+    if (length > 0.0) wrap.point(v) += 0.9 * std::min(1.0, offset / length) * way;
+  }
   return wrap;
+}
+
+FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
+                     const std::vector<Triangle>& triangles, double alpha,
+                     const Execution& execution) {
+  FaceOracle oracle(alpha);
+  std::vector<std::array<std::size_t, 3>> faces;
+  for (std::size_t begin = 0; begin < triangles.size(); begin += faces_a_report) {
+    execution.report(0.0, stage);
+    faces.clear();
+    for (std::size_t f = begin; f < std::min(triangles.size(), begin + faces_a_report); ++f) {
+      const Triangle& t = triangles[f];
+      faces.push_back({static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                       static_cast<std::size_t>(t[2])});
+    }
+    oracle.add_triangle_soup(points, faces);
+  }
+  return oracle;
 }
 
 /// Of the opening: nearer to the scan the wrap takes several times as long, and the remesher brings
@@ -116,17 +164,23 @@ void check_envelope_options(const EnvelopeOptions& options) {
   }
 }
 
-IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
+IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
                         const Execution& execution) {
   check_envelope_options(options);
+  const bool of_points = scan.triangles.empty();
   Eigen::AlignedBox3d box;
-  for (const Triangle& t : scan.triangles) {
-    for (const std::int32_t v : t) box.extend(scan.points[v]);
+  if (of_points) {
+    scan.points = different_points(std::move(scan.points), execution);
+    for (const Vector3& p : scan.points) box.extend(p);
+  } else {
+    keep_usable_faces(scan, execution);
+    for (const Triangle& t : scan.triangles) {
+      for (const std::int32_t v : t) box.extend(scan.points[v]);
+    }
   }
-  if (!(options.opening_percent > 0.0) || box.isEmpty() || !(box.diagonal().norm() > 0.0)) {
-    throw Error(ErrorCode::InvalidInput,
-                "There is nothing to put an envelope about; give a mesh with faces and an opening "
-                "above 0.");
+  check_scan_size(box.sizes());
+  if (!(options.opening_percent > 0.0) || !(box.diagonal().norm() > 0.0)) {
+    refuse_nothing();
   }
   execution.report(0.0, stage);
   // In units of the diagonal about the middle: digits do not depend on where and how large it is.
@@ -140,8 +194,11 @@ IndexedMesh envelope_of(const IndexedMesh& scan, const EnvelopeOptions& options,
   }
   const double opening = 0.01 * options.opening_percent;
   // CGAL's alpha is the radius of the empty balls that the outside is made of.
-  const Wrap wrap =
-      alpha_wrap(points, scan.triangles, 0.5 * opening, offset_share * opening, execution);
+  const double alpha = 0.5 * opening;
+  const double offset = offset_share * opening;
+  const Wrap wrap = of_points ? alpha_wrap(PointOracle(points), alpha, offset, execution)
+                              : alpha_wrap(oracle_of(points, scan.triangles, alpha, execution),
+                                           alpha, offset, execution);
   execution.report(1.0, stage);
   IndexedMesh result;
   std::vector<std::int32_t> number(wrap.number_of_vertices() + wrap.number_of_removed_vertices());

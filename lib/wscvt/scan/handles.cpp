@@ -309,8 +309,9 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
               format_number(handle.place.z()) + "), above the limit of " +
               format_number(options.length_limit) +
               ": too wide for a flaw of the scanner. A ring has a real hole and cannot be mapped "
-              "to the sphere. Fill the hole, e.g. in MeshLab by " +
-              closing_filter() + "; raise the limit above that length to have it cut there (--" +
+              "to the sphere. Take an envelope whose opening is wider than the hole (" +
+              where_envelopes_are() +
+              "); raise the limit above that length to have it cut there (--" +
               std::string(handle_length_option.key) +
               " in the program); or, where the centroid lies inside the grain, take the radial "
               "map, which goes past it.");

@@ -22,6 +22,9 @@ using Edge = std::pair<std::int32_t, std::int32_t>;
 
 Edge edge_of(std::int32_t a, std::int32_t b) { return std::minmax(a, b); }
 
+/// The vertex behind the i-th along the rim.
+std::int32_t after(const Rim& rim, std::size_t i) { return rim[i + 1 < rim.size() ? i + 1 : 0]; }
+
 /// Cuts a closed walk that passes vertices more than once into walks that do not.
 void append_simple(const Rim& walk, std::vector<Rim>& rims) {
   Rim open;
@@ -118,6 +121,22 @@ std::set<Edge> edges_between(const IndexedMesh& mesh, const std::vector<Rim>& ri
   return edges;
 }
 
+/// The triangles that fill a rim; where its vertices allow none, about one more at its centroid.
+std::vector<Triangle> filling(IndexedMesh& mesh, const Rim& rim, const std::set<Edge>& taken) {
+  std::vector<Triangle> faces = triangulate(mesh, rim, taken);
+  if (!faces.empty()) {
+    for (Triangle& t : faces) t = {rim[index(t[0])], rim[index(t[1])], rim[index(t[2])]};
+    return faces;
+  }
+  Vector3 centroid = Vector3::Zero();
+  for (const std::int32_t v : rim) centroid += mesh.points[index(v)] - mesh.points[index(rim[0])];
+  centroid = mesh.points[index(rim[0])] + centroid / static_cast<double>(rim.size());
+  const auto middle = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.push_back(centroid);
+  for (std::size_t i = 0; i < rim.size(); ++i) faces.push_back({rim[i], after(rim, i), middle});
+  return faces;
+}
+
 }  // namespace
 
 FilledHoles fill_holes(IndexedMesh& mesh, const std::vector<std::int32_t>& rings) {
@@ -125,34 +144,24 @@ FilledHoles fill_holes(IndexedMesh& mesh, const std::vector<std::int32_t>& rings
   const std::vector<Rim> rims = find_rims(mesh, rings);
   result.holes = rims.size();
   std::set<Edge> taken = edges_between(mesh, rims);
-  const std::size_t first = mesh.triangles.size();
+  const std::size_t vertices = mesh.points.size();
   for (const Rim& rim : rims) {
-    std::vector<Triangle> places = triangulate(mesh, rim, taken);
-    if (places.empty()) {
-      Vector3 centroid = Vector3::Zero();
-      for (const std::int32_t v : rim)
-        centroid += mesh.points[index(v)] - mesh.points[index(rim[0])];
-      centroid = mesh.points[index(rim[0])] + centroid / static_cast<double>(rim.size());
-      const auto middle = static_cast<std::int32_t>(mesh.points.size());
-      mesh.points.push_back(centroid);
-      ++result.vertices;
-      for (std::size_t i = 0; i < rim.size(); ++i) {
-        mesh.triangles.push_back({rim[i], rim[i + 1 < rim.size() ? i + 1 : 0], middle});
-      }
-      continue;
-    }
-    for (const Triangle& t : places) {
-      const Triangle face = {rim[index(t[0])], rim[index(t[1])], rim[index(t[2])]};
+    double area = 0.0;
+    for (const Triangle& face : filling(mesh, rim, taken)) {
       mesh.triangles.push_back(face);
+      ++result.faces;
+      area += triangle_area(mesh.points[index(face[0])], mesh.points[index(face[1])],
+                            mesh.points[index(face[2])]);
       for (std::size_t k = 0; k < 3; ++k) taken.insert(edge_of(face[k], face[following(k)]));
     }
+    double length = 0.0;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      length += (mesh.points[index(after(rim, i))] - mesh.points[index(rim[i])]).norm();
+    }
+    result.area += area;
+    if (length > 0.0) result.widest = std::max(result.widest, 4.0 * area / length);
   }
-  result.faces = mesh.triangles.size() - first;
-  for (std::size_t f = first; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    result.area +=
-        triangle_area(mesh.points[index(t[0])], mesh.points[index(t[1])], mesh.points[index(t[2])]);
-  }
+  result.vertices = mesh.points.size() - vertices;
   return result;
 }
 

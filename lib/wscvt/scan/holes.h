@@ -14,7 +14,8 @@ struct FilledHoles {
   std::size_t holes = 0;  ///< rims that pass no vertex twice
   std::size_t faces = 0;
   std::size_t vertices = 0;
-  double area = 0.0;  ///< of the faces added, length^2
+  double area = 0.0;    ///< of the faces added, length^2
+  double widest = 0.0;  ///< largest 4 area / rim: the diameter of a round hole, length
 };
 
 /// Closes every hole of a consistently oriented surface on whose edges at most two faces meet. A

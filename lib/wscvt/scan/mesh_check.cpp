@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,14 +22,12 @@
 #include "wscvt/scan/holes.h"
 #include "wscvt/scan/manifold_edges.h"
 #include "wscvt/scan/touching_vertices.h"
+#include "wscvt/scan/usable_faces.h"
 #include "wscvt/scan/weld.h"
 
 namespace wscvt {
 
 namespace {
-
-/// Large enough that starting a block costs nothing.
-constexpr std::size_t block_size = 16384;
 
 /// Below this volume / area^1.5 (0.094 for a sphere, a third of the thickness for a plate) the
 /// surface is a sheet within rounding.
@@ -43,76 +40,6 @@ constexpr double flat_limit = 1e-9;
 /// "1 face", "2 faces".
 std::string count_of(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-/// First index in [0, count) for which `wrong` holds, or count. The first and not any, so that the
-/// message names the same one on any number of threads.
-template <class Predicate>
-std::size_t first_wrong(std::size_t count, const Execution& execution, const Predicate& wrong) {
-  std::vector<std::size_t> first((count + block_size - 1) / block_size, count);
-  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (wrong(i)) {
-        first[begin / block_size] = i;
-        break;
-      }
-    }
-  });
-  return first.empty() ? count : *std::min_element(first.begin(), first.end());
-}
-
-void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
-  const std::size_t vertices = mesh.points.size();
-  const std::size_t faces = mesh.triangles.size();
-  if (vertices == 0) refuse("The mesh is empty: it has no vertices; load the scan of a grain.");
-  if (faces == 0) {
-    refuse(
-        "The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
-        " but no faces, so it encloses no volume; remesh it as a point cloud first, which makes a "
-        "closed surface of the points.");
-  }
-  constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
-  if (faces > limit || vertices > limit) {
-    refuse("The mesh has " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
-           " faces, more than the " + std::to_string(limit) +
-           " that can be numbered; reduce the scan first.");
-  }
-  const std::size_t bad_face = first_wrong(faces, execution, [&](std::size_t f) {
-    const Triangle& t = mesh.triangles[f];
-    return std::any_of(t.begin(), t.end(), [&](std::int32_t v) {
-      return v < 0 || static_cast<std::size_t>(v) >= vertices;
-    });
-  });
-  if (bad_face < faces) {
-    const Triangle& t = mesh.triangles[bad_face];
-    refuse("Face " + std::to_string(bad_face) + " names the vertices " + std::to_string(t[0]) +
-           ", " + std::to_string(t[1]) + " and " + std::to_string(t[2]) + ", but the mesh has " +
-           std::to_string(vertices) + "; the file or the program that made it is at fault.");
-  }
-}
-
-/// Drops the faces with a corner at no finite position.
-void drop_lost_faces(IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
-  const std::size_t vertices = mesh.points.size();
-  const std::size_t first =
-      first_wrong(vertices, execution, [&](std::size_t i) { return !mesh.points[i].allFinite(); });
-  if (first == vertices) return;
-  const auto lost = [&](const Triangle& t) {
-    return std::any_of(t.begin(), t.end(),
-                       [&](std::int32_t v) { return !mesh.points[index(v)].allFinite(); });
-  };
-  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), lost),
-                       mesh.triangles.end());
-  report.lost_faces = report.input_faces - mesh.triangles.size();
-  if (mesh.triangles.empty()) {
-    const Vector3& p = mesh.points[first];
-    const auto coordinate = [](double value) {
-      return std::isnan(value) ? "nan" : format_number(value);
-    };
-    refuse("All faces of the mesh have a corner that is not at a finite position, e.g. vertex " +
-           std::to_string(first) + " at (" + coordinate(p.x()) + ", " + coordinate(p.y()) + ", " +
-           coordinate(p.z()) + "); the file or the program that made it is at fault.");
-  }
 }
 
 /// A component that is not kept.
@@ -193,8 +120,19 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   }
 }
 
-/// Refuses when more area was mended than allowed.
-void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
+/// What to do about openings as wide as that share of the bounding box's diagonal, as part of a
+/// sentence: nothing where an envelope of that opening would follow the scan no more.
+std::string envelope_advice(double widest_share) {
+  constexpr double coarsest_percent = 20.0;
+  // A ball as wide as the hole still sinks into it a little.
+  const double percent = std::max(2.0, std::ceil(120.0 * widest_share));
+  if (percent > coarsest_percent) return "";
+  return ", take its envelope of " + format_number(percent) + " % (" + where_envelopes_are() + "),";
+}
+
+/// Refuses when more area was mended than allowed. `widest_share`: of the holes, of the bounding
+/// box's diagonal.
+void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, double widest_share,
                    const MeshCheckReport& report) {
   const double mended = report.flap_area_share + report.filled_area_share;
   const double limit = 0.01 * options.mended_area_limit_percent;
@@ -213,8 +151,8 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges,
          "; raise the limit of the area that may be mended above " + format_percent(mended) +
          " (--" + std::string(mended_area_limit_option.key) +
          " in the program, Mend limit in the filter with all parameters) and check the result "
-         "against the scan, take its envelope (" +
-         where_envelopes_are() + "), or scan the grain again.");
+         "against the scan" +
+         envelope_advice(widest_share) + " or scan the grain again.");
 }
 
 }  // namespace
@@ -259,12 +197,13 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.input_vertices = mesh.points.size();
   report.input_faces = mesh.triangles.size();
   execution.report(0.0, stage);
-  refuse_unusable(mesh, execution);
-  drop_lost_faces(mesh, execution, report);
+  report.lost_faces = keep_usable_faces(mesh, execution);
+  double diagonal = 0.0;
   {
     const Box box = box_of_faces(mesh, execution);
     check_scan_size(box.high - box.low);
-    report.weld_tolerance = options.weld_tolerance * (box.high - box.low).norm();
+    diagonal = (box.high - box.low).norm();
+    report.weld_tolerance = options.weld_tolerance * diagonal;
     const Weld weld = find_equal_points(mesh.points, box, report.weld_tolerance, execution);
     const DegenerateFaces degenerate = drop_degenerate_faces(mesh, weld.first);
     report.welded_vertices = weld.welded;
@@ -314,8 +253,8 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   if (!components.list[main].orientable) {
     refuse(std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
            " is not orientable: its faces cannot all be turned to face outward, so they enclose "
-           "nothing; make a surface of two sides of it first, e.g. in MeshLab by " +
-           closing_filter() + ".");
+           "nothing; take its envelope, which has two sides (" +
+           where_envelopes_are() + "); 5 % of the bounding box is a start.");
   }
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;
@@ -340,7 +279,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.folded_area_share = duplicates.folded_area / report.area;
   report.flap_area_share = flap_area / report.area;
   report.filled_area_share = filled.area / report.area;
-  judge_mending(options, boundary_edges, report);
+  judge_mending(options, boundary_edges, filled.widest / diagonal, report);
   judge_others(mesh, others, options, execution, report);
   result.mesh = std::move(mesh);
   execution.report(1.0, stage);

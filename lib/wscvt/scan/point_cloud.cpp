@@ -8,6 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/scan/closing_advice.h"
 #include "wscvt/scan/coordinates.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
@@ -19,7 +20,7 @@ constexpr const char* stage = "Making a surface of the points";
 
 }  // namespace
 
-IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution) {
+std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution) {
   execution.report(0.0, stage);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
@@ -40,8 +41,12 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
                                              "least 4.");
   }
   check_scan_size(points);
+  return points;
+}
+
+IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution) {
   IndexedMesh mesh;
-  mesh.points = std::move(points);
+  mesh.points = different_points(std::move(points), execution);
   Vector3 centre = Vector3::Zero();
   for (const Vector3& p : mesh.points) centre += p / static_cast<double>(mesh.points.size());
   // The points' mean leans to where they are dense; the second round stands on the volume's.
@@ -51,7 +56,15 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
       directions[i] = (mesh.points[i] - centre).normalized();
     }
     const Execution part = execution.part(0.5 * round, 0.5 * (round + 1));
-    mesh.triangles = SphereTriangulation(directions, std::vector<double>(), part).triangles();
+    const auto triangulation =
+        SphereTriangulation::try_build(directions, std::vector<double>(), part);
+    if (!triangulation) {
+      throw Error(ErrorCode::NumericalFailure,
+                  "No surface with one radius in each direction goes through the points: they do "
+                  "not surround their centre, or two lie on one ray from it. " +
+                      envelope_of_points_advice());
+    }
+    mesh.triangles = triangulation->triangles();
     centre += mesh_sums(mesh.points, mesh.triangles, centre, part).centroid();
   }
   return mesh;

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/scan/usable_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Large enough that starting a block costs nothing.
+constexpr std::size_t block_size = 16384;
+
+[[noreturn]] void refuse(const std::string& sentence) {
+  throw Error(ErrorCode::InvalidInput, sentence);
+}
+
+/// First index in [0, count) for which `wrong` holds, or count. The first and not any, so that the
+/// message names the same one on any number of threads.
+template <class Predicate>
+std::size_t first_wrong(std::size_t count, const Execution& execution, const Predicate& wrong) {
+  std::vector<std::size_t> first((count + block_size - 1) / block_size, count);
+  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (wrong(i)) {
+        first[begin / block_size] = i;
+        break;
+      }
+    }
+  });
+  return first.empty() ? count : *std::min_element(first.begin(), first.end());
+}
+
+void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
+  const std::size_t vertices = mesh.points.size();
+  const std::size_t faces = mesh.triangles.size();
+  if (vertices == 0) refuse("The mesh is empty: it has no vertices; load the scan of a grain.");
+  if (faces == 0) {
+    refuse(
+        "The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
+        " but no faces, so it encloses no volume; remesh it as a point cloud first, which makes a "
+        "closed surface of the points.");
+  }
+  constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
+  if (faces > limit || vertices > limit) {
+    refuse("The mesh has " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
+           " faces, more than the " + std::to_string(limit) +
+           " that can be numbered; reduce the scan first.");
+  }
+  const std::size_t bad_face = first_wrong(faces, execution, [&](std::size_t f) {
+    const Triangle& t = mesh.triangles[f];
+    return std::any_of(t.begin(), t.end(), [&](std::int32_t v) {
+      return v < 0 || static_cast<std::size_t>(v) >= vertices;
+    });
+  });
+  if (bad_face < faces) {
+    const Triangle& t = mesh.triangles[bad_face];
+    refuse("Face " + std::to_string(bad_face) + " names the vertices " + std::to_string(t[0]) +
+           ", " + std::to_string(t[1]) + " and " + std::to_string(t[2]) + ", but the mesh has " +
+           std::to_string(vertices) + "; the file or the program that made it is at fault.");
+  }
+}
+
+/// Drops the faces with a corner at no finite position.
+std::size_t drop_lost_faces(IndexedMesh& mesh, const Execution& execution) {
+  const std::size_t vertices = mesh.points.size();
+  const std::size_t first =
+      first_wrong(vertices, execution, [&](std::size_t i) { return !mesh.points[i].allFinite(); });
+  if (first == vertices) return 0;
+  const auto lost = [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::int32_t v) { return !mesh.points[index(v)].allFinite(); });
+  };
+  const std::size_t faces = mesh.triangles.size();
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), lost),
+                       mesh.triangles.end());
+  if (mesh.triangles.empty()) {
+    const Vector3& p = mesh.points[first];
+    const auto coordinate = [](double value) {
+      return std::isnan(value) ? "nan" : format_number(value);
+    };
+    refuse("All faces of the mesh have a corner that is not at a finite position, e.g. vertex " +
+           std::to_string(first) + " at (" + coordinate(p.x()) + ", " + coordinate(p.y()) + ", " +
+           coordinate(p.z()) + "); the file or the program that made it is at fault.");
+  }
+  return faces - mesh.triangles.size();
+}
+
+}  // namespace
+
+std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution) {
+  refuse_unusable(mesh, execution);
+  return drop_lost_faces(mesh, execution);
+}
+
+}  // namespace wscvt
