@@ -10,6 +10,7 @@
 #include "wscvt/report/remesh_units.h"
 #include "wscvt/scan/coordinates.h"
 #include "wscvt/scan/point_cloud.h"
+#include "wscvt/scan/usable_scan.h"
 #include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/parametrization_choice.h"
 #include "wscvt/tessellation/seeding.h"

@@ -50,9 +50,9 @@ IndexedMesh sphere() {
   return mapped_sphere(31, 64, [](const Vector3& u) { return u; });
 }
 
-IndexedMesh without_a_patch() {
+IndexedMesh without_a_patch(std::size_t faces) {
   IndexedMesh mesh = grain();
-  mesh.triangles.resize(mesh.triangles.size() - 1200);
+  mesh.triangles.resize(mesh.triangles.size() - faces);
   return mesh;
 }
 

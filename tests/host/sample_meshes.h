@@ -16,9 +16,9 @@ IndexedMesh mapped_sphere(int rings, int segments,
 /// A smooth bumpy ellipsoid of about 2,000 vertices, star-shaped, equal-volume radius near 1.
 IndexedMesh grain();
 
-IndexedMesh sphere();                   ///< radius 1, about 2,000 vertices
-IndexedMesh without_a_patch();          ///< grain() with a third of it missing
-IndexedMesh two_grains();               ///< two equal bodies side by side
+IndexedMesh sphere();                                   ///< radius 1, about 2,000 vertices
+IndexedMesh without_a_patch(std::size_t faces = 1200);  ///< grain() without its last faces
+IndexedMesh two_grains();                               ///< two equal bodies side by side
 IndexedMesh with_non_manifold_edge();   ///< grain() and a small body that share one edge
 IndexedMesh with_coordinate(double x);  ///< grain() with one coordinate set to x
 IndexedMesh flat_grain();               ///< grain() pressed into a plane: no volume

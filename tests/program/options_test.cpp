@@ -43,7 +43,7 @@ const std::vector<OptionCase>& option_cases() {
       {"degree", 4, "61", "from 0 to 60"},
       {"fold-limit", 1.5, "100", "from 0 to 99"},
       {"points", true, "perhaps", "points"},
-      {"envelope", 5.0, "51", "from 0 to 50"},
+      {"envelope", 25.0, "51", "from 0 to 50"},
       {"parametrization", "radial", "cubic", "auto, radial or spherical"},
       {"contact-radius", 1.2, "0", "above 0 and 100"},
       {"refuse-self-intersections", true, "perhaps", "refuse-self-intersections"},

@@ -17,9 +17,8 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/scan/coordinates.h"
-#include "wscvt/scan/point_cloud.h"
 #include "wscvt/scan/reporting_split.h"
-#include "wscvt/scan/usable_faces.h"
+#include "wscvt/scan/usable_scan.h"
 
 namespace wscvt {
 

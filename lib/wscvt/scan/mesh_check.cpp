@@ -22,7 +22,7 @@
 #include "wscvt/scan/holes.h"
 #include "wscvt/scan/manifold_edges.h"
 #include "wscvt/scan/touching_vertices.h"
-#include "wscvt/scan/usable_faces.h"
+#include "wscvt/scan/usable_scan.h"
 #include "wscvt/scan/weld.h"
 
 namespace wscvt {

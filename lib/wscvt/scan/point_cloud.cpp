@@ -9,7 +9,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/closing_advice.h"
-#include "wscvt/scan/coordinates.h"
+#include "wscvt/scan/usable_scan.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
@@ -19,30 +19,6 @@ namespace {
 constexpr const char* stage = "Making a surface of the points";
 
 }  // namespace
-
-std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution) {
-  execution.report(0.0, stage);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) {
-      throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
-                                               " has a coordinate that is not a finite number; "
-                                               "remove it from the scan.");
-    }
-  }
-  const auto less = [](const Vector3& a, const Vector3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  };
-  std::sort(points.begin(), points.end(), less);
-  execution.report(0.0, stage);  // a million points take tenths of a second to sort
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 4) {
-    throw Error(ErrorCode::InvalidInput, "The scan has " + std::to_string(points.size()) +
-                                             " different points and no faces; a body needs at "
-                                             "least 4.");
-  }
-  check_scan_size(points);
-  return points;
-}
 
 IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution) {
   IndexedMesh mesh;

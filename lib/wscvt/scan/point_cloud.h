@@ -10,10 +10,6 @@
 
 namespace wscvt {
 
-/// The points in ascending order, each once. Throws Error(InvalidInput) for fewer than 4 different
-/// points, coordinates that are not finite or an extent not between 1e-60 and 1e60.
-std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution);
-
 /// Closed, star-shaped mesh with the given points as vertices, in any order: the Delaunay
 /// triangulation of their directions from the centre of what they enclose. This is how a scan given
 /// as points without faces enters (the paper's starting point). Equal points are merged.
@@ -21,8 +17,8 @@ std::vector<Vector3> different_points(std::vector<Vector3> points, const Executi
 /// The surface has no folds, whatever the body has: each direction from the centre has one radius.
 /// Its volume and area are its own, not the body's.
 ///
-/// Throws as different_points; Error(NumericalFailure) when the points do not surround their centre
-/// or two lie on one ray; Error(Cancelled).
+/// Throws as different_points (usable_scan.h); Error(NumericalFailure) when the points do not
+/// surround their centre or two lie on one ray; Error(Cancelled).
 IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution = Execution(1));
 
 /// The scan itself, or, with `points_only`, mesh_of_points of its points. Throws

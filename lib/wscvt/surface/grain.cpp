@@ -39,21 +39,27 @@ class ScaledSurface : public RadialSurface {
   double unit_;
 };
 
+/// What to do instead. Said in full, because as published, and for nodes on the series, the map is
+/// radial whatever one asks for.
+std::string map_without_radii() {
+  return "take the spherical parametrization, which needs none, by the method on the scan and with "
+         "any placement but the series";
+}
+
 void refuse_folds(double folded_share, double limit) {
   if (folded_share >= 1.0) {
     throw Error(
         ErrorCode::NotStarShaped,
         "The volume centroid of the grain lies outside of it, or on its surface, so that no "
-        "radius in each direction describes it; take the spherical parametrization, which needs "
-        "none.");
+        "radius in each direction describes it; " +
+            map_without_radii() + ".");
   }
   if (folded_share > limit) {
     throw Error(ErrorCode::NotStarShaped,
                 "Seen from its centre the grain folds over itself: sheets beyond the first fill " +
                     format_percent(folded_share) + " of the solid angle, above the limit of " +
-                    format_percent(limit) +
-                    ". A radius in each direction cannot describe it: take the spherical "
-                    "parametrization, or raise the limit and check the result.");
+                    format_percent(limit) + ". A radius in each direction cannot describe it: " +
+                    map_without_radii() + "; or raise the limit and check the result.");
   }
 }
 

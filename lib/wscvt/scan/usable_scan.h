@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
@@ -13,5 +14,10 @@ namespace wscvt {
 /// not numbers. Throws Error(InvalidInput) for a mesh without vertices, without faces, with more
 /// than can be numbered, with an index out of range, or of which nothing would be left.
 std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution);
+
+/// The points in ascending order, each once. Throws Error(InvalidInput) for fewer than 4 different
+/// points, coordinates that are not finite or an extent not between 1e-60 and 1e60;
+/// Error(Cancelled).
+std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution);
 
 }  // namespace wscvt

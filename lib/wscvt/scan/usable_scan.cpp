@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/scan/usable_faces.h"
+#include "wscvt/scan/usable_scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/scan/coordinates.h"
 
 namespace wscvt {
 
@@ -99,6 +100,29 @@ std::size_t drop_lost_faces(IndexedMesh& mesh, const Execution& execution) {
 std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution) {
   refuse_unusable(mesh, execution);
   return drop_lost_faces(mesh, execution);
+}
+
+std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) {
+      throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
+                                               " has a coordinate that is not a finite number; "
+                                               "remove it from the scan.");
+    }
+  }
+  const auto less = [](const Vector3& a, const Vector3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  std::sort(points.begin(), points.end(), less);
+  execution.report(0.0, "Reading the points");  // a million points take tenths of a second to sort
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 4) {
+    throw Error(ErrorCode::InvalidInput, "The scan has " + std::to_string(points.size()) +
+                                             " different points and no faces; a body needs at "
+                                             "least 4.");
+  }
+  check_scan_size(points);
+  return points;
 }
 
 }  // namespace wscvt
