@@ -387,8 +387,11 @@ class MeshCollapse::Queue {
     std::vector<std::int32_t> ring;
     std::vector<std::int32_t> outgoing;
     std::vector<Vector3> corners;
-    std::vector<Vector3> normals;  ///< of the triangles about the vertex, times twice their areas
-    std::vector<double> squares;   ///< squared lengths of the ring's edges
+    std::vector<Vector3> normals;    ///< of the triangles about the vertex, times twice their areas
+    std::vector<double> lengths;     ///< of the normals
+    std::vector<double> squares;     ///< squared lengths of the ring's edges
+    std::vector<double> costs;       ///< of the collapse onto each, but for the shapes
+    std::vector<std::size_t> order;  ///< of the ring, by these costs
   };
 
   bool may_go(std::int32_t v) const {
@@ -490,15 +493,17 @@ class MeshCollapse::Queue {
     for (std::size_t i = 0; i < count; ++i) work.corners[i] = points[work.ring[i]];
     const Vector3& p = points[v];
     work.normals.resize(count);
+    work.lengths.resize(count);
     work.squares.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const Vector3& a = work.corners[i];
       const Vector3& b = work.corners[i + 1 < count ? i + 1 : 0];
       work.normals[i] = doubled_area_normal(p, a, b);
+      work.lengths[i] = work.normals[i].norm();
       work.squares[i] = (a - b).squaredNorm();
     }
-    std::int32_t half_edge = -1;
-    double lowest = std::numeric_limits<double>::infinity();
+    work.costs.resize(count);
+    work.order.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const std::int32_t w = work.ring[i];
       const Vector3& q = work.corners[i];
@@ -509,23 +514,39 @@ class MeshCollapse::Queue {
           0.25 * std::sqrt(areas_[v] * (1.0 + areas_[v] / both)) + 0.1 * (q - p).norm() + distance;
       const std::int32_t valence = mesh_.valences_[v] + mesh_.valences_[w] - 4;
       if (valence > 9) cost *= 1.0 + 0.15 * (valence - 9) * (valence - 9);
-      if (!(cost < lowest)) continue;
-      cost *= std::sqrt(worst_shape(i, work));
-      if (!(cost < lowest) || !link_condition(w, work)) continue;
-      lowest = cost;
-      half_edge = work.outgoing[i];
+      work.costs[i] = cost;
+      // In ascending order, by insertion: there are six or so.
+      std::size_t place = i;
+      for (; place > 0 && work.costs[work.order[place - 1]] > cost; --place) {
+        work.order[place] = work.order[place - 1];
+      }
+      work.order[place] = i;
     }
-    return {static_cast<float>(lowest), half_edge};
+    // Shapes and links, which are most of the work, are only looked at where the rest leaves room:
+    // cheapest first. A million vertices to 1,000 nodes take 7 % less by it. Of equal ones the
+    // first of the ring is taken.
+    std::size_t best = count;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : work.order) {
+      if (work.costs[i] > lowest) break;
+      const double room = lowest / work.costs[i];
+      const double cost = work.costs[i] * std::sqrt(worst_shape(i, work, 1.0001 * room * room));
+      if (!(cost < lowest || (cost == lowest && i < best))) continue;
+      if (!link_condition(work.ring[i], work)) continue;
+      lowest = cost;
+      best = i;
+    }
+    return {static_cast<float>(lowest), best < count ? work.outgoing[best] : -1};
   }
 
   /// Of the triangles that the loaded vertex's become when it is collapsed to its neighbour i: the
   /// largest sum of squared edges over area, 1 for an equilateral one; 100 at least where one turns
-  /// by more than 78 degrees.
-  static double worst_shape(std::size_t i, const Workspace& work) {
+  /// by more than 78 degrees. Any figure above `enough` where it is above that.
+  static double worst_shape(std::size_t i, const Workspace& work, double enough) {
     const std::size_t count = work.ring.size();
     const Vector3& q = work.corners[i];
     double worst = 1.0;
-    for (std::size_t step = 1; step + 1 < count; ++step) {
+    for (std::size_t step = 1; step + 1 < count && !(worst > enough); ++step) {
       const std::size_t j = i + step < count ? i + step : i + step - count;
       const std::size_t k = j + 1 < count ? j + 1 : 0;
       const Vector3 a = work.corners[j] - q;
@@ -534,7 +555,7 @@ class MeshCollapse::Queue {
       const double doubled = normal.norm();
       const double edges = work.squares[j] + a.squaredNorm() + b.squaredNorm();
       double shape = std::min(1e4, edges / (2.0 * std::sqrt(3.0) * doubled + 1e-300));
-      if (normal.dot(work.normals[j]) < 0.2 * doubled * work.normals[j].norm()) {
+      if (normal.dot(work.normals[j]) < 0.2 * doubled * work.lengths[j]) {
         shape = std::max(shape, 100.0);
       }
       worst = std::max(worst, shape);
