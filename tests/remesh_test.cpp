@@ -688,7 +688,11 @@ TEST(Remesh, PointsBehindOthersAreAdvisedAnEnvelopeWhichTakesThem) {
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
   EXPECT_FALSE(has_warning(wrapped, "Take their envelope"));
-  EXPECT_TRUE(has_warning(wrapped, "taken by its envelope"));
+  EXPECT_TRUE(has_warning(wrapped, "taken by its envelope:"));
+  cloud.triangles = {{0, 1, 2}};
+  const RemeshResult with_faces = remesh(cloud, options, Execution(1));
+  EXPECT_EQ(with_faces.mesh.points, wrapped.mesh.points);
+  EXPECT_TRUE(has_warning(with_faces, "faces were not used"));
   EXPECT_EQ(wrapped.input.input_vertices, cloud.points.size());
   // Faces as wide as the opening, .35, cut off up to .35^2 / 6 of the radius.
   EXPECT_NEAR(wrapped.input.volume / (4.0 * test::pi / 3.0), 1.0, 0.06);

@@ -20,11 +20,12 @@ constexpr double steep_points_limit = 0.06;
 
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   const bool wraps = result.options.envelope.opening_percent > 0.0;
+  const std::size_t faces = result.options.points ? result.input.input_faces : 0;
+  const std::string unused =
+      faces > 0 ? ", its " + std::to_string(faces) + " faces were not used" : std::string();
   if (result.options.points && !wraps) {
-    const std::size_t faces = result.input.input_faces;
     warnings.push_back(
-        "The scan was taken as points" +
-        (faces > 0 ? ", its " + std::to_string(faces) + " faces were not used" : std::string()) +
+        "The scan was taken as points" + unused +
         ": volume, area and folds of the original are those of the surface that was made for them, "
         "with one radius in each direction, not those of the body. Check the result against it.");
     if (result.steep_share > steep_points_limit) {
@@ -36,11 +37,11 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
     }
   }
   if (wraps) {
-    warnings.push_back(
-        "The scan was taken by its envelope: volume, area and distances of the original are those "
-        "of the envelope, in which what is narrower than " +
-        format_percent(0.01 * result.options.envelope.opening_percent) +
-        " of the bounding box is filled. Check the result against the scan.");
+    warnings.push_back("The scan was taken by its envelope" + unused +
+                       ": volume, area and distances of the original are those "
+                       "of the envelope, in which what is narrower than " +
+                       format_percent(0.01 * result.options.envelope.opening_percent) +
+                       " of the bounding box is filled. Check the result against the scan.");
   }
   const bool radial = result.parametrization == Parametrization::Radial;
   if (radial && result.folded_share > fold_warning_limit) {
