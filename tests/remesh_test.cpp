@@ -683,11 +683,11 @@ TEST(Remesh, PointsBehindOthersAreAdvisedAnEnvelopeWhichTakesThem) {
   RemeshOptions options = options_of(300, Weighting::Area);
   options.points = true;
   const RemeshResult spiky = remesh(cloud, options, Execution(1));
-  EXPECT_TRUE(has_warning(spiky, "Take their envelope")) << spiky.steep_share;
+  EXPECT_TRUE(has_warning(spiky, "take their envelope")) << spiky.steep_share;
   options.envelope.opening_percent = 10.0;  // the advice
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
-  EXPECT_FALSE(has_warning(wrapped, "Take their envelope"));
+  EXPECT_FALSE(has_warning(wrapped, "take their envelope"));
   EXPECT_TRUE(has_warning(wrapped, "taken by its envelope:"));
   cloud.triangles = {{0, 1, 2}};
   const RemeshResult with_faces = remesh(cloud, options, Execution(1));
@@ -707,7 +707,7 @@ TEST(Remesh, PointsBehindOthersAreAdvisedAnEnvelopeWhichTakesThem) {
     ADD_FAILURE() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
-    EXPECT_NE(std::string(error.what()).find("Take their envelope"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("take their envelope"), std::string::npos)
         << error.what();
   }
 }

@@ -19,6 +19,7 @@
 #include "sample_meshes.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"
@@ -274,6 +275,22 @@ std::vector<Advice> all_advice() {
   };
 }
 
+/// Remeshes what other filters make of the input of a call before.
+Outcome run_after(const QString& steps, const std::map<std::string, std::string>& parameters,
+                  const QTemporaryDir& folder, const QString& output) {
+  const QString script = folder.filePath("script.mlx");
+  write_script(parameters, script);
+  QFile file(script);
+  EXPECT_TRUE(file.open(QIODevice::ReadWrite));
+  QString text = QString::fromUtf8(file.readAll());
+  text.insert(text.indexOf(" <filter"), steps);
+  file.seek(0);
+  file.write(text.toUtf8());
+  file.close();
+  return run_meshlabserver({"-i", folder.filePath("input.ply"), "-s", script, "-o", output},
+                           folder.path());
+}
+
 class ServerAdvises : public ::testing::TestWithParam<Advice> {};
 
 TEST_P(ServerAdvises, WhatLeadsToARemesh) {
@@ -289,17 +306,7 @@ TEST_P(ServerAdvises, WhatLeadsToARemesh) {
         << refusal.output.toStdString();
   }
 
-  const QString script = folder.filePath("script.mlx");
-  write_script(advice.parameters, script);
-  QFile file(script);
-  ASSERT_TRUE(file.open(QIODevice::ReadWrite));
-  QString text = QString::fromUtf8(file.readAll());
-  text.insert(text.indexOf(" <filter"), advice.steps);
-  file.seek(0);
-  file.write(text.toUtf8());
-  file.close();
-  const Outcome outcome = run_meshlabserver(
-      {"-i", folder.filePath("input.ply"), "-s", script, "-o", output}, folder.path());
+  const Outcome outcome = run_after(advice.steps, advice.parameters, folder, output);
   SCOPED_TRACE(outcome.output.toStdString());
   ASSERT_TRUE(QFile::exists(output));
   const std::size_t nodes = read_mesh(output.toStdString()).points.size();
@@ -312,6 +319,50 @@ TEST_P(ServerAdvises, WhatLeadsToARemesh) {
 
 INSTANTIATE_TEST_SUITE_P(, ServerAdvises, ::testing::ValuesIn(all_advice()),
                          [](const auto& test) { return test.param.name; });
+
+TEST(Server, AdvisesASurfaceOfPointsThatLieBehindOthers) {
+  // A grain's points, and strays inside it as scanners leave them.
+  IndexedMesh cloud{test::lumpy(5).points, {}};
+  const double volume = describe_shape(test::lumpy(5), Execution(1)).volume;
+  for (const Vector3& p : test::lumpy(2).points) cloud.points.push_back(0.5 * p);
+  QTemporaryDir folder;
+  const QString output = folder.filePath("remeshed.ply");
+  const Outcome warned =
+      run_call({"", cloud, {{"Points", "true"}, {"NodeCount", "100"}}, {}}, folder, output);
+  EXPECT_TRUE(warned.output.contains(
+      "Filters > Normals, Curvatures and Orientation > Compute normals for point sets and then "
+      "Filters > Remeshing, Simplification and Reconstruction > Surface Reconstruction: Screened "
+      "Poisson"))
+      << warned.output.toStdString();
+  ASSERT_TRUE(QFile::remove(output));
+  const QString steps =
+      " <filter name=\"Compute normals for point sets\">\n"
+      "  <Param name=\"K\" type=\"RichInt\" value=\"10\"/>\n"
+      "  <Param name=\"smoothIter\" type=\"RichInt\" value=\"0\"/>\n"
+      "  <Param name=\"flipFlag\" type=\"RichBool\" value=\"false\"/>\n"
+      "  <Param name=\"viewPos\" type=\"RichPoint3f\" x=\"0\" y=\"0\" z=\"0\"/>\n"
+      " </filter>\n"
+      " <filter name=\"Surface Reconstruction: Screened Poisson\">\n"
+      "  <Param name=\"visibleLayer\" type=\"RichBool\" value=\"false\"/>\n"
+      "  <Param name=\"depth\" type=\"RichInt\" value=\"7\"/>\n"
+      "  <Param name=\"fullDepth\" type=\"RichInt\" value=\"5\"/>\n"
+      "  <Param name=\"cgDepth\" type=\"RichInt\" value=\"0\"/>\n"
+      "  <Param name=\"scale\" type=\"RichFloat\" value=\"1.1\"/>\n"
+      "  <Param name=\"samplesPerNode\" type=\"RichFloat\" value=\"1.5\"/>\n"
+      "  <Param name=\"pointWeight\" type=\"RichFloat\" value=\"4\"/>\n"
+      "  <Param name=\"iters\" type=\"RichInt\" value=\"8\"/>\n"
+      "  <Param name=\"confidence\" type=\"RichBool\" value=\"false\"/>\n"
+      "  <Param name=\"preClean\" type=\"RichBool\" value=\"true\"/>\n"
+      " </filter>\n";
+  const Outcome outcome = run_after(steps, {}, folder, output);
+  SCOPED_TRACE(outcome.output.toStdString());
+  ASSERT_TRUE(QFile::exists(output));
+  const IndexedMesh remeshed = read_mesh(output.toStdString());
+  EXPECT_EQ(remeshed.points.size(), 1000U);
+  EXPECT_FALSE(outcome.output.contains("one radius in each direction"));
+  // Least squares keep the volume of the surface that was made, which rounds a little.
+  EXPECT_NEAR(describe_shape(remeshed, Execution(1)).volume / volume, 1.0, 0.02);
+}
 
 TEST(Server, AdvisesANumberOfNodesThatWouldDo) {
   IndexedMesh bent = test::bent_grain_mesh(test::bent_grain("C-shape"), 3000);

@@ -33,7 +33,7 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
           format_percent(result.steep_share) +
           " of the area of the surface made of the points is steep, as where some lie behind "
           "others: they have no one radius in each direction. " +
-          envelope_of_points_advice());
+          surface_of_points_advice());
     }
   }
   if (wraps) {

@@ -97,8 +97,8 @@ const std::string& writable(const std::string& path) {
 }  // namespace
 
 std::string sample_header(bool with_seconds) {
-  std::vector<std::string> names = {"grain", "status", "error"};
-  if (with_seconds) names.emplace_back("seconds");
+  std::vector<std::string> names = {"grain", "status", "error", "seconds"};
+  if (!with_seconds) names.pop_back();
   return before(names, halves(report_csv(RemeshResult())).first);
 }
 

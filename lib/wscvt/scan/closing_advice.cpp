@@ -12,9 +12,16 @@ std::string where_envelopes_are() {
          "width of what is to be closed";
 }
 
-std::string envelope_of_points_advice() {
-  // The wrap falls through gaps between points as wide as the opening, and then has handles.
-  return "Take their envelope, with an opening wider than the gaps between them: --points --" +
+std::string surface_of_points_advice() {
+  // Four clouds of photographs with strays inside, which had no surface here, came out so with rms
+  // .6 to .9 % at 1000 nodes, and with the volume of the meshes that their authors made, within
+  // 1e-5 where there is one. The wrap's volume is a tenth larger; it falls through gaps between
+  // points that are as wide as the opening, and then has handles.
+  return "Make a surface of them first, in MeshLab by Filters > Normals, Curvatures and "
+         "Orientation "
+         "> Compute normals for point sets and then Filters > Remeshing, Simplification and "
+         "Reconstruction > Surface Reconstruction: Screened Poisson; or take their envelope, with "
+         "an opening wider than the gaps between them: --points --" +
          std::string(envelope_option.key) + " 10 in the program is a start.";
 }
 

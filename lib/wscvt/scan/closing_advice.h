@@ -12,6 +12,6 @@ namespace wscvt {
 std::string where_envelopes_are();
 
 /// A sentence for points that have no one radius in each direction.
-std::string envelope_of_points_advice();
+std::string surface_of_points_advice();
 
 }  // namespace wscvt

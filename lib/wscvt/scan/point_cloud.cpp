@@ -38,7 +38,7 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
       throw Error(ErrorCode::NumericalFailure,
                   "No surface with one radius in each direction goes through the points: they do "
                   "not surround their centre, or two lie on one ray from it. " +
-                      envelope_of_points_advice());
+                      surface_of_points_advice());
     }
     mesh.triangles = triangulation->triangles();
     centre += mesh_sums(mesh.points, mesh.triangles, centre, part).centroid();
