@@ -32,8 +32,7 @@ ParameterList remesh_parameters() {
               "about ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error target is of the",
                       "Which error the target limits, each in % of the original's own."),
-      table_parameter("Method", defaults.method, "Method",
-                      "As published overrides map, metric, placement and refinement."),
+      table_parameter("Method", defaults.method, "Method", "What the nodes are fitted to."),
       sampling_parameter(),
       weighting_parameter(),
       option_parameter(

@@ -121,12 +121,12 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
 }
 
 /// What to do about openings as wide as that share of the bounding box's diagonal, as part of a
-/// sentence: nothing where an envelope of that opening would follow the scan no more.
+/// sentence: only its comma where an envelope of that opening would follow the scan no more.
 std::string envelope_advice(double widest_share) {
   constexpr double coarsest_percent = 20.0;
   // A ball as wide as the hole still sinks into it a little.
   const double percent = std::max(2.0, std::ceil(120.0 * widest_share));
-  if (percent > coarsest_percent) return "";
+  if (percent > coarsest_percent) return ",";
   return ", take its envelope of " + format_number(percent) + " % (" + where_envelopes_are() + "),";
 }
 
