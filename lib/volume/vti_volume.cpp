@@ -38,6 +38,22 @@ struct VtiHeader {
   std::uint64_t data = 0;  ///< the byte after the tag behind which the voxels stand
 };
 
+// Where a parser is: its line, and the byte behind what it is at. Expat 2.9 has other names for
+// them, and warns of the old ones.
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
+std::uint64_t line_of(XML_Parser parser) { return XML_GetCurrentLineNumber64(parser); }
+std::uint64_t end_of(XML_Parser parser) {
+  return static_cast<std::uint64_t>(XML_GetCurrentByteIndex64(parser)) +
+         XML_GetCurrentByteCount64(parser);
+}
+#else
+std::uint64_t line_of(XML_Parser parser) { return XML_GetCurrentLineNumber(parser); }
+std::uint64_t end_of(XML_Parser parser) {
+  return static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parser)) +
+         static_cast<std::uint64_t>(XML_GetCurrentByteCount(parser));
+}
+#endif
+
 /// Finds the array of labels: the scalars, or the first.
 class VtiParser {
  public:
@@ -62,8 +78,7 @@ class VtiParser {
       if (status != XML_STATUS_OK) {
         refuse_volume(path_, std::string("is not the XML of a .vti file: ") +
                                  XML_ErrorString(XML_GetErrorCode(parser_)) + " in line " +
-                                 std::to_string(XML_GetCurrentLineNumber(parser_)) +
-                                 "; export it again.");
+                                 std::to_string(line_of(parser_)) + "; export it again.");
       }
       if (is_last) refuse_volume(path_, "holds no array of labels; export it again.");
     }
@@ -103,8 +118,7 @@ class VtiParser {
   }
 
   void end_here() {
-    header_.data = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(parser_)) +
-                   static_cast<std::uint64_t>(XML_GetCurrentByteCount(parser_));
+    header_.data = end_of(parser_);
     is_done_ = true;
     XML_StopParser(parser_, XML_FALSE);
   }

@@ -223,7 +223,7 @@ Eigen::VectorXd solve(const NormalEquations& equations, const Eigen::VectorXd& g
   solver.setTolerance(1e-14);  // to rounding: what is left would show in the bytes of the mesh
   solver.setMaxIterations(1000);
   solver.compute(equations.matrix);
-  const Eigen::VectorXd solution = solver.solveWithGuess(equations.right_side, guess);
+  Eigen::VectorXd solution = solver.solveWithGuess(equations.right_side, guess);
   if (solver.info() != Eigen::Success || !solution.allFinite()) {
     throw Error(ErrorCode::NumericalFailure,
                 "The radii of the nodes cannot be fitted: the least-squares system does not "

@@ -161,6 +161,7 @@ void join_tables(const std::vector<std::string>& tables, const std::string& join
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.grain < b.grain; });
   std::vector<std::ifstream> streams;
+  streams.reserve(tables.size());
   for (const std::string& table : tables) streams.push_back(open(table));
   write_file(joined, [&](std::ostream& stream) {
     stream << header;

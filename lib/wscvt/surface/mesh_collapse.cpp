@@ -379,7 +379,8 @@ class MeshCollapse::Queue {
   static bool dearer(const Entry& a, const Entry& b) {
     return a.cost != b.cost ? a.cost > b.cost : a.vertex > b.vertex;
   }
-  enum State : unsigned char { waiting = 1, stale = 2 };
+  static constexpr unsigned char waiting = 1;  ///< bits of a vertex's state: in the heap
+  static constexpr unsigned char stale = 2;    ///< its choice is out of date
 
   /// The neighbours of one vertex, and what its collapse onto any of them needs. Not longer than
   /// `largest_valence`: it is searched from end to end.
