@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -324,6 +325,28 @@ TEST(RemeshSpherical, APorousScanIsRefusedWithAdviceThatWorks) {
   EXPECT_TRUE(says(wrapped.warnings, "taken by its envelope"));
   EXPECT_EQ(wrapped.input.input_vertices, drilled.points.size());
   EXPECT_EQ(wrapped.input.genus, 0);
+}
+
+TEST(RemeshSpherical, AFlawedScanThatIsMissedIsAdvisedItsEnvelope) {
+  // Drilled through by a hole .07 wide; an envelope of 3 % closes what is narrower than .1.
+  const IndexedMesh flawed = test::body_of_depth([](const Vector3& p) {
+    return std::min(test::ball(p), std::hypot(p.x() - 0.5, p.y()) - 0.035);
+  });
+  RemeshOptions options = options_of(30);
+  options.surface.parametrization = Parametrization::Spherical;
+  const RemeshResult missed = remesh(flawed, options, Execution(1));
+  ASSERT_TRUE(misses_the_scan(missed));
+  ASSERT_EQ(missed.handles.cut.size(), 1U);
+  EXPECT_TRUE(says(missed.warnings, "--envelope 3 in the program"));
+  options.envelope.opening_percent = 3.0;  // the advice
+  EXPECT_TRUE(remesh(flawed, options, Execution(1)).handles.cut.empty());
+  // Where nothing is amiss there is nothing to advise.
+  options = options_of(600, NodePlacement::LeastSquares);
+  options.surface.parametrization = Parametrization::Spherical;
+  const RemeshResult close = remesh(flawed, options, Execution(1));
+  ASSERT_FALSE(misses_the_scan(close));
+  EXPECT_EQ(close.handles.cut.size(), 1U);
+  EXPECT_FALSE(says(close.warnings, "--envelope"));
 }
 
 TEST(RemeshSpherical, CoefficientsOfAMapGiveTheBodyAgain) {
