@@ -337,7 +337,7 @@ TEST(RemeshSpherical, AFlawedScanThatIsMissedIsAdvisedItsEnvelope) {
   const RemeshResult missed = remesh(flawed, options, Execution(1));
   ASSERT_TRUE(misses_the_scan(missed));
   ASSERT_EQ(missed.handles.cut.size(), 1U);
-  EXPECT_TRUE(says(missed.warnings, "--envelope 3 in the program"));
+  EXPECT_TRUE(says(missed.warnings, "3 % of the bounding box is a start"));
   options.envelope.opening_percent = 3.0;  // the advice
   EXPECT_TRUE(remesh(flawed, options, Execution(1)).handles.cut.empty());
   // Where nothing is amiss there is nothing to advise.

@@ -10,7 +10,6 @@
 #include "wscvt/report/remesh_units.h"
 #include "wscvt/scan/coordinates.h"
 #include "wscvt/scan/point_cloud.h"
-#include "wscvt/scan/usable_scan.h"
 #include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/parametrization_choice.h"
 #include "wscvt/tessellation/seeding.h"
@@ -81,7 +80,7 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
   const bool wraps = options.envelope.opening_percent > 0.0;
   if (wraps && options.points) {
     // Not of a surface made of the points by their rays: the envelope sees what lies behind others.
-    scan = {different_points(std::move(scan.points), execution.part(0.0, 0.3)), {}};
+    scan.triangles.clear();
   } else {
     scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.3));
   }

@@ -135,6 +135,10 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
   add("remesh to 1,000,000 nodes", [](RemeshOptions& o) { o.node_count = 1000000; });
   add("remesh of the envelope at 5 %", [](RemeshOptions& o) { o.envelope.opening_percent = 5.0; });
   add("remesh of the envelope at 2 %", [](RemeshOptions& o) { o.envelope.opening_percent = 2.0; });
+  add("remesh of the points' envelope at 5 %", [](RemeshOptions& o) {
+    o.points = true;
+    o.envelope.opening_percent = 5.0;
+  });
   add("remesh by the spherical map", spherical);
   add("remesh by the spherical map, refined", [spherical](RemeshOptions& o) {
     spherical(o);

@@ -18,13 +18,6 @@ using Sentences = std::vector<std::string>;
 /// but for one of 4 %), .087 to .68 where it loses 3 to 50 % of its area.
 constexpr double steep_points_limit = 0.06;
 
-/// Two real scans with flaws for handles, of which 1000 nodes made 8 pairs that meet and angles of
-/// 9 and 18 degrees, gave none and angles from 38 by their envelope of 3 %, volumes .9 and 2 %
-/// larger.
-bool is_troubled(const RemeshResult& result) {
-  return result.space.self_intersections > 0 || misses_the_scan(result);
-}
-
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   const bool wraps = result.options.envelope.opening_percent > 0.0;
   const std::size_t faces = result.options.points ? result.input.input_faces : 0;
@@ -77,15 +70,15 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   }
   if (!result.handles.cut.empty()) {
     const std::size_t cut = result.handles.cut.size();
-    warnings.push_back(
-        "The scan has " + std::to_string(cut) +
-        (cut == 1 ? " handle, which was" : " handles, which were") +
-        " cut and closed for its map to the sphere; that changed its volume by " +
-        format_percent(std::abs(result.handles.volume_change)) + ". The log says where." +
-        (is_troubled(result) ? " Where they are flaws of the scan, its envelope has "
-                               "none and is easier to follow (--" +
-                                   std::string(envelope_option.key) + " 3 in the program)."
-                             : ""));
+    std::string text = "The scan has " + std::to_string(cut) +
+                       (cut == 1 ? " handle, which was" : " handles, which were") +
+                       " cut and closed for its map to the sphere; that changed its volume by " +
+                       format_percent(std::abs(result.handles.volume_change)) +
+                       ". The log says where.";
+    if (result.space.self_intersections > 0 || misses_the_scan(result)) {
+      text += " " + envelope_of_flaws_advice();
+    }
+    warnings.push_back(text);
   } else if (result.input.genus > 0) {
     warnings.push_back("The scan has " + std::to_string(result.input.genus) +
                        (result.input.genus == 1 ? " hole" : " holes") +

@@ -11,6 +11,9 @@ namespace wscvt {
 /// none, a filter of its own by its menu and with its settings.
 std::string where_envelopes_are();
 
+/// A sentence for handles, or pores, that a remesh does not follow.
+std::string envelope_of_flaws_advice();
+
 /// A sentence for points that have no one radius in each direction.
 std::string surface_of_points_advice();
 

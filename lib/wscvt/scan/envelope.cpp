@@ -147,8 +147,7 @@ FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
   return oracle;
 }
 
-/// Of the opening: nearer to the scan the wrap takes several times as long, and the remesher brings
-/// the volume of what it is given back exactly.
+/// How far from the scan the wrap is made, of the opening: nearer it takes several times as long.
 constexpr double offset_share = 0.1;
 
 }  // namespace

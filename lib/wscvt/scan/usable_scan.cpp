@@ -114,7 +114,7 @@ std::vector<Vector3> different_points(std::vector<Vector3> points, const Executi
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   };
   std::sort(points.begin(), points.end(), less);
-  execution.report(0.0, "Reading the points");  // a million points take tenths of a second to sort
+  execution.report(0.0, "Sorting the points");  // a million points take tenths of a second to sort
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 4) {
     throw Error(ErrorCode::InvalidInput, "The scan has " + std::to_string(points.size()) +
