@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
@@ -74,6 +75,13 @@ TEST(PointCloud, ReportsAndCanBeCancelled) {
                  }));
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   EXPECT_GE(fractions.size(), 8U);  // every 8,192 of the points, in two rounds
+  for (const char* stage : {"Making a surface of the points", "Sorting the points"}) {
+    test::expect_to_be_stopped(
+        [](const Execution& execution) {
+          mesh_of_points(ellipsoid_points(1000, Vector3::Zero()), execution);
+        },
+        stage, 1);
+  }
 }
 
 }  // namespace
