@@ -35,7 +35,7 @@ struct VolumeGeometry {
 
 /// The labels of a volume, row by row along x, rows along y, slices along z, as often as wanted
 /// from the beginning. Memory is that of a row and of what the file is unpacked with, a TIFF's
-/// strip or a block, never that of the volume.
+/// strip, its tiles beside each other or a block, never that of the volume.
 class LabelVolume {
  public:
   virtual ~LabelVolume() = default;
@@ -66,8 +66,9 @@ bool is_volume(const std::string& path);
 /// - .mhd, .mha: MetaImage likewise, raw or zlib;
 /// - .vti: VTK ImageData, its scalars or first array, at points or cells, appended or in base64,
 ///   plain or packed by zlib;
-/// - .tif, .tiff: TIFF of a page a slice, in strips, packed by what libtiff knows, or as ImageJ
-///   writes stacks above 4 GiB; a folder: of the TIFF files in it, by name, numbers in their order;
+/// - .tif, .tiff: TIFF of a page a slice, in strips or tiles, packed by what libtiff knows, or as
+///   ImageJ writes stacks above 4 GiB; a folder: of the TIFF files in it, by name, numbers in their
+///   order;
 /// - .json: a description of a raw file (see open_raw in volume_formats.h).
 /// `voxel_size`, along x, y and z, replaces the file's, and its axes then are those of the lattice.
 ///

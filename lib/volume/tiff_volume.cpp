@@ -108,14 +108,11 @@ Page page_of(const TiffFile& file) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
   const bool is_whole = format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT;
-  if (samples != 1 || !is_whole || (bits != 8 && bits != 16 && bits != 32)) {
+  if (samples != 1 || !is_whole || (bits != 8 && bits != 16 && bits != 32 && bits != 64)) {
     refuse_volume(file.path(), "has " + std::to_string(samples) + " numbers of " +
                                    std::to_string(bits) +
                                    " bits a voxel, or decimals; save labels as whole numbers of 8, "
-                                   "16 or 32 bits.");
-  }
-  if (TIFFIsTiled(tiff) != 0) {
-    refuse_volume(file.path(), "holds its slices in tiles; save it in strips.");
+                                   "16, 32 or 64 bits.");
   }
   page.type = {bits / 8, format == SAMPLEFORMAT_INT,
                boost::endian::order::native == boost::endian::order::big};
@@ -175,20 +172,13 @@ class TiffStack : public LabelVolume {
 
   const std::vector<Label>& next_row() override {
     if (next_row_ == page_.height) next_page();
-    const auto rows = static_cast<std::size_t>(strip_rows_);
-    const std::size_t in_strip = next_row_ % rows;
-    const std::size_t row_bytes =
-        std::size_t{page_.width} * static_cast<std::size_t>(page_.type.bytes);
-    if (in_strip == 0) {
-      const std::size_t wanted = row_bytes * std::min<std::size_t>(rows, page_.height - next_row_);
-      strip_.resize(wanted);
-      const auto strip = static_cast<std::uint32_t>(next_row_ / rows);
-      const tmsize_t got =
-          TIFFReadEncodedStrip(file_->get(), strip, strip_.data(), static_cast<tmsize_t>(wanted));
-      if (got != static_cast<tmsize_t>(wanted)) file_->fail("is cut short or damaged");
+    const std::size_t in_band = next_row_ % band_rows_;
+    if (in_band == 0) {
+      band_.resize(row_bytes() * std::min(band_rows_, page_.height - next_row_));
+      tile_width_ == 0 ? read_strip() : read_tiles();
     }
     row_.resize(page_.width);
-    labels_of(strip_.data() + in_strip * row_bytes, page_.type, row_, file_->path());
+    labels_of(band_.data() + in_band * row_bytes(), page_.type, row_, file_->path());
     ++next_row_;
     return row_;
   }
@@ -212,13 +202,56 @@ class TiffStack : public LabelVolume {
                     "that are alike.");
     }
     std::uint32_t rows = 0;
-    TIFFGetFieldDefaulted(file_->get(), TIFFTAG_ROWSPERSTRIP, &rows);
-    strip_rows_ = std::clamp<std::uint32_t>(rows, 1, page_.height);
-    if (std::uint64_t{strip_rows_} * page_.width * static_cast<std::uint64_t>(page_.type.bytes) >
-        file_->most_bytes()) {
-      file_->fail("claims strips larger than itself");
+    tile_width_ = 0;
+    if (TIFFIsTiled(file_->get()) != 0) {
+      TIFFGetField(file_->get(), TIFFTAG_TILEWIDTH, &tile_width_);
+      TIFFGetField(file_->get(), TIFFTAG_TILELENGTH, &rows);
+      // A tile hangs over the page's rim, so that it can be larger than the page.
+      check_bytes(std::uint64_t{rows} * tile_width_);
+    } else {
+      TIFFGetFieldDefaulted(file_->get(), TIFFTAG_ROWSPERSTRIP, &rows);
     }
+    band_rows_ = std::clamp<std::uint32_t>(rows, 1, page_.height);
+    check_bytes(std::uint64_t{band_rows_} * page_.width);
     next_row_ = 0;
+  }
+
+  void check_bytes(std::uint64_t voxels) const {
+    if (voxels > file_->most_bytes() / static_cast<std::uint64_t>(page_.type.bytes)) {
+      file_->fail("claims strips or tiles larger than itself");
+    }
+  }
+
+  std::size_t row_bytes() const {
+    return std::size_t{page_.width} * static_cast<std::size_t>(page_.type.bytes);
+  }
+
+  void read_strip() {
+    const auto wanted = static_cast<tmsize_t>(band_.size());
+    const std::uint32_t strip = next_row_ / band_rows_;
+    if (TIFFReadEncodedStrip(file_->get(), strip, band_.data(), wanted) != wanted) {
+      file_->fail("is cut short or damaged");
+    }
+  }
+
+  /// Those beside each other that hold the next rows.
+  void read_tiles() {
+    const tmsize_t tile_bytes = TIFFTileSize(file_->get());
+    const tmsize_t tile_row_bytes = TIFFTileRowSize(file_->get());
+    tile_.resize(static_cast<std::size_t>(tile_bytes));
+    const auto rows = static_cast<tmsize_t>(band_.size() / row_bytes());
+    for (std::uint32_t x = 0; x < page_.width; x += tile_width_) {
+      const std::uint32_t tile = TIFFComputeTile(file_->get(), x, next_row_, 0, 0);
+      if (TIFFReadEncodedTile(file_->get(), tile, tile_.data(), tile_bytes) != tile_bytes) {
+        file_->fail("is cut short or damaged");
+      }
+      const std::size_t bytes =
+          static_cast<std::size_t>(page_.type.bytes) * std::min(tile_width_, page_.width - x);
+      char* to = band_.data() + std::size_t{x} * static_cast<std::size_t>(page_.type.bytes);
+      for (tmsize_t row = 0; row < rows; ++row, to += row_bytes()) {
+        std::memcpy(to, tile_.data() + row * tile_row_bytes, bytes);
+      }
+    }
   }
 
   Page page_;
@@ -226,8 +259,12 @@ class TiffStack : public LabelVolume {
   std::size_t next_file_ = 0;
   std::unique_ptr<TiffFile> file_;
   std::uint32_t next_row_ = page_.height;
-  std::uint32_t strip_rows_ = 1;
-  std::vector<char> strip_;
+  // A band is what the file unpacks at once: the rows of a strip, or of the tiles beside each
+  // other.
+  std::uint32_t band_rows_ = 1;
+  std::uint32_t tile_width_ = 0;  // 0: strips
+  std::vector<char> band_;
+  std::vector<char> tile_;
   std::vector<Label> row_;
 };
 

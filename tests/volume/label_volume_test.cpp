@@ -24,23 +24,28 @@ class LabelVolumeOfAFile : public testing::Test {
     std::string pattern = (fs::temp_directory_path() / "wscvt_volume_XXXXXX").string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
+    make({7, 5, 3});
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void make(const std::array<int, 3>& counts) {
+    made_ = MadeVolume(counts);
     for (std::size_t k = 0; k < made_.labels.size(); ++k) {
       made_.labels[k] = static_cast<std::uint32_t>(k * k % 251);
     }
-    made_.at(6, 4, 2) = 127;
+    made_.labels.back() = 127;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   /// Reads it twice, since the bytes are packed or not.
   void expect_labels(const std::string& name) const {
     const std::unique_ptr<LabelVolume> volume = open_volume(path(name));
-    EXPECT_EQ(volume->geometry().counts, (VoxelCounts{7, 5, 3}));
+    EXPECT_EQ(volume->geometry().counts, made_.counts);
     for (int round = 0; round < 2; ++round) {
       volume->rewind();
       std::vector<Label> labels;
-      for (int row = 0; row < 15; ++row) {
+      for (int row = 0; row < made_.counts[1] * made_.counts[2]; ++row) {
         const std::vector<Label>& next = volume->next_row();
         labels.insert(labels.end(), next.begin(), next.end());
       }
@@ -98,6 +103,42 @@ class LabelVolumeOfAFile : public testing::Test {
           row.push_back(static_cast<std::uint16_t>(made_.labels[place]));
         }
         ASSERT_EQ(TIFFWriteScanline(file, row.data(), static_cast<std::uint32_t>(y), 0), 1);
+      }
+      ASSERT_EQ(TIFFWriteDirectory(file), 1);
+    }
+    TIFFClose(file);
+  }
+
+  /// All pages in tiles of 16 x 16, which hang over their rims.
+  template <class Voxel>
+  void write_tiled_tiff(const std::string& name, const char* mode, int compression) const {
+    constexpr int side = 16;
+    TIFF* const file = TIFFOpen(path(name).c_str(), mode);
+    ASSERT_NE(file, nullptr);
+    for (int z = 0; z < made_.counts[2]; ++z) {
+      TIFFSetField(file, TIFFTAG_IMAGEWIDTH, made_.counts[0]);
+      TIFFSetField(file, TIFFTAG_IMAGELENGTH, made_.counts[1]);
+      TIFFSetField(file, TIFFTAG_BITSPERSAMPLE, static_cast<int>(8 * sizeof(Voxel)));
+      TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
+      TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+      TIFFSetField(file, TIFFTAG_COMPRESSION, compression);
+      TIFFSetField(file, TIFFTAG_TILEWIDTH, side);
+      TIFFSetField(file, TIFFTAG_TILELENGTH, side);
+      for (int top = 0; top < made_.counts[1]; top += side) {
+        for (int left = 0; left < made_.counts[0]; left += side) {
+          std::vector<Voxel> tile(side * side,
+                                  99);  // 99: beyond the rim, which is to be passed over
+          for (int y = top; y < std::min(top + side, made_.counts[1]); ++y) {
+            for (int x = left; x < std::min(left + side, made_.counts[0]); ++x) {
+              const int place = (z * made_.counts[1] + y) * made_.counts[0] + x;
+              tile[static_cast<std::size_t>((y - top) * side + x - left)] =
+                  static_cast<Voxel>(made_.labels[static_cast<std::size_t>(place)]);
+            }
+          }
+          ASSERT_GT(TIFFWriteTile(file, tile.data(), static_cast<std::uint32_t>(left),
+                                  static_cast<std::uint32_t>(top), 0, 0),
+                    0);
+        }
       }
       ASSERT_EQ(TIFFWriteDirectory(file), 1);
     }
@@ -285,6 +326,22 @@ TEST_F(LabelVolumeOfAFile, ReadsTiffPagesFoldersAndStacksOfImageJ) {
   expect_cut_is_refused("one.tif", bytes.size());
 }
 
+// tifffile, libvips and many microscopes write tiles; NumPy's whole numbers are of 64 bits.
+TEST_F(LabelVolumeOfAFile, ReadsTiffsInTilesAndOf64Bits) {
+  make({37, 21, 3});
+  for (const char* mode : {"w", "wb", "wl", "w8"}) {
+    for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE}) {
+      SCOPED_TRACE(mode + std::to_string(compression));
+      write_tiled_tiff<std::uint8_t>("a.tif", mode, compression);
+      expect_labels("a.tif");
+      write_tiled_tiff<std::uint64_t>("a.tif", mode, compression);
+      expect_labels("a.tif");
+    }
+  }
+  write_tiled_tiff<std::uint16_t>("a.tif", "w", COMPRESSION_LZW);
+  expect_cut_is_refused("a.tif", 1);
+}
+
 TEST_F(LabelVolumeOfAFile, RefusesTiffsThatAreCutOrDiffer) {
   for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW}) {
     write_tiff("a.tif", "w", 0, 3, compression, 2);
@@ -292,7 +349,7 @@ TEST_F(LabelVolumeOfAFile, RefusesTiffsThatAreCutOrDiffer) {
   }
   fs::create_directory(folder_ / "slices");
   write_tiff("slices/1.tif", "w", 0, 1, COMPRESSION_NONE, 5);
-  made_ = MadeVolume({7, 6, 3});
+  make({7, 6, 3});
   write_tiff("slices/2.tif", "w", 0, 1, COMPRESSION_NONE, 5);
   EXPECT_ERROR(read("slices"), InputOutput);
   write_bytes(path("slices/3.tif"), "no TIFF");
