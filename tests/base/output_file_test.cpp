@@ -190,6 +190,14 @@ TEST_F(OutputFile, TellsBeforehandWhatCannotBeWritten) {
   expect_only("before");
 }
 
+TEST_F(OutputFile, NeedsNoRoomBesideAPipe) {
+  // With the longest name that there is, so that no name beside it could be made for a new file.
+  const std::string pipe = path(std::string(255, 'p'));
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NO_THROW(check_writable(pipe));
+  expect_only("before");
+}
+
 TEST_F(OutputFile, KnowsOneFileByItsNames) {
   fs::create_symlink(path("report.txt"), path("link.txt"));
   fs::create_hard_link(path("report.txt"), path("hard.txt"));

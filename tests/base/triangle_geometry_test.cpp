@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
+#include <random>
 
+#include "support/seeds.h"
 #include "support/test_shapes.h"
 
 namespace wscvt {
@@ -57,6 +62,86 @@ TEST(TriangleGeometry, VertexAreasShareOutTheArea) {
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 22.0, 1e-12);
   const IndexedMesh one{{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {9, 9, 9}}, {{0, 1, 2}}};
   EXPECT_EQ(vertex_areas(one), (std::vector<double>{2, 2, 2, 0}));
+}
+
+TEST(TriangleGeometry, VertexNormalsAreTheMeanOfTheTrianglesByArea) {
+  // At the tip of a corner of 2 x 3 x 4 the right-angled faces weigh as their areas do.
+  const IndexedMesh corner{
+      {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}, {9, 9, 9}},
+      {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 1, 4}},
+  };
+  const std::vector<Vector3> normals = vertex_normals(corner.points, corner.triangles);
+  EXPECT_LT((normals[0] - Vector3(-12, -8, -6).normalized()).norm(), 1e-15);
+  EXPECT_LT((normals[1] - Vector3(0, -8, -6).normalized()).norm(), 1e-15);
+  EXPECT_EQ(normals[4], Vector3::Zero());  // of a triangle without area alone
+}
+
+TEST(TriangleGeometry, LargestCornerCosineIsThatOfTheSmallestAngle) {
+  std::mt19937_64 engine(test::announced(2));
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto point = [&] { return Vector3(uniform(engine), uniform(engine), uniform(engine)); };
+  for (int i = 0; i < 200; ++i) {
+    const std::array<Vector3, 3> corners{point(), point(), point()};
+    std::array<double, 3> sides{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      sides[k] = (corners[(k + 1) % 3] - corners[(k + 2) % 3]).norm();
+    }
+    std::sort(sides.begin(), sides.end());
+    // The smallest angle lies opposite to the shortest side; law of cosines.
+    const double expected = (sides[1] * sides[1] + sides[2] * sides[2] - sides[0] * sides[0]) /
+                            (2.0 * sides[1] * sides[2]);
+    EXPECT_NEAR(largest_corner_cosine(corners[0], corners[1], corners[2]), expected, 1e-12);
+  }
+  EXPECT_EQ(largest_corner_cosine({1, 2, 3}, {1, 2, 3}, {4, 5, 6}), 1.0);
+}
+
+TEST(TriangleGeometry, NearestWeightsAreThoseOfTheNearestPoint) {
+  // Against the foot of the perpendicular where it lies inside, and the nearest of three segments
+  // elsewhere.
+  std::mt19937_64 engine(test::announced(3));
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto point = [&] { return Vector3(uniform(engine), uniform(engine), uniform(engine)); };
+  std::array<int, 4> met{};  // with 0, 1, 2 and 3 corners that count
+  for (int i = 0; i < 4000; ++i) {
+    const std::array<Vector3, 3> corners{point(), point(), point()};
+    const Vector3 p = 2.0 * point();
+    double expected = 100.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3& from = corners[k];
+      const Vector3 edge = corners[(k + 1) % 3] - from;
+      const double share = std::clamp(edge.dot(p - from) / edge.squaredNorm(), 0.0, 1.0);
+      expected = std::min(expected, (p - from - share * edge).norm());
+    }
+    const Vector3 normal = doubled_area_normal(corners[0], corners[1], corners[2]).normalized();
+    const double height = normal.dot(p - corners[0]);
+    const Vector3 foot = p - height * normal;
+    const bool inside = doubled_area_normal(corners[0], corners[1], foot).dot(normal) > 0.0 &&
+                        doubled_area_normal(corners[1], corners[2], foot).dot(normal) > 0.0 &&
+                        doubled_area_normal(corners[2], corners[0], foot).dot(normal) > 0.0;
+    if (inside) expected = std::abs(height);
+    const Vector3 weights = nearest_weights(corners[0], corners[1], corners[2], p);
+    ASSERT_GE(weights.minCoeff(), 0.0);
+    ASSERT_NEAR(weights.sum(), 1.0, 1e-14);
+    const Vector3 nearest =
+        weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+    // A needle's weights lose digits by its area over the square of its sides, 1e-4 here.
+    ASSERT_NEAR((p - nearest).norm(), expected, 1e-11);
+    ++met[(weights.array() > 0.0).count()];
+  }
+  EXPECT_EQ(met[0], 0);
+  for (const int corners : {1, 2, 3}) EXPECT_GT(met[corners], 100) << corners;
+}
+
+TEST(TriangleGeometry, NearestWeightsOfItsOwnPointsAreExact) {
+  const Vector3 a(1, 0, 0);
+  const Vector3 b(0, 2, 0);
+  const Vector3 c(0, 0, 4);
+  EXPECT_EQ(nearest_weights(a, b, c, a), Vector3(1, 0, 0));
+  EXPECT_EQ(nearest_weights(a, b, c, b), Vector3(0, 1, 0));
+  EXPECT_EQ(nearest_weights(a, b, c, c), Vector3(0, 0, 1));
+  EXPECT_EQ(nearest_weights(a, b, c, 0.5 * (a + b)), Vector3(0.5, 0.5, 0));
+  EXPECT_EQ(nearest_weights(a, b, c, 0.5 * (b + c)), Vector3(0, 0.5, 0.5));
+  EXPECT_EQ(nearest_weights(a, b, c, 0.5 * (a + c)), Vector3(0.5, 0, 0.5));
 }
 
 }  // namespace

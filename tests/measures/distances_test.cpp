@@ -11,6 +11,7 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
 namespace {
@@ -115,6 +116,66 @@ TEST(Distances, SamplesAreSpreadByAreaAndLieOnTheSurface) {
   }
   EXPECT_NEAR(on_z, 10000.0 * 4.0 / 22.0, 2.0);  // whole slices of the accumulated area
   EXPECT_LT(mean.norm(), 5e-3);
+}
+
+TEST(Distances, PlacesAreEvenInsideEveryFace) {
+  const IndexedMesh mesh = test::tetrahedron(1.0);
+  constexpr std::size_t count = 4000;
+  const std::vector<MeshPlace> places = area_uniform_places(mesh, count);
+  ASSERT_EQ(places.size(), count);
+  std::vector<Eigen::Matrix3d> products(4, Eigen::Matrix3d::Zero());
+  std::vector<Vector3> means(4, Vector3::Zero());
+  for (const MeshPlace& place : places) {
+    const Vector3 w(place.weights[0], place.weights[1], place.weights[2]);
+    ASSERT_GE(w.minCoeff(), 0.0);
+    ASSERT_NEAR(w.sum(), 1.0, 1e-15);
+    means[place.triangle] += w / (count / 4);
+    products[place.triangle] += w * w.transpose() / (count / 4);
+  }
+  // Over a triangle the means are 1/3 of a weight, 1/6 of its square and 1/12 of two weights'
+  // product. A low-discrepancy sequence of 1000 points errs by about log(1000) / 1000.
+  const Eigen::Matrix3d expected = (Eigen::Matrix3d::Ones() + Eigen::Matrix3d::Identity()) / 12.0;
+  for (std::size_t face = 0; face < 4; ++face) {
+    EXPECT_LT((means[face] - Vector3::Constant(1.0 / 3.0)).cwiseAbs().maxCoeff(), 5e-3);
+    EXPECT_LT((products[face] - expected).cwiseAbs().maxCoeff(), 5e-3);
+  }
+}
+
+TEST(Distances, PlacesFollowTheDensity) {
+  // Two faces of one area; the mean densities of their corners are 1 and 3.
+  const IndexedMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}},
+                         {{0, 1, 2}, {3, 4, 5}}};
+  const std::vector<MeshPlace> places = area_uniform_places(mesh, 400, {0.5, 1.0, 1.5, 1, 2, 6});
+  const auto sparse = std::count_if(places.begin(), places.end(),
+                                    [](const MeshPlace& place) { return place.triangle == 0; });
+  EXPECT_EQ(sparse, 100);
+  EXPECT_ERROR(area_uniform_places(mesh, 400, {1.0}), InvalidInput);
+}
+
+TEST(Distances, InAnotherUnitAreThoseOfTheScaledMeshes) {
+  const IndexedMesh mesh = test::lumpy(2);
+  const IndexedMesh reference = test::lumpy(3);
+  const double unit = 0.25;  // exact
+  const auto measured = [&](double size) {
+    return measure_distances(test::scaled(mesh, Vector3::Constant(size)),
+                             test::scaled(reference, Vector3::Constant(size)), DistanceOptions{500},
+                             Execution(1));
+  };
+  MeshDistances scaled = measured(1.0);
+  scale(scaled, unit);
+  const MeshDistances expected = measured(unit);
+  EXPECT_EQ(std::memcmp(&scaled, &expected, sizeof scaled), 0);
+}
+
+TEST(Distances, AreTakenAtTheVerticesToo) {
+  // A spike of no more area than a handful of samples: its tip alone is 3 away.
+  IndexedMesh spike = test::box(1, 1, 1);
+  for (Vector3& p : spike.points) {
+    if (p.minCoeff() > 0.0) p *= 7.0;
+  }
+  const MeshDistances d =
+      measure_distances(spike, test::box(1, 1, 1), DistanceOptions{1}, Execution(1));
+  EXPECT_NEAR(d.to_reference.maximum, 3.0 * std::sqrt(3.0), 1e-14);
 }
 
 TEST(Distances, SameBitsOnAnyNumberOfThreads) {

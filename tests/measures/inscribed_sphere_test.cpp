@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "support/cancelled_runs.h"
 #include "support/expect_error.h"
@@ -57,6 +59,20 @@ TEST(InscribedSphere, FindsTheLargerOfTwoChambers) {
   const InscribedSphere s = largest_inscribed_sphere(mesh, Execution(1));
   EXPECT_NEAR(s.radius, 0.6, 0.6 * tolerance);
   EXPECT_LT((s.centre - Vector3(3, 0.1, 0.2)).norm(), 2.0 * tolerance);
+}
+
+TEST(InscribedSphere, OfAPlateEndsAfterFiftyThousandDistances) {
+  // Any point of the middle plane will do, and the bound would take 1e10 cells over it.
+  std::vector<double> progress;
+  const Execution watching(1, [&](double fraction, const std::string&) {
+    progress.push_back(fraction);
+    return progress.size() < 20000;  // so that a search without an end is stopped
+  });
+  const InscribedSphere s = largest_inscribed_sphere(test::box(1, 1, 0.01), watching);
+  EXPECT_NEAR(s.radius, 0.005, 1e-9);
+  EXPECT_GT(s.upper_bound, (1.0 + tolerance) * s.radius);
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
+  EXPECT_GT(progress.back(), 0.99);
 }
 
 TEST(InscribedSphere, SameBitsOnAnyNumberOfThreads) {

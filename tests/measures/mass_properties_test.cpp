@@ -82,6 +82,8 @@ TEST(MassProperties, FrameTurnsAndMovesWithTheBody) {
     const MassProperties moved = mass_of(test::transformed(body, scale * turn, shift));
     EXPECT_LT(angle_between(moved.principal_axes, Eigen::Quaterniond(turn) * mass.principal_axes),
               1e-7);
+    // Of the two quaternions of a turn it is always the same one.
+    EXPECT_GE(moved.principal_axes.w(), 0.0);
     EXPECT_LT((moved.centroid - (scale * turn * mass.centroid + shift)).norm(), 1e-11 * scale);
     EXPECT_LT((moved.principal_moments / std::pow(scale, 5) - mass.principal_moments).norm(),
               1e-10);

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <vector>
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
@@ -115,6 +117,45 @@ TEST(MeshQuality, RefusesWhatCannotBeMeasured) {
   EXPECT_ERROR(measure_quality(IndexedMesh()), InvalidInput);
   EXPECT_ERROR(quality_histograms(IndexedMesh(), 10), InvalidInput);
   EXPECT_ERROR(quality_histograms(test::box(1, 1, 1), 0), InvalidInput);
+}
+
+TEST(MeshQuality, StatisticsAreThoseOfAllEdgesOneByOneAlsoOverSeveralBlocks) {
+  // 20,480 faces, in the order of the icosahedron's: the blocks' means differ.
+  const IndexedMesh mesh = test::scaled(test::lumpy(5), {1.0, 2.0, 0.4});
+  std::vector<double> lengths;
+  std::vector<double> ratios;
+  for (const Triangle& t : mesh.triangles) {
+    std::vector<double> sides;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sides.push_back((mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm());
+      if (t[k] < t[(k + 1) % 3]) lengths.push_back(sides.back());
+    }
+    const auto [shortest, longest] = std::minmax_element(sides.begin(), sides.end());
+    ratios.push_back(*longest / *shortest);
+  }
+  const auto expect_statistics = [](const Statistics& measured, const std::vector<double>& values) {
+    const auto count = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+    double squares = 0.0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    // Rounding of 30,720 terms.
+    EXPECT_NEAR(measured.mean / mean, 1.0, 1e-12);
+    EXPECT_NEAR(measured.standard_deviation / std::sqrt(squares / count), 1.0, 1e-12);
+    EXPECT_EQ(measured.minimum, *std::min_element(values.begin(), values.end()));
+    EXPECT_EQ(measured.maximum, *std::max_element(values.begin(), values.end()));
+  };
+  const MeshQuality quality = measure_quality(mesh);
+  expect_statistics(quality.edge_length, lengths);
+  expect_statistics(quality.edge_ratio, ratios);
+}
+
+TEST(MeshQuality, InAnotherUnitIsThatOfTheScaledMesh) {
+  const IndexedMesh mesh = test::lumpy(2);
+  const double unit = 0.25;  // exact
+  MeshQuality scaled = measure_quality(mesh);
+  scale(scaled, unit);
+  const MeshQuality expected = measure_quality(test::scaled(mesh, Vector3::Constant(unit)));
+  EXPECT_EQ(std::memcmp(&scaled, &expected, sizeof scaled), 0);
 }
 
 }  // namespace

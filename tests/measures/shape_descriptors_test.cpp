@@ -128,6 +128,29 @@ TEST(ShapeDescriptors, InertiaTensorTurnsAndScalesWithTheBody) {
   }
 }
 
+TEST(ShapeDescriptors, DoNotDependOnWhereTheVerticesLieOnTheFaces) {
+  // Most vertices of this box are on one face, far from the centroid.
+  IndexedMesh box = test::transformed(test::box(1, 2, 3), Eigen::Matrix3d::Identity(), {7, 8, 9});
+  for (int i = 0; i < 30; ++i) {
+    const auto v = static_cast<std::int32_t>(box.points.size());
+    const auto [a, b, c] = box.triangles[i];
+    box.points.push_back((box.points[a] + box.points[b] + box.points[c]) / 3.0);
+    box.triangles[i] = {a, b, v};
+    // Its other two thirds are next in turn; what was there comes last.
+    box.triangles.push_back(box.triangles[i + 1]);
+    box.triangles.push_back({c, a, v});
+    box.triangles[i + 1] = {b, c, v};
+  }
+  const ShapeDescriptors d = describe(box);
+  EXPECT_NEAR(d.volume, 6.0, 1e-13);
+  EXPECT_NEAR(d.area, 22.0, 1e-13);
+  EXPECT_LT((d.centroid - Vector3(7, 8, 9)).norm(), 1e-13);
+  const double unit = std::sqrt(5.0 / 12.0);
+  EXPECT_LT((d.inertia_semi_axes - unit * Vector3(1, 2, 3)).norm(), 1e-13);
+  const Eigen::Matrix3d upright = Vector3(6.5, 5.0, 2.5).asDiagonal();
+  EXPECT_LT((d.inertia_tensor - upright).norm(), 1e-12);
+}
+
 TEST(ShapeDescriptors, InertiaErrorOfAScaledOrTurnedBody) {
   const ShapeDescriptors box = describe(test::box(1, 2, 3));
   EXPECT_EQ(inertia_error_percent(box, box), 0.0);

@@ -104,6 +104,19 @@ TEST(SphereSampling, RefusesADensityThatIsNotPositive) {
   EXPECT_ERROR(warped_lattice(100, density, 20), InvalidInput);
 }
 
+TEST(SphereSampling, SubdividedIcosahedronIsOneCutAtTheMiddlesOfItsEdges) {
+  // Cut in a straight line and projected once, however often: four parts an edge.
+  std::vector<Vector3> expected = test::subdivided(test::icosahedron(), 2).points;
+  for (Vector3& p : expected) p.normalize();
+  const std::vector<Vector3> points = subdivided_icosahedron(4);
+  ASSERT_EQ(points.size(), expected.size());
+  for (const Vector3& p : expected) {
+    const auto there = std::count_if(points.begin(), points.end(),
+                                     [&](const Vector3& q) { return (p - q).norm() < 1e-14; });
+    EXPECT_EQ(there, 1) << p.transpose();
+  }
+}
+
 TEST(SphereSampling, GridsHaveTheirCountsAndTheNearestIsNearest) {
   EXPECT_EQ(equal_angle_grid(3).size(), 26U);
   expect_distinct_unit_vectors(equal_angle_grid(7));

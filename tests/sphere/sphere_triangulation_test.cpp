@@ -195,6 +195,70 @@ TEST(SphereTriangulation, SurfaceFlipsLeaveNoTriangleFlat) {
   }
 }
 
+TEST(SphereTriangulation, SurfaceFlipsStopAtTheSmallestDeterminant) {
+  const std::vector<Vector3> seeds = fibonacci_lattice(300);
+  std::vector<Vector3> positions;
+  for (const Vector3& p : seeds) positions.push_back(p.cwiseProduct(Vector3(8.0, 1.0, 0.4)));
+  const auto smallest = [&](const SphereTriangulation& triangulation) {
+    double result = 1.0;
+    for (const Triangle& t : triangulation.triangles()) {
+      result = std::min(result, seeds[t[0]].dot(seeds[t[1]].cross(seeds[t[2]])));
+    }
+    return result;
+  };
+  SphereTriangulation free(seeds);
+  const double before = smallest(free);
+  const auto all = free.restore_surface_delaunay(seeds, positions, Execution(1));
+  ASSERT_LT(smallest(free), 0.2 * before);
+  SphereTriangulation held(seeds);
+  const auto fewer = held.restore_surface_delaunay(seeds, positions, Execution(1), 0.5 * before);
+  expect_closed_sphere(held, seeds);
+  // Rounding of the same product in another order.
+  EXPECT_GE(smallest(held), 0.5 * before * (1.0 - 1e-12));
+  EXPECT_GT(fewer.flips, 0);
+  EXPECT_GT(fewer.stuck, all.stuck);
+}
+
+TEST(SphereTriangulation, PatchesAreReplacedWithAllTheirNeighbours) {
+  const std::vector<Vector3> seeds = fibonacci_lattice(60);
+  const SphereTriangulation start(seeds);
+  std::mt19937_64 engine(test::announced(6));
+  for (std::int32_t v = 0; v < 60; ++v) {
+    SCOPED_TRACE(v);
+    // The triangles about a vertex, in another order and begun at other corners: nothing changes.
+    std::vector<std::int32_t> patch;
+    std::vector<Triangle> corners;
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(start.triangles().size()); ++t) {
+      const Triangle& triangle = start.triangles()[t];
+      if (std::count(triangle.begin(), triangle.end(), v) == 0) continue;
+      patch.push_back(t);
+      corners.push_back(triangle);
+      std::rotate(corners.back().begin(), corners.back().begin() + engine() % 3,
+                  corners.back().end());
+    }
+    std::shuffle(corners.begin(), corners.end(), engine);
+    SphereTriangulation turned = start;
+    turned.replace(patch, corners);
+    expect_closed_sphere(turned, seeds);
+    EXPECT_EQ(sorted_triangles(turned), sorted_triangles(start));
+
+    // The other diagonal of two triangles is a flip.
+    const std::int32_t h = start.first_half_edge()[v];
+    if (!start.is_flippable(h, seeds)) continue;
+    const std::int32_t other = start.opposite()[h];
+    const std::int32_t a = start.origin(h);
+    const std::int32_t b = start.origin(other);
+    const std::int32_t c = start.origin(SphereTriangulation::previous(h));
+    const std::int32_t d = start.origin(SphereTriangulation::previous(other));
+    SphereTriangulation flipped = start;
+    flipped.flip(h);
+    SphereTriangulation replaced = start;
+    replaced.replace({h / 3, other / 3}, {Triangle{d, b, c}, Triangle{c, a, d}});
+    expect_closed_sphere(replaced, seeds);
+    EXPECT_EQ(sorted_triangles(replaced), sorted_triangles(flipped));
+  }
+}
+
 TEST(SphereTriangulation, ReportsTrianglesTurnedOver) {
   std::vector<Vector3> seeds = fibonacci_lattice(100);
   SphereTriangulation triangulation(seeds);

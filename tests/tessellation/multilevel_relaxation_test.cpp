@@ -131,6 +131,11 @@ TEST(MultilevelRelaxation, RefusesAStartThatDoesNotFit) {
 
 TEST(MultilevelRelaxation, RefusesLevelsOutOfRange) {
   EXPECT_NO_THROW(check_multilevel_options({}));
+  for (const int seeds : {3, 0, -1}) {
+    MultilevelOptions fewest;
+    fewest.coarsest_seeds = seeds;
+    EXPECT_ERROR(check_multilevel_options(fewest), InvalidInput);
+  }
   for (const double tolerance : {0.0, -1e-4, std::numeric_limits<double>::quiet_NaN()}) {
     MultilevelOptions coarsest;
     coarsest.coarsest_tolerance = tolerance;

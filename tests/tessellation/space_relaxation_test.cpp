@@ -107,6 +107,55 @@ TEST(SpaceRelaxation, DensitiesShareOutTheNodes) {
   EXPECT_NEAR(upper, 300, 20);
 }
 
+TEST(SpaceRelaxation, ReportsTheSpreadOfTheCellsAreas) {
+  const Body body(test::scaled(test::sphere(3), Vector3(1.0, 0.7, 0.5)));
+  // The same density everywhere is none.
+  for (const std::vector<double>& densities :
+       {std::vector<double>(), std::vector<double>(body.surface.mesh().points.size(), 2.0)}) {
+    const SpaceTessellation result = relaxed(body, 60, densities);
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const double area : result.cell_areas) {
+      sum += area / 60.0;
+      squares += area * area / 60.0;
+    }
+    const double spread = std::sqrt(squares / (sum * sum) - 1.0);
+    EXPECT_GT(spread, 0.0);
+    EXPECT_NEAR(result.report.history.back().area_spread / spread, 1.0, 1e-9);
+  }
+}
+
+TEST(SpaceRelaxation, LevelsCutEdgesInTheirMiddlesOnTheSurface) {
+  // Nothing is moved, so that the seeds of the coarser level come first and those in the middles of
+  // its edges after them. The body is so long that the middle of an edge on the sphere is far from
+  // its middle in space.
+  const Body body(test::scaled(test::sphere(4), Vector3(4.0, 1.0, 0.7)));
+  constexpr int coarse = 40;
+  constexpr int count = 4 * coarse - 6;
+  RelaxationOptions options;
+  options.maximum_iterations = 0;
+  MultilevelOptions levels;
+  levels.coarsest_seeds = coarse;
+  const std::vector<Vector3> start = fibonacci_lattice(coarse);
+  const SpaceTessellation before =
+      relax_in_space(start, coarse, body.surface, {}, options, levels, Execution(1));
+  const SpaceTessellation after =
+      relax_in_space(start, count, body.surface, {}, options, levels, Execution(1));
+  ASSERT_EQ(after.seeds.size(), static_cast<std::size_t>(count));
+  const SphereTriangulation& edges = before.triangulation;
+  std::size_t i = coarse;
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(edges.opposite().size()); ++h) {
+    const std::int32_t other = edges.opposite()[h];
+    if (h > other) continue;
+    const double to_a = (after.positions[i] - before.positions[edges.origin(h)]).norm();
+    const double to_b = (after.positions[i] - before.positions[edges.origin(other)]).norm();
+    // Six bisections leave a 160th of the way along the edge on the sphere.
+    EXPECT_NEAR(to_a / to_b, 1.0, 0.1) << i;
+    ++i;
+  }
+  EXPECT_EQ(i, after.seeds.size());
+}
+
 TEST(SpaceRelaxation, RefusesNumbersThatDoNotFit) {
   const auto refusal = [](auto&& call) {
     try {

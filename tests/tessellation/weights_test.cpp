@@ -175,13 +175,16 @@ TEST(Weights, WantedDensitiesAddUpToTheNodeCountOnSphereAndSurface) {
 }
 
 TEST(Weights, DoNotDependOnTheScaleOfTheSurface) {
-  const Ellipsoid small(Vector3(1.3e-6, 0.9e-6, 0.7e-6));
   const std::vector<Vector3> seeds = fibonacci_lattice(300);
-  for (const Weighting weighting : {Weighting::RadialDistance, Weighting::Curvature,
-                                    Weighting::Area, Weighting::ErrorAdaptive}) {
-    const std::vector<double> a = weights_of(model_of(ellipsoid(), weighting), seeds);
-    const std::vector<double> b = weights_of(model_of(small, weighting), seeds);
-    for (std::size_t i = 0; i < seeds.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-12);
+  for (const double scale : {1e-6, 1e6}) {
+    const Ellipsoid scaled(scale * Vector3(1.3, 0.9, 0.7));
+    for (const Weighting weighting : {Weighting::RadialDistance, Weighting::Curvature,
+                                      Weighting::Area, Weighting::ErrorAdaptive}) {
+      SCOPED_TRACE(testing::Message() << scale << " " << static_cast<int>(weighting));
+      const std::vector<double> a = weights_of(model_of(ellipsoid(), weighting), seeds);
+      const std::vector<double> b = weights_of(model_of(scaled, weighting), seeds);
+      for (std::size_t i = 0; i < seeds.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-12);
+    }
   }
 }
 
