@@ -62,6 +62,22 @@ TEST(RemeshDefaults, AsPublishedIsTheSeriesWithNodesOnIt) {
   EXPECT_EQ(remesh(test::lumpy(4), options).fit.degree, 9);
 }
 
+TEST(RemeshDefaults, AHandfulOfNodesGoesRoundALongGrain) {
+  // With cells on the sphere they ran together on one side of it, at angles of 1 to 16 degrees.
+  IndexedMesh scan = test::sphere(3);
+  for (Vector3& p : scan.points) p = p.cwiseProduct(Vector3(1.0, 2.0, 3.0));
+  RemeshOptions options;
+  options.measures.advice = false;
+  for (options.node_count = 10; options.node_count < 20; ++options.node_count) {
+    SCOPED_TRACE(options.node_count);
+    const RemeshResult result = remesh(scan, options);
+    // Half of what a regular triangle has.
+    EXPECT_GT(result.quality.smallest_angle, 30.0);
+    // About the middle of the grain, whose shortest half axis is 1.
+    EXPECT_LT(result.remesh.centroid.norm(), 0.5);
+  }
+}
+
 TEST(RemeshDefaults, FourNodesOnABallAreARegularTetrahedron) {
   const RemeshResult result = remeshed(test::sphere(4), 4);
   // The fit reads the ball's facets, of a hundredth of a radius.
