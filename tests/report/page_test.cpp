@@ -7,6 +7,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <locale>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -100,6 +102,162 @@ TEST(Figures, CurvesOverManyDecadesHaveFewTicks) {
   }
 }
 
+/// The numbers in a text from a place on, as many as there are before another sign.
+std::vector<double> numbers_after(const std::string& text, const std::string& before,
+                                  const std::string& ignored) {
+  std::string rest = text.substr(text.find(before) + before.size());
+  for (char& c : rest) {
+    if (ignored.find(c) != std::string::npos) c = ' ';
+  }
+  std::istringstream stream(rest);
+  stream.imbue(std::locale::classic());
+  return {std::istream_iterator<double>(stream), {}};
+}
+
+/// Values of an attribute of all elements of one kind.
+std::vector<double> attributes(const std::string& svg, const std::string& element,
+                               const std::string& name) {
+  std::vector<double> values;
+  for (std::size_t at = svg.find("<" + element); at != std::string::npos;
+       at = svg.find("<" + element, at + 1)) {
+    values.push_back(numbers_after(svg.substr(at), " " + name + "=\"", "").front());
+  }
+  return values;
+}
+
+/// The places of the text's beginnings in a drawing, along its axes.
+struct TextPlace {
+  double x = std::nan("");
+  double y = std::nan("");
+};
+TextPlace place_of(const std::string& svg, const std::string& text) {
+  const std::size_t end = svg.find(">" + text + "</text>");
+  if (end == std::string::npos) return {};
+  const std::string element = svg.substr(svg.rfind("<text", end));
+  return {numbers_after(element, " x=\"", "").front(), numbers_after(element, " y=\"", "").front()};
+}
+
+TEST(Figures, BarsAreSharesOfWhatEachCounted) {
+  const Histogram few{-1.0, 3.0, {1, 2, 5, 0}};
+  const Histogram many{-1.0, 3.0, {100, 200, 500, 0}};
+  const std::string svg =
+      histogram_figure("x", "y", {{"few", "#111111", few}, {"many", "#222222", many}});
+  const std::vector<double> path = numbers_after(svg, " d=\"M", "LMZ");
+  ASSERT_EQ(path.size(), 2U * (1 + 2 * 4 + 1));
+  EXPECT_EQ(numbers_after(svg.substr(svg.rfind("<path")), " d=\"M", "LMZ"), path);
+  // Each bar two points: as wide as the others, as high as its share; the numbers have six digits.
+  const double bottom = path[1];
+  const double width = path[4] - path[2];
+  const double height = bottom - path[3];  // of one in the eight
+  EXPECT_GT(width, 50.0);
+  EXPECT_GT(height, 0.0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double* const bar = path.data() + 2 + 4 * k;
+    EXPECT_NEAR(bar[0], path[0] + width * static_cast<double>(k), 2e-3);
+    EXPECT_NEAR(bar[2], path[0] + width * static_cast<double>(k + 1), 2e-3);
+    EXPECT_NEAR(bottom - bar[1], height * static_cast<double>(few.counts[k]), 5e-3);
+    EXPECT_EQ(bar[1], bar[3]);
+  }
+  // The numbers of the axes stand where the bars have these values: 62.5 % is the largest.
+  EXPECT_NEAR(place_of(svg, "0").x, path[0] + width, 2e-3);
+  EXPECT_NEAR(place_of(svg, "2").x, path[0] + 3 * width, 2e-3);
+  EXPECT_NEAR(place_of(svg, "20").y - place_of(svg, "60").y, height * 8 * 0.4, 5e-3);
+  const double highest = *std::min_element(path.begin() + 2, path.end());
+  EXPECT_GT(highest, 34.0);  // below the names, and the frame is used
+  EXPECT_LT(highest, 34.0 + 0.1 * (bottom - highest));
+}
+
+TEST(Figures, CurvesAreStraightWhereTheyArePowers) {
+  const std::string svg =
+      logarithmic_figure("N", "error", {{10000, 0.01}, {100, 1.0}, {1000, 0.1}, {10, 10.0}}, 0.1);
+  const std::vector<double> x = attributes(svg, "circle", "cx");
+  const std::vector<double> y = attributes(svg, "circle", "cy");
+  ASSERT_EQ(x.size(), 4U);
+  EXPECT_GT(x[1] - x[0], 50.0);
+  EXPECT_GT(y[1] - y[0], 30.0);  // down the page
+  for (std::size_t k = 2; k < 4; ++k) {
+    EXPECT_NEAR(x[k] - x[k - 1], x[1] - x[0], 5e-3);  // numbers of six digits
+    EXPECT_NEAR(y[k] - y[k - 1], y[1] - y[0], 5e-3);
+  }
+  EXPECT_NEAR(attributes(svg, "line", "y1").back(), y[2], 1e-9);  // the target's line
+  EXPECT_NEAR(attributes(svg, "line", "y2").back(), y[2], 1e-9);
+  EXPECT_NEAR(place_of(svg, "1000").x, x[2], 5e-3);
+  const std::vector<double> path = numbers_after(svg, " d=\"M", "LMZ");
+  ASSERT_EQ(path.size(), 8U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(path[2 * k], x[k]);
+    EXPECT_EQ(path[2 * k + 1], y[k]);
+  }
+  // A target that no point comes near to is in the drawing as well: 300 high, its numbers below.
+  for (const double level : {1e-5, 1e4}) {
+    const std::string far = logarithmic_figure("N", "error", {{10, 1.0}, {100, 0.5}}, level);
+    const double line = attributes(far, "line", "y1").back();
+    EXPECT_GT(line, 34.0);
+    EXPECT_LT(line, 248.0);
+    for (const double point : attributes(far, "circle", "cy")) {
+      EXPECT_GT(point, 34.0);
+      EXPECT_LT(point, 248.0);
+    }
+  }
+}
+
+TEST(Figures, ScaleOfColoursGoesFromBlueInsideToRedOutside) {
+  const std::string svg = colour_scale(0.25);
+  EXPECT_LT(place_of(svg, "-0.25").x, place_of(svg, "0").x);
+  EXPECT_NEAR(place_of(svg, "-0.25").x + place_of(svg, "0.25").x, 2 * place_of(svg, "0").x, 1e-9);
+  EXPECT_NEAR(place_of(svg, "-0.25").x, attributes(svg, "rect", "x").front(), 1e-9);
+  EXPECT_NEAR(place_of(svg, "0.25").x - place_of(svg, "-0.25").x,
+              attributes(svg, "rect", "width").front(), 1e-9);
+  EXPECT_EQ(attributes(svg, "stop", "offset"), (std::vector<double>{0.0, 0.5, 1.0}));
+  std::size_t at = 0;
+  for (const double value : {-1.0, 0.0, 1.0}) {
+    const Colour colour = diverging_colour(value);
+    const std::string text = "rgb(" + std::to_string(colour[0]) + "," + std::to_string(colour[1]) +
+                             "," + std::to_string(colour[2]) + ")";
+    at = svg.find(text, at);
+    EXPECT_NE(at, std::string::npos) << text;
+  }
+}
+
+TEST(Figures, DistancesArePositiveOutsideAndAsLargeAsTheyAre) {
+  // Facets of a sphere and of a larger one about them: between 0.9 and 1 of what the radii differ.
+  const IndexedMesh ball = test::sphere(3);
+  const IndexedMesh larger = test::transformed(ball, 1.25 * Eigen::Matrix3d::Identity());
+  const auto check = [](const IndexedMesh& shown, const IndexedMesh& reference, double sign) {
+    const PageFigures figures =
+        page_figures(ShownMesh{reference, "original"}, {shown, "remesh"}, Execution(1));
+    // Beside the scale of the colours, which ends at the usual distance.
+    const std::string& scale = figures.pictures.back().content;
+    const std::size_t end = scale.rfind("</text>");
+    const double usual = std::stod(scale.substr(scale.rfind('>', end) + 1));
+    EXPECT_GT(usual, 0.245);
+    EXPECT_LT(usual, 0.2501);
+    // The histogram ends at 1.5 of it: most stand at two thirds of a side, on their side.
+    const std::string& svg = figures.distributions.back().content;
+    const std::vector<double> path = numbers_after(svg, " d=\"M", "LMZ");
+    const double middle = 0.5 * (path[0] + path[path.size() - 2]);
+    const double half = middle - path[0];
+    std::size_t highest = 2;
+    for (std::size_t k = 2; k + 2 < path.size(); k += 4) {
+      if (path[k + 1] < path[highest + 1]) highest = k;
+      if (path[k + 1] == path[1]) continue;  // an empty bin
+      EXPECT_GT(sign * (path[k] - middle) / half, -0.05);
+    }
+    EXPECT_GT(sign * (path[highest] - middle) / half, 0.6);
+    EXPECT_LT(sign * (path[highest] - middle) / half, 0.7);
+  };
+  check(larger, ball, 1.0);
+  check(ball, larger, -1.0);
+  // Where distances differ the scale ends near the largest of them, but for a spike of less than
+  // 2 % of the surface.
+  IndexedMesh spiked = larger;
+  for (Vector3& p : spiked.points) {
+    if (p.z() > 0.0) p.z() *= 0.8;
+  }
+  spiked.points[100] *= 1.4;
+  check(spiked, ball, 1.0);
+}
+
 TEST(Figures, PicturesShowBothMeshesWhole) {
   const IndexedMesh ball = test::sphere(2);
   IndexedMesh larger = ball;
@@ -186,6 +344,116 @@ TEST(MeshView, SeesTheNearSideOfASphereAndNothingElse) {
   // A disc of radius 1 in a square of 2 half_size; the facets cut its rim by less than 0.5 %.
   const double share = static_cast<double>(covered) / (200.0 * 200.0);
   EXPECT_NEAR(share, test::pi / (4.0 * view.half_size * view.half_size), 0.01);
+}
+
+TEST(MeshView, HoldsMeshesWholeWithAMargin) {
+  const IndexedMesh near = test::transformed(test::box(1, 2, 3), test::random_rotation(4));
+  const IndexedMesh far = test::transformed(near, Eigen::Matrix3d::Identity(), {5, -7, 4});
+  for (const auto& meshes :
+       {std::vector<const IndexedMesh*>{&near}, std::vector<const IndexedMesh*>{&far, &near},
+        std::vector<const IndexedMesh*>{&near, &far}}) {
+    const MeshView view = view_of(meshes, 100);
+    EXPECT_NEAR(view.right.norm(), 1.0, 1e-15);
+    EXPECT_NEAR(view.up.norm(), 1.0, 1e-15);
+    EXPECT_NEAR(view.right.dot(view.up), 0.0, 1e-15);
+    EXPECT_EQ(view.right.z(), 0.0);  // z is up
+    EXPECT_GT(view.up.z(), 0.5);
+    EXPECT_GT(view.right.cross(view.up).z(), 0.0);  // from somewhat above
+    double largest = 0.0;
+    for (const IndexedMesh* const mesh : meshes) {
+      for (const Vector3& p : mesh->points) {
+        largest = std::max({largest, std::abs((p - view.centre).dot(view.right)),
+                            std::abs((p - view.centre).dot(view.up))});
+      }
+    }
+    EXPECT_NEAR(view.half_size, 1.04 * largest, 1e-12);
+  }
+}
+
+TEST(MeshView, SeesWhatALineToTheViewerLeavesLast) {
+  // Every pixel against every triangle: a ring before and behind balls, drawn in either order.
+  const auto ball_at = [](const Vector3& place) {
+    return test::transformed(test::sphere(1), 0.4 * Eigen::Matrix3d::Identity(), place);
+  };
+  IndexedMesh mesh = test::transformed(
+      test::joined(ball_at({1.0, 0.5, -1.0}),
+                   test::joined(test::torus(1.0, 0.4, 12), ball_at({-1.0, 0.5, 1.0}))),
+      test::random_rotation(7));
+  const int pixels = 60;
+  const MeshView view = view_of({&mesh}, pixels);
+  const Vector3 towards = view.right.cross(view.up);
+  const double pixel = 2.0 * view.half_size / pixels;
+  for (int order = 0; order < 2; ++order) {
+    std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+    const SeenMesh seen = look_at(mesh, view);
+    std::size_t hidden = 0;
+    for (int row = 0; row < pixels; ++row) {
+      for (int column = 0; column < pixels; ++column) {
+        const Vector3 line = view.centre + (column + 0.5 - 0.5 * pixels) * pixel * view.right +
+                             (0.5 * pixels - row - 0.5) * pixel * view.up;
+        std::int32_t face = -1;
+        double depth = -1e9;
+        double edge = 0.0;
+        Vector3 point = Vector3::Zero();
+        int sheets = 0;
+        for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+          // The triangle without its depth, and how far inside each of its sides the line is.
+          std::array<Vector3, 3> corners;
+          std::array<Vector3, 3> flat;
+          for (std::size_t k = 0; k < 3; ++k) {
+            corners[k] = mesh.points[mesh.triangles[f][k]];
+            flat[k] = corners[k] - line;
+            flat[k] -= flat[k].dot(towards) * towards;
+          }
+          double distance = 1e9;
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Vector3 side = flat[(k + 1) % 3] - flat[k];
+            distance = std::min(distance, flat[k].cross(side).dot(towards) / side.norm());
+          }
+          if (distance < 0.0) continue;  // beside it, or seen from behind
+          ++sheets;
+          const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+          const Vector3 at = line + normal.dot(corners[0] - line) / normal.dot(towards) * towards;
+          if (at.dot(towards) <= depth) continue;
+          depth = at.dot(towards);
+          face = static_cast<std::int32_t>(f);
+          edge = distance / pixel;
+          point = at;
+        }
+        hidden += sheets > 1 ? 1 : 0;
+        const std::size_t i = static_cast<std::size_t>(row) * pixels + column;
+        ASSERT_EQ(seen.faces[i], face) << row << " " << column;
+        EXPECT_LT((seen.points[i] - point).norm(), 1e-12);
+        EXPECT_NEAR(seen.edges[i], edge, 1e-10);
+      }
+    }
+    EXPECT_GT(hidden, 50U);
+  }
+}
+
+TEST(MeshView, IsLitFromAboveTheViewerAndEdgesAreDark) {
+  const IndexedMesh sphere = test::sphere(3);
+  const MeshView view = view_of({&sphere}, 120);
+  const SeenMesh seen = look_at(sphere, view);
+  const Picture plain = draw(sphere, seen, view, false, {});
+  const Picture edged = draw(sphere, seen, view, true, {});
+  const Vector3 light = (view.right.cross(view.up) + 0.6 * view.up - 0.4 * view.right).normalized();
+  std::size_t dark = 0;
+  for (std::size_t i = 0; i < seen.faces.size(); ++i) {
+    if (seen.faces[i] < 0) {
+      EXPECT_EQ(plain.pixels[i], (Colour{255, 255, 255}));
+      EXPECT_EQ(edged.pixels[i], (Colour{255, 255, 255}));
+      continue;
+    }
+    // 35 % of the grey of 200 all round, the rest from the light; the facets are 0.1 wide.
+    const double lit = std::max(0.0, seen.points[i].dot(light));
+    EXPECT_NEAR(plain.pixels[i][0], 70.0 + 130.0 * lit, 12.0);
+    EXPECT_EQ(plain.pixels[i][0], plain.pixels[i][2]);
+    const bool at_edge = seen.edges[i] < 1.1;
+    dark += at_edge ? 1 : 0;
+    EXPECT_NEAR(edged.pixels[i][1], (at_edge ? 0.35 : 1.0) * plain.pixels[i][1], 1.0);
+  }
+  EXPECT_GT(dark, 1000U);
 }
 
 TEST(MeshView, ColoursComeFromThePointsSeen) {
@@ -328,6 +596,27 @@ TEST_F(ReportFiles, TableGrowsByARowUnderItsHeader) {
   write("");
   append_to_table(path(), "a,b\r\n1,2\r\n");
   EXPECT_EQ(content(), "a,b\r\n1,2\r\n");
+}
+
+TEST_F(ReportFiles, TableSaysWhyItCannotBeWritten) {
+  std::filesystem::create_directory(path("folder.csv"));
+  std::filesystem::create_symlink(path("one.csv"), path("other.csv"));
+  std::filesystem::create_symlink(path("other.csv"), path("one.csv"));
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"folder.csv", "folder.csv\" is a folder"},
+      {"not there/table.csv", "check that the folder is there"},
+      {"one.csv", "one.csv\" is a link that leads nowhere"}};
+  for (const auto& [name, sentence] : cases) {
+    for (const auto& call : {check_table, append_to_table}) {
+      try {
+        call(path(name), "a,b\r\n3,4\r\n");
+        ADD_FAILURE() << "not refused";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InputOutput);
+        EXPECT_NE(std::string(error.what()).find(sentence), std::string::npos) << error.what();
+      }
+    }
+  }
 }
 
 TEST_F(ReportFiles, TableRefusesAnotherHeaderAndLeavesTheFile) {

@@ -4,16 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "support/comma_decimals.h"
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/mass_properties.h"
+#include "wscvt/report/mass_table.h"
 
 namespace wscvt {
 namespace {
@@ -151,6 +154,178 @@ TEST(Report, SaysHowTheRelaxationEnded) {
     result.relaxation.outcome = outcome;
     EXPECT_TRUE(contains(text_of(result), text)) << text_of(result);
   }
+}
+
+/// The text of the line that begins with a topic; empty where there is none.
+std::string line_of(const RemeshResult& result, const std::string& topic) {
+  for (const std::string& line : report_lines(result)) {
+    if (line.rfind(topic + " ", 0) != 0) continue;
+    return line.substr(line.find_first_not_of(' ', topic.size()));
+  }
+  return "";
+}
+
+TEST(Report, TellsOfASphericalMapItsHandlesMeetingsAndMending) {
+  RemeshResult result = example();
+  for (const char* topic : {"Handles", "Meeting", "Mended", "Placement"}) {
+    EXPECT_EQ(line_of(result, topic), "") << topic;
+  }
+  result.handles.cut = {{0.25, {1, 2, 3}, 3}};
+  EXPECT_EQ(line_of(result, "Handles"), "1 handle cut and closed: 0.25 long at (1, 2, 3)");
+  result.handles.cut.assign(5, {0.5, {-1, 0, 1}, 3});
+  std::string five = "5 handles cut and closed: 0.5 long at (-1, 0, 1)";
+  for (int k = 1; k < 5; ++k) five += "; 0.5 long at (-1, 0, 1)";
+  EXPECT_EQ(line_of(result, "Handles"), five);
+  result.handles.cut.push_back({0.75, {0, 0, 0}, 3});
+  EXPECT_EQ(line_of(result, "Handles"), "6" + five.substr(1) + "; ...");
+
+  result.parametrization = Parametrization::Spherical;
+  result.options.placement.kind = NodePlacement::LeastSquares;
+  EXPECT_EQ(line_of(result, "Meeting"), "0 pairs of triangles meet, of 1280 triangles");
+  result.space.self_intersections = 1;
+  result.space.repairs = 2;
+  EXPECT_EQ(
+      line_of(result, "Meeting"),
+      "1 pair of triangles meet, of 1280 triangles; repaired by 2 relaxations with more nodes "
+      "there");
+  result.space.mending.relocations = 1;
+  EXPECT_EQ(
+      line_of(result, "Mended"),
+      "triangles with angles below 35 degrees, by 0 flips, 0 moves and 1 relocation of nodes; "
+      "0 left");
+  result.space.mending = {1, 20, 3, 4};
+  result.options.placement.refinement.rounds = 1;
+  result.options.placement.refinement.smallest_angle = 25.0;
+  EXPECT_EQ(line_of(result, "Mended"),
+            "triangles with angles below 25 degrees, by 1 flip, 20 moves and 3 relocations of "
+            "nodes; 4 left");
+  EXPECT_EQ(line_of(result, "Placement"), "");
+  result.space.fit = {60000, 1, 0.0125};
+  EXPECT_EQ(line_of(result, "Placement"),
+            "along the normals to 60000 samples; 1 node held back by guards; offset for the volume "
+            "0.0125");
+  result.space.fit = {};
+  result.options.placement.kind = NodePlacement::Series;
+  EXPECT_EQ(line_of(result, "Placement"), "on the scan; a spherical map has no fitted series");
+  // What the map has no use for is told beside what was taken instead.
+  result.options.weighting.kind = Weighting::RadialDistance;
+  EXPECT_EQ(line_of(result, "Weighting").rfind(label_of(Weighting::Area) + " (asked for: ", 0), 0U)
+      << line_of(result, "Weighting");
+}
+
+TEST(Report, TellsOfSearchRefinementAndLevels) {
+  RemeshResult result = example();
+  EXPECT_EQ(line_of(result, "Target"), "");
+  EXPECT_EQ(line_of(result, "Refinement"), "");
+  result.options.target = {ErrorMeasure::Volume, 0.5, 20000};
+  const double none = std::numeric_limits<double>::infinity();
+  result.search = NodeCountSearch{true, 642, {{300, none}, {642, 0.4}}};
+  EXPECT_EQ(line_of(result, "Target"),
+            "volume error of at most 0.5 %: met by 642 nodes. Tried 300: not possible, 642: 0.4 %");
+  result.search->met = false;
+  EXPECT_TRUE(contains(line_of(result, "Target"), "not met, not even by 642 nodes"));
+  result.refinement.start_distance = 0.5;
+  result.refinement.history = {{0.25, 9, 2, 1}};
+  EXPECT_EQ(
+      line_of(result, "Refinement"),
+      "not converged: stopped at the limit of 1 round, rms distance from 0.5 to 0.25, 2 edges "
+      "flipped, 1 node taken elsewhere");
+  result.refinement.history.push_back({0.125, 9, 3, 1});
+  result.refinement.converged = true;
+  EXPECT_EQ(line_of(result, "Refinement"),
+            "converged after 2 rounds, rms distance from 0.5 to 0.125, 5 edges flipped, 2 nodes "
+            "taken elsewhere");
+  EXPECT_TRUE(contains(line_of(result, "Relaxation"), "after 2 iterations, displacement"));
+  result.relaxation.coarser_levels = {{40, 8, RelaxationOutcome::Converged},
+                                      {160, 9, RelaxationOutcome::Converged}};
+  EXPECT_TRUE(contains(line_of(result, "Relaxation"),
+                       "after 2 iterations (after 9 with 160 seeds, 8 with 40 seeds), displ"));
+  result.options.seeding.sampling = Sampling::Fibonacci;
+  EXPECT_EQ(line_of(result, "Sampling"), label_of(Sampling::Fibonacci) + ", not relaxed");
+  EXPECT_EQ(line_of(result, "Relaxation"), "");
+}
+
+TEST(Report, TellsInputFitAndCloseness) {
+  RemeshResult result = example();
+  result.misfit = 0.25;
+  result.input.equivalent_radius = 2.0;
+  EXPECT_EQ(line_of(result, "Closeness"),
+            "rms distance from the scan 0.25 (12.5 % of the equivalent radius)");
+  EXPECT_TRUE(contains(line_of(result, "Fold"), "(limit "));
+  // An automatic degree says why it is this one.
+  result.fit.requested_degree = automatic_degree;
+  result.fit.residual = 0.01;
+  result.fit.chord_error = 0.02;
+  EXPECT_EQ(line_of(result, "Fit"),
+            "spherical harmonics of degree 20, residual 0.01 (0.5 % of the equivalent radius; the "
+            "lowest degree below the chords' 1 %)");
+  result.fit.limit = DegreeLimit::Highest;
+  EXPECT_TRUE(contains(line_of(result, "Fit"),
+                       "; " + label_of(DegreeLimit::Highest) + ", but not below the chords' 1 %)"));
+  result.parametrization = Parametrization::Spherical;
+  EXPECT_FALSE(contains(line_of(result, "Fold"), "limit"));
+  result.input.input_faces = 0;
+  result.input.unreferenced_vertices = 1;
+  result.input.reoriented_faces = 2;
+  EXPECT_EQ(line_of(result, "Repairs"),
+            "1 unused vertex dropped, 2 faces turned outward, points triangulated");
+  result.input.input_vertices = 0;
+  result.fit.rays = 0;
+  EXPECT_EQ(line_of(result, "Input"),
+            "surface from a formula or coefficients, equivalent radius 2");
+  for (const char* topic : {"Repairs", "Used", "Fold", "Map", "Fit"}) {
+    EXPECT_EQ(line_of(result, topic), "") << topic;
+  }
+}
+
+/// The cells of the table's row that begins with a label, as the text of its lines.
+std::vector<std::string> cells_of(const RemeshResult& result, const std::string& label) {
+  for (const std::string& line : report_lines(result)) {
+    if (line.rfind("  " + label + " ", 0) != 0) continue;
+    std::istringstream rest(line.substr(2 + label.size()));
+    return {std::istream_iterator<std::string>(rest), {}};
+  }
+  return {};
+}
+
+TEST(Report, TablesHoldDistancesAndQualityOfBoth) {
+  using Cells = std::vector<std::string>;
+  RemeshResult result = example();
+  EXPECT_EQ(cells_of(result, "root mean square"), Cells());
+  result.input.equivalent_radius = 2.0;
+  result.distances = MeshDistances{{0.3, 0.2, 0.1}, {0.4, 0.25, 0.15}, 0.4, 0.25};
+  EXPECT_EQ(cells_of(result, "largest sampled"), (Cells{"0.3", "0.4", "0.4", "20"}));
+  EXPECT_EQ(cells_of(result, "root mean square"), (Cells{"0.2", "0.25", "0.25", "12.5"}));
+  EXPECT_EQ(cells_of(result, "mean"), (Cells{"0.1", "0.15", "0.15", "7.5"}));
+  result.original_quality.edge_length = {};
+  result.original_quality.edge_length.mean = 1.5;
+  result.original_quality.edge_length.standard_deviation = 0.5;
+  result.quality.edge_length.mean = 3.0;
+  result.quality.edge_length.standard_deviation = 0.75;
+  result.original_quality.valence_six_share = 0.5;
+  result.quality.valence_six_share = 0.875;
+  EXPECT_EQ(cells_of(result, "edge length, mean"), (Cells{"1.5", "3"}));
+  EXPECT_EQ(cells_of(result, "edge length, deviation"), (Cells{"0.5", "0.75"}));
+  EXPECT_EQ(cells_of(result, "vertices with six neighbours, %"), (Cells{"50", "87.5"}));
+}
+
+TEST(Report, MassTableHoldsTheWholeTensor) {
+  NamedMass body{"one", {}};
+  body.mass.centroid = Vector3(1, 2, 3);
+  body.mass.inertia_tensor << 11, 12, 13, 12, 22, 23, 13, 23, 33;
+  body.mass.principal_moments = Vector3(4, 5, 6);
+  body.mass.principal_axes = Eigen::Quaterniond(0.1, 0.2, 0.3, 0.4);
+  NamedMass other = body;
+  other.name = "two";
+  other.mass.centroid = Vector3(7, 8, 9);
+  const auto rows = mass_rows({body, other});
+  ASSERT_EQ(rows.size(), 6U);
+  for (const auto& row : rows) ASSERT_EQ(row.size(), 3U);
+  const char* const expected[] = {"one",        "1, 2, 3", "11, 22, 33",
+                                  "12, 13, 23", "4, 5, 6", "0.1, 0.2, 0.3, 0.4"};
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(rows[k][1], expected[k]);
+  EXPECT_EQ(rows[0][2], "two");
+  EXPECT_EQ(rows[1][2], "7, 8, 9");
 }
 
 TEST(Report, TextNamesSeedAndExponentsOnlyWhereTheyMatter) {

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/scan/mesh_check.h"
 
@@ -49,6 +51,30 @@ TEST(Coordinates, LatticesAreNotSuspected) {
   // A body of unit cubes: coarse coordinates, no face lost.
   EXPECT_EQ(precision_warning(test::box(1, 1, 1)), "");
   EXPECT_EQ(precision_warning(IndexedMesh()), "");
+}
+
+TEST(Coordinates, SizeIsThatOfTheBoxWhereverItIs) {
+  const auto box_at = [](double size, const Vector3& place) {
+    return test::transformed(test::box(size, 0.5 * size, 0.0), Eigen::Matrix3d::Identity(), place)
+        .points;
+  };
+  for (const double size : {1e-59, 1.0, 1e59}) {
+    EXPECT_NO_THROW(check_scan_size(box_at(size, Vector3::Zero()))) << size;
+    EXPECT_NO_THROW(check_scan_size(box_at(size, Vector3(3 * size, 0, 0)))) << size;
+  }
+  for (const double size : {1e-61, 1e61}) {
+    SCOPED_TRACE(size);
+    EXPECT_ERROR(check_scan_size(box_at(size, Vector3::Zero())), InvalidInput);
+    EXPECT_ERROR(check_scan_size(box_at(size, Vector3(0, 0, -2 * size))), InvalidInput);
+    // The longest side decides, whichever it is.
+    EXPECT_ERROR(check_scan_size(Vector3(0, 0, size)), InvalidInput);
+    EXPECT_NO_THROW(check_scan_size(Vector3(0, 1, 1e-61)));
+  }
+  // Left to those who say more of it.
+  using Points = std::vector<Vector3>;
+  EXPECT_NO_THROW(check_scan_size(Points()));
+  EXPECT_NO_THROW(check_scan_size(Points{{1e70, 0, 0}, {1e70, 0, 0}}));
+  EXPECT_NO_THROW(check_scan_size(Points{{1e70, 0, 0}, {0, std::nan(""), 0}}));
 }
 
 }  // namespace

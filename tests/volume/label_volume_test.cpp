@@ -296,6 +296,10 @@ TEST_F(LabelVolumeOfAFile, ReadsTiffPagesFoldersAndStacksOfImageJ) {
   write_tiff("slices/s1.tif", "w", 0, 1, COMPRESSION_NONE, 5);
   EXPECT_TRUE(is_volume(path("slices")));
   expect_labels("slices");
+  // Beside meshes they are pictures of them: a folder of scans.
+  write_bytes(path("slices/grain.ply"), "ply\n");
+  EXPECT_FALSE(is_volume(path("slices")));
+  fs::remove(path("slices/grain.ply"));
   // Sizes of voxels as ImageJ notes them.
   const char* const text = "ImageJ=1.53\nimages=3\nslices=3\nunit=\\u00B5m\nspacing=0.25\n";
   write_tiff("a.tif", "w", 0, 3, COMPRESSION_NONE, 5, text);
