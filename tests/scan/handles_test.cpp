@@ -142,6 +142,34 @@ TEST(Handles, RefusesARingWithAdviceThatWorks) {
   EXPECT_EQ(cut.report.cut.size(), 1U);
 }
 
+TEST(Handles, LimitIsInEquivalentRadiiOfTheGrainHoweverLarge) {
+  // The shortest loop of a ring goes once round its tube, a regular 24-gon.
+  const double loop = 24.0 * 2.0 * 0.4 * std::sin(test::pi / 24.0);
+  for (const double scale : {0.01, 1.0, 40.0}) {
+    SCOPED_TRACE(scale);
+    const IndexedMesh ring = test::transformed(
+        test::torus(1.0, 0.4, 24), scale * Eigen::Matrix3d::Identity(), scale * Vector3(5, -3, 2));
+    const double radius = check_mesh(ring, {}, Execution(1)).report.equivalent_radius;
+    HandleOptions options;
+    options.length_limit = loop * scale / radius * (1.0 - 1e-9);
+    EXPECT_ERROR(remove_handles(ring, options, Execution(1)), InvalidInput);
+    options.length_limit = loop * scale / radius * (1.0 + 1e-9);
+    const HandleFreeMesh cut = remove_handles(ring, options, Execution(1));
+    ASSERT_EQ(cut.report.cut.size(), 1U);
+    EXPECT_NEAR(cut.report.cut[0].length, loop * scale, 1e-12 * scale);
+    EXPECT_EQ(cut.report.cut[0].edges, 24);
+    // The middle of the loop lies on the ring within the tube.
+    const Vector3 place = cut.report.cut[0].place / scale - Vector3(5, -3, 2);
+    EXPECT_NEAR(place.head<2>().norm(), 1.0, 1e-9);
+    EXPECT_NEAR(place.z(), 0.0, 1e-9);
+    // What is reported of the volume is what check_mesh sees.
+    EXPECT_NEAR(
+        cut.report.volume_change,
+        std::pow(check_mesh(cut.mesh, {}, Execution(1)).report.equivalent_radius / radius, 3) - 1.0,
+        1e-9);
+  }
+}
+
 TEST(Handles, SaysHowManyAreLeft) {
   // A thin handle on a ring: the one is cut, the other is the ring's hole.
   const IndexedMesh ring = test::body_of_depth([](const Vector3& p) {

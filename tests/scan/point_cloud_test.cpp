@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
@@ -46,6 +48,30 @@ TEST(PointCloud, MergesEqualPointsAndDoesNotDependOnTheirOrder) {
   const IndexedMesh again = mesh_of_points(points);
   EXPECT_EQ(once.points, again.points);
   EXPECT_EQ(once.triangles, again.triangles);
+}
+
+TEST(PointCloud, IsSeenFromTheCentreOfTheVolumeHoweverDenseThePointsAre) {
+  // Nine in ten lie in a cap, which their mean is near: seen from there the others make needles. On
+  // a sphere the triangulation seen from its centre is the convex hull, of largest volume.
+  std::vector<Vector3> points = fibonacci_lattice(500);
+  for (const Vector3& p : random_directions(45000, test::announced(7))) {
+    if (p.z() > 0.8) points.push_back(p);
+  }
+  const IndexedMesh mesh = mesh_of_points(points);
+  const SphereTriangulation hull(mesh.points);
+  const auto sorted = [](std::vector<Triangle> triangles) {
+    for (Triangle& t : triangles) {
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  };
+  std::vector<Triangle> common;
+  const std::vector<Triangle> its = sorted(mesh.triangles);
+  const std::vector<Triangle> best = sorted(hull.triangles());
+  std::set_intersection(its.begin(), its.end(), best.begin(), best.end(),
+                        std::back_inserter(common));
+  EXPECT_LT(its.size() - common.size(), its.size() / 100);
 }
 
 TEST(PointCloud, RefusesWhatIsNoBody) {
