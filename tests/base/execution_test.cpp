@@ -52,6 +52,12 @@ TEST(Execution, ExceptionFromAThreadReachesTheCaller) {
                std::runtime_error);
 }
 
+TEST(Execution, ReportsToNobodyAreNothing) {
+  const Execution silent(1);
+  EXPECT_NO_THROW(silent.report(0.5, "stage"));
+  EXPECT_NO_THROW(silent.part(0.2, 0.4).report(0.5, "stage"));
+}
+
 TEST(Execution, ProgressIsScaledToThePartAndCancels) {
   std::vector<double> fractions;
   const Execution whole(1, [&](double fraction, const std::string&) {

@@ -131,6 +131,22 @@ TEST(SphereGrid, SpreadIsTheTransposeOfInterpolation) {
   }
 }
 
+TEST(SphereGrid, SpreadIsInterpolatedAsItsValuesAre) {
+  const int rows = 12;
+  const std::vector<Vector3> u = directions_with_poles();
+  const SphereGrid shared = SphereGrid::spread(
+      rows, 4, u,
+      [&](std::size_t begin, std::size_t end, double* values) {
+        for (std::size_t i = begin; i < end; ++i) values[i - begin] = 1.0 + u[i].y();
+      },
+      Execution(1));
+  std::vector<double> found(u.size());
+  shared.interpolate(u.data(), u.size(), found.data());
+  std::vector<double> expected(u.size());
+  SphereGrid(rows, 4, shared.values()).interpolate(u.data(), u.size(), expected.data());
+  EXPECT_EQ(found, expected);
+}
+
 TEST(SphereGrid, SpreadHasTheSameBitsOnAnyNumberOfThreads) {
   const std::vector<Vector3> u = random_directions(200000, test::announced(3));
   const auto spread = [&](int threads) {

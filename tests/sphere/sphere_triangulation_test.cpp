@@ -155,22 +155,30 @@ TEST(SphereTriangulation, FlipsEndOnSeedsThatAreNearlyCocircular) {
 }
 
 TEST(SphereTriangulation, SurfaceFlipsMakeOppositeAnglesSumToAtMostPi) {
-  const std::vector<Vector3> seeds = fibonacci_lattice(500);
-  std::vector<Vector3> positions;
-  for (const Vector3& p : seeds) positions.push_back(p.cwiseProduct(Vector3(2.0, 1.0, 0.8)));
-  SphereTriangulation triangulation(seeds);
-  const auto repair = triangulation.restore_surface_delaunay(seeds, positions, Execution(1));
-  EXPECT_GT(repair.flips, 0);
-  EXPECT_TRUE(repair.complete());
-  expect_closed_sphere(triangulation, seeds);
-  const auto angle = [&](std::int32_t h) {
-    const Vector3& apex = positions[triangulation.origin(SphereTriangulation::previous(h))];
-    const Vector3 a = positions[triangulation.origin(h)] - apex;
-    const Vector3 b = positions[triangulation.origin(SphereTriangulation::next(h))] - apex;
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-  };
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(triangulation.opposite().size()); ++h) {
-    EXPECT_LT(angle(h) + angle(triangulation.opposite()[h]), pi + 1e-9);
+  // Squeezed towards the poles seeds are as close as those of a million, and triangles as small:
+  // they must be flipped all the same.
+  for (const double squeeze : {1.0, 30.0}) {
+    SCOPED_TRACE(squeeze);
+    std::vector<Vector3> seeds;
+    std::vector<Vector3> positions;
+    for (const Vector3& p : fibonacci_lattice(500)) {
+      seeds.push_back(p.cwiseProduct(Vector3(1.0, 1.0, squeeze)).normalized());
+      positions.push_back(p.cwiseProduct(Vector3(2.0, 1.0, 0.8)));
+    }
+    SphereTriangulation triangulation(seeds);
+    const auto repair = triangulation.restore_surface_delaunay(seeds, positions, Execution(1));
+    EXPECT_GT(repair.flips, 0);
+    EXPECT_TRUE(repair.complete());
+    expect_closed_sphere(triangulation, seeds);
+    const auto angle = [&](std::int32_t h) {
+      const Vector3& apex = positions[triangulation.origin(SphereTriangulation::previous(h))];
+      const Vector3 a = positions[triangulation.origin(h)] - apex;
+      const Vector3 b = positions[triangulation.origin(SphereTriangulation::next(h))] - apex;
+      return std::atan2(a.cross(b).norm(), a.dot(b));
+    };
+    for (std::int32_t h = 0; h < static_cast<std::int32_t>(triangulation.opposite().size()); ++h) {
+      EXPECT_LT(angle(h) + angle(triangulation.opposite()[h]), pi + 1e-9);
+    }
   }
 }
 

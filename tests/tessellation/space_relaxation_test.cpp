@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "grains/bent_grain.h"
+#include "support/expect_error.h"
+#include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
@@ -154,6 +157,64 @@ TEST(SpaceRelaxation, LevelsCutEdgesInTheirMiddlesOnTheSurface) {
     ++i;
   }
   EXPECT_EQ(i, after.seeds.size());
+}
+
+TEST(SpaceRelaxation, SeedsThatAreMissingAreAddedWhereThereIsMostRoom) {
+  // Nothing is moved, so the three seeds added stand last.
+  const Body body(test::scaled(test::sphere(4), Vector3(4.0, 1.0, 0.7)));
+  constexpr int coarse = 40;
+  constexpr int count = 4 * coarse - 6 + 3;
+  RelaxationOptions options;
+  options.maximum_iterations = 0;
+  MultilevelOptions levels;
+  levels.coarsest_seeds = coarse;
+  const SpaceTessellation result = relax_in_space(fibonacci_lattice(coarse), count, body.surface,
+                                                  {}, options, levels, Execution(1));
+  ASSERT_EQ(result.positions.size(), static_cast<std::size_t>(count));
+  std::vector<double> nearest;
+  for (const Vector3& p : result.positions) {
+    double smallest = 10.0;
+    for (const Vector3& q : result.positions) {
+      if (&p != &q) smallest = std::min(smallest, (p - q).norm());
+    }
+    nearest.push_back(smallest);
+  }
+  std::vector<double> sorted = nearest;
+  std::sort(sorted.begin(), sorted.end());
+  for (int k = 1; k <= 3; ++k) EXPECT_GT(nearest[count - k], sorted[count / 2]);
+}
+
+TEST(SpaceRelaxation, StepsThatWouldTurnATriangleOverAreMadeSiteBySite) {
+  // Random seeds have needles, which on so long a body the first step would turn over if it were
+  // made by all at once.
+  const Body body(test::scaled(test::sphere(4), Vector3(4.0, 1.0, 0.7)));
+  RelaxationOptions options;
+  options.maximum_iterations = 1;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const SpaceTessellation result =
+        relax_in_space(random_directions(600, test::announced(seed)), 600, body.surface, {},
+                       options, MultilevelOptions(), Execution(1));
+    expect_promises(result, body, 600);
+    // The sites arrive at their centroids, which have moved meanwhile by two fifths of that; half
+    // the step would leave three quarters.
+    ASSERT_EQ(result.report.history.size(), 2U);
+    EXPECT_LT(result.report.history[1].displacement, 0.5 * result.report.history[0].displacement);
+  }
+}
+
+TEST(SpaceRelaxation, OfSeedsWithTheirTriangulationIsThatOfOneLevel) {
+  const Body body(test::scaled(test::sphere(3), Vector3(1.0, 0.7, 0.5)));
+  const std::vector<Vector3> start = fibonacci_lattice(50);
+  const SphereTriangulation triangulation(start);
+  const SpaceTessellation one = relax_in_space(start, 50, body.surface, {}, RelaxationOptions(),
+                                               MultilevelOptions(), Execution(1));
+  const SpaceTessellation other =
+      relax_in_space(start, triangulation, body.surface, {}, RelaxationOptions(), Execution(1));
+  EXPECT_EQ(one.positions, other.positions);
+  EXPECT_EQ(one.triangulation.triangles(), other.triangulation.triangles());
+  EXPECT_ERROR(relax_in_space(fibonacci_lattice(49), triangulation, body.surface, {},
+                              RelaxationOptions(), Execution(1)),
+               InvalidInput);
 }
 
 TEST(SpaceRelaxation, RefusesNumbersThatDoNotFit) {

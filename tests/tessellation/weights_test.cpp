@@ -189,23 +189,26 @@ TEST(Weights, DoNotDependOnTheScaleOfTheSurface) {
 }
 
 TEST(Weights, SamplesReplaceTheSurfacesCurvature) {
-  // Samples that say "sharp in the upper half" on a sphere, sparser than the grid.
-  CurvatureSamples samples;
-  samples.directions = fibonacci_lattice(700);
-  samples.weights.assign(700, 4.0 * pi / 700.0);
-  for (const Vector3& u : samples.directions) {
-    const double k = u.z() > 0.0 ? 4.0 : 1.0;
-    samples.curvatures.push_back({k, k});
+  // Samples that say "sharp in one half" on a sphere, sparser than the grid.
+  for (const Vector3& axis : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, 1, 0)}) {
+    SCOPED_TRACE(axis.transpose());
+    CurvatureSamples samples;
+    samples.directions = fibonacci_lattice(700);
+    samples.weights.assign(700, 4.0 * pi / 700.0);
+    for (const Vector3& u : samples.directions) {
+      const double k = u.dot(axis) > 0.0 ? 4.0 : 1.0;
+      samples.curvatures.push_back({k, k});
+    }
+    WeightingOptions options;
+    options.kind = Weighting::Curvature;
+    const SurfaceSeedModel model(Ellipsoid(Vector3(1.0, 1.0, 1.0)), options, 400, &samples,
+                                 Execution(1));
+    const Vector3 across(axis.z(), axis.x(), axis.y());
+    const std::vector<double> weights = weights_of(model, {axis, 0.8 * axis + 0.6 * across, -axis});
+    EXPECT_LT(weights[0], 0.0);
+    EXPECT_NEAR(weights[0], weights[1], 1e-12);
+    EXPECT_GT(weights[2], 0.0);
   }
-  WeightingOptions options;
-  options.kind = Weighting::Curvature;
-  const SurfaceSeedModel model(Ellipsoid(Vector3(1.0, 1.0, 1.0)), options, 400, &samples,
-                               Execution(1));
-  const std::vector<Vector3> ends = {Vector3(0, 0, 1), Vector3(0.6, 0, 0.8), Vector3(0, 0, -1)};
-  const std::vector<double> weights = weights_of(model, ends);
-  EXPECT_LT(weights[0], 0.0);
-  EXPECT_NEAR(weights[0], weights[1], 1e-12);
-  EXPECT_GT(weights[2], 0.0);
 }
 
 TEST(Weights, RefusesOptionsOutOfRange) {
