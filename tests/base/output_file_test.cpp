@@ -121,6 +121,20 @@ TEST_F(OutputFile, WritesThroughALinkToAFileThatIsNotThereYet) {
   EXPECT_TRUE(fs::is_symlink(path("circle.txt")));
 }
 
+TEST_F(OutputFile, FollowsAsManyLinksAsTheSystemDoes) {
+  std::string last = "report.txt";
+  for (int links = 1; links <= 41; ++links) {
+    const std::string name = "link" + std::to_string(links);
+    fs::create_symlink(last, path(name));
+    last = name;
+    if (links == 39) write_file(path(name), "after");
+  }
+  EXPECT_EQ(read(path("report.txt")), "after");
+  EXPECT_ERROR(write_file(path(last), "not this"), InputOutput);
+  EXPECT_ERROR(check_writable(path(last)), InputOutput);
+  EXPECT_EQ(read(path("report.txt")), "after");
+}
+
 TEST_F(OutputFile, KeepsModeAndHardLinks) {
   fs::permissions(path("report.txt"), fs::perms::owner_all);
   write_file(path("report.txt"), "private");

@@ -249,6 +249,17 @@ TEST(Relaxation, ProgressCancels) {
   });
 }
 
+TEST(Relaxation, RefusesSeedsThatDoNotSurroundTheCentre) {
+  std::vector<Vector3> seeds = fibonacci_lattice(50);
+  for (Vector3& u : seeds) u.z() = std::abs(u.z());
+  for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
+    RelaxationOptions options;
+    options.metric = metric;
+    EXPECT_ERROR(relax(seeds, model_of(Weighting::Area, 50), options, Execution(1)),
+                 NumericalFailure);
+  }
+}
+
 TEST(Relaxation, RefusesOptionsOutOfRange) {
   const SurfaceSeedModel model = model_of(Weighting::Area, 50);
   RelaxationOptions options;
