@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -213,8 +214,16 @@ TEST(SphereMap, StopsWhenAskedTo) {
 TEST(SphereMap, RefusesWhatIsNoSphere) {
   EXPECT_NE(refusal(test::torus(1.0, 0.3, 20)).find("1 handle"), std::string::npos);
   IndexedMesh open = test::sphere(1);
+  const Triangle hole = open.triangles.back();
   open.triangles.pop_back();
-  EXPECT_NE(refusal(open).find("not closed"), std::string::npos);
+  const std::string sentence = refusal(open);
+  std::smatch edge;
+  ASSERT_TRUE(std::regex_search(sentence, edge, std::regex("not closed.*vertex (\\d+) to (\\d+)")))
+      << sentence;
+  EXPECT_NE(edge[1], edge[2]);
+  for (std::size_t k = 1; k <= 2; ++k) {
+    EXPECT_EQ(std::count(hole.begin(), hole.end(), std::stoi(edge[k])), 1) << sentence;
+  }
   EXPECT_NE(refusal(test::unwelded(test::sphere(1))).find("not closed"), std::string::npos);
   // A sphere and a torus have together the Euler number of one sphere.
   EXPECT_NE(refusal(test::joined(test::sphere(1), test::torus(1.0, 0.3, 20))).find("parts"),
