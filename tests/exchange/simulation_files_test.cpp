@@ -138,6 +138,31 @@ TEST_F(SimulationFiles, FollowTheirEndings) {
   EXPECT_EQ(grid_description_path("grid.NPY"), "grid.NPY.json");
 }
 
+TEST_F(SimulationFiles, OptionsOutOfRangeAreToldBeforehand) {
+  EXPECT_NO_THROW(check_simulation_options(options));
+  EXPECT_NO_THROW(check_simulation_options({}));
+  const auto expect_refused = [](auto&& change) {
+    SimulationOptions changed;
+    change(changed);
+    EXPECT_ERROR(check_simulation_options(changed), InvalidInput);
+  };
+  const double nan = std::nan("");
+  for (const double spacing : {-0.01, nan}) {
+    expect_refused([&](SimulationOptions& changed) { changed.grid.spacing = spacing; });
+  }
+  for (const int margin : {0, 1001}) {
+    expect_refused([&](SimulationOptions& changed) { changed.grid.margin = margin; });
+  }
+  for (const double scale : {0.0, -1.0, nan}) {
+    expect_refused([&](SimulationOptions& changed) { changed.frame.scale = scale; });
+  }
+  for (const double size : {-1.0, nan}) {
+    expect_refused([&](SimulationOptions& changed) { changed.frame.size = size; });
+  }
+  expect_refused([](SimulationOptions& changed) { changed.frame.frame = Frame{100}; });
+  expect_refused([](SimulationOptions& changed) { changed.surface = GridSurface{100}; });
+}
+
 TEST_F(SimulationFiles, RefuseWhatTheyCannotWrite) {
   EXPECT_ERROR(write_nodes(path("nodes.txt"), *result, options), InvalidInput);
   EXPECT_ERROR(write_distance_grid(path("grid.csv"), *result, options, {}, Execution(1)),
