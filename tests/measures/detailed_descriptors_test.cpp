@@ -124,9 +124,10 @@ TEST(DetailedDescriptors, RefuseOptionsOutOfRange) {
   for (const DetailedOptions& options :
        {DetailedOptions{0, 8, 128}, DetailedOptions{61, 8, 128}, DetailedOptions{15, -1, 128},
         DetailedOptions{15, 61, 128}, DetailedOptions{15, 8, 15}, DetailedOptions{15, 8, 2000},
-        DetailedOptions{40, 8, 32}}) {
+        DetailedOptions{40, 8, 32}, DetailedOptions{40, 8, 40}, DetailedOptions{8, 40, 40}}) {
     EXPECT_ERROR(describe_shape_in_detail(mesh, options, Execution(1)), InvalidInput);
   }
+  EXPECT_NO_THROW(describe_shape_in_detail(mesh, DetailedOptions{20, 8, 21}, Execution(1)));
 }
 
 }  // namespace
