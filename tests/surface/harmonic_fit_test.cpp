@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "support/random_harmonics.h"
@@ -80,6 +81,36 @@ TEST(HarmonicFit, NeedlesAreReadToTheirTips) {
   const double volume = integrate(fit.surface, 400, Execution(2)).volume;
   EXPECT_NEAR(volume / (4.0 / 3.0 * test::pi * 20.0), 1.0, 0.03);
   EXPECT_GT(fit.report.smallest_radius, 0.0);
+}
+
+TEST(HarmonicFit, ReadsMoreRaysUntilTheVolumeStays) {
+  // The volume that a grid of so many rows, and twice as many azimuths, sees of an ellipsoid along
+  // z.
+  const auto volume = [](double length, int rows) {
+    const GaussLegendre latitudes = gauss_legendre(rows);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < latitudes.nodes.size(); ++i) {
+      const double z = latitudes.nodes[i];
+      const double radius = 1.0 / std::sqrt(z * z / (length * length) + 1.0 - z * z);
+      sum += latitudes.weights[i] * 2.0 * test::pi * std::pow(radius, 3) / 3.0;
+    }
+    return sum;
+  };
+  std::set<int> seen;
+  for (const double length : {10.0, 20.0, 30.0, 50.0}) {
+    SCOPED_TRACE(length);
+    int rows = 96;
+    while (rows < 768 && std::abs(volume(length, rows) - volume(length, rows / 2)) >
+                             1e-3 * volume(length, rows)) {
+      rows *= 2;
+    }
+    seen.insert(rows);
+    // Of degree 1, which needs no more for itself.
+    const HarmonicFit fit = fit_harmonics(Ellipsoid(Vector3(1, 1, length)), 1, Execution(2));
+    EXPECT_EQ(fit.report.rays,
+              2U * static_cast<std::size_t>(rows) * static_cast<std::size_t>(rows));
+  }
+  EXPECT_EQ(seen, (std::set<int>{96, 192, 384, 768}));
 }
 
 TEST(HarmonicFit, ResidualIsTheDistanceOfTheSurfaces) {
