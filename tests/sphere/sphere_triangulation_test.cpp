@@ -96,6 +96,21 @@ TEST(SphereTriangulation, WorksOnSymmetricSeedsWhereManyAreCocircular) {
   }
 }
 
+TEST(SphereTriangulation, TakesTrianglesThatAreThereFromFourSeedsOn) {
+  for (const int count : {4, 5, 100}) {
+    const std::vector<Vector3> seeds = fibonacci_lattice(count);
+    // What seeds are triangulated by first: the hull, several times as slow, would give the same.
+    const std::vector<Triangle> triangles = sphere_delaunay(seeds, Execution(1));
+    EXPECT_EQ(triangles.size(), 2U * count - 4U);
+    const SphereTriangulation kept(seeds, triangles);
+    expect_closed_sphere(kept, seeds);
+    EXPECT_EQ(sorted_triangles(kept), SphereTriangulation(seeds).triangles());
+    std::vector<Triangle> open = triangles;
+    open.pop_back();
+    EXPECT_ERROR(SphereTriangulation(seeds, open), InvalidInput);
+  }
+}
+
 TEST(SphereTriangulation, DoesNotDependOnTheOrderOfTheSeeds) {
   const std::vector<Vector3> seeds = random_directions(300, test::announced(11));
   std::vector<std::int32_t> order(seeds.size());
