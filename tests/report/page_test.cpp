@@ -371,13 +371,16 @@ TEST(MeshView, HoldsMeshesWholeWithAMargin) {
 }
 
 TEST(MeshView, SeesWhatALineToTheViewerLeavesLast) {
-  // Every pixel against every triangle: a ring before and behind balls, drawn in either order.
+  // Every pixel against every triangle: a ring before, behind and through balls, drawn in either
+  // order.
   const auto ball_at = [](const Vector3& place) {
     return test::transformed(test::sphere(1), 0.4 * Eigen::Matrix3d::Identity(), place);
   };
   IndexedMesh mesh = test::transformed(
-      test::joined(ball_at({1.0, 0.5, -1.0}),
-                   test::joined(test::torus(1.0, 0.4, 12), ball_at({-1.0, 0.5, 1.0}))),
+      test::joined(
+          ball_at({1.0, 0.5, -1.0}),
+          test::joined(test::torus(1.0, 0.4, 12),
+                       test::joined(ball_at({-1.0, 0.5, 1.0}), ball_at({0.2, -1.0, 0.1})))),
       test::random_rotation(7));
   const int pixels = 60;
   const MeshView view = view_of({&mesh}, pixels);

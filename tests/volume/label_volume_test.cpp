@@ -38,10 +38,12 @@ class LabelVolumeOfAFile : public testing::Test {
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Reads it twice, since the bytes are packed or not.
+  /// Reads it twice, since the bytes are packed or not, and after it was left within a slice.
   void expect_labels(const std::string& name) const {
     const std::unique_ptr<LabelVolume> volume = open_volume(path(name));
     EXPECT_EQ(volume->geometry().counts, made_.counts);
+    volume->rewind();
+    for (int row = 0; row <= made_.counts[1]; ++row) volume->next_row();
     for (int round = 0; round < 2; ++round) {
       volume->rewind();
       std::vector<Label> labels;
