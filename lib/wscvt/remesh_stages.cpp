@@ -137,8 +137,8 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   // nodes, whose flat cells are no likeness of the surface: on a ball four end with a mean edge
   // ratio of 1.47 instead of a tetrahedron. From six on, flat cells hold the nodes apart where a
   // grain is long: on an ellipsoid of 1 : 2 : 3 cells on the sphere let 8 to 16 nodes run together
-  // on one side (rms distance 46 to 58 % of R at a volume that is exact), flat ones keep 12 and 16
-  // to 12 and 8 %; on compact grains both come to the same.
+  // on one side (rms distance 46 to 58 % of R at a volume that is exact), flat ones only 8; 12 and
+  // 16 come to 12 and 8 %. On compact grains there is no difference.
   constexpr int fewest_flat_cells = 6;
   RelaxationMetric& metric = result.options.relaxation.metric;
   if (options.seeding.sampling != Sampling::Weighted || options.node_count < fewest_flat_cells) {
