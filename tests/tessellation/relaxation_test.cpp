@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "grains/ct_grain.h"
 #include "support/expect_error.h"
@@ -269,6 +270,12 @@ TEST(Relaxation, RefusesOptionsOutOfRange) {
   };
   options.over_relaxation = 1.5;
   expect_refused();
+  try {
+    check_relaxation_options(options);
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("above 0 and below 1.33."), std::string::npos)
+        << error.what();
+  }
   options.acceleration = false;
   options.maximum_iterations = 2;
   EXPECT_NO_THROW(relax(fibonacci_lattice(50), model, options, Execution(1)));

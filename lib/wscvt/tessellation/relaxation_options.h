@@ -35,10 +35,10 @@ struct RelaxationOptions {
   double area_tolerance = 0.07;          ///< spread of cell area / target; no unit
   bool acceleration = true;              ///< momentum with restarts on top of the over-relaxed step
   /// Step factor towards the centroid: in (0, 2) without acceleration, where 1.8 does well, and in
-  /// (0, 4/3) with it. Those are the limits of stability of the sphere metric, whose step goes down
-  /// the gradient of an energy. The surface metric's step does not: its cells are flat while its
-  /// seeds stay on their rays, so that on a rough grain no factor above 1 is sure to come to rest,
-  /// nor is momentum; see relax() for what is done then.
+  /// (0, 1.33) with it. Those are the limits of stability of the sphere metric, 2 and 4/3, whose
+  /// step goes down the gradient of an energy. The surface metric's step does not: its cells are
+  /// flat while its seeds stay on their rays, so that on a rough grain no factor above 1 is sure to
+  /// come to rest, nor is momentum; see relax() for what is done then.
   double over_relaxation = 1.2;
 };
 
@@ -62,10 +62,10 @@ inline constexpr NumberOption<double> over_relaxation_option = {
     0.0,
     2.0,
     Ends::Neither,
-    "1 is from seed to centroid; below 4/3 with acceleration"};
-/// The same with acceleration.
+    "1 is from seed to centroid; below 1.33 with acceleration"};
+/// The same with acceleration: 4/3, in digits that a sentence can hold.
 inline constexpr NumberOption<double> accelerated_over_relaxation_option = {
-    over_relaxation_option.key, "step of the relaxation with acceleration", 0.0, 4.0 / 3.0,
+    over_relaxation_option.key, "step of the relaxation with acceleration", 0.0, 1.33,
     Ends::Neither};
 
 /// One line of the iteration's history.
