@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "support/expect_error.h"
+
 namespace wscvt {
 namespace {
 
@@ -15,13 +17,7 @@ constexpr int no_limit = std::numeric_limits<int>::max();
 
 template <class Number>
 std::string refused(Number value, const NumberOption<Number>& option) {
-  try {
-    require_in_range(value, option);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    return error.what();
-  }
-  return "";
+  return test::refusal(ErrorCode::InvalidInput, [&] { require_in_range(value, option); });
 }
 
 TEST(Option, HoldsItsEndsUnlessItSaysOtherwise) {
@@ -69,13 +65,7 @@ TEST(Option, TextsSayNothingOfALimitThatThereIsNot) {
 
 template <class Number>
 std::string text_refused(const std::string& text, const NumberOption<Number>& option) {
-  try {
-    from_typed(text, option);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    return error.what();
-  }
-  return "";
+  return test::refusal(ErrorCode::InvalidInput, [&] { from_typed(text, option); });
 }
 
 TEST(Option, ReadsWhatOneTypesAndNothingElse) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grains/bent_grain.h"
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
@@ -120,14 +121,8 @@ TEST(NormalLeastSquares, GuardsHoldNodesBack) {
 }
 
 TEST(NormalLeastSquares, RefusesOptionsOutOfRange) {
-  const auto refusal = [](NormalFitOptions options) {
-    try {
-      check_normal_fit_options(options);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-      return std::string(error.what());
-    }
-    return std::string();
+  const auto refusal = [](const NormalFitOptions& options) {
+    return test::refusal(ErrorCode::InvalidInput, [&] { check_normal_fit_options(options); });
   };
   EXPECT_EQ(refusal({}), "");
   NormalFitOptions none;

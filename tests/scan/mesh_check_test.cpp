@@ -14,6 +14,7 @@
 #include <set>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -49,13 +50,7 @@ double advised_limit(const std::string& sentence) {
 
 /// The sentence of the refusal; empty when the mesh was taken.
 std::string refusal(const IndexedMesh& mesh, const MeshCheckOptions& options = MeshCheckOptions()) {
-  try {
-    check_mesh(mesh, options, Execution(1));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    return error.what();
-  }
-  return "";
+  return test::refusal(ErrorCode::InvalidInput, [&] { check_mesh(mesh, options, Execution(1)); });
 }
 
 void expect_mentions(const std::string& sentence, const std::vector<std::string>& parts) {

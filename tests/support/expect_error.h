@@ -3,20 +3,29 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "wscvt/base/error.h"
 
 namespace wscvt::test {
 
-/// Fails unless `action` throws an Error with this code.
+/// The sentence of the Error that `action` throws, which must have this code; empty when it throws
+/// none.
 template <class Action>
-void expect_error(ErrorCode code, const Action& action) {
+std::string refusal(ErrorCode code, const Action& action) {
   try {
     action();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code) << error.what();
-    return;
+    return error.what();
   }
-  ADD_FAILURE() << "No error was thrown.";
+  return "";
+}
+
+/// Fails unless `action` throws an Error with this code.
+template <class Action>
+void expect_error(ErrorCode code, const Action& action) {
+  EXPECT_NE(refusal(code, action), "") << "No error was thrown.";
 }
 
 }  // namespace wscvt::test

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "support/expect_error.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/scan/byte_reader.h"
@@ -22,14 +23,10 @@ inline IndexedMesh read_content(IndexedMesh (*read)(ByteReader&), const std::str
 
 /// The sentence with which a reader refuses a content; empty, and a failure, when it does not.
 inline std::string refusal(IndexedMesh (*read)(ByteReader&), const std::string& content) {
-  try {
-    read_content(read, content);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::InputOutput);
-    return error.what();
-  }
-  ADD_FAILURE() << "was read: " << content.substr(0, 200);
-  return "";
+  const std::string sentence =
+      refusal(ErrorCode::InputOutput, [&] { read_content(read, content); });
+  EXPECT_NE(sentence, "") << "was read: " << content.substr(0, 200);
+  return sentence;
 }
 
 /// Bytes of a number; the machines this is tested on are little-endian.

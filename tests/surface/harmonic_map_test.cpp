@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grains/bent_grain.h"
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -150,13 +151,7 @@ TEST(HarmonicMap, SameBytesOnAnyNumberOfThreads) {
 
 TEST(HarmonicMap, RefusesWhatItCannotUse) {
   const auto refusal = [](const auto& action) {
-    try {
-      action();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusal(ErrorCode::InvalidInput, action);
   };
   const std::vector<double> one{1.0};
   EXPECT_NE(refusal([&] {

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "support/expect_error.h"
 #include "support/random_triangulations.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
@@ -102,13 +103,8 @@ TEST(MappedSurface, NormalsAreThoseOfTheFaces) {
 
 TEST(MappedSurface, RefusesWhatDoesNotCoverTheSphere) {
   const auto refusal = [](const IndexedMesh& mesh, const std::vector<Vector3>& directions) {
-    try {
-      const MappedSurface surface(mesh, directions, Execution(1));
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusal(ErrorCode::InvalidInput,
+                         [&] { MappedSurface(mesh, directions, Execution(1)); });
   };
   const IndexedMesh ball = test::sphere(2);
   std::vector<Vector3> directions = ball.points;

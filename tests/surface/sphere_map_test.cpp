@@ -11,6 +11,7 @@
 #include <string>
 
 #include "grains/bent_grain.h"
+#include "support/expect_error.h"
 #include "support/random_triangulations.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
@@ -49,13 +50,8 @@ void expect_bijective(const IndexedMesh& mesh, const SphereMap& map, const std::
 }
 
 std::string refusal(const IndexedMesh& mesh, const SphereMapOptions& options = {}) {
-  try {
-    map_to_sphere(mesh, options, Execution(1));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    return error.what();
-  }
-  return "";
+  return test::refusal(ErrorCode::InvalidInput,
+                       [&] { map_to_sphere(mesh, options, Execution(1)); });
 }
 
 TEST(SphereMap, CoversTheSphereOnce) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "support/added_points.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/measures/mesh_quality.h"
@@ -69,17 +70,7 @@ TEST(MultilevelRelaxation, SeedsThatAreMissingAreAddedWhereThereIsMostRoom) {
       relax_multilevel(random_directions(coarse, test::announced(4)), count,
                        model_of(Weighting::Constant, count), options, levels, Execution(1));
   ASSERT_EQ(static_cast<int>(result.seeds.size()), count);
-  std::vector<double> nearest;
-  for (const Vector3& u : result.seeds) {
-    double smallest = 4.0;
-    for (const Vector3& v : result.seeds) {
-      if (&u != &v) smallest = std::min(smallest, (u - v).norm());
-    }
-    nearest.push_back(smallest);
-  }
-  std::vector<double> sorted = nearest;
-  std::sort(sorted.begin(), sorted.end());
-  for (int k = 1; k <= 3; ++k) EXPECT_GT(nearest[count - k], sorted[count / 2]);
+  test::expect_room_about_the_last(result.seeds, 3);
 }
 
 TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeightingAndMetric) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -128,13 +129,8 @@ TEST(SpreadSeeds, AHandfulSurroundsTheCentre) {
 TEST(SpreadSeeds, RefuseNumbersThatDoNotFit) {
   const MappedSurface ball = ellipsoid({1.0, 1.0, 1.0});
   const auto refusal = [&](const std::vector<double>& densities, int count) {
-    try {
-      spread_seeds(ball, densities, count, Execution(1));
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusal(ErrorCode::InvalidInput,
+                         [&] { spread_seeds(ball, densities, count, Execution(1)); });
   };
   EXPECT_NE(refusal({}, 3).find("at least 4"), std::string::npos);
   EXPECT_NE(refusal({1.0, 2.0}, 50).find("give one each, or none"), std::string::npos);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grains/bent_grain.h"
+#include "support/added_points.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
@@ -171,17 +172,7 @@ TEST(SpaceRelaxation, SeedsThatAreMissingAreAddedWhereThereIsMostRoom) {
   const SpaceTessellation result = relax_in_space(fibonacci_lattice(coarse), count, body.surface,
                                                   {}, options, levels, Execution(1));
   ASSERT_EQ(result.positions.size(), static_cast<std::size_t>(count));
-  std::vector<double> nearest;
-  for (const Vector3& p : result.positions) {
-    double smallest = 10.0;
-    for (const Vector3& q : result.positions) {
-      if (&p != &q) smallest = std::min(smallest, (p - q).norm());
-    }
-    nearest.push_back(smallest);
-  }
-  std::vector<double> sorted = nearest;
-  std::sort(sorted.begin(), sorted.end());
-  for (int k = 1; k <= 3; ++k) EXPECT_GT(nearest[count - k], sorted[count / 2]);
+  test::expect_room_about_the_last(result.positions, 3);
 }
 
 TEST(SpaceRelaxation, StepsThatWouldTurnATriangleOverAreMadeSiteBySite) {
@@ -218,14 +209,8 @@ TEST(SpaceRelaxation, OfSeedsWithTheirTriangulationIsThatOfOneLevel) {
 }
 
 TEST(SpaceRelaxation, RefusesNumbersThatDoNotFit) {
-  const auto refusal = [](auto&& call) {
-    try {
-      call();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-      return std::string(error.what());
-    }
-    return std::string();
+  const auto refusal = [](const auto& call) {
+    return test::refusal(ErrorCode::InvalidInput, call);
   };
   EXPECT_NE(refusal([] {
               relaxed(hook(), 50, {1.0, 2.0});
