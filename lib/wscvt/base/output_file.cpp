@@ -62,16 +62,16 @@ Target follow(const std::string& path) {
   std::error_code error;
   Target target;
   target.path = fs::absolute(path, error).lexically_normal();
-  for (int links = 0; links < most_links; ++links) {
+  for (int links = 0;; ++links) {
     target.descriptor = descriptor_of(target.path);
     if (target.descriptor || !fs::is_symlink(target.path, error)) return target;
+    target.is_circle = links == most_links;
+    if (target.is_circle) return target;
     const fs::path next = fs::read_symlink(target.path, error);
     if (error) return target;
     // Not normalised: "linked folder/.." is not the folder the link stands in.
     target.path = next.is_absolute() ? next : target.path.parent_path() / next;
   }
-  target.is_circle = true;
-  return target;
 }
 
 /// A new empty file beside the target; gone at the end of its scope, unless it was renamed.
