@@ -175,7 +175,11 @@ class TiffStack : public LabelVolume {
     const std::size_t in_band = next_row_ % band_rows_;
     if (in_band == 0) {
       band_.resize(row_bytes() * std::min(band_rows_, page_.height - next_row_));
-      tile_width_ == 0 ? read_strip() : read_tiles();
+      if (tile_width_ == 0) {
+        read_strip();
+      } else {
+        read_tiles();
+      }
     }
     row_.resize(page_.width);
     labels_of(band_.data() + in_band * row_bytes(), page_.type, row_, file_->path());
@@ -222,9 +226,10 @@ class TiffStack : public LabelVolume {
     }
   }
 
-  std::size_t row_bytes() const {
-    return std::size_t{page_.width} * static_cast<std::size_t>(page_.type.bytes);
+  std::size_t bytes_of(std::uint32_t voxels) const {
+    return std::size_t{voxels} * static_cast<std::size_t>(page_.type.bytes);
   }
+  std::size_t row_bytes() const { return bytes_of(page_.width); }
 
   void read_strip() {
     const auto wanted = static_cast<tmsize_t>(band_.size());
@@ -245,9 +250,8 @@ class TiffStack : public LabelVolume {
       if (TIFFReadEncodedTile(file_->get(), tile, tile_.data(), tile_bytes) != tile_bytes) {
         file_->fail("is cut short or damaged");
       }
-      const std::size_t bytes =
-          static_cast<std::size_t>(page_.type.bytes) * std::min(tile_width_, page_.width - x);
-      char* to = band_.data() + std::size_t{x} * static_cast<std::size_t>(page_.type.bytes);
+      const std::size_t bytes = bytes_of(std::min(tile_width_, page_.width - x));
+      char* to = band_.data() + bytes_of(x);
       for (tmsize_t row = 0; row < rows; ++row, to += row_bytes()) {
         std::memcpy(to, tile_.data() + row * tile_row_bytes, bytes);
       }
@@ -301,9 +305,16 @@ std::unique_ptr<LabelVolume> open_tiff(const std::string& path,
   for (const std::string& file : files) {
     slices += files.size() == 1 ? first.pages() : TiffFile(file).pages();
   }
-  // Above 4 GiB ImageJ writes one page and the voxels of all behind it.
+  // Above 4 GiB ImageJ writes one page and the voxels of all behind it, as they are.
   const bool is_one_block = slices == 1 && text.is_there() && text.images() > 1;
-  if (is_one_block) slices = text.images();
+  if (is_one_block) {
+    std::uint16_t compression = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(first.get(), TIFFTAG_COMPRESSION, &compression);
+    if (compression != COMPRESSION_NONE || TIFFIsTiled(first.get()) != 0) {
+      first.fail("has one page of the " + std::to_string(text.images()) + " that ImageJ noted");
+    }
+    slices = text.images();
+  }
   geometry.counts = voxel_counts({page.width, page.height, slices}, path);
   set_lattice_of_imagej(geometry, first, voxel_size);
   if (is_one_block) {

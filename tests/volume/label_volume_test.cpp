@@ -113,7 +113,8 @@ class LabelVolumeOfAFile : public testing::Test {
 
   /// All pages in tiles of 16 x 16, which hang over their rims.
   template <class Voxel>
-  void write_tiled_tiff(const std::string& name, const char* mode, int compression) const {
+  void write_tiled_tiff(const std::string& name, const char* mode, int compression,
+                        const char* text = nullptr) const {
     constexpr int side = 16;
     TIFF* const file = TIFFOpen(path(name).c_str(), mode);
     ASSERT_NE(file, nullptr);
@@ -124,6 +125,7 @@ class LabelVolumeOfAFile : public testing::Test {
       TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
       TIFFSetField(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
       TIFFSetField(file, TIFFTAG_COMPRESSION, compression);
+      if (text != nullptr) TIFFSetField(file, TIFFTAG_IMAGEDESCRIPTION, text);
       TIFFSetField(file, TIFFTAG_TILEWIDTH, side);
       TIFFSetField(file, TIFFTAG_TILELENGTH, side);
       for (int top = 0; top < made_.counts[1]; top += side) {
@@ -346,6 +348,22 @@ TEST_F(LabelVolumeOfAFile, ReadsTiffsInTilesAndOf64Bits) {
   }
   write_tiled_tiff<std::uint16_t>("a.tif", "w", COMPRESSION_LZW);
   expect_cut_is_refused("a.tif", 1);
+}
+
+TEST_F(LabelVolumeOfAFile, TakesNoPageThatWasWrittenAnewForImageJsBlock) {
+  // Other programs keep the text of the stack when they write a page of it packed or in tiles:
+  // the voxels of the others do not stand behind it.
+  const char* const text = "ImageJ=1.53\nimages=3\nslices=3\n";
+  for (const int compression : {COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE}) {
+    write_tiff("a.tif", "w", 0, 1, compression, 5, text);
+    EXPECT_ERROR(open_volume(path("a.tif")), InputOutput);
+  }
+  make({37, 21, 1});
+  write_tiled_tiff<std::uint16_t>("a.tif", "w", COMPRESSION_NONE, text);
+  const std::string sentence =
+      test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("a.tif")); });
+  EXPECT_NE(sentence.find("has one page of the 3 that ImageJ noted"), std::string::npos)
+      << sentence;
 }
 
 TEST_F(LabelVolumeOfAFile, RefusesTiffsThatAreCutOrDiffer) {
