@@ -64,8 +64,7 @@ TEST(RemeshDefaults, AsPublishedIsTheSeriesWithNodesOnIt) {
 
 TEST(RemeshDefaults, AHandfulOfNodesGoesRoundALongGrain) {
   // With cells on the sphere they ran together on one side of it, at angles of 1 to 16 degrees.
-  IndexedMesh scan = test::sphere(3);
-  for (Vector3& p : scan.points) p = p.cwiseProduct(Vector3(1.0, 2.0, 3.0));
+  const IndexedMesh scan = test::scaled(test::sphere(3), Vector3(1.0, 2.0, 3.0));
   RemeshOptions options;
   options.measures.advice = false;
   for (options.node_count = 10; options.node_count < 20; ++options.node_count) {
