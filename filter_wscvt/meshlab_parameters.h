@@ -14,7 +14,8 @@ namespace wscvt::filter {
 // Parameters of a filter as MeshLab's, in any version. What versions call differently is in `Api`,
 // beside each version's adapter: the types List, Value, Scalar, Integer, Real, Choice, Flag, Text,
 // InputFile and OutputFile, and
-//   void add<Rich>(List&, const FilterParameter&, arguments...),
+//   QString tooltip(const FilterParameter&, const ParameterList&), as its dialog has room for it,
+//   void add<Rich>(List&, const FilterParameter&, tooltip, arguments...),
 //   std::optional<QString> text(const Value&).
 
 /// What a file dialog offers: "Report (*.html *.json)".
@@ -35,8 +36,8 @@ inline QString in_column(const QString& html, int width) {
 }
 
 /// A tooltip as the host shows it, also behind its Help button.
-inline QString shown_tooltip(const FilterParameter& parameter, int width) {
-  const QString text = QString::fromStdString(parameter.tooltip);
+inline QString shown_tooltip(const std::string& tooltip, int width) {
+  const QString text = QString::fromStdString(tooltip);
   return host_has_window() ? in_column(text.toHtmlEscaped(), width) : text;
 }
 
@@ -44,36 +45,38 @@ template <class Api>
 typename Api::List meshlab_parameters(const ParameterList& parameters) {
   typename Api::List list;
   for (const FilterParameter& parameter : parameters) {
+    const QString tooltip = Api::tooltip(parameter, parameters);
     switch (parameter.kind) {
       case ParameterKind::Integer:
-        Api::template add<typename Api::Integer>(list, parameter,
+        Api::template add<typename Api::Integer>(list, parameter, tooltip,
                                                  static_cast<int>(parameter.default_value));
         break;
       case ParameterKind::Real:
         Api::template add<typename Api::Real>(
-            list, parameter, static_cast<typename Api::Scalar>(parameter.default_value));
+            list, parameter, tooltip, static_cast<typename Api::Scalar>(parameter.default_value));
         break;
       case ParameterKind::Choice: {
         QStringList choices;
         for (const std::string& choice : parameter.choices) {
           choices << QString::fromStdString(choice);
         }
-        Api::template add<typename Api::Choice>(list, parameter,
+        Api::template add<typename Api::Choice>(list, parameter, tooltip,
                                                 static_cast<int>(parameter.default_value), choices);
         break;
       }
       case ParameterKind::Flag:
-        Api::template add<typename Api::Flag>(list, parameter, parameter.default_value != 0.0);
+        Api::template add<typename Api::Flag>(list, parameter, tooltip,
+                                              parameter.default_value != 0.0);
         break;
       case ParameterKind::Text:
-        Api::template add<typename Api::Text>(list, parameter, QString());
+        Api::template add<typename Api::Text>(list, parameter, tooltip, QString());
         break;
       case ParameterKind::InputFile:
-        Api::template add<typename Api::InputFile>(list, parameter, QString(),
+        Api::template add<typename Api::InputFile>(list, parameter, tooltip, QString(),
                                                    QStringList(file_dialog_filter(parameter)));
         break;
       case ParameterKind::OutputFile:
-        Api::template add<typename Api::OutputFile>(list, parameter, QString(),
+        Api::template add<typename Api::OutputFile>(list, parameter, tooltip, QString(),
                                                     file_dialog_filter(parameter));
         break;
     }

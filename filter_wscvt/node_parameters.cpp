@@ -23,7 +23,7 @@ FilterParameter sampling_parameter() {
 
 FilterParameter weighting_parameter() {
   return table_parameter("Weighting", RemeshOptions().weighting.kind, "Weighting",
-                         "How large the nodes' cells are.");
+                         "How large the nodes' cells are, so where nodes stand closer together.");
 }
 
 FilterParameter curvature_alpha_parameter() {
@@ -35,8 +35,9 @@ FilterParameter curvature_alpha_parameter() {
 }
 
 FilterParameter metric_parameter() {
-  return table_parameter("Metric", RemeshOptions().relaxation.metric, "Metric",
-                         "Where the cells are made centroidal.");
+  return table_parameter(
+      "Metric", RemeshOptions().relaxation.metric, "Metric",
+      "Where the cells are made centroidal; Surface gives the most even triangles.");
 }
 
 FilterParameter seed_start_parameter() {
@@ -54,7 +55,7 @@ FilterParameter random_seed_parameter() {
                                     random_seed_option.meaning};
   return option_parameter("RandomSeed", static_cast<int>(RemeshOptions().seeding.random_seed),
                           option, "Random seed",
-                          "Of the random start only; the same seed gives the same mesh.");
+                          "Of the random start only; the same seed, the same mesh.");
 }
 
 FilterParameter maximum_iterations_parameter() {
@@ -65,8 +66,7 @@ FilterParameter maximum_iterations_parameter() {
 
 FilterParameter colour_by_quality_parameter() {
   return flag_parameter("ColorByQuality", false, "Color by quality",
-                        "Colors the vertices of the result by their quality, from red (lowest) "
-                        "through green to blue (highest).");
+                        "Colors the vertices by it: red lowest, green, blue highest.");
 }
 
 RemeshOptions read_node_options(const CheckedValues& values) {

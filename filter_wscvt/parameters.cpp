@@ -97,6 +97,22 @@ FilterParameter choice_parameter(std::string name, int default_index,
   return parameter;
 }
 
+std::string whole_tooltip(const FilterParameter& parameter) {
+  return parameter.tooltip + parameter.choices_help;
+}
+
+std::string brief_tooltip(const FilterParameter& parameter, std::size_t most_characters) {
+  const std::string& text = parameter.tooltip;
+  std::size_t length = 0;
+  while (length < text.size()) {
+    const std::size_t stop = text.find(". ", length);
+    const std::size_t end = stop == std::string::npos ? text.size() : stop + 1;
+    if (length > 0 && end > most_characters) break;
+    length = end;
+  }
+  return text.substr(0, length);
+}
+
 FilterParameter option_parameter(std::string name, int default_value,
                                  const NumberOption<int>& option, std::string label,
                                  const std::string& tooltip) {

@@ -39,9 +39,10 @@ struct FilterParameter {
   std::vector<std::string> choices;     ///< of a Choice, in the order of their index
   std::vector<std::string> extensions;  ///< of a file: ".json", ...
   std::string label;
-  std::string tooltip;
-  bool advanced = false;  ///< folded away at first by hosts that can
-  bool required = false;  ///< in a script: hosts drop what they cannot read, and say nothing
+  std::string tooltip;       ///< what it does
+  std::string choices_help;  ///< of a Choice: what each one does
+  bool advanced = false;     ///< folded away at first by hosts that can
+  bool required = false;     ///< in a script: hosts drop what they cannot read, and say nothing
 };
 
 /// Parameters in the order in which a dialog shows them.
@@ -57,6 +58,13 @@ FilterParameter real_parameter(std::string name, double default_value, double mi
 FilterParameter choice_parameter(std::string name, int default_index,
                                  std::vector<std::string> choices, std::string label,
                                  std::string tooltip);
+
+/// All that a dialog says of a parameter.
+std::string whole_tooltip(const FilterParameter& parameter);
+
+/// What a dialog without room for all of it says: of what the parameter does the first sentences,
+/// as many as fit into so many characters together; the first one always.
+std::string brief_tooltip(const FilterParameter& parameter, std::size_t most_characters);
 
 /// A parameter for an option of the library: its range, which the tooltip then tells as well.
 FilterParameter option_parameter(std::string name, int default_value,
@@ -78,12 +86,15 @@ std::vector<std::string> choices_of() {
 template <class Enumeration>
 FilterParameter table_parameter(std::string name, Enumeration default_value, std::string label,
                                 std::string tooltip) {
+  FilterParameter parameter =
+      choice_parameter(std::move(name), static_cast<int>(default_value), choices_of<Enumeration>(),
+                       std::move(label), std::move(tooltip));
   for (const auto& row : enumerators<Enumeration>()) {
     if (row.meaning.empty()) continue;
-    tooltip.append(" ").append(short_label(row.label)).append(": ").append(row.meaning).append(".");
+    parameter.choices_help.append(" ").append(short_label(row.label)).append(": ");
+    parameter.choices_help.append(row.meaning).append(".");
   }
-  return choice_parameter(std::move(name), static_cast<int>(default_value),
-                          choices_of<Enumeration>(), std::move(label), std::move(tooltip));
+  return parameter;
 }
 
 FilterParameter flag_parameter(std::string name, bool default_value, std::string label,

@@ -25,14 +25,15 @@ ParameterList remesh_parameters() {
       node_count_parameter(),
       option_parameter(
           "ErrorTarget", defaults.target.percent, error_target_option, "Error target (%)",
-          "0: the number of nodes counts. Above: the smallest number of nodes whose error is at "
-          "most this many % is looked for, from the number of nodes given and up to " +
+          "Above 0: looks for the smallest number of nodes whose error is at most this. 0: the "
+          "number of nodes counts. It looks from the number of nodes given up to " +
               typed_text(defaults.target.largest_node_count) +
               ", or that number if it is larger; the log says what each number tried cost. Takes "
               "about ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error target is of the",
                       "Which error the target limits, each in % of the original's own."),
-      table_parameter("Method", defaults.method, "Method", "What the nodes are fitted to."),
+      table_parameter("Method", defaults.method, "Method",
+                      "What the nodes are fitted to: the scan, or a harmonic series of it."),
       sampling_parameter(),
       weighting_parameter(),
       option_parameter(
@@ -41,37 +42,38 @@ ParameterList remesh_parameters() {
           "0: follows the grain, the log says how; as published then means 20."),
       curvature_alpha_parameter(),
       table_parameter("CurvatureSource", defaults.weighting.curvature_source, "Curvature from",
-                      "Where WSCVT-C takes the curvature from."),
-      table_parameter("Placement", defaults.placement.kind, "Place nodes",
-                      "Where the nodes are put along their directions."),
+                      "Where WSCVT-C takes the surface's curvature from."),
+      table_parameter(
+          "Placement", defaults.placement.kind, "Place nodes",
+          "Where the nodes are put; only least squares encloses exactly the scan's volume."),
       option_parameter("RefinementRounds", defaults.placement.refinement.rounds,
                        refinement_rounds_option, "Rounds of refinement",
-                       "After a placement by least squares: at most so many rounds of moving "
-                       "nodes, flipping edges and taking nodes to where they help most, all "
-                       "towards the scan. 100 suffice; 0 keeps the nodes evenly spaced."),
+                       "Rounds of moving nodes, flipping edges and relocating nodes after least "
+                       "squares. 100 suffice; 0 keeps the nodes evenly spaced."),
       option_parameter("SmallestAngle", defaults.placement.refinement.smallest_angle,
                        refinement_angle_option, "Smallest angle of a refinement",
                        "In degrees. Refinement gives no triangle a smaller one; smaller is closer "
                        "to the scan and less even."),
-      table_parameter("Parametrization", defaults.surface.parametrization, "Map to the sphere",
-                      "How the scan is laid over the sphere."),
+      table_parameter(
+          "Parametrization", defaults.surface.parametrization, "Map to the sphere",
+          "How the scan is laid over the sphere; Auto chooses, and the log says which."),
       option_parameter(
           "FoldLimit", defaults.surface.fold_limit_percent, fold_limit_option, "Fold limit (%)",
-          "Where the surface folds, a ray from the centroid meets more than one sheet. Largest "
-          "solid angle that all sheets beyond the first may fill together, in % of the whole "
-          "sphere. Folds are bridged by their outermost sheet; above the limit the filter "
-          "refuses. The spherical map has no such limit."),
+          "Largest solid angle that folds may fill, in % of the whole sphere; above it the filter "
+          "refuses. Where the surface folds, a ray from the centroid meets more than one sheet; "
+          "all sheets beyond the first count. Folds are bridged by their outermost sheet. The "
+          "spherical map has no such limit."),
       option_parameter(
           "MendLimit", defaults.check.mended_area_limit_percent, mended_area_limit_option,
           "Mend limit (%)",
-          "Holes are filled, and flaps and walls where more than two faces meet in an edge are "
-          "dropped. Largest share of the scan's area that this may change, in %; above it the "
-          "filter refuses."),
+          "Largest share of the scan's area that mending may change, in %; above it the filter "
+          "refuses. Holes are filled, and flaps and walls where more than two faces meet in an "
+          "edge are dropped."),
       flag_parameter(
           "Points", defaults.points, "Take points only",
-          "Checked: the points of the layer are taken and a surface is made of them, with one "
-          "radius in each direction from their centre; faces are not used, and folds go unseen. "
-          "Unchecked: a layer without faces is refused."),
+          "Checked: a surface is made of the points; faces are not used. It has one radius in each "
+          "direction from their centre, and folds go unseen. Unchecked: a layer without faces is "
+          "refused."),
       metric_parameter(),
       seed_start_parameter(),
       random_seed_parameter(),
@@ -80,21 +82,21 @@ ParameterList remesh_parameters() {
                        "How many threads the remesher takes; 0 takes all. They change no result."),
       flag_parameter(
           "NewLayer", true, "Result as a new layer",
-          "Checked: the scan is kept and the result becomes a new, current layer. Unchecked: the "
-          "result replaces the scan, which cannot be undone."),
+          "Unchecked: the result replaces the scan, which cannot be undone. Checked: it becomes a "
+          "new, current layer."),
       flag_parameter("Distances", defaults.measures.distances, "Measure distances",
-                     "Measures the one- and two-sided largest, rms and mean distance between "
-                     "result and original, for the log and the report; takes about a second."),
+                     "Largest, rms and mean distance to the original, both ways. For log and "
+                     "report; takes about a second."),
       table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
-                      "What each vertex of the result holds."),
+                      "What each vertex of the result holds as its quality."),
       colour_by_quality_parameter(),
       report_file_parameter(),
       output_file_parameter(
           "CoefficientsFile", {".json"}, "Save coefficients to",
-          "A .json file for the coefficients of the fitted harmonic series, of the radius or, on "
-          "the spherical map, of x, y and z, about the volume "
-          "centroid and in units of the mesh, or nothing. A name without a folder lands beside the "
-          "scan. The filter that creates grains reads it."),
+          "A .json file for the coefficients of the fitted harmonic series, or nothing. The filter "
+          "that creates grains reads it. They are of the radius or, on the spherical map, of x, y "
+          "and z, about the volume centroid and in units of the mesh. A name without a folder "
+          "lands beside the scan."),
   };
 }
 

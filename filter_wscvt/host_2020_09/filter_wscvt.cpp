@@ -30,7 +30,17 @@ struct Api {
   using InputFile = RichOpenFile;
   using OutputFile = RichSaveFile;
 
-  static constexpr int help_width = 350;  // the dialog grows by it
+  /// The dialog grows by the width of the texts behind Help, to two thirds of the screen's at most,
+  /// and does not scroll. Where the fields alone fill the height of a screen of 1280 x 1000, no
+  /// text may be higher than its field: two lines of some 70 characters, beside a box to check one.
+  static QString tooltip(const FilterParameter& parameter, const ParameterList& all) {
+    constexpr int width = 350;
+    constexpr std::size_t many_fields = 20;
+    const std::size_t room = parameter.kind == ParameterKind::Flag ? 68 : 135;
+    return shown_tooltip(
+        all.size() > many_fields ? brief_tooltip(parameter, room) : whole_tooltip(parameter),
+        width);
+  }
 
   static std::vector<MeshModel*> all(MeshDocument& document) {
     return {document.meshList.begin(), document.meshList.end()};
@@ -39,13 +49,12 @@ struct Api {
   static void update_box_and_normals(MeshModel& model) { model.UpdateBoxAndNormals(); }
 
   template <class Rich, class... Arguments>
-  static void add(RichParameterList& list, const FilterParameter& parameter,
+  static void add(RichParameterList& list, const FilterParameter& parameter, const QString& tooltip,
                   const Arguments&... arguments) {
     QString label = QString::fromStdString(parameter.label);
     // What is typed into the field of a file has no effect in this version.
     if (holds_file(parameter.kind)) label += QStringLiteral(" (by button)");
-    list.addParam(Rich(QString::fromStdString(parameter.name), arguments..., label,
-                       shown_tooltip(parameter, help_width)));
+    list.addParam(Rich(QString::fromStdString(parameter.name), arguments..., label, tooltip));
   }
 
   static std::optional<QString> text(const ::Value& value) {

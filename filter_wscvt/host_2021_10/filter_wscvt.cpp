@@ -34,7 +34,10 @@ struct Api {
   using OutputFile = RichSaveFile;
 #endif
 
-  static constexpr int help_width = 240;  // within a column of 250, however wide the dialog is
+  /// Within a column of 250 pixels, however wide the dialog is.
+  static QString tooltip(const FilterParameter& parameter, const ParameterList& /*all*/) {
+    return shown_tooltip(whole_tooltip(parameter), 240);
+  }
 
   static std::vector<MeshModel*> all(MeshDocument& document) {
     std::vector<MeshModel*> models;
@@ -45,11 +48,10 @@ struct Api {
   static void update_box_and_normals(MeshModel& model) { model.updateBoxAndNormals(); }
 
   template <class Rich, class... Arguments>
-  static void add(RichParameterList& list, const FilterParameter& parameter,
+  static void add(RichParameterList& list, const FilterParameter& parameter, const QString& tooltip,
                   const Arguments&... arguments) {
     list.addParam(Rich(QString::fromStdString(parameter.name), arguments...,
-                       QString::fromStdString(parameter.label),
-                       shown_tooltip(parameter, help_width), parameter.advanced));
+                       QString::fromStdString(parameter.label), tooltip, parameter.advanced));
   }
 
   static std::optional<QString> text(const ::Value& value) {

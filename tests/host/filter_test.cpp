@@ -233,6 +233,19 @@ TEST(Filter, HelpOfParametersFitsItsColumn) {
   }
 }
 
+TEST(Filter, BriefTooltipIsOfWholeSentences) {
+  filter::FilterParameter parameter;
+  parameter.tooltip = "One and 2.5. Two. Three.";
+  parameter.choices_help = " Choice: four.";
+  EXPECT_EQ(filter::whole_tooltip(parameter), "One and 2.5. Two. Three. Choice: four.");
+  EXPECT_EQ(filter::brief_tooltip(parameter, 24), "One and 2.5. Two. Three.");
+  EXPECT_EQ(filter::brief_tooltip(parameter, 23), "One and 2.5. Two.");
+  EXPECT_EQ(filter::brief_tooltip(parameter, 16), "One and 2.5.");
+  EXPECT_EQ(filter::brief_tooltip(parameter, 1), "One and 2.5.");
+  parameter.tooltip.clear();
+  EXPECT_EQ(filter::brief_tooltip(parameter, 24), "");
+}
+
 TEST(EverydayFilter, HasAtMostTenOfTheRemeshersParameters) {
   const filter::ParameterList few = filter::everyday_parameters();
   EXPECT_LE(few.size(), 10U);

@@ -300,9 +300,9 @@ TEST_P(WindowHelp, StaysOnTheScreen) {
   EXPECT_TRUE(meshlab.is_on_screen(filter));
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheShorterFilters, WindowHelp,
-                         testing::Values(filter::everyday_name(), filter::creation_name(),
-                                         filter::descriptor_name()));
+INSTANTIATE_TEST_SUITE_P(OfEveryFilter, WindowHelp,
+                         testing::Values(filter::everyday_name(), filter::remesh_name(),
+                                         filter::creation_name(), filter::descriptor_name()));
 
 TEST(Window, FilterAddsALayerThatIsSavedWithTheProject) {
   const QString scan = sample("sand_7228.ply");
