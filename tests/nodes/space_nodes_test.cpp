@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "grains/bent_grain.h"
 #include "support/test_shapes.h"
@@ -19,10 +20,10 @@ struct Placed {
   double volume = 0.0;
 };
 
-Placed placed(const std::string& body, int count) {
+Placed placed(const std::string& body, int count, int vertices = 6000) {
   const Execution execution(2);
   Grain grain;
-  grain.mesh = test::bent_grain_mesh(test::bent_grain(body), 6000);
+  grain.mesh = test::bent_grain_mesh(test::bent_grain(body), vertices);
   grain.map = map_to_sphere(grain.mesh, SphereMapOptions(), execution);
   grain.mapped.emplace(grain.mesh, grain.map.directions, execution);
   Placed result;
@@ -51,6 +52,32 @@ TEST(SpaceNodes, ThinBodiesComeOutWithoutTrianglesThatMeet) {
     EXPECT_EQ(thin.nodes.report.repairs, 0);
     const Statistics edges = measure_quality(mesh).edge_length;
     EXPECT_LT(edges.standard_deviation / edges.mean, body == "flake" ? 0.1 : 0.08);
+  }
+}
+
+TEST(SpaceNodes, PassANeckOnARounderMapWhereTheyJamOnTheGrains) {
+  // One of the rod's ends hangs on a neck five nodes round.
+  const Placed rod = placed("rod", 1000, 15000);
+  const IndexedMesh& mesh = rod.nodes.placed.mesh;
+  EXPECT_EQ(mesh.points.size(), 1000U);
+  EXPECT_GT(rod.nodes.report.angle_weight, 0.0);
+  EXPECT_EQ(rod.nodes.report.mending.left, 0);
+  EXPECT_TRUE(self_intersections(mesh).empty());
+  // Nodes that go nowhere jam need no other map.
+  EXPECT_EQ(placed("hook", 300).nodes.report.angle_weight, 0.0);
+}
+
+TEST(SpaceNodes, TheOffsetForTheVolumeMakesNoTrianglesMeetAtAThinRim) {
+  // On the surface no triangles of either meet.
+  for (const auto& [body, count] : {std::pair("bowl", 700), std::pair("flake", 650)}) {
+    SCOPED_TRACE(body);
+    const Placed thin = placed(body, count);
+    const IndexedMesh& mesh = thin.nodes.placed.mesh;
+    EXPECT_TRUE(self_intersections(mesh).empty());
+    // Rounding of a sum over 1396 triangles.
+    const double volume =
+        mesh_sums(mesh.points, mesh.triangles, Vector3::Zero(), Execution(1)).volume();
+    EXPECT_NEAR(volume / thin.volume, 1.0, 1e-12);
   }
 }
 

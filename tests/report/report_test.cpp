@@ -188,6 +188,11 @@ TEST(Report, TellsOfASphericalMapItsHandlesMeetingsAndMending) {
       line_of(result, "Meeting"),
       "1 pair of triangles meet, of 1280 triangles; repaired by 2 relaxations with more nodes "
       "there");
+  result.space.repairs = 0;
+  result.space.angle_weight = 10.0;
+  EXPECT_EQ(line_of(result, "Meeting"),
+            "1 pair of triangles meet, of 1280 triangles; the nodes jammed on the map and stand on "
+            "one that keeps angles better (weight 10)");
   result.space.mending.relocations = 1;
   EXPECT_EQ(
       line_of(result, "Mended"),

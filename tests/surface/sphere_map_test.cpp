@@ -243,6 +243,19 @@ TEST(SphereMap, RefusesWhatIsNoSphere) {
   EXPECT_NE(refusal(touching).find("touches itself"), std::string::npos);
 }
 
+TEST(SphereMap, AWeightOfTheAnglesKeepsThemAtTheCostOfTheAreas) {
+  const IndexedMesh rod = test::bent_grain_mesh(test::bent_grain("rod"), 3000);
+  SphereMapReport before = map_to_sphere(rod, SphereMapOptions(), Execution(1)).report;
+  SphereMapOptions options;
+  for (const double weight : {3.0, 30.0}) {
+    options.angle_weight = weight;
+    const SphereMapReport report = map_to_sphere(rod, options, Execution(1)).report;
+    EXPECT_LT(report.mean_angle_distortion, 0.9 * before.mean_angle_distortion);
+    EXPECT_LT(report.smallest_area_ratio, before.smallest_area_ratio);
+    before = report;
+  }
+}
+
 TEST(SphereMap, RefusesOptionsOutOfRange) {
   const IndexedMesh mesh = test::sphere(1);
   SphereMapOptions options;
@@ -257,6 +270,9 @@ TEST(SphereMap, RefusesOptionsOutOfRange) {
   options = {};
   options.tolerance = std::nan("");
   EXPECT_NE(refusal(mesh, options).find("0 or more"), std::string::npos);
+  options = {};
+  options.angle_weight = -1.0;
+  EXPECT_NE(refusal(mesh, options).find("0 to 1000"), std::string::npos);
 }
 
 }  // namespace

@@ -318,6 +318,7 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
   // Halvings of each node's step; beyond the last it takes none.
   constexpr int most_halvings = 4;
   std::vector<int> halvings(count, 0);
+  std::vector<Vector3> offset_normals = normals;
   const auto hold_back = [&](std::int32_t node) {
     if (halvings[node] > most_halvings) return false;
     ++halvings[node];
@@ -341,12 +342,21 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
       for (const std::int32_t v : triangles[h / 3]) held |= hold_back(v);
     }
     if (held) continue;
-    fit.report.offset = offset_to_volume(normals, triangles, volume, fit.positions, execution);
+    fit.report.offset =
+        offset_to_volume(offset_normals, triangles, volume, fit.positions, execution);
     const auto crossings = self_intersections({fit.positions, triangles}, execution);
     if (crossings.empty()) break;
     if (!crossings_before) crossings_before = self_intersections(nodes, execution).size();
     if (crossings.size() <= *crossings_before) break;
-    for (const std::int32_t v : vertices_of(crossings, triangles)) held |= hold_back(v);
+    for (const std::int32_t v : vertices_of(crossings, triangles)) {
+      if (hold_back(v)) {
+        held = true;
+      } else if (!offset_normals[v].isZero()) {
+        // At the rim of a body as thin as paper the offset alone makes triangles meet.
+        offset_normals[v].setZero();
+        held = true;
+      }
+    }
     if (!held) break;
   }
   fit.report.held_back = static_cast<int>(

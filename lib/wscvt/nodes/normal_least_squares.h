@@ -81,7 +81,7 @@ std::vector<FitSample> deal_on(const std::vector<FitSample>& samples,
 /// scans tried, and cost angles.
 ///
 /// Where a guard of the options is violated, the nodes concerned take a half, a quarter, ... of
-/// their step, and at last none.
+/// their step, and at last none; where triangles meet even then, they do without the offset too.
 ///
 /// `nodes` is a closed, oriented 2-manifold. Throws Error(InvalidInput) for options out of range,
 /// Error(NumericalFailure) when the nodes enclose no volume or the system cannot be solved.

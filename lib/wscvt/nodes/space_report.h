@@ -24,6 +24,9 @@ struct TriangleMendingReport {
 struct SpaceNodesReport {
   std::size_t self_intersections = 0;  ///< pairs of triangles of the mesh that meet, exactly
   int repairs = 0;                     ///< relaxations with more nodes where triangles had met
+  /// Above 0: the nodes stand on a map of their own, in which angles count so much beside areas
+  /// (SphereMapOptions), because they had jammed on the grain's.
+  double angle_weight = 0.0;
   double volume_loss = 0.0;  ///< of the nodes on the surface, as a share of the grain's volume
   /// Above 0: the nodes asked for are too few for the shape (they lose more than a quarter of its
   /// volume, or their triangles meet), and so many would do; too_many_nodes where none of the

@@ -147,6 +147,10 @@ void append_meeting(const RemeshResult& result, std::vector<std::string>& lines)
             counted(static_cast<std::size_t>(space.repairs), "relaxation", "relaxations") +
             " with more nodes there";
   }
+  if (space.angle_weight > 0.0) {
+    text += "; the nodes jammed on the map and stand on one that keeps angles better (weight " +
+            format_number(space.angle_weight, 3) + ")";
+  }
   lines.push_back(line("Meeting", text));
   if (result.options.placement.kind == NodePlacement::Series) {
     lines.push_back(line("Placement", "on the scan; a spherical map has no fitted series"));

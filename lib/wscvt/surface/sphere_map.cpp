@@ -31,6 +31,7 @@ void check_options(const SphereMapOptions& options) {
   require_in_range(options.coarse_sweeps, coarse_sweeps_option);
   require_in_range(options.fine_sweeps, fine_sweeps_option);
   require_in_range(options.tolerance, map_tolerance_option);
+  require_in_range(options.angle_weight, angle_weight_option);
 }
 
 /// A vertex that moves by less than the root of this of its edges' length is still.
@@ -40,7 +41,10 @@ constexpr double still = 1e-5;
 class Embedding {
  public:
   Embedding(MeshCollapse& mesh, const SphereMapOptions& options)
-      : mesh_(mesh), options_(options), directions_(mesh.points().size(), Vector3::Zero()) {
+      : mesh_(mesh),
+        options_(options),
+        directions_(mesh.points().size(), Vector3::Zero()),
+        fan_(options.angle_weight) {
     const Vector3 corners[4] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       const auto v = static_cast<std::int32_t>(i);
@@ -244,7 +248,7 @@ class Embedding {
           0.5 * (r.cotangents[0] * (b - a).squaredNorm() + r.cotangents[1] * b.squaredNorm() +
                  r.cotangents[2] * a.squaredNorm());
       const double ratio = area_unit_ * r.area / area;
-      sum += dirichlet * (1.0 + ratio * ratio);
+      sum += dirichlet * (1.0 + 2.0 * options_.angle_weight * ratio + ratio * ratio);
     }
     return sum;
   }

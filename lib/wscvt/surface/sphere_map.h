@@ -24,6 +24,9 @@ struct SphereMapOptions {
   std::size_t fine_vertices = 30000;
   /// A level is done when four sweeps lower the energy by less than this share.
   double tolerance = 2e-4;
+  /// How much keeping angles counts beside keeping areas (see VertexFan): a thin neck or a long
+  /// limb becomes rounder on the sphere, and what lies beyond it smaller.
+  double angle_weight = 0.0;
 };
 
 inline constexpr NumberOption<double> level_growth_option{"level-growth",
@@ -34,6 +37,8 @@ inline constexpr NumberOption<int> fine_sweeps_option{
     "fine-sweeps", "number of sweeps on the map's fine levels", 0, 1000};
 inline constexpr NumberOption<double> map_tolerance_option{
     "map-tolerance", "tolerance of the map's levels", 0.0, std::numeric_limits<double>::infinity()};
+inline constexpr NumberOption<double> angle_weight_option{
+    "angle-weight", "weight of the angles in the map's energy", 0.0, 1000.0};
 
 /// How the map came out. Distortions are those of the triangles of the mesh whose area is not zero.
 struct SphereMapReport {
