@@ -365,34 +365,45 @@ TEST(Server, AdvisesASurfaceOfPointsThatLieBehindOthers) {
 }
 
 TEST(Server, AdvisesANumberOfNodesThatWouldDo) {
-  IndexedMesh bent = test::bent_grain_mesh(test::bent_grain("C-shape"), 3000);
-  for (Vector3& p : bent.points) p = p.cast<float>().cast<double>();  // as MeshLab has it
-  // Which handful of nodes encloses nothing goes by their weighing: the first that is refused with
-  // another number, looked for here, where it is fast.
+  // Which handful of nodes encloses nothing goes by their weighing, the body and rounding: the
+  // first that is refused with another number, looked for here, where it is fast.
+  IndexedMesh bent;
   RemeshOptions options;
-  options.weighting.kind = Weighting::RadialDistance;  // the script's
   const std::string said = "encloses no volume; ";
   std::string enough;
-  for (options.node_count = 4; options.node_count <= 30 && enough.empty(); ++options.node_count) {
-    try {
-      remesh(bent, options);
-    } catch (const Error& error) {
-      const std::string what = error.what();
-      if (what.find(" would do.") == std::string::npos) continue;
-      enough = std::to_string(std::stoi(what.substr(what.find(said) + said.size())));
-      --options.node_count;
+  for (const char* body : {"bowl", "C-shape"}) {
+    bent = test::bent_grain_mesh(test::bent_grain(body), 3000);
+    for (Vector3& p : bent.points) p = p.cast<float>().cast<double>();  // as MeshLab has it
+    for (const Weighting weighting :
+         {Weighting::ErrorAdaptive, Weighting::Curvature, Weighting::RadialDistance}) {
+      for (int nodes = 4; nodes <= 16 && enough.empty(); ++nodes) {
+        options.weighting.kind = weighting;
+        options.node_count = nodes;
+        try {
+          remesh(bent, options);
+        } catch (const Error& error) {
+          const std::string what = error.what();
+          if (what.find(" would do.") == std::string::npos) continue;
+          enough = std::to_string(std::stoi(what.substr(what.find(said) + said.size())));
+        }
+      }
+      if (!enough.empty()) break;
     }
+    if (!enough.empty()) break;
   }
   ASSERT_FALSE(enough.empty());
+  const std::pair<std::string, std::string> weighting = {
+      "Weighting", std::to_string(static_cast<int>(options.weighting.kind))};
   QTemporaryDir folder;
   const QString output = folder.filePath("remeshed.ply");
-  const Call few{"", bent, {{"NodeCount", std::to_string(options.node_count)}}, {}};
+  const Call few{"", bent, {{"NodeCount", std::to_string(options.node_count)}, weighting}, {}};
   const Outcome refusal = run_call(few, folder, output);
   EXPECT_EQ(refusal.exit_code, refused);
   EXPECT_FALSE(QFile::exists(output));
   EXPECT_TRUE(refusal.output.contains(QString::fromStdString(said + enough + " would do.")))
       << refusal.output.toStdString();
-  const Outcome outcome = run_call({"", bent, {{"NodeCount", enough}}, {}}, folder, output);
+  const Outcome outcome =
+      run_call({"", bent, {{"NodeCount", enough}, weighting}, {}}, folder, output);
   SCOPED_TRACE(outcome.output.toStdString());
   ASSERT_TRUE(QFile::exists(output));
   EXPECT_EQ(std::to_string(read_mesh(output.toStdString()).points.size()), enough);
