@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -364,46 +365,56 @@ TEST(Server, AdvisesASurfaceOfPointsThatLieBehindOthers) {
   EXPECT_NEAR(describe_shape(remeshed, Execution(1)).volume / volume, 1.0, 0.02);
 }
 
-TEST(Server, AdvisesANumberOfNodesThatWouldDo) {
-  // Which handful of nodes encloses nothing goes by their weighing, the body and rounding: the
-  // first that is refused with another number, looked for here, where it is fast.
-  IndexedMesh bent;
-  RemeshOptions options;
-  const std::string said = "encloses no volume; ";
-  std::string enough;
+/// A call that is refused for its handful of nodes, and the number of nodes that would do.
+struct AdvisedCall {
+  IndexedMesh mesh;
+  Weighting weighting = Weighting::Constant;
+  int nodes = 0;
+  int enough = 0;
+};
+
+/// Which handful of nodes encloses nothing goes by their weighing, the body and rounding: the first
+/// that is refused with another number, looked for in the library, where it is fast.
+std::optional<AdvisedCall> advised_call(const std::string& said) {
   for (const char* body : {"bowl", "C-shape"}) {
-    bent = test::bent_grain_mesh(test::bent_grain(body), 3000);
+    IndexedMesh bent = test::bent_grain_mesh(test::bent_grain(body), 3000);
     for (Vector3& p : bent.points) p = p.cast<float>().cast<double>();  // as MeshLab has it
+    RemeshOptions options;
     for (const Weighting weighting :
          {Weighting::ErrorAdaptive, Weighting::Curvature, Weighting::RadialDistance}) {
-      for (int nodes = 4; nodes <= 16 && enough.empty(); ++nodes) {
-        options.weighting.kind = weighting;
-        options.node_count = nodes;
+      options.weighting.kind = weighting;
+      for (options.node_count = 4; options.node_count <= 16; ++options.node_count) {
         try {
           remesh(bent, options);
         } catch (const Error& error) {
           const std::string what = error.what();
           if (what.find(" would do.") == std::string::npos) continue;
-          enough = std::to_string(std::stoi(what.substr(what.find(said) + said.size())));
+          return AdvisedCall{bent, weighting, options.node_count,
+                             std::stoi(what.substr(what.find(said) + said.size()))};
         }
       }
-      if (!enough.empty()) break;
     }
-    if (!enough.empty()) break;
   }
-  ASSERT_FALSE(enough.empty());
+  return std::nullopt;
+}
+
+TEST(Server, AdvisesANumberOfNodesThatWouldDo) {
+  const std::string said = "encloses no volume; ";
+  const std::optional<AdvisedCall> advised = advised_call(said);
+  ASSERT_TRUE(advised);
+  const std::string enough = std::to_string(advised->enough);
   const std::pair<std::string, std::string> weighting = {
-      "Weighting", std::to_string(static_cast<int>(options.weighting.kind))};
+      "Weighting", std::to_string(static_cast<int>(advised->weighting))};
   QTemporaryDir folder;
   const QString output = folder.filePath("remeshed.ply");
-  const Call few{"", bent, {{"NodeCount", std::to_string(options.node_count)}, weighting}, {}};
+  const Call few{"", advised->mesh, {{"NodeCount", std::to_string(advised->nodes)}, weighting}, {}};
   const Outcome refusal = run_call(few, folder, output);
   EXPECT_EQ(refusal.exit_code, refused);
   EXPECT_FALSE(QFile::exists(output));
   EXPECT_TRUE(refusal.output.contains(QString::fromStdString(said + enough + " would do.")))
       << refusal.output.toStdString();
   const Outcome outcome =
-      run_call({"", bent, {{"NodeCount", enough}, weighting}, {}}, folder, output);
+      run_call({"", advised->mesh, {{"NodeCount", enough}, weighting}, {}}, folder, output);
   SCOPED_TRACE(outcome.output.toStdString());
   ASSERT_TRUE(QFile::exists(output));
   EXPECT_EQ(std::to_string(read_mesh(output.toStdString()).points.size()), enough);

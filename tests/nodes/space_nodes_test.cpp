@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grains/bent_grain.h"
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/mesh_quality.h"
@@ -20,10 +21,10 @@ struct Placed {
   double volume = 0.0;
 };
 
-Placed placed(const std::string& body, int count, int vertices = 6000) {
+Placed placed(const IndexedMesh& scan, int count) {
   const Execution execution(2);
   Grain grain;
-  grain.mesh = test::bent_grain_mesh(test::bent_grain(body), vertices);
+  grain.mesh = scan;
   grain.map = map_to_sphere(grain.mesh, SphereMapOptions(), execution);
   grain.mapped.emplace(grain.mesh, grain.map.directions, execution);
   Placed result;
@@ -32,6 +33,10 @@ Placed placed(const std::string& body, int count, int vertices = 6000) {
   result.nodes = place_in_space(grain, nullptr, count, SpaceTessellationOptions(),
                                 PlacementOptions(), result.volume, execution);
   return result;
+}
+
+Placed placed(const std::string& body, int count, int vertices = 6000) {
+  return placed(test::bent_grain_mesh(test::bent_grain(body), vertices), count);
 }
 
 TEST(SpaceNodes, ThinBodiesComeOutWithoutTrianglesThatMeet) {
@@ -65,6 +70,23 @@ TEST(SpaceNodes, PassANeckOnARounderMapWhereTheyJamOnTheGrains) {
   EXPECT_TRUE(self_intersections(mesh).empty());
   // Nodes that go nowhere jam need no other map.
   EXPECT_EQ(placed("hook", 300).nodes.report.angle_weight, 0.0);
+}
+
+TEST(SpaceNodes, AreThoseAtHandWhereNoRounderMapCanBeMade) {
+  // Needles 16,000 times as long as wide: the map of areas still holds them.
+  const IndexedMesh needles = test::scaled(test::bicone(1000), Vector3(1.0, 1.0, 100.0));
+  for (const double weight : {10.0, 30.0}) {
+    SphereMapOptions options;
+    options.angle_weight = weight;
+    EXPECT_NE(test::refusal(ErrorCode::NumericalFailure,
+                            [&] { map_to_sphere(needles, options, Execution(1)); }),
+              "");
+  }
+  const SpaceNodes nodes = placed(needles, 200).nodes;
+  EXPECT_EQ(nodes.placed.mesh.points.size(), 200U);
+  EXPECT_EQ(nodes.report.angle_weight, 0.0);
+  // They have what another map is tried for.
+  EXPECT_GT(nodes.report.mending.left, 0);
 }
 
 TEST(SpaceNodes, TheOffsetForTheVolumeMakesNoTrianglesMeetAtAThinRim) {

@@ -187,36 +187,33 @@ Tessellated tessellate_well(const MappedSurface& surface,
 struct Laid {
   Tessellated nodes;
   MendedTriangles triangles;  ///< those of the nodes where a refinement follows
-  std::size_t meeting = 0;
-  int small_angles = 0;
+  std::size_t meeting = 0;    ///< pairs of these triangles
 
   /// A small angle in 20,000 triangles is not worth laying all of them again.
   bool is_flawed() const {
     constexpr std::size_t triangles_a_small_angle = 20000;
-    return meeting > 0 || triangles_a_small_angle * static_cast<std::size_t>(small_angles) >
-                              triangles.mesh.triangles.size();
+    const auto small_angles = static_cast<std::size_t>(triangles.report.left);
+    return meeting > 0 || triangles_a_small_angle * small_angles > triangles.mesh.triangles.size();
   }
-  bool is_better_than(const Laid& other) const {
-    const auto spread = [](const Laid& of) {
-      return of.nodes.tessellation.report.history.back().area_spread;
-    };
-    return std::tuple(meeting, small_angles, spread(*this)) <
-           std::tuple(other.meeting, other.small_angles, spread(other));
+  bool is_better_than(const Laid& other) const { return rank() < other.rank(); }
+
+ private:
+  std::tuple<std::size_t, int, double> rank() const {
+    return {meeting, triangles.report.left, nodes.tessellation.report.history.back().area_spread};
   }
 };
 
 Laid lay(const MappedSurface& surface, Tessellated nodes, bool mends, const Execution& execution) {
-  Laid result{std::move(nodes), {}};
+  const std::size_t meeting = nodes.flaws.pairs.size();
+  Laid result{std::move(nodes), {}, meeting};
   const SpaceTessellation& tessellation = result.nodes.tessellation;
   result.triangles.mesh = {tessellation.positions, tessellation.triangulation.triangles()};
-  result.meeting = result.nodes.flaws.pairs.size();
   if (!mends) return result;
-  const std::size_t known = result.meeting;
   result.triangles =
       mend_triangles(result.triangles.mesh, surface.locate(tessellation.seeds, execution), surface,
-                     TriangleMendingOptions(), execution, known);
-  result.small_angles = result.triangles.report.left;
-  if (known > 0) result.meeting = self_intersections(result.triangles.mesh, execution).size();
+                     TriangleMendingOptions(), execution, meeting);
+  // Mending makes none meet.
+  if (meeting > 0) result.meeting = self_intersections(result.triangles.mesh, execution).size();
   return result;
 }
 
@@ -321,7 +318,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   auto& [tessellation, flaws, from, repairs] = best.nodes;
   result.report.repairs = repairs;
 
-  if (flaws.any() && relaxes) {
+  // Triangles that mending has parted make nobody's nodes too few.
+  if (relaxes && (best.meeting > 0 || flaws.volume_loss > largest_volume_loss)) {
     // Twice as many until it does; a relaxation less strict says as much.
     constexpr int most_doublings = 4;
     SpaceTessellationOptions quick = options;

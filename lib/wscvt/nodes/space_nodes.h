@@ -35,8 +35,10 @@ struct SpaceTessellationOptions {
 /// Where triangles of the nodes on the surface meet, which sheets nearer to each other than the
 /// chords are deep bring about, the relaxation is made again from seeds spread by area, and the
 /// better of both is taken. Where triangles meet still, up to five more relaxations give the places
-/// concerned more nodes, taken from everywhere else, and mending takes nodes out. A fit does not
-/// add to what is left.
+/// concerned more nodes, taken from everywhere else, and mending takes nodes out. Where that leaves
+/// triangles that meet or small angles, all of it is done again on up to two maps that keep angles
+/// better (SphereMapOptions::angle_weight), and the best is taken; a map that cannot be made is
+/// passed over. A fit does not add to what is left.
 ///
 /// Throws Error: InvalidInput for options out of range, a grain that is not Spherical and a level
 /// without `to_scan`, NumericalFailure when the nodes enclose no volume, when the triangulation
