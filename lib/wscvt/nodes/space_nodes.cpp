@@ -221,8 +221,8 @@ Laid lay(const MappedSurface& surface, Tessellated nodes, bool mends, const Exec
 /// jams the nodes. Rings about a neck that keep their areas become long thin triangles on the
 /// sphere, and edges that are straight there cut across the next ring: nodes crowd and cannot pass
 /// one another. Rounder rings let them pass. On a rod with a neck and 2,000, 5,000 and 10,000 nodes
-/// 10, 55 and 142 small angles were left and 0, 4 and 15 pairs met, on these maps none; 3 helped no
-/// grain that these do not.
+/// 18, 113 and 177 small angles were left and 3, 3 and 23 pairs met, with these maps none; 3 helped
+/// few grains that these do not.
 constexpr double rounder_angle_weights[] = {10.0, 30.0};
 constexpr int most_nodes_at_once = 20000;
 
