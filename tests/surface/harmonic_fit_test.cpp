@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/random_harmonics.h"
+#include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
@@ -130,6 +131,11 @@ TEST(HarmonicFit, ResidualIsTheDistanceOfTheSurfaces) {
   expect_confirmed(test::subdivided(test::box(1.0, 1.3, 0.8), 3), 8);
   expect_confirmed(test::subdivided(test::box(1.0, 1.0, 4.0), 3), 20);  // with far tips
   expect_confirmed(meshed(grain(20, 7), 40), 9);
+  // A slanted block pressed flat: the nearest place is far from that on the same ray, which alone
+  // would make the residual a seventh too small; and most of its area is seen by few of the rays.
+  Eigen::Matrix3d slant = test::random_rotation(test::announced(3));
+  slant = Vector3(2.0, 1.0, 0.4).asDiagonal() * slant;
+  expect_confirmed(test::transformed(test::box(1.0, 1.3, 0.8), slant), 12);
   expect_confirmed(meshed(Superellipsoid(Vector3(1.0, 0.7, 0.5), 0.3, 0.3), 50), 10);
 }
 

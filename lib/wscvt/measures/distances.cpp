@@ -7,6 +7,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/plastic_sequence.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/face_boxes.h"
 #include "wscvt/surface/mapped_surface.h"
@@ -84,9 +85,6 @@ std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t 
                 "with area.");
   }
 
-  // Steps of the additive recurrence with the plastic number (Roberts 2018), 1/p and 1/p^2.
-  constexpr double first_step = 0.75487766624669276;
-  constexpr double second_step = 0.56984029099805327;
   std::vector<MeshPlace> places;
   places.reserve(count);
   std::size_t face = 0;
@@ -94,15 +92,9 @@ std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t 
     const auto index = static_cast<double>(i);
     const double place = (index + 0.5) / static_cast<double>(count) * area;
     while (face + 1 < accumulated.size() && accumulated[face] < place) ++face;
-    double u = 0.5 + index * first_step;
-    double v = 0.5 + index * second_step;
-    u -= std::floor(u);
-    v -= std::floor(v);
-    if (u + v > 1.0) {
-      u = 1.0 - u;
-      v = 1.0 - v;
-    }
-    places.push_back({static_cast<std::int32_t>(face), {1.0 - u - v, u, v}});
+    Eigen::Vector2d at = plastic_point(i);
+    if (at.sum() > 1.0) at = Eigen::Vector2d::Ones() - at;
+    places.push_back({static_cast<std::int32_t>(face), {1.0 - at.x() - at.y(), at.x(), at.y()}});
   }
   return places;
 }

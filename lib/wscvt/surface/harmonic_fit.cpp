@@ -12,6 +12,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/plastic_sequence.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
 
@@ -32,28 +33,26 @@ constexpr int smallest_rows = 96;
 constexpr int largest_rows = 768;
 constexpr double volume_tolerance = 1e-3;
 
-/// The residual is read at so many points, one in each equal slice of the area: on a bar of 4 : 1
-/// as many directions of equal solid angle leave it 10 % off, since few of them see the ends. They
-/// are taken from four times as many directions.
-constexpr int residual_points = 3000;
-constexpr int residual_directions = 4 * residual_points;
+/// The residual is read at so many points, by area: on a bar of 4 : 1 as many directions of equal
+/// solid angle leave it 10 % off, since few of them see the ends.
+constexpr std::size_t residual_points = 3000;
 constexpr std::size_t point_block = 256;
+constexpr std::size_t ray_block = 1024;
 
-/// A surface's radii on a Gauss-Legendre grid, row by row.
+/// A surface on a Gauss-Legendre grid, row by row.
 struct RadialGrid {
   GaussLegendre latitudes;  ///< cosines of the rows' polar angles
+  std::vector<Vector3> directions;
   std::vector<double> radii;
+  std::vector<double> weights;  ///< solid angles of the nodes
+  std::vector<double> areas;    ///< of the surface about the nodes
 
   int rows() const { return static_cast<int>(latitudes.nodes.size()); }
   int azimuths() const { return 2 * rows(); }
-  /// Solid angle of the node.
-  double weight(std::size_t node) const {
-    return latitudes.weights[node / static_cast<std::size_t>(azimuths())] * pi / rows();
-  }
   double volume() const {
     double sum = 0.0;
     for (std::size_t i = 0; i < radii.size(); ++i) {
-      sum += weight(i) * radii[i] * radii[i] * radii[i] / 3.0;
+      sum += weights[i] * radii[i] * radii[i] * radii[i] / 3.0;
     }
     return sum;
   }
@@ -62,14 +61,28 @@ struct RadialGrid {
 RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& execution) {
   RadialGrid grid;
   grid.latitudes = gauss_legendre(rows);
-  std::vector<Vector3> directions;
-  directions.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(grid.azimuths()));
+  std::vector<Vector3>& directions = grid.directions;
+  const std::size_t nodes =
+      static_cast<std::size_t>(rows) * static_cast<std::size_t>(grid.azimuths());
+  directions.reserve(nodes);
+  grid.weights.reserve(nodes);
   const std::vector<Eigen::Vector2d> circle = azimuth_circle(grid.azimuths());
-  for (const double z : grid.latitudes.nodes) {
+  for (std::size_t row = 0; row < grid.latitudes.nodes.size(); ++row) {
+    const double z = grid.latitudes.nodes[row];
     const double sine = std::sqrt((1.0 - z) * (1.0 + z));
     for (const Eigen::Vector2d& p : circle) directions.emplace_back(sine * p.x(), sine * p.y(), z);
+    grid.weights.insert(grid.weights.end(), circle.size(), grid.latitudes.weights[row] * pi / rows);
   }
-  grid.radii = surface.radii(directions, execution);
+  grid.radii.resize(nodes);
+  grid.areas.resize(nodes);
+  execution.parallel_for(nodes, ray_block, [&](std::size_t begin, std::size_t end) {
+    std::vector<RadialJet> jets(end - begin);
+    surface.evaluate(directions.data() + begin, end - begin, Derivatives::First, jets.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      grid.radii[i] = jets[i - begin].radius;
+      grid.areas[i] = grid.weights[i] * area_element(jets[i - begin]);
+    }
+  });
   for (const double radius : grid.radii) {
     if (!(radius > 0.0 && std::isfinite(radius))) {
       throw Error(ErrorCode::InvalidInput,
@@ -102,18 +115,20 @@ std::vector<double> project(const RadialGrid& grid, int degree, const Execution&
   const HarmonicTransform transform(degree, grid.latitudes.nodes, sines, grid.azimuths(),
                                     execution);
   std::vector<double> products(grid.radii.size());
-  for (std::size_t i = 0; i < products.size(); ++i) products[i] = grid.weight(i) * grid.radii[i];
+  for (std::size_t i = 0; i < products.size(); ++i) products[i] = grid.weights[i] * grid.radii[i];
   return transform.analyze(products, execution);
 }
 
-/// Distances from points to the series: steps along its tangent plane find the foot of each. A step
-/// leaves an error of second order in the bend of the surface between the two feet, so most points
-/// take one and few all three.
+/// Distances from points to the series: steps along its tangent plane find the foot of each, until
+/// the plane is as good as the series. Most points are so near that the first plane is.
 std::vector<double> distances_to(const HarmonicSurface& series,
                                  const std::vector<Vector3>& points) {
   constexpr int steps = 3;
-  // A step shorter than this share of the distance would shorten it by less than 5e-5.
-  constexpr double shortest_step = 0.01;
+  // How far a series of degree L bends away from the plane over a step: half its curvature times
+  // the step squared, and with slopes of a half its waves' curvature is L / (2 r). So much of the
+  // distance it may be; over seventeen scans, outward and inward, that is 1 % of the rms at most.
+  constexpr double most_bend = 0.03;
+  const double waves = 0.25 * std::max(2, series.degree());
   std::vector<std::size_t> moving(points.size());
   std::iota(moving.begin(), moving.end(), std::size_t{0});
   std::vector<Vector3> directions;
@@ -130,10 +145,14 @@ std::vector<double> distances_to(const HarmonicSurface& series,
       const Vector3 direction = directions[i];
       const Vector3 foot = jets[i].radius * direction;
       const Vector3 offset = point - foot;
-      nearest[moving[i]] = std::min(nearest[moving[i]], offset.norm());
       const Vector3 normal = surface_normal(jets[i], direction);
+      const double height = std::abs(offset.dot(normal));
       const Vector3 along = offset - offset.dot(normal) * normal;
-      if (along.norm() <= shortest_step * offset.norm()) continue;
+      if (waves * along.squaredNorm() <= most_bend * height * jets[i].radius) {
+        nearest[moving[i]] = std::min(nearest[moving[i]], height);
+        continue;
+      }
+      nearest[moving[i]] = std::min(nearest[moving[i]], offset.norm());
       // A point far off a bend may be sent past the origin: then the foot stays where it is.
       const Vector3 next = foot + along;
       if (!(next.dot(direction) > 0.0)) continue;
@@ -146,39 +165,69 @@ std::vector<double> distances_to(const HarmonicSurface& series,
   return nearest;
 }
 
-/// Points of the surface, one in each of residual_points equal slices of its area.
-std::vector<Vector3> area_uniform_points(const RadialSurface& surface, const Execution& execution) {
-  const std::vector<Vector3> directions = fibonacci_lattice(residual_directions);
-  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::First, execution);
-  double area = 0.0;
-  for (const RadialJet& jet : jets) area += area_element(jet);
+/// Points of a surface, and how many times its even share of the area each stands for.
+struct AreaSamples {
   std::vector<Vector3> points;
-  points.reserve(residual_points);
+  std::vector<double> weights;
+};
+
+/// One point for each of residual_points equal slices of the area, anywhere in the share of the
+/// sphere that its node stands for. Not at the node: that is where the series was fitted, and at a
+/// tip or an edge one node stands for more than it saw. Where the area element at the point is not
+/// the node's, the weight makes up for it.
+AreaSamples sample_by_area(const RadialSurface& surface, const RadialGrid& grid,
+                           const Execution& execution) {
+  const double area = std::accumulate(grid.areas.begin(), grid.areas.end(), 0.0);
+  const auto columns = static_cast<std::size_t>(grid.azimuths());
+  std::vector<Vector3> directions;
+  std::vector<std::size_t> nodes;
+  directions.reserve(residual_points);
+  nodes.reserve(residual_points);
   double passed = 0.0;
-  for (std::size_t i = 0; i < jets.size(); ++i) {
-    passed += area_element(jets[i]);
+  double row_top = 1.0;  // the rows' weights are the heights of their bands and add up to 2
+  for (std::size_t i = 0; i < grid.radii.size(); ++i) {
+    const std::size_t row = i / columns;
+    passed += grid.areas[i];
     // The middle of the next slice; a large element may hold several.
-    while (points.size() < residual_points &&
-           (static_cast<double>(points.size()) + 0.5) * area < passed * residual_points) {
-      points.push_back(jets[i].radius * directions[i]);
+    while (directions.size() < residual_points &&
+           (static_cast<double>(directions.size()) + 0.5) * area <
+               passed * static_cast<double>(residual_points)) {
+      const Eigen::Vector2d at = plastic_point(directions.size());
+      const double z = row_top - at.x() * grid.latitudes.weights[row];
+      const double azimuth = (static_cast<double>(i % columns) + at.y() - 0.5) * pi / grid.rows();
+      const double sine = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
+      directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), z);
+      nodes.push_back(i);
     }
+    if (i % columns == columns - 1) row_top -= grid.latitudes.weights[row];
   }
-  return points;
+  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::First, execution);
+  AreaSamples samples;
+  samples.points.reserve(jets.size());
+  samples.weights.reserve(jets.size());
+  for (std::size_t k = 0; k < jets.size(); ++k) {
+    const std::size_t node = nodes[k];
+    samples.points.push_back(jets[k].radius * directions[k]);
+    samples.weights.push_back(area_element(jets[k]) * grid.weights[node] / grid.areas[node]);
+  }
+  return samples;
 }
 
-double rms_distance(const std::vector<Vector3>& points, const HarmonicSurface& series,
+double rms_distance(const AreaSamples& samples, const HarmonicSurface& series,
                     const Execution& execution) {
+  const std::vector<Vector3>& points = samples.points;
   const double squares = execution.parallel_sum(
       points.size(), point_block, 0.0, [&](std::size_t begin, std::size_t end) {
+        const std::vector<double> distances =
+            distances_to(series, {points.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  points.begin() + static_cast<std::ptrdiff_t>(end)});
         double part = 0.0;
-        for (const double distance :
-             distances_to(series, {points.begin() + static_cast<std::ptrdiff_t>(begin),
-                                   points.begin() + static_cast<std::ptrdiff_t>(end)})) {
-          part += distance * distance;
+        for (std::size_t i = begin; i < end; ++i) {
+          part += samples.weights[i] * distances[i - begin] * distances[i - begin];
         }
         return part;
       });
-  return std::sqrt(squares / static_cast<double>(points.size()));
+  return std::sqrt(squares / std::accumulate(samples.weights.begin(), samples.weights.end(), 0.0));
 }
 
 /// A grid read once, and the series of every degree up to that it was read for.
@@ -191,7 +240,7 @@ class Fitter {
     rays_ = grid.radii.size();
     coefficients_ = project(grid, highest_degree, execution);
     execution.report(0.6, stage);
-    points_ = area_uniform_points(surface, execution);
+    samples_ = sample_by_area(surface, grid, execution);
     execution.report(0.8, stage);
   }
 
@@ -206,7 +255,7 @@ class Fitter {
     if (!(report.smallest_radius > 0.0)) return std::nullopt;
     report.degree = degree;
     report.rays = rays_;
-    report.residual = rms_distance(points_, series, execution_);
+    report.residual = rms_distance(samples_, series, execution_);
     return HarmonicFit{std::move(series), report};
   }
 
@@ -230,7 +279,7 @@ class Fitter {
   Execution execution_;
   std::size_t rays_ = 0;
   std::vector<double> coefficients_;
-  std::vector<Vector3> points_;
+  AreaSamples samples_;
 };
 
 }  // namespace
