@@ -135,19 +135,36 @@ class CubeMap {
             coordinate(rectangle.low[1] - margin), coordinate(rectangle.high[1] + margin)};
   }
 
-  /// Image of the part of a triangle in front of one face of the cube: cut by the four planes
-  /// through the origin and the face's edges.
+  /// A rectangle about the image of the part of a triangle in front of one face of the cube.
   static Rectangle clipped(const std::array<const Vector3*, 3>& corners, int axis, bool negative) {
     struct Polygon {
       std::array<Vector3, 8> points;
       std::size_t count = 0;
     };
     Polygon polygon;
+    bool ahead = true;
     for (const Vector3* corner : corners) {
       Vector3 p((*corner)[(axis + 1) % 3], (*corner)[(axis + 2) % 3], (*corner)[axis]);
       if (negative) p.z() = -p.z();
+      ahead = ahead && p.z() > 0.0;
       polygon.points[polygon.count++] = p;
     }
+    if (ahead) {
+      // As of most triangles across an edge of the cube: the whole triangle is seen on the face's
+      // plane, and what of its rectangle lies on the face holds the part on the face.
+      Rectangle whole;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3& p = polygon.points[i];
+        whole.add(p.x() / p.z(), p.y() / p.z());
+      }
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (whole.low[k] > 1.0 + margin || whole.high[k] < -1.0 - margin) return Rectangle();
+        whole.low[k] = std::clamp(whole.low[k], -1.0, 1.0);
+        whole.high[k] = std::clamp(whole.high[k], -1.0, 1.0);
+      }
+      return whole;
+    }
+    // Else it is cut by the four planes through the origin and the face's edges.
     const auto height = [](int plane, const Vector3& p) {
       const double side = plane % 2 == 0 ? p[plane / 2] : -p[plane / 2];
       return p.z() * (1.0 + margin) - side;

@@ -113,7 +113,7 @@ Grain grain_of_scan(CheckedMesh scan, const ParametrizationChoice& choice,
   }
   refuse_folds(grain.folded_share, 0.01 * options.fold_limit_percent);
   execution.report(0.0, "Casting rays");
-  grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
+  grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, grain.folded_share, execution);
   const Execution fitting = execution.part(0.4, 1.0);
   HarmonicFit fit = options.degree == automatic_degree
                         ? fit_harmonics_for_nodes(*grain.rays, node_count, fitting)

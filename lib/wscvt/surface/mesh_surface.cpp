@@ -28,7 +28,11 @@ constexpr std::size_t entries_per_triangle = 20;
 
 MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
                          const Execution& execution)
-    : cube_(resolution_for(mesh.triangles.size())) {
+    : MeshSurface(mesh, centre, unit, folded_solid_angle(mesh, centre, execution), execution) {}
+
+MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
+                         double folded_share, const Execution& execution)
+    : star_shaped_(folded_share == 0.0), cube_(resolution_for(mesh.triangles.size())) {
   if (mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput, "The mesh is empty; check it before casting rays at it.");
   }
@@ -41,14 +45,11 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   execution.parallel_for(mesh.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) mesh_.points[i] = (mesh.points[i] - centre) / unit;
   });
-  const double folded = folded_solid_angle(mesh_, Vector3::Zero(), execution);
-  if (folded >= 1.0) {
+  if (folded_share >= 1.0) {
     throw Error(ErrorCode::InvalidInput,
                 "The centre lies outside the mesh or on it, so rays from it do not go round the "
                 "surface once; take a centre inside, e.g. the centroid of a compact grain.");
   }
-
-  star_shaped_ = folded == 0.0;
 
   std::vector<CubeMap::Image> images(mesh_.points.size());
   execution.parallel_for(images.size(), block_size, [&](std::size_t begin, std::size_t end) {

@@ -20,6 +20,11 @@ class MeshSurface : public RadialSurface {
   MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
               const Execution& execution);
 
+  /// The same where the mesh's folded_solid_angle about the centre, which takes as long as binning
+  /// the triangles, is known already.
+  MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit, double folded_share,
+              const Execution& execution);
+
   const IndexedMesh& mesh() const { return mesh_; }
 
   void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,

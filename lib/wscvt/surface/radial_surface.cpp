@@ -47,10 +47,6 @@ double RadialSurface::radius(const Vector3& direction) const {
   return result;
 }
 
-double area_element(const RadialJet& jet) {
-  return jet.radius * std::sqrt(jet.radius * jet.radius + jet.gradient.squaredNorm());
-}
-
 Vector3 surface_normal(const RadialJet& jet, const Vector3& direction) {
   return (jet.radius * direction - jet.gradient).normalized();
 }
@@ -80,13 +76,6 @@ RadialJet jet_from_extension(double radius, const Vector3& gradient, const Matri
   const Matrix3 projection = Matrix3::Identity() - direction * direction.transpose();
   jet.hessian = projection * hessian * projection - gradient.dot(direction) * projection -
                 jet.gradient * direction.transpose() - direction * jet.gradient.transpose();
-  return jet;
-}
-
-RadialJet jet_from_extension(double radius, const Vector3& gradient, const Vector3& direction) {
-  RadialJet jet;
-  jet.radius = radius;
-  jet.gradient = gradient - gradient.dot(direction) * direction;
   return jet;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -59,7 +60,9 @@ class RadialSurface {
 };
 
 /// Surface area per solid angle, g = dA/dOmega = r sqrt(r^2 + |grad_Omega r|^2); length^2.
-double area_element(const RadialJet& jet);
+inline double area_element(const RadialJet& jet) {
+  return jet.radius * std::sqrt(jet.radius * jet.radius + jet.gradient.squaredNorm());
+}
 
 /// Outward unit normal of x(u) = r(u) u at direction u, along r u - grad_Omega r.
 Vector3 surface_normal(const RadialJet& jet, const Vector3& direction);
@@ -74,7 +77,14 @@ RadialJet jet_from_extension(double radius, const Vector3& gradient, const Matri
                              const Vector3& direction);
 
 /// The same without second derivatives, which are zero in the result: for Derivatives::First.
-RadialJet jet_from_extension(double radius, const Vector3& gradient, const Vector3& direction);
+/// Inline, as area_element is: what tabulates a surface calls both tens of thousands of times.
+inline RadialJet jet_from_extension(double radius, const Vector3& gradient,
+                                    const Vector3& direction) {
+  RadialJet jet;
+  jet.radius = radius;
+  jet.gradient = gradient - gradient.dot(direction) * direction;
+  return jet;
+}
 
 /// Integrals over a radial surface about its origin, by Gauss-Legendre x trapezoid quadrature.
 struct SurfaceIntegrals {
