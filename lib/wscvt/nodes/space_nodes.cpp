@@ -41,7 +41,7 @@ MultilevelOptions levels_in_space(const MultilevelOptions& levels, SeedStart sta
                                   int node_count) {
   MultilevelOptions result = levels;
   result.coarsest_seeds =
-      start == SeedStart::Multilevel ? std::max(4, 4 * levels.coarsest_seeds) : node_count;
+      start == SeedStart::Multilevel ? std::max(4, 8 * levels.coarsest_seeds) : node_count;
   return result;
 }
 
