@@ -122,7 +122,8 @@ struct MultilevelOptions {
   /// Smallest number of seeds of a level. A tessellation of fewer than four times as many has
   /// one level. Of eight grains with 500 to 850 nodes 2 to 10 % more seeds have six neighbours than
   /// without a level below, and under most weightings all steps together cost a half to three
-  /// quarters; a level of 60 does the same for fewer nodes, but comes up to 8 % less near to some grains.
+  /// quarters; a level of 60 does as much for fewer nodes, but some grains are met up to 8 % less
+  /// closely.
   int coarsest_seeds = 125;
   /// Displacement tolerances of the coarsest and of the levels between, if smaller than that of the
   /// relaxation's own: an iteration there costs little and its evenness is inherited. The
