@@ -266,6 +266,30 @@ TEST(Remesh, TwoThreadsGiveTheSameBytesForEveryMetricAndWeighting) {
   }
 }
 
+TEST(Remesh, LevelsAreAsCoarseAsTheirMetricTakes) {
+  const auto coarsest_level = [](Parametrization parametrization, RelaxationMetric metric,
+                                 int coarsest_seeds) {
+    RemeshOptions options;
+    options.node_count = 500;
+    options.surface.parametrization = parametrization;
+    options.relaxation.metric = metric;
+    options.levels.coarsest_seeds = coarsest_seeds;
+    const RelaxationReport report = remesh(sand(), options).relaxation;
+    return report.coarser_levels.empty() ? 500 : report.coarser_levels.front().seeds;
+  };
+  const int usual = MultilevelOptions().coarsest_seeds;
+  for (const Parametrization parametrization :
+       {Parametrization::Radial, Parametrization::Spherical}) {
+    for (const RelaxationMetric metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
+      const bool radial = parametrization == Parametrization::Radial;
+      const int times = radial ? (metric == RelaxationMetric::Sphere ? 1 : 2) : 8;
+      EXPECT_EQ(coarsest_level(parametrization, metric, usual), times == 1 ? 126 : 500);
+      EXPECT_EQ(coarsest_level(parametrization, metric, 125 / times), 126);
+      EXPECT_EQ(coarsest_level(parametrization, metric, coarsest_seeds_option.maximum), 500);
+    }
+  }
+}
+
 TEST(Remesh, CellAreasAddUpToTheSurface) {
   for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
     const RemeshResult result =

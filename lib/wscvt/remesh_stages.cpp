@@ -12,6 +12,7 @@
 #include "wscvt/scan/point_cloud.h"
 #include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/parametrization_choice.h"
+#include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/seeding.h"
 
 namespace wscvt {
@@ -63,7 +64,10 @@ RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
     return relax(unrelaxed_seeds(options.seeding.sampling, options.node_count), model, none,
                  execution);
   }
-  MultilevelOptions levels = options.levels;
+  // On the surface so coarse a level makes triangles less even: of five smooth grains with 500 and
+  // 2000 nodes the mean edge ratio is .005 to .017 higher than from twice as many seeds.
+  const int times = options.relaxation.metric == RelaxationMetric::Surface ? 2 : 1;
+  MultilevelOptions levels = with_more_seeds(options.levels, times);
   if (options.seeding.start != SeedStart::Multilevel) levels.coarsest_seeds = options.node_count;
   const int coarsest = level_sizes(options.node_count, levels.coarsest_seeds).front();
   return relax_multilevel(start_seeds(options.seeding, model, coarsest, execution),

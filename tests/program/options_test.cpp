@@ -59,7 +59,7 @@ const std::vector<OptionCase>& option_cases() {
       {"area-tolerance", 0.5, "nan", "above 0"},
       {"acceleration", false, "perhaps", "acceleration"},
       {"over-relaxation", 1.1, "2", "above 0 and below 2"},
-      {"coarsest-seeds", 30, "3", "4 or more"},
+      {"coarsest-seeds", 30, "3", "4 to 1000000"},
       {"coarsest-tolerance", 0.001, "0", "above 0"},
       {"middle-tolerance", 0.002, "-1", "above 0"},
       {"distances", true, "perhaps", "distances"},

@@ -19,6 +19,7 @@
 #include "wscvt/nodes/triangle_mending.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/sphere_map.h"
+#include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/sample_elimination.h"
 #include "wscvt/tessellation/space_relaxation.h"
 #include "wscvt/tessellation/space_weights.h"
@@ -39,9 +40,9 @@ double enclosed_volume(const std::vector<Vector3>& points, const std::vector<Tri
 /// limbs are long on the sphere, get jammed there, and hand their unevenness down.
 MultilevelOptions levels_in_space(const MultilevelOptions& levels, SeedStart start,
                                   int node_count) {
-  MultilevelOptions result = levels;
-  result.coarsest_seeds =
-      start == SeedStart::Multilevel ? std::max(4, 8 * levels.coarsest_seeds) : node_count;
+  constexpr int times = 8;
+  MultilevelOptions result = with_more_seeds(levels, times);
+  if (start != SeedStart::Multilevel) result.coarsest_seeds = node_count;
   return result;
 }
 

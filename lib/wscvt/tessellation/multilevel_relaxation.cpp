@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -103,6 +104,13 @@ void check_multilevel_options(const MultilevelOptions& options) {
   require_in_range(options.coarsest_seeds, coarsest_seeds_option);
   require_in_range(options.coarsest_tolerance, coarsest_tolerance_option);
   require_in_range(options.middle_tolerance, middle_tolerance_option);
+}
+
+MultilevelOptions with_more_seeds(MultilevelOptions levels, int times) {
+  const auto seeds = static_cast<std::int64_t>(times) * levels.coarsest_seeds;
+  constexpr std::int64_t most = coarsest_seeds_option.maximum;
+  levels.coarsest_seeds = static_cast<int>(std::min(seeds, most));
+  return levels;
 }
 
 RelaxationOptions level_options(const RelaxationOptions& options, const MultilevelOptions& levels,

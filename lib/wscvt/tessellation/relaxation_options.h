@@ -119,11 +119,12 @@ struct RelaxationReport {
 
 /// How the seeds grow in number, level by level. Ranges stand at the options below.
 struct MultilevelOptions {
-  /// Smallest number of seeds of a level. A tessellation of fewer than four times as many has
-  /// one level. Of eight grains with 500 to 850 nodes 2 to 10 % more seeds have six neighbours than
-  /// without a level below, and under most weightings all steps together cost a half to three
-  /// quarters; a level of 60 does as much for fewer nodes, but some grains are met up to 8 % less
-  /// closely.
+  /// Smallest number of seeds of a level in the sphere metric; in the surface metric twice as many,
+  /// and eight times where seeds are relaxed in space. A tessellation of fewer than four times as
+  /// many has one level. On the sphere, eight grains with 500 to 850 nodes, 2 to 10 % more seeds
+  /// have six neighbours than without a level below, and under most weightings all steps together
+  /// cost a half to three quarters; a level of 60 does as much for fewer nodes, but some grains are
+  /// met up to 8 % less closely.
   int coarsest_seeds = 125;
   /// Displacement tolerances of the coarsest and of the levels between, if smaller than that of the
   /// relaxation's own: an iteration there costs little and its evenness is inherited. The
@@ -134,7 +135,7 @@ struct MultilevelOptions {
 };
 
 inline constexpr NumberOption<int> coarsest_seeds_option = {
-    "coarsest-seeds", "smallest number of seeds of a level", 4, std::numeric_limits<int>::max()};
+    "coarsest-seeds", "smallest number of seeds of a level", 4, 1000000};
 inline constexpr NumberOption<double> coarsest_tolerance_option = {
     "coarsest-tolerance",
     "tolerance of the rms displacement on the coarsest level",
