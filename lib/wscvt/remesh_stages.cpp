@@ -57,7 +57,8 @@ RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
   WeightingOptions weighting = options.weighting;
   if (!weighted) weighting.kind = Weighting::Constant;
   const SurfaceSeedModel model(*grain.surface, weighting, options.node_count,
-                               grain.curvatures ? &*grain.curvatures : nullptr, execution);
+                               grain.curvatures ? &*grain.curvatures : nullptr, execution,
+                               options.relaxation.metric);
   if (!weighted) {
     RelaxationOptions none = options.relaxation;
     none.maximum_iterations = 0;

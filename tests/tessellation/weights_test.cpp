@@ -226,5 +226,27 @@ TEST(Weights, RefusesOptionsOutOfRange) {
   for (const double exponent : {-0.1, 1.6, nan}) expect_refused(100, 1.0, exponent);
 }
 
+TEST(Weights, ForTheSphereMetricWeighsTheSameAndHasNoTablesOfTheSurface) {
+  const std::vector<Vector3> seeds = fibonacci_lattice(500);
+  for (const auto& weighting : enumerators<Weighting>()) {
+    SCOPED_TRACE(weighting.label);
+    WeightingOptions options;
+    options.kind = weighting.value;
+    const SurfaceSeedModel both(ellipsoid(), options, 500, nullptr, Execution(1));
+    const SurfaceSeedModel sphere(ellipsoid(), options, 500, nullptr, Execution(1),
+                                  RelaxationMetric::Sphere);
+    const std::vector<double> expected = weights_of(both, seeds);
+    const std::vector<double> weights = weights_of(sphere, seeds);
+    ASSERT_EQ(weights.size(), expected.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      // The area comes from another quadrature; the table's own is 1.2e-5 off here.
+      ASSERT_NEAR(weights[i], expected[i], 2e-5 * std::abs(expected[i]));
+    }
+    std::vector<double> radii;
+    EXPECT_NO_THROW(both.radii(seeds, Execution(1), radii));
+    EXPECT_ERROR(sphere.radii(seeds, Execution(1), radii), InvalidInput);
+  }
+}
+
 }  // namespace
 }  // namespace wscvt

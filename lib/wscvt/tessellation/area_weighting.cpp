@@ -7,10 +7,10 @@ namespace wscvt {
 WeightingRule area_weighting(const TabulatedSurface& table, const WeightingOptions& /*options*/,
                              const Execution& /*execution*/) {
   WeightingRule rule;
-  rule.field = table.area_elements.values;
+  rule.field = table.area_elements().values;
   rule.stencil = 6;
   rule.even_on_surface = true;
-  rule.weight = [area = table.area](double element, double count, const FieldDeviation&) {
+  rule.weight = [area = table.area()](double element, double count, const FieldDeviation&) {
     return area / (cell_area_per_weight * count * element);
   };
   return rule;

@@ -22,6 +22,7 @@ WeightingRule error_adaptive_weighting(const TabulatedSurface& table,
                                        const Execution& execution) {
   const double radius = table.radius();
   GridField field = smoothed_curvature(table, mean_square, execution);
+  const GridField& elements = table.area_elements();
   std::vector<double> order = field.values;
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
   std::nth_element(order.begin(), middle, order.end());
@@ -29,7 +30,7 @@ WeightingRule error_adaptive_weighting(const TabulatedSurface& table,
   for (std::size_t i = 0; i < field.values.size(); ++i) {
     const double k = std::max(field.values[i], floor);
     field.values[i] =
-        std::log(table.area_elements.values[i]) + options.adaptive_exponent * std::log(k * radius);
+        std::log(elements.values[i]) + options.adaptive_exponent * std::log(k * radius);
   }
   const double total = field.integral([](double logarithm) { return std::exp(logarithm); });
   WeightingRule rule;

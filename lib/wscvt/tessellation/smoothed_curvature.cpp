@@ -14,9 +14,9 @@ constexpr std::size_t block_size = 1024;
 
 GridField smoothed_curvature(const TabulatedSurface& table, CurvatureSquare square,
                              const Execution& execution) {
-  const int rows = table.area_elements.rows;
-  const CurvatureSamples* const samples = table.samples;
-  double radius = 0.6 * std::sqrt(4.0 * pi / table.node_count);
+  const int rows = table.rows();
+  const CurvatureSamples* const samples = table.samples();
+  double radius = 0.6 * std::sqrt(4.0 * pi / table.node_count());
   GridField moment(rows);
   GridField measure(rows);
   const std::size_t columns = moment.columns();
@@ -24,7 +24,7 @@ GridField smoothed_curvature(const TabulatedSurface& table, CurvatureSquare squa
     const std::vector<Vector3> nodes = SphereGrid::directions(rows);
     execution.parallel_for(nodes.size(), block_size, [&](std::size_t begin, std::size_t end) {
       std::vector<RadialJet> jets(end - begin);
-      table.surface.evaluate(nodes.data() + begin, end - begin, Derivatives::Second, jets.data());
+      table.surface().evaluate(nodes.data() + begin, end - begin, Derivatives::Second, jets.data());
       for (std::size_t i = begin; i < end; ++i) {
         const double share = moment.sines[i / columns];
         moment.values[i] = share * square(principal_curvatures(jets[i - begin], nodes[i]));

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -30,17 +31,33 @@ inline constexpr double flat_curvature = 0.01;
 /// small whatever its size, but without nodes it would not be seen as flat.
 inline constexpr double flat_share_of_median = 0.3;
 
-/// A surface as weightings see it, tabulated once at the nodes of an equal-angle grid.
-struct TabulatedSurface {
-  const RadialSurface& surface;
-  const CurvatureSamples* samples;  ///< in the place of the surface's own curvature; may be null
-  int node_count;                   ///< N
-  std::vector<double> radii;        ///< at the nodes of the grid
-  GridField area_elements;          ///< dA/dOmega there
-  double area;                      ///< S, of the surface
+/// A surface as weightings see it, tabulated at the nodes of an equal-angle grid: what is asked
+/// for, when it is, since derivatives take three times as long as radii. Not for several threads at
+/// once.
+class TabulatedSurface {
+ public:
+  /// For `node_count` seeds. `samples` stand in the place of the surface's own curvature; they may
+  /// be null. What is given must outlive the table.
+  TabulatedSurface(const RadialSurface& surface, const CurvatureSamples* samples, int node_count,
+                   const Execution& execution);
 
+  const RadialSurface& surface() const { return surface_; }
+  const CurvatureSamples* samples() const { return samples_; }
+  int node_count() const { return node_count_; }
+  int rows() const;                          ///< of the grid
+  const std::vector<double>& radii() const;  ///< at the nodes of the grid
+  const GridField& area_elements() const;    ///< dA/dOmega there
+  double area() const;                       ///< S, of the surface
   /// Of the sphere of the same area.
-  double radius() const { return std::sqrt(area / (4.0 * pi)); }
+  double radius() const { return std::sqrt(area() / (4.0 * pi)); }
+
+ private:
+  const RadialSurface& surface_;
+  const CurvatureSamples* samples_;
+  int node_count_;
+  Execution execution_;
+  mutable std::vector<double> radii_;
+  mutable std::optional<GridField> area_elements_;
 };
 
 /// Mean and standard deviation of a field over seeds.

@@ -9,6 +9,7 @@
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/radial_surface.h"
+#include "wscvt/tessellation/relaxation_options.h"
 #include "wscvt/tessellation/seed_model.h"
 #include "wscvt/tessellation/weighting.h"
 #include "wscvt/tessellation/weighting_rule.h"
@@ -21,10 +22,12 @@ namespace wscvt {
 /// not a series.
 class SurfaceSeedModel : public SeedModel {
  public:
-  /// For `node_count` >= 4 seeds. `samples` replace the surface's own curvature when given. Throws
-  /// Error(InvalidInput) for options out of range.
+  /// For `node_count` >= 4 seeds. `samples` replace the surface's own curvature when given. One for
+  /// the sphere metric leaves out the tables that only the surface metric looks at, and so
+  /// radii() and surface_densities(). Throws Error(InvalidInput) for options out of range.
   SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options, int node_count,
-                   const CurvatureSamples* samples, const Execution& execution);
+                   const CurvatureSamples* samples, const Execution& execution,
+                   RelaxationMetric metric = RelaxationMetric::Surface);
 
   void weights(const std::vector<Vector3>& seeds, const Execution& execution,
                std::vector<double>& result) const override;
@@ -39,7 +42,7 @@ class SurfaceSeedModel : public SeedModel {
                                        const Execution& execution) const;
 
  private:
-  void look_up(const SphereGrid& grid, const std::vector<Vector3>& seeds,
+  void look_up(const std::optional<SphereGrid>& grid, const std::vector<Vector3>& seeds,
                const Execution& execution, std::vector<double>& result) const;
 
   int node_count_;
