@@ -126,7 +126,8 @@ std::vector<double> distances_to(const HarmonicSurface& series,
   constexpr int steps = 3;
   // How far a series of degree L bends away from the plane over a step: half its curvature times
   // the step squared, and with slopes of a half its waves' curvature is L / (2 r). So much of the
-  // distance it may be; over seventeen scans, outward and inward, that is 1 % of the rms at most.
+  // distance it may be, outward and inward: beside a third as much that changes the rms of fifteen
+  // scans and four degrees by 0.1 % in the mean and 1.7 % at most.
   constexpr double most_bend = 0.03;
   const double waves = 0.25 * std::max(2, series.degree());
   std::vector<std::size_t> moving(points.size());

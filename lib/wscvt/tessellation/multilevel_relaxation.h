@@ -14,7 +14,7 @@ namespace wscvt {
 /// Throws Error(InvalidInput) when a number is below 4.
 std::vector<int> level_sizes(int count, int coarsest_seeds);
 
-/// The same with so many `times` the seeds on the coarsest level, as far as their range goes.
+/// `levels` with so many `times` as many seeds on the coarsest level, as far as their range goes.
 MultilevelOptions with_more_seeds(MultilevelOptions levels, int times);
 
 /// The options of one level: those given on the finest, else the tolerances of MultilevelOptions.

@@ -47,7 +47,9 @@ class TabulatedSurface {
   int rows() const;                          ///< of the grid
   const std::vector<double>& radii() const;  ///< at the nodes of the grid
   const GridField& area_elements() const;    ///< dA/dOmega there
-  double area() const;                       ///< S, of the surface
+  /// S, of the surface: from the area elements where they were asked for, else by quadrature; both
+  /// within 1e-3.
+  double area() const;
   /// Of the sphere of the same area.
   double radius() const { return std::sqrt(area() / (4.0 * pi)); }
 
