@@ -14,6 +14,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/plastic_sequence.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/area_elements.h"
 #include "wscvt/surface/harmonic_transform.h"
 
 namespace wscvt {
@@ -37,12 +38,10 @@ constexpr double volume_tolerance = 1e-3;
 /// solid angle leave it 10 % off, since few of them see the ends.
 constexpr std::size_t residual_points = 3000;
 constexpr std::size_t point_block = 256;
-constexpr std::size_t ray_block = 1024;
 
 /// A surface on a Gauss-Legendre grid, row by row.
 struct RadialGrid {
   GaussLegendre latitudes;  ///< cosines of the rows' polar angles
-  std::vector<Vector3> directions;
   std::vector<double> radii;
   std::vector<double> weights;  ///< solid angles of the nodes
   std::vector<double> areas;    ///< of the surface about the nodes
@@ -61,7 +60,7 @@ struct RadialGrid {
 RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& execution) {
   RadialGrid grid;
   grid.latitudes = gauss_legendre(rows);
-  std::vector<Vector3>& directions = grid.directions;
+  std::vector<Vector3> directions;
   const std::size_t nodes =
       static_cast<std::size_t>(rows) * static_cast<std::size_t>(grid.azimuths());
   directions.reserve(nodes);
@@ -73,16 +72,10 @@ RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& ex
     for (const Eigen::Vector2d& p : circle) directions.emplace_back(sine * p.x(), sine * p.y(), z);
     grid.weights.insert(grid.weights.end(), circle.size(), grid.latitudes.weights[row] * pi / rows);
   }
-  grid.radii.resize(nodes);
-  grid.areas.resize(nodes);
-  execution.parallel_for(nodes, ray_block, [&](std::size_t begin, std::size_t end) {
-    std::vector<RadialJet> jets(end - begin);
-    surface.evaluate(directions.data() + begin, end - begin, Derivatives::First, jets.data());
-    for (std::size_t i = begin; i < end; ++i) {
-      grid.radii[i] = jets[i - begin].radius;
-      grid.areas[i] = grid.weights[i] * area_element(jets[i - begin]);
-    }
-  });
+  AreaElements read = area_elements(surface, directions, execution);
+  grid.radii = std::move(read.radii);
+  grid.areas = std::move(read.elements);
+  for (std::size_t i = 0; i < nodes; ++i) grid.areas[i] *= grid.weights[i];
   for (const double radius : grid.radii) {
     if (!(radius > 0.0 && std::isfinite(radius))) {
       throw Error(ErrorCode::InvalidInput,
@@ -147,8 +140,9 @@ std::vector<double> distances_to(const HarmonicSurface& series,
       const Vector3 foot = jets[i].radius * direction;
       const Vector3 offset = point - foot;
       const Vector3 normal = surface_normal(jets[i], direction);
-      const double height = std::abs(offset.dot(normal));
-      const Vector3 along = offset - offset.dot(normal) * normal;
+      const double above = offset.dot(normal);
+      const double height = std::abs(above);
+      const Vector3 along = offset - above * normal;
       if (waves * along.squaredNorm() <= most_bend * height * jets[i].radius) {
         nearest[moving[i]] = std::min(nearest[moving[i]], height);
         continue;
@@ -202,14 +196,14 @@ AreaSamples sample_by_area(const RadialSurface& surface, const RadialGrid& grid,
     }
     if (i % columns == columns - 1) row_top -= grid.latitudes.weights[row];
   }
-  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::First, execution);
+  const AreaElements read = area_elements(surface, directions, execution);
   AreaSamples samples;
-  samples.points.reserve(jets.size());
-  samples.weights.reserve(jets.size());
-  for (std::size_t k = 0; k < jets.size(); ++k) {
+  samples.points.reserve(directions.size());
+  samples.weights.reserve(directions.size());
+  for (std::size_t k = 0; k < directions.size(); ++k) {
     const std::size_t node = nodes[k];
-    samples.points.push_back(jets[k].radius * directions[k]);
-    samples.weights.push_back(area_element(jets[k]) * grid.weights[node] / grid.areas[node]);
+    samples.points.push_back(read.radii[k] * directions[k]);
+    samples.weights.push_back(read.elements[k] * grid.weights[node] / grid.areas[node]);
   }
   return samples;
 }

@@ -20,8 +20,8 @@ class MeshSurface : public RadialSurface {
   MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
               const Execution& execution);
 
-  /// The same where the mesh's folded_solid_angle about the centre, which takes as long as binning
-  /// the triangles, is known already.
+  /// The same where `folded_share`, the mesh's folded_solid_angle about the centre, is known
+  /// already: finding it is a sixth of the construction.
   MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit, double folded_share,
               const Execution& execution);
 

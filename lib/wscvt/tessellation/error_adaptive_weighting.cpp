@@ -20,9 +20,9 @@ double mean_square(const PrincipalCurvatures& k) {
 WeightingRule error_adaptive_weighting(const TabulatedSurface& table,
                                        const WeightingOptions& options,
                                        const Execution& execution) {
+  const GridField& elements = table.area_elements();  // first, so that the area comes from them
   const double radius = table.radius();
   GridField field = smoothed_curvature(table, mean_square, execution);
-  const GridField& elements = table.area_elements();
   std::vector<double> order = field.values;
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
   std::nth_element(order.begin(), middle, order.end());

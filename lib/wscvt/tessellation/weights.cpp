@@ -15,10 +15,6 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t block_size = 1024;
-/// Rows so that the grid resolves both the surface and the cells: 128 rows are 1.4 degrees, a third
-/// of a cell of 2000 and an eighth of a period of degree 30.
-int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
-
 /// Mean and standard deviation of `field` weighted by `density`.
 FieldDeviation deviation_of(const GridField& field, const GridField& density) {
   GridField product = density;
@@ -59,41 +55,6 @@ double solve_offset(const GridField& cells, double count, double smallest) {
 }
 
 }  // namespace
-
-TabulatedSurface::TabulatedSurface(const RadialSurface& surface, const CurvatureSamples* samples,
-                                   int node_count, const Execution& execution)
-    : surface_(surface), samples_(samples), node_count_(node_count), execution_(execution) {}
-
-int TabulatedSurface::rows() const { return rows_for(node_count_); }
-
-const std::vector<double>& TabulatedSurface::radii() const {
-  if (radii_.empty()) radii_ = surface_.radii(SphereGrid::directions(rows()), execution_);
-  return radii_;
-}
-
-const GridField& TabulatedSurface::area_elements() const {
-  if (area_elements_) return *area_elements_;
-  const std::vector<Vector3> nodes = SphereGrid::directions(rows());
-  GridField& elements = area_elements_.emplace(rows());
-  radii_.resize(nodes.size());
-  execution_.parallel_for(nodes.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    std::vector<RadialJet> jets(end - begin);
-    surface_.evaluate(nodes.data() + begin, end - begin, Derivatives::First, jets.data());
-    for (std::size_t i = begin; i < end; ++i) {
-      radii_[i] = jets[i - begin].radius;
-      elements.values[i] = area_element(jets[i - begin]);
-    }
-  });
-  return elements;
-}
-
-double TabulatedSurface::area() const {
-  // Where only the area is asked for, quadrature on a seventh of as many nodes gives it to 1e-5 on
-  // series of degree 20 and to 1e-3 on those of 60 (sixteen scans), beside a weight that no cell
-  // follows to more than some per cent.
-  return area_elements_ ? area_elements_->integral([](double g) { return g; })
-                        : integrate(surface_, 3 * rows() / 8, execution_).area;
-}
 
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
                                    int node_count, const CurvatureSamples* samples,

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/tessellation/tabulated_surface.h"
+
+#include <utility>
+
+#include "wscvt/surface/area_elements.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Rows so that the grid resolves both the surface and the cells: 128 rows are 1.4 degrees, a third
+/// of a cell of 2000 and an eighth of a period of degree 30.
+int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
+
+}  // namespace
+
+TabulatedSurface::TabulatedSurface(const RadialSurface& surface, const CurvatureSamples* samples,
+                                   int node_count, const Execution& execution)
+    : surface_(surface), samples_(samples), node_count_(node_count), execution_(execution) {}
+
+int TabulatedSurface::rows() const { return rows_for(node_count_); }
+
+const std::vector<double>& TabulatedSurface::radii() const {
+  if (radii_.empty()) radii_ = surface_.radii(SphereGrid::directions(rows()), execution_);
+  return radii_;
+}
+
+const GridField& TabulatedSurface::area_elements() const {
+  if (!area_elements_) {
+    AreaElements read = wscvt::area_elements(surface_, SphereGrid::directions(rows()), execution_);
+    radii_ = std::move(read.radii);
+    area_elements_.emplace(rows()).values = std::move(read.elements);
+  }
+  return *area_elements_;
+}
+
+double TabulatedSurface::area() const {
+  // Where only the area is asked for, quadrature on a seventh of as many nodes gives it to 1e-5 on
+  // series of degree 20 and to 1e-3 on those of 60 (sixteen scans), beside a weight that no cell
+  // follows to more than some per cent.
+  return area_elements_ ? area_elements_->integral([](double g) { return g; })
+                        : integrate(surface_, 3 * rows() / 8, execution_).area;
+}
+
+}  // namespace wscvt
