@@ -178,13 +178,10 @@ TEST(Relaxation, ImpossibleWeightsAreDampedUntilEverySeedHasItsCell) {
       result.clear();
       for (const Vector3& u : seeds) result.push_back(u.x() > 0.0 ? 0.3 : -0.3);
     }
-    void radii(const std::vector<Vector3>& seeds, const Execution&,
-               std::vector<double>& result) const override {
-      result.assign(seeds.size(), 1.0);
-    }
-    void surface_densities(const std::vector<Vector3>&, const Execution&,
-                           std::vector<double>& result) const override {
-      result.clear();
+    void on_surface(const std::vector<Vector3>& seeds, const Execution&, std::vector<double>& radii,
+                    std::vector<double>& densities) const override {
+      radii.assign(seeds.size(), 1.0);
+      densities.clear();
     }
   };
   RelaxationOptions options;

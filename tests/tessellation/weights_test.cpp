@@ -123,8 +123,9 @@ TEST(Weights, ErrorAdaptiveLeavesNodesOnFlatFaces) {
   // be 0.07 if there curvature counted as it is.
   const Superellipsoid box(Vector3(1.0, 0.9, 0.8), 0.3, 0.3);
   const SurfaceSeedModel model = model_of(box, Weighting::ErrorAdaptive);
+  std::vector<double> radii;
   std::vector<double> densities;
-  model.surface_densities(fibonacci_lattice(1000), Execution(1), densities);
+  model.on_surface(fibonacci_lattice(1000), Execution(1), radii, densities);
   std::sort(densities.begin(), densities.end());
   EXPECT_GT(densities.front(), 0.15 * densities[500]);
 }
@@ -168,8 +169,19 @@ TEST(Weights, WantedDensitiesAddUpToTheNodeCountOnSphereAndSurface) {
     for (std::size_t i = 0; i < densities.size(); ++i)
       count += quadrature.weights[i] * densities[i];
     EXPECT_NEAR(count, 800.0, 0.8);
+    std::vector<double> radii;
     std::vector<double> on_surface;
-    model.surface_densities(quadrature.directions, Execution(1), on_surface);
+    model.on_surface(quadrature.directions, Execution(1), radii, on_surface);
+    const std::vector<RadialJet> jets =
+        ellipsoid().jets(quadrature.directions, Derivatives::First, Execution(1));
+    for (std::size_t i = 0; i < jets.size(); ++i) {
+      // What interpolation over 1.4 degrees leaves of an ellipsoid.
+      ASSERT_NEAR(radii[i], jets[i].radius, 1e-6 * jets[i].radius);
+      if (weighting == Weighting::Area) continue;
+      // Seeds per area times area per angle are seeds per angle, wherever a direction stands in the
+      // array.
+      ASSERT_NEAR(on_surface[i] * area_element(jets[i]), densities[i], 1e-5 * densities[i]);
+    }
     EXPECT_EQ(on_surface.empty(), weighting == Weighting::Area);
   }
 }
@@ -243,8 +255,9 @@ TEST(Weights, ForTheSphereMetricWeighsTheSameAndHasNoTablesOfTheSurface) {
       ASSERT_NEAR(weights[i], expected[i], 2e-5 * std::abs(expected[i]));
     }
     std::vector<double> radii;
-    EXPECT_NO_THROW(both.radii(seeds, Execution(1), radii));
-    EXPECT_ERROR(sphere.radii(seeds, Execution(1), radii), InvalidInput);
+    std::vector<double> densities;
+    EXPECT_NO_THROW(both.on_surface(seeds, Execution(1), radii, densities));
+    EXPECT_ERROR(sphere.on_surface(seeds, Execution(1), radii, densities), InvalidInput);
   }
 }
 

@@ -25,17 +25,20 @@ bool is_counter_clockwise(const Vector3& a, const Vector3& b, const Vector3& c) 
 
 }  // namespace
 
+Vector3 facet_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 normal = (b - a).cross(c - b);
+  const double doubled_area = normal.norm();
+  return doubled_area > 0.0 ? Vector3(normal / doubled_area) : normal;
+}
+
 RefinementFacet::RefinementFacet(const RefinementNode& a, const RefinementNode& b,
                                  const RefinementNode& c)
-    : corner(a.position) {
+    : corner(a.position), normal(facet_normal(a.position, b.position, c.position)) {
+  // Written so that a NaN counts as no triangle.
+  if (!(normal.squaredNorm() > 0.5)) return;
   const Vector3 ab = b.position - a.position;
   const Vector3 bc = c.position - b.position;
   const Vector3 ca = a.position - c.position;
-  normal = ab.cross(bc);
-  const double doubled_area = normal.norm();
-  // Written so that a NaN counts as no triangle.
-  if (!(doubled_area > 0.0)) return;
-  normal /= doubled_area;
   counter_clockwise = is_counter_clockwise(a.direction, b.direction, c.direction);
   const double ab_length = ab.norm();
   const double bc_length = bc.norm();

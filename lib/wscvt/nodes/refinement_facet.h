@@ -27,4 +27,8 @@ struct RefinementFacet {
   }
 };
 
+/// Unit normal of a triangle, outward for counter-clockwise corners; shorter or no number where the
+/// corners lie on a line.
+Vector3 facet_normal(const Vector3& a, const Vector3& b, const Vector3& c);
+
 }  // namespace wscvt

@@ -31,7 +31,7 @@ double RefinementFan::turn() const {
   return smallest;
 }
 
-FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
+FanLimits load_facets(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
   RefinementFan& fan = work.fan;
   state.ring_of(node, fan.ring, &work.triangles);
   state.outer_half_edges_of(node, work.outer);
@@ -46,21 +46,28 @@ FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace
     fan.facets[j] = RefinementFacet(fan.node, state.nodes[fan.ring[j]],
                                     state.nodes[fan.ring[j + 1 == count ? 0 : j + 1]]);
     fan.beside[j] = work.outer[j] / 3;
-    fan.outer[j] = state.facet(fan.beside[j]).normal;
+    fan.outer[j] = state.normal(fan.beside[j]);
     limits.largest_cosine = std::max(limits.largest_cosine, fan.facets[j].largest_cosine);
-    fan.lists[j] = state.lists[t];
     fan.error += state.errors[t];
   }
   limits.turn = fan.turn();
   return limits;
 }
 
-void store_fan(RefinementState& state, std::int32_t node, const FanWorkspace& work) {
-  const RefinementFan& fan = work.fan;
+FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
+  const FanLimits limits = load_facets(state, node, work);
+  for (std::size_t j = 0; j < work.triangles.size(); ++j) {
+    work.fan.lists[j] = state.lists[work.triangles[j]];
+  }
+  return limits;
+}
+
+void store_fan(RefinementState& state, std::int32_t node, FanWorkspace& work) {
+  RefinementFan& fan = work.fan;
   state.nodes[node] = fan.node;
   state.node_errors[node] = fan.node_error;
   for (std::size_t j = 0; j < fan.ring.size(); ++j) {
-    state.lists[work.triangles[j]] = fan.lists[j];
+    state.lists[work.triangles[j]].swap(fan.lists[j]);
     state.errors[work.triangles[j]] = fan.errors[j];
   }
 }

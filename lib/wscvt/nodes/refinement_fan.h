@@ -46,14 +46,19 @@ struct FanWorkspace {
       spokes;  ///< normals of the planes through the directions of node and ring[j]
   std::vector<std::int32_t> triangles;  ///< of the fan, in the triangulation
   std::vector<std::int32_t> outer;      ///< the half-edges across its ring, likewise
+  std::vector<RefinementFacet> joined;  ///< what stands in the place of a fan whose node goes
 };
 
 /// Puts a node's fan as it is into work.fan, its triangles into work.triangles, and returns the
 /// limits that leave it no worse than it is.
 FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work);
 
-/// Puts work.fan back: what was loaded with load_fan and moved since.
-void store_fan(RefinementState& state, std::int32_t node, const FanWorkspace& work);
+/// The same without the lists of samples, for those who read them where they are: their copies are
+/// half of what loading costs.
+FanLimits load_facets(const RefinementState& state, std::int32_t node, FanWorkspace& work);
+
+/// Puts work.fan back: what was loaded with load_fan and moved since. Its lists are then others.
+void store_fan(RefinementState& state, std::int32_t node, FanWorkspace& work);
 
 /// The fan `from` with its node at `position` and its samples dealt out anew; false when a triangle
 /// would turn over or one exceed the limits. `to` is then of no use.

@@ -58,7 +58,7 @@ bool flip_may_turn(const RefinementState& state, std::int32_t half_edge, const F
   std::vector<std::int32_t> beside;
   const auto across = [&](std::int32_t h) {
     beside.push_back(opposite[h] / 3);
-    return state.facet(beside.back()).normal;
+    return state.normal(beside.back());
   };
   const Vector3 bc = across(SphereTriangulation::next(half_edge));
   const Vector3 ca = across(SphereTriangulation::previous(half_edge));
@@ -71,9 +71,7 @@ bool flip_may_turn(const RefinementState& state, std::int32_t half_edge, const F
   };
   const double before = worst(flip.left.normal, bc, ca, flip.right.normal, ad, db);
   const double after = worst(flip.origin.normal, ca, ad, flip.end.normal, db, bc);
-  beside.push_back(half_edge / 3);
-  beside.push_back(other / 3);
-  return state.may_turn(after, before, {}, beside);
+  return state.may_turn(after, before, beside, std::vector<std::int32_t>{half_edge / 3, other / 3});
 }
 
 void flip_edge(RefinementState& state, std::int32_t half_edge) {

@@ -49,7 +49,7 @@ struct JoinedFan {
 /// fill the same polygon once. Their new edges lie within it and are therefore no edge that was
 /// there already: two great arcs between the same ends, less than half a circle each, are one. So
 /// whatever passes the guard is a triangulation of the sphere.
-double join_fan(const RefinementState& state, std::size_t towards, const FanWorkspace& work,
+double join_fan(const RefinementState& state, std::size_t towards, FanWorkspace& work,
                 const FanLimits& limits, double bound, JoinedFan* joined) {
   const std::vector<std::int32_t>& ring = work.fan.ring;
   const std::size_t count = ring.size();
@@ -57,8 +57,11 @@ double join_fan(const RefinementState& state, std::size_t towards, const FanWork
   const auto across = [&](std::size_t k) { return work.fan.outer[(towards + k) % count]; };
   const RefinementNode& apex = state.nodes[corner(0)];
   double turn = 1.0;
-  std::vector<RefinementFacet> facets;
-  std::vector<Vector3> spokes;  // spokes[k]: plane of origin, apex and the far corner of facets[k]
+  std::vector<RefinementFacet>& facets = work.joined;
+  // spokes[k]: plane of origin, apex and the far corner of facets[k]
+  std::vector<Vector3>& spokes = work.spokes;
+  facets.clear();
+  spokes.clear();
   for (std::size_t k = 1; k + 1 < count; ++k) {
     const RefinementNode& far = state.nodes[corner(k + 1)];
     const Vector3 before = k == 1 ? across(0) : facets.back().normal;
@@ -70,7 +73,7 @@ double join_fan(const RefinementState& state, std::size_t towards, const FanWork
     if (joined != nullptr) joined->triangles.push_back({corner(0), corner(k), corner(k + 1)});
   }
   turn = std::min(turn, facets.back().normal.dot(across(count - 1)));
-  if (!state.may_turn(turn, limits.turn, work.fan.lists, work.fan.beside)) return infinity;
+  if (!state.may_turn(turn, limits.turn, work.triangles, work.fan.beside)) return infinity;
   if (joined != nullptr) joined->lists.resize(facets.size());
   double error = 0.0;
   for (const std::int32_t t : work.triangles) {
@@ -87,7 +90,7 @@ double join_fan(const RefinementState& state, std::size_t towards, const FanWork
 
 Collapse cheapest_collapse(const RefinementState& state, std::int32_t node, FanWorkspace& work) {
   Collapse best;
-  FanLimits limits = load_fan(state, node, work);
+  FanLimits limits = load_facets(state, node, work);
   // Three neighbours leave one triangle, whichever they are joined to: a node in the middle of a
   // triangle that was split there, which the moves and flips have to deal with first.
   if (work.fan.ring.size() < 4) return best;
@@ -129,7 +132,7 @@ bool split_edge(const RefinementState& state, std::int32_t half_edge, FanWorkspa
                    left.normal.dot(right.normal)};
   for (std::size_t j = 0; j < 4; ++j) {
     start.beside[j] = state.triangulation.opposite()[sides[j]] / 3;
-    start.outer[j] = state.facet(start.beside[j]).normal;
+    start.outer[j] = state.normal(start.beside[j]);
     limits.turn = std::min(limits.turn, start.outer[j].dot((j < 2 ? left : right).normal));
   }
   if (!place_fan(state, start, 0.5 * (state.nodes[a].position + state.nodes[b].position), limits,
@@ -146,7 +149,7 @@ bool split_edge(const RefinementState& state, std::int32_t half_edge, FanWorkspa
 void relocate(RefinementState& state, const Collapse& from, const Split& to, FanWorkspace& work) {
   const std::int32_t node = state.triangulation.origin(from.half_edge);
   const std::int32_t other = state.triangulation.opposite()[to.half_edge];
-  load_fan(state, node, work);
+  load_facets(state, node, work);
   std::vector<std::int32_t> slots = work.triangles;
   slots.push_back(to.half_edge / 3);
   slots.push_back(other / 3);

@@ -29,6 +29,31 @@ constexpr double largest_turn_cosine = -0.5;
 /// Share of the samples whose normals say nothing about the surface.
 constexpr double noisy_share = 0.05;
 
+bool is_free(double after, double before) { return after >= std::min(free_turn_cosine, before); }
+
+/// Whether the surface itself turns by as much as `after` among samples; for_each_list(visit) shows
+/// their lists.
+template <class ForEachList>
+bool surface_turns(const RefinementSamples& samples, double after,
+                   const ForEachList& for_each_list) {
+  if (!(after >= largest_turn_cosine)) return false;
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  for_each_list([&](const SampleList& list) {
+    for (const std::int32_t s : list) mean += samples.normals[s];
+  });
+  mean.normalize();
+  std::vector<float> cosines;
+  for_each_list([&](const SampleList& list) {
+    for (const std::int32_t s : list) cosines.push_back(mean.dot(samples.normals[s]));
+  });
+  if (cosines.empty()) return false;
+  // Both sides of a ridge lie half its turn from their mean. Few samples may be noise.
+  const auto odd = static_cast<std::ptrdiff_t>(static_cast<double>(cosines.size()) * noisy_share);
+  std::nth_element(cosines.begin(), cosines.begin() + odd, cosines.end());
+  const double half_turn = std::acos(std::clamp<double>(cosines[index(odd)], 0.0, 1.0));
+  return after >= std::cos(2.0 * half_turn);
+}
+
 }  // namespace
 
 RefinementState::RefinementState(std::vector<RefinementNode> start, SphereTriangulation of_nodes,
@@ -71,6 +96,11 @@ double RefinementState::measure(const Execution& execution) {
   return std::sqrt(squares);
 }
 
+Vector3 RefinementState::normal(std::int32_t triangle) const {
+  const auto& [a, b, c] = triangulation.triangles()[triangle];
+  return facet_normal(nodes[a].position, nodes[b].position, nodes[c].position);
+}
+
 double RefinementState::node_error(const RefinementNode& node) const {
   Vector3 normal;
   return node_weight * penalty(original.residual(node, normal));
@@ -78,27 +108,18 @@ double RefinementState::node_error(const RefinementNode& node) const {
 
 bool RefinementState::may_turn(double after, double before, const std::vector<SampleList>& own,
                                const std::vector<std::int32_t>& beside) const {
-  if (after >= std::min(free_turn_cosine, before)) return true;
-  if (!(after >= largest_turn_cosine)) return false;
-  const auto for_each_normal = [&](const auto& visit) {
-    for (const SampleList& list : own) {
-      for (const std::int32_t s : list) visit(samples.normals[s]);
-    }
-    for (const std::int32_t t : beside) {
-      for (const std::int32_t s : lists[t]) visit(samples.normals[s]);
-    }
-  };
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  for_each_normal([&](const Eigen::Vector3f& normal) { mean += normal; });
-  mean.normalize();
-  std::vector<float> cosines;
-  for_each_normal([&](const Eigen::Vector3f& normal) { cosines.push_back(mean.dot(normal)); });
-  if (cosines.empty()) return false;
-  // Both sides of a ridge lie half its turn from their mean. Few samples may be noise.
-  const auto odd = static_cast<std::ptrdiff_t>(static_cast<double>(cosines.size()) * noisy_share);
-  std::nth_element(cosines.begin(), cosines.begin() + odd, cosines.end());
-  const double half_turn = std::acos(std::clamp<double>(cosines[index(odd)], 0.0, 1.0));
-  return after >= std::cos(2.0 * half_turn);
+  return is_free(after, before) || surface_turns(samples, after, [&](const auto& visit) {
+           for (const SampleList& list : own) visit(list);
+           for (const std::int32_t t : beside) visit(lists[t]);
+         });
+}
+
+bool RefinementState::may_turn(double after, double before, const std::vector<std::int32_t>& own,
+                               const std::vector<std::int32_t>& beside) const {
+  return is_free(after, before) || surface_turns(samples, after, [&](const auto& visit) {
+           for (const std::int32_t t : own) visit(lists[t]);
+           for (const std::int32_t t : beside) visit(lists[t]);
+         });
 }
 
 void RefinementState::ring_of(std::int32_t node, std::vector<std::int32_t>& ring,

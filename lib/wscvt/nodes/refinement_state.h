@@ -46,6 +46,8 @@ struct RefinementState {
     return facet(triangulation.triangles()[triangle]);
   }
   RefinementFacet facet(const Triangle& t) const { return {nodes[t[0]], nodes[t[1]], nodes[t[2]]}; }
+  /// The normal of a triangle's facet alone, at a third of its cost.
+  Vector3 normal(std::int32_t triangle) const;
   /// What a sample's distance counts.
   double penalty(double residual) const {
     const double square = residual * residual;
@@ -69,6 +71,9 @@ struct RefinementState {
   /// more than 120. So the nodes follow ridges as sharp as the scan's, and no triangle is drawn out
   /// into a fin.
   bool may_turn(double after, double before, const std::vector<SampleList>& own,
+                const std::vector<std::int32_t>& beside) const;
+  /// The same for triangles whose samples are those of triangles as they are.
+  bool may_turn(double after, double before, const std::vector<std::int32_t>& own,
                 const std::vector<std::int32_t>& beside) const;
 
   /// The corner of a half-edge's triangle that is not on it; the triangle lies to its left.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -26,8 +27,10 @@ struct Components {
   std::vector<char> turned;
 };
 
-/// Finds the parts and a consistent orientation of each. `rings` as edge_rings makes them.
-Components find_components(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings);
+/// Finds the parts and a consistent orientation of each. `rings` as edge_rings makes them. The same
+/// on any number of threads.
+Components find_components(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
+                           const Execution& execution);
 
 /// Keeps the faces of one component, as they are; all points stay.
 void keep_faces(IndexedMesh& mesh, const Components& components, std::size_t kept);

@@ -229,13 +229,13 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   execution.report(0.5, stage);
 
   std::vector<OtherComponent> others;
-  Components components = find_components(mesh, rings);
+  Components components = find_components(mesh, rings, execution);
   std::size_t main = largest_of(components);
   append_others(mesh, components, main, others);
   // The repairs below are of the part that stays; what they cost a clean scan is looking at counts.
   const auto look_again = [&] {
     rings = edge_rings(mesh, execution);
-    components = find_components(mesh, rings);
+    components = find_components(mesh, rings, execution);
     main = largest_of(components);
     append_others(mesh, components, main, others);
   };

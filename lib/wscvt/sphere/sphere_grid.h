@@ -46,6 +46,12 @@ class SphereGrid {
   /// threads at once; the value for one does not depend on the others.
   void interpolate(const Vector3* directions, std::size_t count, double* values) const;
 
+  /// The same of several fields at once, each into its own array: finding a direction's place on
+  /// the grid is more than half of a look-up. Throws Error(InvalidInput) unless all `grids` have
+  /// the rows and the stencil of the first and there is an array for each.
+  static void interpolate(const std::vector<const SphereGrid*>& grids, const Vector3* directions,
+                          std::size_t count, const std::vector<double*>& values);
+
   /// The transpose of `interpolate`: every point's value is shared out over its stencil, so that
   /// the sum over the nodes of (node value x f) is the sum over the points of (value x f) for every
   /// f the interpolation reproduces. Same bytes on any number of threads. Throws as the first

@@ -234,8 +234,8 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
                                                             const Execution& execution,
                                                             double smallest_determinant) {
   // The search for edges to flip is the bulk of the work and runs in parallel; flips are few and
-  // run in one order.
-  constexpr std::size_t block = 4096;
+  // run in one order. Blocks are small enough for the coarsest levels' hundreds of triangles.
+  constexpr std::size_t block = 256;
   const std::size_t count = triangles_.size();
   std::vector<std::vector<std::int32_t>> found((count + block - 1) / block);
   std::vector<char> turned_over(found.size(), 0);

@@ -153,7 +153,10 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
   for (std::size_t level = 1; level < sizes.size(); ++level) {
     coarser.push_back({sizes[level - 1], result.report.iterations, result.report.outcome});
     std::vector<double> radii(result.seeds.size(), 1.0);
-    if (options.metric == RelaxationMetric::Surface) model.radii(result.seeds, execution, radii);
+    if (options.metric == RelaxationMetric::Surface) {
+      std::vector<double> densities;
+      model.on_surface(result.seeds, execution, radii, densities);
+    }
     Tessellation fine = subdivide(result.seeds, radii, result.triangulation);
     insert_seeds(fine, sizes[level] - static_cast<int>(fine.seeds.size()));
     SphereTriangulation triangulation(fine.seeds, std::move(fine.triangles), execution);

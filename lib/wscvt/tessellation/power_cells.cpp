@@ -10,7 +10,8 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 2048;
+/// Few, as in weights.cpp.
+constexpr std::size_t block_size = 128;
 
 // (O - a).ab = (|ab|^2 + w_a - w_b) / 2 and the same for ac, solved in the triangle's plane.
 Vector3 radical_centre(const Vector3& a, const Vector3& b, const Vector3& c, double lower_ab,

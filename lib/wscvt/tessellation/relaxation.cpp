@@ -41,12 +41,11 @@ class Evaluation {
   [[nodiscard]] bool try_at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     flips_ = 0;
     if (metric_ == RelaxationMetric::Surface) {
-      model_.radii(seeds, execution_, radii_);
+      model_.on_surface(seeds, execution_, radii_, wanted_);
       positions_.resize(seeds.size());
       execution_.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) positions_[i] = radii_[i] * seeds[i];
       });
-      model_.surface_densities(seeds, execution_, wanted_);
       if (!triangulate_surface(seeds, report)) return false;
       // A centroidal tessellation of density rho has rho^(1/2) cells per area.
       densities_ = wanted_;

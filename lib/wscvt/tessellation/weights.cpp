@@ -2,6 +2,7 @@
 #include "wscvt/tessellation/weights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -14,7 +15,11 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;
+/// Few, so that the coarsest level's hundreds of seeds are shared by the threads as well.
+constexpr std::size_t block_size = 128;
+/// Of what is tabulated of the surface itself.
+constexpr int surface_stencil = 6;
+
 /// Mean and standard deviation of `field` weighted by `density`.
 FieldDeviation deviation_of(const GridField& field, const GridField& density) {
   GridField product = density;
@@ -68,8 +73,8 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   const TabulatedSurface table(surface, samples, node_count, execution);
   const int rows = table.rows();
   if (metric == RelaxationMetric::Surface) {
-    area_element_.emplace(rows, 6, table.area_elements().values);
-    radius_.emplace(rows, 6, table.radii());
+    area_element_.emplace(rows, surface_stencil, table.area_elements().values);
+    radius_.emplace(rows, surface_stencil, table.radii());
   }
   rule_ = weighting_rule(table, options, execution);
   GridField field(rows);
@@ -99,26 +104,14 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   }
 }
 
-void SurfaceSeedModel::look_up(const std::optional<SphereGrid>& grid,
-                               const std::vector<Vector3>& seeds, const Execution& execution,
-                               std::vector<double>& result) const {
-  if (!grid) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "The seed model was made for the sphere metric, which asks for no radii; make it for "
-        "the surface metric.");
-  }
-  result.resize(seeds.size());
-  execution.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    grid->interpolate(seeds.data() + begin, end - begin, result.data() + begin);
-  });
-}
-
 void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Execution& execution,
                                std::vector<double>& result) const {
   result.clear();
   if (!field_) return;
-  look_up(field_, seeds, execution, result);
+  result.resize(seeds.size());
+  execution.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    field_->interpolate(seeds.data() + begin, end - begin, result.data() + begin);
+  });
   const auto count = static_cast<double>(seeds.size());
   FieldDeviation over_seeds;
   if (rule_.reads_deviation) {
@@ -132,34 +125,56 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
   for (double& value : result) value = rule_.weight(value, count, over_seeds);
 }
 
-void SurfaceSeedModel::radii(const std::vector<Vector3>& seeds, const Execution& execution,
-                             std::vector<double>& result) const {
-  look_up(radius_, seeds, execution, result);
+void SurfaceSeedModel::on_surface(const std::vector<Vector3>& seeds, const Execution& execution,
+                                  std::vector<double>& radii,
+                                  std::vector<double>& densities) const {
+  if (!radius_) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "The seed model was made for the sphere metric, which asks for no radii; make it for "
+        "the surface metric.");
+  }
+  radii.resize(seeds.size());
+  densities.resize(rule_.even_on_surface ? 0 : seeds.size());
+  // WSCVT-D's field has the stencil of radius and area element, and is looked up with them.
+  const bool alike = field_ && rule_.stencil == surface_stencil;
+  execution.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    const Vector3* directions = seeds.data() + begin;
+    const std::size_t count = end - begin;
+    double* radius = radii.data() + begin;
+    if (rule_.even_on_surface) {
+      radius_->interpolate(directions, count, radius);
+      return;
+    }
+    std::array<double, block_size> elements{};
+    std::array<double, block_size> values{};
+    if (alike) {
+      SphereGrid::interpolate({&*radius_, &*area_element_, &*field_}, directions, count,
+                              {radius, elements.data(), values.data()});
+    } else {
+      SphereGrid::interpolate({&*radius_, &*area_element_}, directions, count,
+                              {radius, elements.data()});
+      if (field_) field_->interpolate(directions, count, values.data());
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      densities[begin + i] = number_density(values[i]) / elements[i];
+    }
+  });
 }
 
-void SurfaceSeedModel::surface_densities(const std::vector<Vector3>& seeds,
-                                         const Execution& execution,
-                                         std::vector<double>& result) const {
-  if (rule_.even_on_surface) {
-    result.clear();
-    return;
-  }
-  result = number_densities(seeds, execution);
-  std::vector<double> elements;
-  look_up(area_element_, seeds, execution, elements);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] /= elements[i];
+double SurfaceSeedModel::number_density(double value) const {
+  const double mean_cell = 4.0 * pi / node_count_;
+  return 1.0 / std::max(smallest_cell_share * mean_cell,
+                        cell_area_per_weight * rule_.weight(value, node_count_, wanted_) + offset_);
 }
 
 std::vector<double> SurfaceSeedModel::number_densities(const std::vector<Vector3>& directions,
                                                        const Execution& execution) const {
-  const double mean_cell = 4.0 * pi / node_count_;
   std::vector<double> result(directions.size(), 0.0);
-  if (field_) look_up(field_, directions, execution, result);
-  for (double& value : result) {
-    value =
-        1.0 / std::max(smallest_cell_share * mean_cell,
-                       cell_area_per_weight * rule_.weight(value, node_count_, wanted_) + offset_);
-  }
+  execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    if (field_) field_->interpolate(directions.data() + begin, end - begin, result.data() + begin);
+    for (std::size_t i = begin; i < end; ++i) result[i] = number_density(result[i]);
+  });
   return result;
 }
 

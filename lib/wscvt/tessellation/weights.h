@@ -24,17 +24,16 @@ class SurfaceSeedModel : public SeedModel {
  public:
   /// For `node_count` >= 4 seeds. `samples` replace the surface's own curvature when given. One for
   /// the sphere metric leaves out the tables that only the surface metric looks at, and so
-  /// radii() and surface_densities(). Throws Error(InvalidInput) for options out of range.
+  /// on_surface(). Throws Error(InvalidInput) for options out of range.
   SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options, int node_count,
                    const CurvatureSamples* samples, const Execution& execution,
                    RelaxationMetric metric = RelaxationMetric::Surface);
 
   void weights(const std::vector<Vector3>& seeds, const Execution& execution,
                std::vector<double>& result) const override;
-  void radii(const std::vector<Vector3>& seeds, const Execution& execution,
-             std::vector<double>& result) const override;
-  void surface_densities(const std::vector<Vector3>& seeds, const Execution& execution,
-                         std::vector<double>& result) const override;
+  /// Throws Error(InvalidInput) where the model was made for the sphere metric.
+  void on_surface(const std::vector<Vector3>& seeds, const Execution& execution,
+                  std::vector<double>& radii, std::vector<double>& densities) const override;
 
   /// Wanted number of seeds per steradian, for the start; its integral over the sphere is N. At
   /// most 1 / smallest_cell_share of the mean.
@@ -42,8 +41,8 @@ class SurfaceSeedModel : public SeedModel {
                                        const Execution& execution) const;
 
  private:
-  void look_up(const std::optional<SphereGrid>& grid, const std::vector<Vector3>& seeds,
-               const Execution& execution, std::vector<double>& result) const;
+  /// Wanted number of seeds per steradian where the field has a value.
+  double number_density(double value) const;
 
   int node_count_;
   WeightingRule rule_;  ///< its field has become field_
