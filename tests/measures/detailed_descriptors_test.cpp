@@ -119,6 +119,26 @@ TEST(DetailedDescriptors, BodyWhoseCentroidLiesOutsideHasNoRadius) {
   EXPECT_TRUE(empty);
 }
 
+TEST(DetailedDescriptors, ARadiusIsMeasuredWhereLittleFolds) {
+  // A ball of radius 0.7 with a rim of radius 1 that overhangs it by so many degrees on either
+  // side: two sheets beyond the first on cos(60) - cos(60 + n) of the directions.
+  for (const int overhang : {1, 10}) {
+    SCOPED_TRACE(overhang);
+    const DetailedDescriptors d = describe(test::overhanging_rim(overhang));
+    const double degree = test::pi / 180.0;
+    const double share = 2.0 * (0.5 - std::cos((60 + overhang) * degree));
+    // 128 segments cut the rims by 1 - cos(pi / 128), 0.03 %.
+    EXPECT_NEAR(d.folded_share, share, 1e-3);
+    EXPECT_EQ(d.has_radius, share < largest_measured_fold);
+    // What asks for no radius is there in any case.
+    for (const DescriptorValue& row : list_descriptors(d)) {
+      const bool of_radius = row.key == "roundness_wadell" || row.key == "sa" || row.key == "sq" ||
+                             row.key == "ssk" || row.key == "sku" || row.key == "sdq_printed";
+      EXPECT_EQ(std::isnan(row.value), of_radius && !d.has_radius) << row.key;
+    }
+  }
+}
+
 TEST(DetailedDescriptors, RefuseOptionsOutOfRange) {
   const IndexedMesh mesh = test::box(1, 1, 1);
   for (const DetailedOptions& options :

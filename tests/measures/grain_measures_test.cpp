@@ -12,48 +12,9 @@
 namespace wscvt {
 namespace {
 
-/// A body of revolution about z and symmetric in z: a ball of radius 0.7 with a rim of radius 1
-/// about its equator that overhangs it. Between 60 and 70 degrees from either pole a ray from the
-/// centre leaves the ball, enters the rim and leaves it.
-IndexedMesh overhanging() {
-  constexpr int segments = 128;
-  struct Ring {
-    double radius;
-    double polar_degrees;
-  };
-  std::vector<Ring> rings;
-  for (int degrees = 5; degrees <= 70; degrees += 5) rings.push_back({0.7, double(degrees)});
-  for (int degrees = 60; degrees <= 120; degrees += 5) rings.push_back({1.0, double(degrees)});
-  for (int degrees = 110; degrees <= 175; degrees += 5) rings.push_back({0.7, double(degrees)});
-  IndexedMesh mesh;
-  mesh.points = {{0, 0, 0.7}, {0, 0, -0.7}};
-  const auto at = [&](std::size_t ring, int segment) {
-    return static_cast<std::int32_t>(2 + ring * segments +
-                                     static_cast<std::size_t>((segment + segments) % segments));
-  };
-  for (const Ring& ring : rings) {
-    const double theta = ring.polar_degrees * test::pi / 180.0;
-    for (int k = 0; k < segments; ++k) {
-      const double phi = 2.0 * test::pi * k / segments;
-      mesh.points.emplace_back(ring.radius * std::sin(theta) * std::cos(phi),
-                               ring.radius * std::sin(theta) * std::sin(phi),
-                               ring.radius * std::cos(theta));
-    }
-  }
-  for (int k = 0; k < segments; ++k) {
-    mesh.triangles.push_back({0, at(0, k), at(0, k + 1)});
-    for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
-      mesh.triangles.push_back({at(r, k), at(r + 1, k), at(r + 1, k + 1)});
-      mesh.triangles.push_back({at(r, k), at(r + 1, k + 1), at(r, k + 1)});
-    }
-    mesh.triangles.push_back({1, at(rings.size() - 1, k + 1), at(rings.size() - 1, k)});
-  }
-  return mesh;
-}
-
 TEST(GrainMeasures, TellsAFoldByTheSolidAngleOfTheSheetsBeyondTheFirst) {
-  const GrainMeasures measures =
-      measure_grain({"rim", overhanging()}, std::nullopt, DetailedOptions(), Execution(1));
+  const GrainMeasures measures = measure_grain({"rim", test::overhanging_rim(10)}, std::nullopt,
+                                               DetailedOptions(), Execution(1));
   const std::vector<std::string> sentences = remarks(measures);
   ASSERT_EQ(sentences.size(), 1U);
   const std::string before = "'rim' folds over itself: sheets beyond the first fill ";

@@ -221,4 +221,45 @@ inline std::size_t bad_edges(const IndexedMesh& mesh) {
   }));
 }
 
+/// A body of revolution about z and symmetric in z: a ball of radius 0.7 with a rim of radius 1
+/// about its equator that overhangs it. Between 60 and 60 + `overhang` degrees from either pole a
+/// ray from the centre leaves the ball, enters the rim and leaves it.
+inline IndexedMesh overhanging_rim(int overhang) {
+  constexpr int segments = 128;
+  struct Ring {
+    double radius;
+    double polar_degrees;
+  };
+  std::vector<Ring> rings;
+  for (int degrees = 5; degrees <= 60; degrees += 5) rings.push_back({0.7, double(degrees)});
+  rings.push_back({0.7, 60.0 + overhang});
+  for (int degrees = 60; degrees <= 120; degrees += 5) rings.push_back({1.0, double(degrees)});
+  rings.push_back({0.7, 120.0 - overhang});
+  for (int degrees = 120; degrees <= 175; degrees += 5) rings.push_back({0.7, double(degrees)});
+  IndexedMesh mesh;
+  mesh.points = {{0, 0, 0.7}, {0, 0, -0.7}};
+  const auto at = [&](std::size_t ring, int segment) {
+    return static_cast<std::int32_t>(2 + ring * segments +
+                                     static_cast<std::size_t>((segment + segments) % segments));
+  };
+  for (const Ring& ring : rings) {
+    const double theta = ring.polar_degrees * pi / 180.0;
+    for (int k = 0; k < segments; ++k) {
+      const double phi = 2.0 * pi * k / segments;
+      mesh.points.emplace_back(ring.radius * std::sin(theta) * std::cos(phi),
+                               ring.radius * std::sin(theta) * std::sin(phi),
+                               ring.radius * std::cos(theta));
+    }
+  }
+  for (int k = 0; k < segments; ++k) {
+    mesh.triangles.push_back({0, at(0, k), at(0, k + 1)});
+    for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
+      mesh.triangles.push_back({at(r, k), at(r + 1, k), at(r + 1, k + 1)});
+      mesh.triangles.push_back({at(r, k), at(r + 1, k + 1), at(r, k + 1)});
+    }
+    mesh.triangles.push_back({1, at(rings.size() - 1, k + 1), at(rings.size() - 1, k)});
+  }
+  return mesh;
+}
+
 }  // namespace wscvt::test

@@ -34,7 +34,7 @@ void check_options(const DetailedOptions& options) {
 /// What is read off r(u), in units of `unit`.
 void describe_radius(const IndexedMesh& mesh, const DetailedOptions& options, double unit,
                      const Execution& execution, DetailedDescriptors& result) {
-  const MeshSurface surface(mesh, result.basic.centroid, unit, execution);
+  const MeshSurface surface(mesh, result.basic.centroid, unit, result.folded_share, execution);
   const HarmonicFit fit = fit_harmonics(surface, options.roundness_degree, execution);
   result.roundness_degree = fit.report.degree;
   result.roundness = wadell_roundness(fit.surface, result.inscribed_sphere.radius / unit,
@@ -72,7 +72,7 @@ DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
 
   execution.report(0.8, "Measuring roundness and roughness");
   result.folded_share = folded_solid_angle(mesh, result.basic.centroid, execution);
-  if (result.folded_share < 1.0) {
+  if (result.folded_share <= largest_measured_fold) {
     describe_radius(mesh, options, 0.5 * result.equivalent_diameter, execution, result);
   }
   execution.report(1.0, "Measuring the shape");

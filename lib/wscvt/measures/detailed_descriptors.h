@@ -42,6 +42,11 @@ inline constexpr NumberOption<int> roughness_degree_option = {
 inline constexpr NumberOption<int> polar_nodes_option = {"polar-nodes", "number of polar nodes", 16,
                                                          1024};
 
+/// Share of the solid angle in sheets beyond the first, seen from the volume centroid, above which
+/// a body has no radius to be measured by: as the radial parametrization's limit. A crescent, of
+/// which 23 % lie behind, would have a roundness of 0.98, the outermost layer's.
+inline constexpr double largest_measured_fold = 0.05;
+
 /// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
 /// that computes it: shape_descriptors.h, form_axes.h, inscribed_sphere.h, orientation_tensor.h,
 /// roundness.h, roughness.h. lib/README.md has them all in one table.
@@ -61,8 +66,9 @@ struct DetailedDescriptors {
   InscribedSphere inscribed_sphere;
   OrientationTensor orientation;
   double folded_share = 0.0;  ///< of 4 pi, seen from the volume centroid
-  /// Whether the three below exist: false when the volume centroid lies outside the body. Where the
-  /// surface folds they see its outermost layer.
+  /// Whether those below exist: false when the volume centroid lies outside the body, and where the
+  /// surface folds by more than largest_measured_fold. Where it folds by less they see its
+  /// outermost layer.
   bool has_radius = false;
   Roundness roundness;       ///< of the fitted series of degree roundness_degree
   int roundness_degree = 0;  ///< as fitted

@@ -40,15 +40,23 @@ void append_remarks(const MeasuredGrain& grain, std::vector<std::string>& senten
                         "' were mended for the measurement, which changed " +
                         format_percent(mended) + " of its area.");
   }
-  if (!grain.descriptors.has_radius) {
+  const DetailedDescriptors& descriptors = grain.descriptors;
+  const std::string fold = "Seen from its centroid '" + grain.name +
+                           "' folds over itself: sheets beyond the first fill " +
+                           format_percent(descriptors.folded_share) + " of the solid angle";
+  if (descriptors.has_radius) {
+    if (descriptors.folded_share > told_folded_share) {
+      sentences.push_back(fold + ". Roundness and roughness are those of its outermost layer.");
+    }
+  } else if (descriptors.folded_share < 1.0) {
+    sentences.push_back(fold + ", more than " + format_percent(largest_measured_fold) +
+                        ", so it has no roundness, no roughness and no Sdq as printed, which are "
+                        "of a radius; Sdq in its invariant form is that of any body.");
+  } else {
     sentences.push_back("The volume centroid of '" + grain.name +
-                        "' lies outside it, so it has no roundness and no roughness.");
-  } else if (grain.descriptors.folded_share > told_folded_share) {
-    sentences.push_back("Seen from its centroid '" + grain.name +
-                        "' folds over itself: sheets beyond the first fill " +
-                        format_percent(grain.descriptors.folded_share) +
-                        " of the solid angle. Roundness and roughness are those of its outermost "
-                        "layer.");
+                        "' lies outside it, so it has no roundness, no roughness and no Sdq as "
+                        "printed, which are of a radius seen from there; Sdq in its invariant form "
+                        "is that of any body.");
   }
 }
 
