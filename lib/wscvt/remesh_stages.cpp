@@ -31,6 +31,10 @@ int most_nodes(const RemeshOptions& options) {
              : options.node_count;
 }
 
+/// Points of a scan that folds, from which the residual of its series is read: more than of one
+/// that does not, because the few on hidden sheets are far from it.
+constexpr std::size_t fold_residual_points = 10000;
+
 /// What the later stages read off the grain, made once.
 void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Execution& execution) {
   Grain& grain = prepared.grain;
@@ -38,6 +42,12 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   prepared.original = describe_shape(grain.mesh, execution.part(0.0, 0.5));
   prepared.original_quality = measure_quality(grain.mesh, execution);
   const bool radial = grain.parametrization == Parametrization::Radial;
+  if (radial && grain.is_scan && grain.folded_share > 0.0) {
+    // Rays see the outermost sheet alone: read by them the residual of a scan of which 8 % lie
+    // behind another sheet was half of what it is.
+    grain.fit.residual = rms_distance(grain.mesh, fine_mesh(*grain.surface, execution),
+                                      fold_residual_points, execution);
+  }
   if (radial && grain.is_scan && options.weighting.kind == Weighting::Curvature &&
       options.weighting.curvature_source == CurvatureSource::QuadricFit) {
     grain.curvatures = scan_curvatures(grain.mesh, execution);

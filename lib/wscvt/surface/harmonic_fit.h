@@ -23,9 +23,9 @@ struct HarmonicFit {
 /// least, and is doubled until the volume it sees stays within 1e-3 or it has 768 rows.
 ///
 /// The degree is lowered, one by one, until the series is positive on a fine grid. The residual is
-/// measured from 3,000 points of the surface, each to the nearest point of the series: within 3 %
-/// of what dense sampling gives where rays see all of a scan, 6 % where that is pressed flat
-/// (2 : 1 : 0.4), and up to 10 % too large for slabs with sharp edges.
+/// measured from 3,000 points of the surface, each to the nearest point of the series: within 2 %
+/// of what dense sampling gives on twenty scans where rays see all of them, 6 % where one is
+/// pressed flat (2 : 1 : 0.4), and up to 10 % too large for slabs with sharp edges.
 ///
 /// Throws Error(InvalidInput) for a degree not in [0, 60] or a surface whose radii are not positive
 /// and finite, NumericalFailure when the series is positive at no degree, Cancelled, and what the
