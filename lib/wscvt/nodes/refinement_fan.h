@@ -53,8 +53,8 @@ struct FanWorkspace {
 /// limits that leave it no worse than it is.
 FanLimits load_fan(const RefinementState& state, std::int32_t node, FanWorkspace& work);
 
-/// The same without the lists of samples, for those who read them where they are: their copies are
-/// half of what loading costs.
+/// The same without the lists of samples, for those who read them where they are: copying them took
+/// a twelfth of a refinement.
 FanLimits load_facets(const RefinementState& state, std::int32_t node, FanWorkspace& work);
 
 /// Puts work.fan back: what was loaded with load_fan and moved since. Its lists are then others.
