@@ -142,20 +142,20 @@ RemeshResult finish(const PreparedGrain& prepared, const RemeshOptions& options,
 
 }  // namespace
 
-RemeshResult remesh(IndexedMesh scan, const RemeshOptions& asked, const Execution& execution) {
-  check_options(asked);
-  const RemeshOptions options = with_method(asked);
-  PreparedGrain prepared = prepare(std::move(scan), options, execution.part(0.0, 0.3));
-  RemeshResult result = finish(prepared, options, execution.part(0.3, 1.0));
+RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
+  check_options(options);
+  const RemeshOptions complete = with_method(options);
+  PreparedGrain prepared = prepare(std::move(scan), complete, execution.part(0.0, 0.3));
+  RemeshResult result = finish(prepared, complete, execution.part(0.3, 1.0));
   result.used_scan = std::move(prepared.used_scan);
   return result;
 }
 
-RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& asked,
+RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
                     const Execution& execution) {
-  check_options(asked);
-  const RemeshOptions options = with_method(asked);
-  return finish(prepare(surface, options, execution.part(0.0, 0.3)), options,
+  check_options(options);
+  const RemeshOptions complete = with_method(options);
+  return finish(prepare(surface, complete, execution.part(0.0, 0.3)), complete,
                 execution.part(0.3, 1.0));
 }
 

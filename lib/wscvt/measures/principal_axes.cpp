@@ -70,7 +70,7 @@ Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centro
                                   const Eigen::Matrix3d& inertia_tensor,
                                   const Execution& execution) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_tensor);
-  const Vector3 moments_of_inertia = solver.eigenvalues();
+  const Vector3& moments_of_inertia = solver.eigenvalues();
   const AxisMoments moments =
       moments_along(solver.eigenvectors().leftCols<2>(), mesh, centroid, execution);
   Eigen::Matrix3d axes;

@@ -82,6 +82,7 @@ std::string drawing(const std::string& title, const std::string& content,
 
 std::vector<Tick> ticks_of(const std::vector<double>& places) {
   std::vector<Tick> ticks;
+  ticks.reserve(places.size());
   for (const double place : places) ticks.push_back({place, number(place)});
   return ticks;
 }

@@ -41,7 +41,10 @@ std::string field_of(const Json& value) {
 void flatten(const Json& value, const std::string& path, Columns& columns) {
   if (value.is_object()) {
     for (const auto& [name, member] : value.items()) {
-      flatten(member, path.empty() ? name : path + "." + name, columns);
+      std::string deeper = path;
+      if (!deeper.empty()) deeper += '.';
+      deeper += name;
+      flatten(member, deeper, columns);
     }
   } else if (!value.is_array()) {
     columns.add(path, field_of(value));

@@ -379,7 +379,7 @@ class Body {
         for (std::size_t i = 0; i < count; ++i) {
           const auto index = number(bytes + index_size * i);
           // A negative one becomes larger than any count.
-          corners[i] = static_cast<std::uint32_t>(index);
+          corners[i] = static_cast<std::uint32_t>(static_cast<std::int64_t>(index));
           if (corners[i] >= vertices_) fail_index(element, f, static_cast<double>(index));
         }
         add_fan(corners.data(), count, mesh_.triangles);

@@ -92,6 +92,7 @@ std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
                                             const std::vector<double>& distances,
                                             std::size_t apex) {
   const std::size_t count = ring.size();
+  if (count < 3) return std::nullopt;  // no polygon
   const Vector3& o = ring[apex];
   double size = 0.0;
   double mean_distance = 0.0;
@@ -119,9 +120,11 @@ std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
   if (forward.cross(backward).dot(o) < 0.0) along = -along;
   if (along.norm() < 1e-6) along = o.cross(forward - backward);
   along.normalize();
-  for (double step = 0.3 * size; step > 1e-14; step *= 0.5) {
+  double step = 0.3 * size;
+  while (step > 1e-14) {
     const Vector3 p = (o + step * along).normalized();
     if (is_in_kernel(p, ring)) return Insertion{p, true};
+    step *= 0.5;
   }
   return std::nullopt;
 }

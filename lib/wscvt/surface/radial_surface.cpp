@@ -115,7 +115,7 @@ SurfaceIntegrals integrate(const RadialSurface& surface, const Execution& execut
   constexpr double last_tolerance = 1e-4;
   SurfaceIntegrals coarse = integrate(surface, first_polar_nodes, execution);
   for (int polar_nodes = 2 * first_polar_nodes; polar_nodes <= last_polar_nodes; polar_nodes *= 2) {
-    const SurfaceIntegrals fine = integrate(surface, polar_nodes, execution);
+    SurfaceIntegrals fine = integrate(surface, polar_nodes, execution);
     if (!(fine.volume > 0.0) || !std::isfinite(fine.volume) || !std::isfinite(fine.area)) {
       throw Error(
           ErrorCode::InvalidInput,
