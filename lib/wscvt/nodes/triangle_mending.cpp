@@ -44,6 +44,17 @@ struct Worst {
   int small = 0;        ///< triangles with an angle below the limit
 };
 
+/// A handle without the mesh that OpenMesh's smart ones bring along.
+OpenMesh::VertexHandle plain(const OpenMesh::VertexHandle& vertex) {
+  return OpenMesh::VertexHandle(vertex.idx());
+}
+OpenMesh::HalfedgeHandle plain(const OpenMesh::HalfedgeHandle& half_edge) {
+  return OpenMesh::HalfedgeHandle(half_edge.idx());
+}
+OpenMesh::FaceHandle plain(const OpenMesh::FaceHandle& face) {
+  return OpenMesh::FaceHandle(face.idx());
+}
+
 class Mender {
  public:
   Mender(const IndexedMesh& nodes, const std::vector<MeshPlace>& places,
@@ -154,8 +165,8 @@ class Mender {
         const OpenMesh::FaceHandle face(f);
         if (mesh_.status(face).deleted()) continue;
         for (const auto side : mesh_.fh_range(face)) {
-          const OpenMesh::HalfedgeHandle back = mesh_.opposite_halfedge_handle(side);
-          for (const OpenMesh::HalfedgeHandle h : {OpenMesh::HalfedgeHandle(side), back}) {
+          const OpenMesh::HalfedgeHandle back = plain(mesh_.opposite_halfedge_handle(side));
+          for (const OpenMesh::HalfedgeHandle h : {plain(side), back}) {
             if (!may_collapse(h)) continue;
             const auto [then, now] = meetings_before_and_after(h);
             const double angle = worst_without(h).angle;
@@ -245,12 +256,12 @@ class Mender {
   Worst worst_around(OpenMesh::VertexHandle vertex) const {
     Worst worst;
     for (const auto h : mesh_.voh_range(vertex)) {
-      const OpenMesh::FaceHandle face = mesh_.face_handle(h);
+      const OpenMesh::FaceHandle face = plain(mesh_.face_handle(h));
       count_angle(face, worst);
       const Vector3 normal = normal_of(face);
-      for (const OpenMesh::HalfedgeHandle edge :
-           {OpenMesh::HalfedgeHandle(h), OpenMesh::HalfedgeHandle(mesh_.next_halfedge_handle(h))}) {
-        worst.turn = std::min(worst.turn, normal.dot(normal_of(mesh_.opposite_face_handle(edge))));
+      for (const OpenMesh::HalfedgeHandle edge : {plain(h), plain(mesh_.next_halfedge_handle(h))}) {
+        worst.turn =
+            std::min(worst.turn, normal.dot(normal_of(plain(mesh_.opposite_face_handle(edge)))));
       }
     }
     return worst;
@@ -264,7 +275,8 @@ class Mender {
       worst.angle = std::max(worst.angle, angle_of(face));
       const Vector3 normal = normal_of(face);
       for (const auto edge : mesh_.fh_range(face)) {
-        worst.turn = std::min(worst.turn, normal.dot(normal_of(mesh_.opposite_face_handle(edge))));
+        worst.turn =
+            std::min(worst.turn, normal.dot(normal_of(plain(mesh_.opposite_face_handle(edge)))));
       }
     }
     return worst;
@@ -503,15 +515,15 @@ class Mender {
     Worst worst;
     const auto look_at = [&](OpenMesh::VertexHandle vertex) {
       for (const auto out : mesh_.voh_range(vertex)) {
-        const OpenMesh::FaceHandle face = mesh_.face_handle(out);
+        const OpenMesh::FaceHandle face = plain(mesh_.face_handle(out));
         if (goes(face, from, to)) continue;
         count_angle(face, worst);
         const Vector3 normal = normal_of(face);
         for (const auto edge : mesh_.fh_range(face)) {
-          OpenMesh::FaceHandle other = mesh_.opposite_face_handle(edge);
+          OpenMesh::FaceHandle other = plain(mesh_.opposite_face_handle(edge));
           // Across a triangle that vanishes lies the one beyond it.
           if (goes(other, from, to)) {
-            const OpenMesh::HalfedgeHandle inner = mesh_.opposite_halfedge_handle(edge);
+            const OpenMesh::HalfedgeHandle inner = plain(mesh_.opposite_halfedge_handle(edge));
             const OpenMesh::HalfedgeHandle next = mesh_.next_halfedge_handle(inner);
             const OpenMesh::HalfedgeHandle last = mesh_.next_halfedge_handle(next);
             const auto joins = [&](OpenMesh::HalfedgeHandle e) {
@@ -519,7 +531,7 @@ class Mender {
               const auto b = mesh_.to_vertex_handle(e);
               return (a == from && b == to) || (a == to && b == from);
             };
-            other = mesh_.opposite_face_handle(joins(next) ? last : next);
+            other = plain(mesh_.opposite_face_handle(joins(next) ? last : next));
             if (goes(other, from, to)) continue;
           }
           worst.turn = std::min(worst.turn, normal.dot(normal_of(other)));
@@ -543,7 +555,7 @@ class Mender {
     OpenMesh::EdgeHandle longest;
     double largest = 0.0;
     for (const auto edge : mesh_.edges()) {
-      const OpenMesh::HalfedgeHandle h = mesh_.halfedge_handle(edge, 0);
+      const OpenMesh::HalfedgeHandle h = plain(mesh_.halfedge_handle(edge, 0));
       double others = 0.0;
       for (const OpenMesh::HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
         const OpenMesh::HalfedgeHandle next = mesh_.next_halfedge_handle(side);
@@ -559,7 +571,7 @@ class Mender {
     const std::int32_t a = mesh_.from_vertex_handle(h).idx();
     const std::int32_t b = mesh_.to_vertex_handle(h).idx();
     const MeshPlace place = surface_.nearest(0.5 * (points_[a] + points_[b]), places_[a]);
-    const OpenMesh::VertexHandle added = mesh_.add_vertex(Mesh::Point(0.0, 0.0, 0.0));
+    const OpenMesh::VertexHandle added = plain(mesh_.add_vertex(Mesh::Point(0.0, 0.0, 0.0)));
     points_.push_back(surface_.position(place));
     places_.push_back(place);
     origin_.push_back(-1 - (node >= 0 ? node : -1 - node));
