@@ -12,7 +12,6 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh_stages.h"
 #include "wscvt/report/remesh_warnings.h"
-#include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_io.h"
@@ -162,9 +161,7 @@ RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
 RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
                     const Execution& execution) {
   constexpr int frequency = 64;
-  IndexedMesh mesh;
-  mesh.points = subdivided_icosahedron(frequency);
-  mesh.triangles = SphereTriangulation(mesh.points).triangles();
+  IndexedMesh mesh = subdivided_sphere(frequency);
   mesh.points = map.positions(mesh.points, execution);
   RemeshOptions on_map = options;
   if (on_map.placement.kind == NodePlacement::Series) on_map.placement.kind = NodePlacement::Scan;

@@ -346,5 +346,18 @@ TEST(SphereTriangulation, RefusesWeightsThatCannotBeLifted) {
   }
 }
 
+TEST(SphereTriangulation, SubdividedSphereHasTheFacesOfTheIcosahedronCutUp) {
+  for (const int frequency : {1, 2, 7}) {
+    const IndexedMesh sphere = subdivided_sphere(frequency);
+    const auto square = static_cast<std::size_t>(frequency * frequency);
+    EXPECT_EQ(sphere.points, subdivided_icosahedron(frequency));
+    EXPECT_EQ(sphere.points.size(), 10 * square + 2);
+    EXPECT_EQ(sphere.triangles.size(), 20 * square);
+    // Throws unless they are closed and counter-clockwise.
+    EXPECT_NO_THROW(SphereTriangulation(sphere.points, sphere.triangles));
+  }
+  EXPECT_ERROR(subdivided_sphere(0), InvalidInput);
+}
+
 }  // namespace
 }  // namespace wscvt

@@ -11,6 +11,7 @@
 #include "wscvt/measures/roundness.h"
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/surface/fit_degree.h"
+#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
 
@@ -43,9 +44,9 @@ inline constexpr NumberOption<int> polar_nodes_option = {"polar-nodes", "number 
                                                          1024};
 
 /// Share of the solid angle in sheets beyond the first, seen from the volume centroid, above which
-/// a body has no radius to be measured by: as the radial parametrization's limit. A crescent, of
-/// which 23 % lie behind, would have a roundness of 0.98, the outermost layer's.
-inline constexpr double largest_measured_fold = 0.05;
+/// a body has no radius to be measured by. A crescent, of which 23 % lie behind, would have a
+/// roundness of 0.98, the outermost layer's.
+inline constexpr double largest_measured_fold = 0.01 * usual_fold_limit_percent;
 
 /// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
 /// that computes it: shape_descriptors.h, form_axes.h, inscribed_sphere.h, orientation_tensor.h,

@@ -46,7 +46,7 @@ struct RefinementState {
     return facet(triangulation.triangles()[triangle]);
   }
   RefinementFacet facet(const Triangle& t) const { return {nodes[t[0]], nodes[t[1]], nodes[t[2]]}; }
-  /// The normal of a triangle's facet alone, at a third of its cost.
+  /// The normal of a triangle's facet, without its angles.
   Vector3 normal(std::int32_t triangle) const;
   /// What a sample's distance counts.
   double penalty(double residual) const {

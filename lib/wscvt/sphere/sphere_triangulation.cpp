@@ -12,6 +12,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/sphere_delaunay.h"
+#include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
 
@@ -350,6 +351,13 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
                !is_nearly_flat(apex_d, seeds[ends[1]], apex_c);
       },
       execution, smallest_determinant);
+}
+
+IndexedMesh subdivided_sphere(int frequency) {
+  IndexedMesh mesh;
+  mesh.points = subdivided_icosahedron(frequency);
+  mesh.triangles = SphereTriangulation(mesh.points).triangles();
+  return mesh;
 }
 
 }  // namespace wscvt

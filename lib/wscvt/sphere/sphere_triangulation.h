@@ -112,4 +112,8 @@ class SphereTriangulation {
   std::vector<std::int32_t> first_half_edge_;  ///< of each vertex: one that starts there, any
 };
 
+/// The unit sphere as a mesh: the points of subdivided_icosahedron(frequency), 10 frequency^2 + 2,
+/// and their triangles. Throws as that.
+IndexedMesh subdivided_sphere(int frequency);
+
 }  // namespace wscvt

@@ -7,11 +7,17 @@
 
 namespace wscvt {
 
+/// Share of the solid angle in sheets beyond the first, in %, up to which a body is taken for one
+/// with a radius in each direction unless another limit is given: its outermost layer stands in for
+/// it. Fold counts as in folded_solid_angle.
+inline constexpr double usual_fold_limit_percent = 5.0;
+
 /// How a scan becomes a surface over the sphere.
 struct SurfaceOptions {
   Parametrization parametrization = Parametrization::Auto;
-  int degree = automatic_degree;    ///< of the harmonic series, see harmonic_degree_option
-  double fold_limit_percent = 5.0;  ///< refuse above this folded_solid_angle; Radial only
+  int degree = automatic_degree;  ///< of the harmonic series, see harmonic_degree_option
+  /// Refuse above this folded_solid_angle; Radial only.
+  double fold_limit_percent = usual_fold_limit_percent;
 };
 
 inline constexpr NumberOption<double> fold_limit_option = {
