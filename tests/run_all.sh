@@ -34,9 +34,10 @@ for step in "$@"; do
       configure_and_build release -DWSCVT_BUILD_BENCHMARKS=OFF -DWSCVT_BUILD_STUDY=OFF
       ctest --preset release -j "$jobs" ;;
     extras)
-      # Benchmarks and study are built, so that they do not rot, but not run; they and the library
-      # without precompiled headers, so that no file lives on what another includes.
-      cmake --preset release -B build/extras -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_PRECOMPILE_HEADERS=OFF \
+      # Benchmarks and study are built, so that they do not rot, but not run, and so not made fast; they,
+      # the library and the program file by file, so that none lives on what another includes.
+      cmake --preset release -B build/extras -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_QUICK_BUILD=OFF \
+        -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O0 -DWSCVT_BUILD_PYTHON=OFF \
         -DWSCVT_BUILD_TESTS=OFF -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
       cmake --build build/extras -j "$jobs" ;;
     sanitizers)

@@ -14,7 +14,6 @@ namespace wscvt {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(TextFormat, Numbers) {
   EXPECT_EQ(format_number(1234.5678), "1234.57");
@@ -29,7 +28,7 @@ TEST(TextFormat, Errors) {
   EXPECT_EQ(format_error(0.0), "+0.000");
   EXPECT_EQ(format_error(-2.5e-10), "-2.5e-10");
   EXPECT_EQ(format_error(not_a_number), "-");
-  EXPECT_EQ(format_error(infinity), "-");
+  EXPECT_EQ(format_error(std::numeric_limits<double>::infinity()), "-");
 }
 
 TEST(TextFormat, ExactNumbersReadBackToTheSameBits) {
@@ -42,7 +41,7 @@ TEST(TextFormat, ExactNumbersReadBackToTheSameBits) {
     EXPECT_EQ(std::stod(format_exact(value)), value);
   }
   EXPECT_EQ(format_exact(not_a_number), "");
-  EXPECT_EQ(format_exact(-infinity), "");
+  EXPECT_EQ(format_exact(-std::numeric_limits<double>::infinity()), "");
 }
 
 TEST(TextFormat, TypedNumbersAreWrittenOutAndReadBack) {

@@ -23,7 +23,7 @@ namespace wscvt::host_test {
 namespace {
 
 const QString remesh_menu_text = QString::fromStdString(filter::remesh_name());
-const QString everyday_menu_text = QString::fromStdString(filter::everyday_name());
+const QString everyday_title = QString::fromStdString(filter::everyday_name());
 const std::string host_version = WSCVT_MESHLAB_VERSION;
 constexpr double patience = 60.0;  // seconds for any one step
 
@@ -222,22 +222,22 @@ TEST(Window, EverydayFilterIsAppliedByMouseOnASmallScreen) {
   QTemporaryDir folder;
   Window meshlab(sample("sand_7228.ply"), folder.path(), small_screen);
   ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.open_filter(everyday_menu_text)) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(everyday_title)) << meshlab.log().toStdString();
   meshlab.screenshot("small_screen.png");
-  EXPECT_TRUE(meshlab.is_on_screen(everyday_menu_text));
-  meshlab.apply(everyday_menu_text);
-  ASSERT_TRUE(meshlab.wait_for_log(everyday_menu_text + " in ")) << meshlab.log().toStdString();
+  EXPECT_TRUE(meshlab.is_on_screen(everyday_title));
+  meshlab.apply(everyday_title);
+  ASSERT_TRUE(meshlab.wait_for_log(everyday_title + " in ")) << meshlab.log().toStdString();
   EXPECT_TRUE(meshlab.log().contains("volume"));
   // Dialog, result and log: the picture of the README.
-  meshlab.move(everyday_menu_text, {0, 70});
+  meshlab.move(everyday_title, {0, 70});
   QThread::msleep(1000);
   meshlab.screenshot("applied.png");
 
   // The dialog is still there: once more, on the scan and not on the remesh.
-  meshlab.apply(everyday_menu_text);
+  meshlab.apply(everyday_title);
   ASSERT_TRUE(meshlab.wait_for_log("is a remesh of 'sand_7228.ply'"))
       << meshlab.log().toStdString();
-  meshlab.close(everyday_menu_text);
+  meshlab.close(everyday_title);
   meshlab.screenshot("small_screen_result.png");
   EXPECT_TRUE(meshlab.is_running());
 }
@@ -431,21 +431,21 @@ TEST(Window, ApplyDuringARunIsRefusedAndTheRunGoesOn) {
   QTemporaryDir folder;
   Window meshlab(sample("sand_7228.ply"), folder.path());
   ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.open_filter(everyday_menu_text)) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(everyday_title)) << meshlab.log().toStdString();
   // The first field is that of the number of nodes; a run of so many takes some seconds.
   const auto apply_with = [&](const QString& nodes) {
-    meshlab.click(everyday_menu_text, 0.6, meshlab.place(everyday_menu_text).height() - 130);
+    meshlab.click(everyday_title, 0.6, meshlab.place(everyday_title).height() - 130);
     meshlab.press("ctrl+a");
     meshlab.type(nodes);
-    meshlab.apply(everyday_menu_text);
+    meshlab.apply(everyday_title);
   };
   apply_with("100000");
   QThread::msleep(300);
-  meshlab.apply(everyday_menu_text);
+  meshlab.apply(everyday_title);
   meshlab.expect_failure("applied_twice.png");
   EXPECT_TRUE(meshlab.wait_for_log("is still running; wait until it is done"))
       << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.wait_for_log(everyday_menu_text + " in ")) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.wait_for_log(everyday_title + " in ")) << meshlab.log().toStdString();
   EXPECT_TRUE(meshlab.wait_for_nodes(100000)) << meshlab.log().toStdString();
   // The advice: once it is done.
   apply_with("300");

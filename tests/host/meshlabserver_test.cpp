@@ -28,9 +28,6 @@
 namespace wscvt::host_test {
 namespace {
 
-/// The exit code of meshlabserver when a filter returns false.
-constexpr int refused = 255;
-
 class ServerScripts : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ServerScripts, GiveTheExactCountAndTheTable) {
@@ -138,7 +135,7 @@ TEST_P(ServerRefuses, WithASentenceInTheLog) {
   SCOPED_TRACE(outcome.output.toStdString());
   ASSERT_TRUE(outcome.ended);
   EXPECT_FALSE(outcome.crashed);
-  EXPECT_EQ(outcome.exit_code, refused);
+  EXPECT_EQ(outcome.exit_code, exit_code_of_refusal);
   EXPECT_FALSE(QFile::exists(output));
   for (const std::string& word : call.words) {
     EXPECT_TRUE(outcome.output.contains(QString::fromStdString(word), Qt::CaseInsensitive)) << word;
@@ -157,7 +154,7 @@ TEST(Server, RefusesANodeCountThatCannotBeRead) {
     SCOPED_TRACE(outcome.output.toStdString());
     ASSERT_TRUE(outcome.ended);
     EXPECT_FALSE(outcome.crashed);
-    EXPECT_EQ(outcome.exit_code, refused);
+    EXPECT_EQ(outcome.exit_code, exit_code_of_refusal);
     EXPECT_FALSE(QFile::exists(output));
     EXPECT_TRUE(outcome.output.contains("NodeCount is missing"));
   }
@@ -299,7 +296,7 @@ TEST_P(ServerAdvises, WhatLeadsToARemesh) {
   QTemporaryDir folder;
   const QString output = folder.filePath("remeshed.ply");
   const Outcome refusal = run_call(advice.refused, folder, output);
-  EXPECT_EQ(refusal.exit_code, refused);
+  EXPECT_EQ(refusal.exit_code, exit_code_of_refusal);
   EXPECT_FALSE(QFile::exists(output));
   for (const std::string& word : advice.refused.words) {
     EXPECT_TRUE(refusal.output.contains(QString::fromStdString(word)))
@@ -409,7 +406,7 @@ TEST(Server, AdvisesANumberOfNodesThatWouldDo) {
   const QString output = folder.filePath("remeshed.ply");
   const Call few{"", advised->mesh, {{"NodeCount", std::to_string(advised->nodes)}, weighting}, {}};
   const Outcome refusal = run_call(few, folder, output);
-  EXPECT_EQ(refusal.exit_code, refused);
+  EXPECT_EQ(refusal.exit_code, exit_code_of_refusal);
   EXPECT_FALSE(QFile::exists(output));
   EXPECT_TRUE(refusal.output.contains(QString::fromStdString(said + enough + " would do.")))
       << refusal.output.toStdString();

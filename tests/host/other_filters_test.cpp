@@ -23,7 +23,6 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
-constexpr int refused = 255;
 /// Applies a script of the project with other values, to meshes that lie in `folder`.
 Outcome run_script(const QString& original, const Values& values, const QStringList& meshes,
                    const QTemporaryDir& folder, const QStringList& more = {}) {
@@ -200,7 +199,7 @@ TEST_P(ServerRefusesToo, WithASentenceInTheLog) {
   SCOPED_TRACE(outcome.output.toStdString());
   ASSERT_TRUE(outcome.ended);
   EXPECT_FALSE(outcome.crashed);
-  EXPECT_EQ(outcome.exit_code, refused);
+  EXPECT_EQ(outcome.exit_code, exit_code_of_refusal);
   for (const std::string& word : call.words) {
     EXPECT_TRUE(outcome.output.contains(QString::fromStdString(word), Qt::CaseInsensitive)) << word;
   }
@@ -223,7 +222,7 @@ TEST_P(ServerRefusesToMeasure, WithASentenceInTheLogAndNoReport) {
   SCOPED_TRACE(outcome.output.toStdString());
   ASSERT_TRUE(outcome.ended);
   EXPECT_FALSE(outcome.crashed);
-  EXPECT_EQ(outcome.exit_code, refused);
+  EXPECT_EQ(outcome.exit_code, exit_code_of_refusal);
   EXPECT_FALSE(QFile::exists(folder.filePath("report.json")));
   for (const std::string& word : call.words) {
     EXPECT_TRUE(outcome.output.contains(QString::fromStdString(word), Qt::CaseInsensitive)) << word;

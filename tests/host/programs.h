@@ -31,6 +31,9 @@ class VirtualDisplay {
 /// Environment for a program on that display, with settings of its own in `home`.
 QProcessEnvironment environment_on(const VirtualDisplay& display, const QString& home);
 
+/// Of meshlabserver, when a filter returns false.
+constexpr int exit_code_of_refusal = 255;
+
 /// How a program ended.
 struct Outcome {
   bool ended = false;    ///< within the time allowed

@@ -15,14 +15,14 @@
 namespace wscvt {
 namespace {
 
-DetailedDescriptors describe(const IndexedMesh& mesh) {
+DetailedDescriptors in_detail(const IndexedMesh& mesh) {
   return describe_shape_in_detail(mesh, DetailedOptions{15, 8, 64}, Execution(1));
 }
 
 TEST(DetailedDescriptors, Sphere) {
   const double radius = 3.0;
   // Edges of 0.16 radii: chords 3e-3 radii deep.
-  const DetailedDescriptors d = describe(test::scaled(test::sphere(3), Vector3::Constant(radius)));
+  const DetailedDescriptors d = in_detail(test::scaled(test::sphere(3), Vector3::Constant(radius)));
   EXPECT_NEAR(d.equivalent_diameter, 2.0 * radius, 2.5e-2);
   for (const FormAxes& axes : {d.inertia_axes, d.box_axes}) {
     EXPECT_NEAR(axes.shortest, 2.0 * radius, 3e-2);
@@ -40,8 +40,8 @@ TEST(DetailedDescriptors, Sphere) {
 
 TEST(DetailedDescriptors, Ellipsoid) {
   const DetailedDescriptors d =
-      describe(test::transformed(test::scaled(test::sphere(3), {1.0, 1.5, 2.0}),
-                                 test::random_rotation(test::announced(4)), {100, 200, 300}));
+      in_detail(test::transformed(test::scaled(test::sphere(3), {1.0, 1.5, 2.0}),
+                                  test::random_rotation(test::announced(4)), {100, 200, 300}));
   EXPECT_NEAR(d.equivalent_diameter, 2.0 * std::cbrt(3.0), 2.5e-2);
   for (const FormAxes& axes : {d.inertia_axes, d.box_axes}) {
     EXPECT_NEAR(axes.shortest, 2.0, 2e-2);
@@ -59,7 +59,7 @@ TEST(DetailedDescriptors, Ellipsoid) {
 
 TEST(DetailedDescriptors, Cube) {
   const DetailedDescriptors d =
-      describe(test::transformed(test::box(1, 1, 1), test::random_rotation(test::announced(9))));
+      in_detail(test::transformed(test::box(1, 1, 1), test::random_rotation(test::announced(9))));
   EXPECT_NEAR(d.equivalent_diameter, std::cbrt(6.0 / test::pi), 1e-12);
   EXPECT_NEAR(d.box_axes.shortest, 1.0, 1e-9);
   EXPECT_NEAR(d.box_axes.longest, 1.0, 1e-9);
@@ -74,9 +74,9 @@ TEST(DetailedDescriptors, Cube) {
 
 TEST(DetailedDescriptors, TurnAndScaleAsTheyShould) {
   const IndexedMesh mesh = test::lumpy(2);
-  const DetailedDescriptors a = describe(mesh);
+  const DetailedDescriptors a = in_detail(mesh);
   const double scale = 1e-6;
-  const DetailedDescriptors b = describe(
+  const DetailedDescriptors b = in_detail(
       test::transformed(mesh, scale * test::random_rotation(test::announced(2)), {1e-5, 0, 0}));
   EXPECT_NEAR(b.equivalent_diameter / scale, a.equivalent_diameter, 1e-9);
   EXPECT_NEAR(b.convexity, a.convexity, 1e-9);
@@ -108,7 +108,7 @@ TEST(DetailedDescriptors, BodyWhoseCentroidLiesOutsideHasNoRadius) {
     quad(8 + k, 8 + n, 12 + n, 12 + k);  // top
     quad(n, k, 4 + k, 4 + n);            // bottom
   }
-  const DetailedDescriptors d = describe(mesh);
+  const DetailedDescriptors d = in_detail(mesh);
   EXPECT_NEAR(d.basic.volume, 0.4 * (4.0 - 1.96), 1e-12);
   EXPECT_NEAR(d.convexity, (4.0 - 1.96) / 4.0, 1e-12);
   EXPECT_FALSE(d.has_radius);
@@ -124,7 +124,7 @@ TEST(DetailedDescriptors, ARadiusIsMeasuredWhereLittleFolds) {
   // side: two sheets beyond the first on cos(60) - cos(60 + n) of the directions.
   for (const int overhang : {1, 10}) {
     SCOPED_TRACE(overhang);
-    const DetailedDescriptors d = describe(test::overhanging_rim(overhang));
+    const DetailedDescriptors d = in_detail(test::overhanging_rim(overhang));
     const double degree = test::pi / 180.0;
     const double share = 2.0 * (0.5 - std::cos((60 + overhang) * degree));
     // 128 segments cut the rims by 1 - cos(pi / 128), 0.03 %.

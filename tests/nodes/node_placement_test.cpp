@@ -21,7 +21,7 @@
 namespace wscvt {
 namespace {
 
-constexpr std::size_t samples = 20000;
+constexpr std::size_t sample_count = 20000;
 
 struct Nodes {
   std::vector<Vector3> directions;
@@ -46,7 +46,7 @@ TEST(LeastSquaresRadii, FindsAPolyhedronOnItsOwnVertices) {
   Nodes nodes{body.points, body.triangles};
   for (Vector3& p : nodes.directions) p.normalize();
   const std::vector<double> radii =
-      least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(1));
+      least_squares_radii(nodes.directions, nodes.triangles, surface, sample_count, Execution(1));
   for (std::size_t i = 0; i < radii.size(); ++i) {
     EXPECT_NEAR(radii[i], body.points[i].norm(), 1e-12);
   }
@@ -56,7 +56,7 @@ TEST(LeastSquaresRadii, OfASphereLieAboveItAndHalveItsDistance) {
   const Ellipsoid sphere(Vector3(1, 1, 1));
   const Nodes nodes = lattice(200);
   const std::vector<double> radii =
-      least_squares_radii(nodes.directions, nodes.triangles, sphere, samples, Execution(1));
+      least_squares_radii(nodes.directions, nodes.triangles, sphere, sample_count, Execution(1));
   for (const double r : radii) {
     EXPECT_GT(r, 1.0);
     // The sagitta of the largest triangle, edge 0.3: 1 - sqrt(1 - 0.3^2 / 3) = 0.015.
@@ -93,7 +93,7 @@ TEST(LeastSquaresRadii, OfAnOctahedronInASphereHaveAClosedForm) {
   const std::vector<double> flat = flat_radii(nodes, quadrature.directions);
   const double expected = 1.0 / mean_over_sphere(quadrature, flat);
   for (const double r : least_squares_radii(corners, nodes.triangles, Ellipsoid(Vector3(1, 1, 1)),
-                                            samples, Execution(1))) {
+                                            sample_count, Execution(1))) {
     // The kinks at the edges cost the quadrature of 400 azimuths a few times 1e-5.
     EXPECT_NEAR(r, expected, 2e-4);
   }
@@ -108,7 +108,7 @@ TEST(LeastSquaresRadii, StayNearTheSurfaceWhereNodesHardlySurroundTheOrigin) {
   const SphereQuadrature quadrature = gauss_legendre_sphere(200);
   ASSERT_GT(1.0 / mean_over_sphere(quadrature, flat_radii(nodes, quadrature.directions)), 1.6);
   for (const double r : least_squares_radii(corners, nodes.triangles, Ellipsoid(Vector3(2, 2, 2)),
-                                            samples, Execution(1))) {
+                                            sample_count, Execution(1))) {
     EXPECT_NEAR(r, 2.0 * 1.5, 1e-12);
   }
 }
@@ -118,14 +118,14 @@ TEST(LeastSquaresRadii, ScaleAndTurnWithTheSurface) {
   const Nodes nodes = lattice(150);
   const std::vector<double> radii = least_squares_radii(
       nodes.directions, nodes.triangles, MeshSurface(body, Vector3::Zero(), 1.0, Execution(1)),
-      samples, Execution(1));
+      sample_count, Execution(1));
   const Eigen::Matrix3d rotation = test::random_rotation(test::announced(7));
   Nodes turned = nodes;
   for (Vector3& u : turned.directions) u = rotation * u;
   const std::vector<double> moved = least_squares_radii(
       turned.directions, turned.triangles,
       MeshSurface(test::transformed(body, 1000.0 * rotation), Vector3::Zero(), 1.0, Execution(1)),
-      samples, Execution(1));
+      sample_count, Execution(1));
   // Samples that fall on an edge of the body may take the gradient of either face.
   for (std::size_t i = 0; i < radii.size(); ++i) EXPECT_NEAR(moved[i] / 1000.0, radii[i], 1e-4);
 }
@@ -133,8 +133,9 @@ TEST(LeastSquaresRadii, ScaleAndTurnWithTheSurface) {
 TEST(LeastSquaresRadii, SameBytesOnAnyNumberOfThreads) {
   const MeshSurface surface(test::lumpy(3), Vector3::Zero(), 1.0, Execution(1));
   const Nodes nodes = lattice(300);
-  EXPECT_EQ(least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(1)),
-            least_squares_radii(nodes.directions, nodes.triangles, surface, samples, Execution(3)));
+  EXPECT_EQ(
+      least_squares_radii(nodes.directions, nodes.triangles, surface, sample_count, Execution(1)),
+      least_squares_radii(nodes.directions, nodes.triangles, surface, sample_count, Execution(3)));
 }
 
 TEST(LeastSquaresRadii, StopWhenAskedTo) {
@@ -143,7 +144,7 @@ TEST(LeastSquaresRadii, StopWhenAskedTo) {
   // Twice, once a step of the solver's and about the making of its matrix.
   test::expect_to_be_stopped(
       [&](const Execution& execution) {
-        least_squares_radii(nodes.directions, nodes.triangles, ellipsoid, samples, execution);
+        least_squares_radii(nodes.directions, nodes.triangles, ellipsoid, sample_count, execution);
       },
       "Placing the nodes", 2 * (10 + 2));
 }
@@ -153,7 +154,7 @@ TEST(LeastSquaresRadii, RefusesNodesOfNoTriangle) {
   nodes.directions.emplace_back(1, 0, 0);
   const Ellipsoid sphere(Vector3(1, 1, 1));
   test::expect_error(ErrorCode::InvalidInput, [&] {
-    least_squares_radii(nodes.directions, nodes.triangles, sphere, samples, Execution(1));
+    least_squares_radii(nodes.directions, nodes.triangles, sphere, sample_count, Execution(1));
   });
 }
 

@@ -12,12 +12,9 @@ namespace {
 
 using test::box;
 using test::joined;
+using test::moved;
 using test::sphere;
 using test::torus;
-
-IndexedMesh moved(const IndexedMesh& mesh, double scale, const Vector3& offset) {
-  return test::transformed(mesh, scale * Eigen::Matrix3d::Identity(), offset);
-}
 
 TEST(FoldedSolidAngle, IsZeroForAStarShapedMesh) {
   for (const IndexedMesh& mesh : {sphere(3), box(1, 1, 1), test::lumpy(4)}) {

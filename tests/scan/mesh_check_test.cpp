@@ -26,6 +26,7 @@ namespace {
 using test::bad_edges;
 using test::box;
 using test::joined;
+using test::moved;
 using test::sphere;
 using test::torus;
 using test::transformed;
@@ -33,10 +34,6 @@ using test::unwelded;
 
 CheckedMesh check(const IndexedMesh& mesh, int threads = 1) {
   return check_mesh(mesh, MeshCheckOptions(), Execution(threads));
-}
-
-IndexedMesh moved(const IndexedMesh& mesh, double scale, const Vector3& offset) {
-  return transformed(mesh, scale * Eigen::Matrix3d::Identity(), offset);
 }
 
 /// The limit that a refusal says to raise it above.

@@ -111,6 +111,11 @@ inline IndexedMesh scaled(IndexedMesh mesh, const Vector3& factors) {
   return transformed(std::move(mesh), factors.asDiagonal().toDenseMatrix());
 }
 
+/// x -> scale x + shift.
+inline IndexedMesh moved(IndexedMesh mesh, double scale, const Vector3& shift) {
+  return transformed(std::move(mesh), scale * Eigen::Matrix3d::Identity(), shift);
+}
+
 /// Uniformly random rotation.
 inline Eigen::Matrix3d random_rotation(std::uint64_t seed) {
   std::mt19937_64 engine(seed);

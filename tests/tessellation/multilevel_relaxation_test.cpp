@@ -9,6 +9,7 @@
 
 #include "support/added_points.h"
 #include "support/expect_error.h"
+#include "support/seed_models.h"
 #include "support/seeds.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -18,20 +19,12 @@
 namespace wscvt {
 namespace {
 
-const Ellipsoid& ellipsoid() {
-  static const Ellipsoid surface(Vector3(1.3, 0.9, 0.7));
-  return surface;
-}
-
-SurfaceSeedModel model_of(Weighting weighting, int nodes) {
-  WeightingOptions options;
-  options.kind = weighting;
-  return {ellipsoid(), options, nodes, nullptr, Execution(1)};
-}
+using test::ellipsoid;
+using test::model_of;
 
 RelaxationResult relaxed(int count, Weighting weighting, RelaxationMetric metric, int threads = 1,
                          const MultilevelOptions& levels = {}) {
-  const SurfaceSeedModel model = model_of(weighting, count);
+  const SurfaceSeedModel model = model_of(ellipsoid(), weighting, count);
   RelaxationOptions options;
   options.metric = metric;
   return relax_multilevel(fibonacci_lattice(level_sizes(count, levels.coarsest_seeds).front()),
@@ -66,9 +59,9 @@ TEST(MultilevelRelaxation, SeedsThatAreMissingAreAddedWhereThereIsMostRoom) {
   levels.coarsest_seeds = coarse;
   RelaxationOptions options;
   options.maximum_iterations = 0;
-  const RelaxationResult result =
-      relax_multilevel(random_directions(coarse, test::announced(4)), count,
-                       model_of(Weighting::Constant, count), options, levels, Execution(1));
+  const RelaxationResult result = relax_multilevel(
+      random_directions(coarse, test::announced(4)), count,
+      model_of(ellipsoid(), Weighting::Constant, count), options, levels, Execution(1));
   ASSERT_EQ(static_cast<int>(result.seeds.size()), count);
   test::expect_room_about_the_last(result.seeds, 3);
 }
@@ -112,7 +105,7 @@ TEST(MultilevelRelaxation, SameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(MultilevelRelaxation, RefusesAStartThatDoesNotFit) {
-  const SurfaceSeedModel model = model_of(Weighting::Area, 1000);
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 1000);
   test::expect_error(ErrorCode::InvalidInput, [&] {
     relax_multilevel(fibonacci_lattice(300), 1000, model, {}, {}, Execution(1));
   });
@@ -143,7 +136,7 @@ TEST(MultilevelRelaxation, RefusesLevelsOutOfRange) {
 
 TEST(MultilevelRelaxation, SaysWhichCoarserLevelsConverged) {
   // One iteration from a lattice is too few for the coarsest level.
-  const SurfaceSeedModel model = model_of(Weighting::Area, 1000);
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 1000);
   RelaxationOptions options;
   options.maximum_iterations = 1;
   const RelaxationResult result =

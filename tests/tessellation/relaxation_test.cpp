@@ -8,6 +8,7 @@
 
 #include "grains/ct_grain.h"
 #include "support/expect_error.h"
+#include "support/seed_models.h"
 #include "support/seeds.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/mesh_quality.h"
@@ -20,17 +21,8 @@
 namespace wscvt {
 namespace {
 
-const Ellipsoid& ellipsoid() {
-  static const Ellipsoid surface(Vector3(1.3, 0.9, 0.7));
-  return surface;
-}
-
-SurfaceSeedModel model_of(Weighting weighting, int nodes, double alpha = 1.0) {
-  WeightingOptions options;
-  options.kind = weighting;
-  options.curvature_alpha = alpha;
-  return {ellipsoid(), options, nodes, nullptr, Execution(1)};
-}
+using test::ellipsoid;
+using test::model_of;
 
 double edge_variation(const RelaxationResult& result) {
   IndexedMesh mesh;
@@ -44,7 +36,7 @@ class EveryWeightingAndMetric
 
 TEST_P(EveryWeightingAndMetric, ConvergesToCellsOfTheWantedSize) {
   const auto [weighting, metric] = GetParam();
-  const SurfaceSeedModel model = model_of(weighting, 500);
+  const SurfaceSeedModel model = model_of(ellipsoid(), weighting, 500);
   RelaxationOptions options;
   options.metric = metric;
   const RelaxationResult result = relax(fibonacci_lattice(500), model, options, Execution(1));
@@ -82,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(RelaxationMetric::Sphere, RelaxationMetric::Surface)));
 
 TEST(Relaxation, PlainOverRelaxationReachesTheSameEvenness) {
-  const SurfaceSeedModel model = model_of(Weighting::Area, 400);
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 400);
   RelaxationOptions options;
   options.metric = RelaxationMetric::Sphere;
   options.acceleration = false;
@@ -99,7 +91,7 @@ TEST(Relaxation, PlainOverRelaxationReachesTheSameEvenness) {
 TEST(Relaxation, MomentumWithRestartsSparesMostOfTheSteps) {
   // Measured 0.28 of the plain steps; momentum that is never dropped swings about the end and
   // spares a third only.
-  const SurfaceSeedModel model = model_of(Weighting::Area, 300);
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 300);
   RelaxationOptions momentum;
   momentum.metric = RelaxationMetric::Sphere;
   momentum.displacement_tolerance = 1e-5;
@@ -116,7 +108,7 @@ TEST(Relaxation, MomentumWithRestartsSparesMostOfTheSteps) {
 }
 
 TEST(Relaxation, RandomStartConvergesToo) {
-  const SurfaceSeedModel model = model_of(Weighting::Area, 300);
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 300);
   const RelaxationResult result =
       relax(random_directions(300, test::announced(20)), model, RelaxationOptions(), Execution(1));
   EXPECT_EQ(result.report.outcome, RelaxationOutcome::Converged);
@@ -204,8 +196,8 @@ TEST(Relaxation, ImpossibleWeightsAreDampedUntilEverySeedHasItsCell) {
 TEST(Relaxation, StoppingAtTheLimitIsAFieldNotAnError) {
   RelaxationOptions options;
   options.maximum_iterations = 0;
-  const RelaxationResult result =
-      relax(fibonacci_lattice(50), model_of(Weighting::Area, 50), options, Execution(1));
+  const RelaxationResult result = relax(
+      fibonacci_lattice(50), model_of(ellipsoid(), Weighting::Area, 50), options, Execution(1));
   EXPECT_EQ(result.report.outcome, RelaxationOutcome::IterationLimit);
   EXPECT_EQ(result.report.iterations, 0);
   EXPECT_EQ(result.seeds, fibonacci_lattice(50));
@@ -215,8 +207,8 @@ TEST(Relaxation, SettlesWhereTheAreasCannotBeWhatIsAskedFor) {
   // No tessellation has cells equal to nine digits.
   RelaxationOptions options;
   options.area_tolerance = 1e-9;
-  const RelaxationResult result =
-      relax(fibonacci_lattice(50), model_of(Weighting::Area, 50), options, Execution(1));
+  const RelaxationResult result = relax(
+      fibonacci_lattice(50), model_of(ellipsoid(), Weighting::Area, 50), options, Execution(1));
   EXPECT_EQ(result.report.outcome, RelaxationOutcome::Settled);
   EXPECT_LT(result.report.history.back().displacement, 0.01 * options.displacement_tolerance);
   EXPECT_GT(result.report.history.back().area_spread, options.area_tolerance);
@@ -227,7 +219,7 @@ TEST(Relaxation, SameBytesOnAnyNumberOfThreads) {
   options.maximum_iterations = 8;
   for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
     options.metric = metric;
-    const SurfaceSeedModel model = model_of(Weighting::RadialDistance, 12000);
+    const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::RadialDistance, 12000);
     const auto run = [&](int threads) {
       return relax(fibonacci_lattice(12000), model, options, Execution(threads));
     };
@@ -243,7 +235,7 @@ TEST(Relaxation, ProgressCancels) {
   int calls = 0;
   const Execution execution(1, [&](double, const std::string&) { return ++calls < 3; });
   test::expect_error(ErrorCode::Cancelled, [&] {
-    relax(fibonacci_lattice(200), model_of(Weighting::Area, 200), {}, execution);
+    relax(fibonacci_lattice(200), model_of(ellipsoid(), Weighting::Area, 200), {}, execution);
   });
 }
 
@@ -253,13 +245,13 @@ TEST(Relaxation, RefusesSeedsThatDoNotSurroundTheCentre) {
   for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
     RelaxationOptions options;
     options.metric = metric;
-    EXPECT_ERROR(relax(seeds, model_of(Weighting::Area, 50), options, Execution(1)),
+    EXPECT_ERROR(relax(seeds, model_of(ellipsoid(), Weighting::Area, 50), options, Execution(1)),
                  NumericalFailure);
   }
 }
 
 TEST(Relaxation, RefusesOptionsOutOfRange) {
-  const SurfaceSeedModel model = model_of(Weighting::Area, 50);
+  const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 50);
   RelaxationOptions options;
   const auto expect_refused = [&] {
     test::expect_error(ErrorCode::InvalidInput,

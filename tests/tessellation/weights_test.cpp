@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "support/expect_error.h"
+#include "support/seed_models.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
@@ -17,18 +18,8 @@
 namespace wscvt {
 namespace {
 
-const Ellipsoid& ellipsoid() {
-  static const Ellipsoid surface(Vector3(1.3, 0.9, 0.7));
-  return surface;
-}
-
-SurfaceSeedModel model_of(const RadialSurface& surface, Weighting weighting, int nodes = 1000,
-                          double alpha = 1.0) {
-  WeightingOptions options;
-  options.kind = weighting;
-  options.curvature_alpha = alpha;
-  return {surface, options, nodes, nullptr, Execution(1)};
-}
+using test::ellipsoid;
+using test::model_of;
 
 std::vector<double> weights_of(const SurfaceSeedModel& model, const std::vector<Vector3>& seeds) {
   std::vector<double> weights;
