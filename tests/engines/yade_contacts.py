@@ -29,7 +29,7 @@ class GrainContacts:
         self.energy = 0.0
         # Processor time spent here, so that a study can tell it from Yade's own.
         self.seconds = 0.0
-        # Of each contact its force on the first body along the surface, and the direction across it.
+        # Of each contact its force on the first body along the surface.
         self.tangential = {}
         # Small against a cell of the grid, in which distances are linear along each axis, so that
         # differences are exact; large against rounding.
@@ -70,6 +70,9 @@ class GrainContacts:
         self.seconds += time.thread_time() - start
 
     def apply_contact(self, contact, first, second, before):
+        if contact.phys.kn != 0:
+            raise ValueError("Yade's own law acts between grains too; give kn=0 and ks=0 for two grains in "
+                             "Ip2_FrictMat_FrictMat_FrictPhys, by MatchMaker's matches where there are walls.")
         node, gradient = self.node(contact, first, second)
         depth = contact.geom.penetrationDepth
         normal_force = self.normal_stiffness * depth * gradient
