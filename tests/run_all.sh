@@ -55,9 +55,12 @@ for step in "$@"; do
     format)
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
-      # After release, whose compile commands it reads.
+      # With compile commands of its own, a file each; those of release name files that are compiled
+      # together. Nothing is built.
+      cmake --preset release -B build/tidy -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_QUICK_BUILD=OFF \
+        -DWSCVT_BUILD_TESTS=OFF -DMESHLAB_SOURCE_DIR="$meshlab_source"
       sources lib filter_wscvt | grep '\.cpp$' |
-        xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/release ;;
+        xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/tidy ;;
     page)
       # After release. A step of its own, because a browser is 300 MB.
       tests/install_packages.sh chromium poppler-utils

@@ -49,7 +49,10 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
   }
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
   // Groups that are not shown leave their distances.
-  for (std::size_t place; (place = text.find("\n\n\n")) != std::string::npos;) text.erase(place, 1);
+  for (std::size_t place = text.find("\n\n\n"); place != std::string::npos;
+       place = text.find("\n\n\n")) {
+    text.erase(place, 1);
+  }
   return text;
 }
 
