@@ -25,6 +25,7 @@
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/grain.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
@@ -346,12 +347,7 @@ TEST(Remesh, ReferenceGrainsStayWithinTheirLimits) {
           remesh(scan, options_of(limits.nodes, Weighting::RadialDistance), Execution());
       const HarmonicSurface series(printed.coefficients);
       const SurfaceIntegrals exact = integrate(series, 80, Execution());
-      const SphereQuadrature fine = gauss_legendre_sphere(100);
-      IndexedMesh dense;
-      dense.points = fine.directions;
-      dense.triangles = SphereTriangulation(fine.directions).triangles();
-      const std::vector<double> radii = series.radii(dense.points, Execution());
-      for (std::size_t i = 0; i < radii.size(); ++i) dense.points[i] *= radii[i];
+      const IndexedMesh dense = mesh_of_surface(series, 64, Execution());
       const double aspect_ratio = describe_shape(dense, Execution()).aspect_ratio;
       EXPECT_LT(std::abs(relative_error_percent(printed.remesh.volume, exact.volume)),
                 limits.volume);

@@ -11,8 +11,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/shape_descriptors.h"
-#include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/grain.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/radial_surface.h"
 
@@ -36,11 +35,7 @@ Measures measures(const RadialSurface& surface, const Execution& execution) {
   constexpr int polar_nodes = 128;
   constexpr int frequency = 64;
   const SurfaceIntegrals integrals = integrate(surface, polar_nodes, execution);
-  IndexedMesh dense;
-  dense.points = subdivided_icosahedron(frequency);
-  dense.triangles = SphereTriangulation(dense.points).triangles();
-  const std::vector<double> radii = surface.radii(dense.points, execution);
-  for (std::size_t i = 0; i < radii.size(); ++i) dense.points[i] *= radii[i];
+  const IndexedMesh dense = mesh_of_surface(surface, frequency, execution);
   return {integrals.volume, integrals.area, describe_shape(dense, execution).aspect_ratio,
           std::cbrt(36.0 * test::pi * integrals.volume * integrals.volume) / integrals.area,
           std::sqrt(integrals.gradient_square / integrals.area)};

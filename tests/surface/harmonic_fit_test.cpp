@@ -13,8 +13,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/grain.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 
@@ -36,12 +35,7 @@ double rms_difference(const HarmonicSurface& a, const HarmonicSurface& b) {
 }
 
 IndexedMesh meshed(const RadialSurface& surface, int frequency) {
-  IndexedMesh mesh;
-  mesh.points = subdivided_icosahedron(frequency);
-  mesh.triangles = SphereTriangulation(mesh.points).triangles();
-  const std::vector<double> radii = surface.radii(mesh.points, Execution(1));
-  for (std::size_t i = 0; i < radii.size(); ++i) mesh.points[i] *= radii[i];
-  return mesh;
+  return mesh_of_surface(surface, frequency, Execution(1));
 }
 
 TEST(HarmonicFit, RecoversABandLimitedSurface) {

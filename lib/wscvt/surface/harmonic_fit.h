@@ -26,7 +26,7 @@ struct HarmonicFit {
 /// measured from 3,000 points of the surface, each to the nearest point of the series: within 2 %
 /// of what dense sampling gives on nine scans that do not fold, 6 % where one is pressed flat
 /// (2 : 1 : 0.4), and up to 10 % too large for slabs with sharp edges. Of what lies behind another
-/// sheet no ray tells; for a scan that folds see residual_of_folds in remesh_stages.cpp.
+/// sheet no ray tells: where a scan folds, the residual is too small.
 ///
 /// Throws Error(InvalidInput) for a degree not in [0, 60] or a surface whose radii are not positive
 /// and finite, NumericalFailure when the series is positive at no degree, Cancelled, and what the
