@@ -23,6 +23,13 @@ configure_and_build() {
   cmake --build --preset "$1" -j "$jobs"
 }
 
+# Compile commands that name each file alone, in build/files, where nothing is built: those of release
+# name files that are compiled together.
+commands_file_by_file() {
+  cmake --preset release -B build/files -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_QUICK_BUILD=OFF \
+    -DMESHLAB_SOURCE_DIR="$meshlab_source" "$@"
+}
+
 [ $# -gt 0 ] || set -- install release hosts
 for step in "$@"; do
   echo "== $step"
@@ -34,12 +41,10 @@ for step in "$@"; do
       configure_and_build release -DWSCVT_BUILD_BENCHMARKS=OFF -DWSCVT_BUILD_STUDY=OFF
       ctest --preset release -j "$jobs" ;;
     extras)
-      # Benchmarks and study are built, so that they do not rot, but not run, and so not made fast; they,
-      # the library and the program file by file, so that none lives on what another includes.
-      cmake --preset release -B build/extras -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_QUICK_BUILD=OFF \
-        -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O0 -DWSCVT_BUILD_PYTHON=OFF \
-        -DWSCVT_BUILD_TESTS=OFF -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
-      cmake --build build/extras -j "$jobs" ;;
+      # Benchmarks and study are built, so that they do not rot, but not run.
+      configure_and_build release -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
+      commands_file_by_file -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
+      /usr/bin/python3 tests/each_alone.py build/files lib filter_wscvt tests meshes ;;
     sanitizers)
       configure_and_build asan-ubsan
       ctest --preset asan-ubsan -j "$jobs" ;;
@@ -55,12 +60,9 @@ for step in "$@"; do
     format)
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
-      # With compile commands of its own, a file each; those of release name files that are compiled
-      # together. Nothing is built.
-      cmake --preset release -B build/tidy -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_QUICK_BUILD=OFF \
-        -DWSCVT_BUILD_TESTS=OFF -DMESHLAB_SOURCE_DIR="$meshlab_source"
+      commands_file_by_file
       sources lib filter_wscvt | grep '\.cpp$' |
-        xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/tidy ;;
+        xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/files ;;
     page)
       # After release. A step of its own, because a browser is 300 MB.
       tests/install_packages.sh chromium poppler-utils

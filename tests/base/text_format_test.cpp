@@ -14,6 +14,7 @@ namespace wscvt {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 TEST(TextFormat, Numbers) {
   EXPECT_EQ(format_number(1234.5678), "1234.57");
@@ -28,7 +29,7 @@ TEST(TextFormat, Errors) {
   EXPECT_EQ(format_error(0.0), "+0.000");
   EXPECT_EQ(format_error(-2.5e-10), "-2.5e-10");
   EXPECT_EQ(format_error(not_a_number), "-");
-  EXPECT_EQ(format_error(std::numeric_limits<double>::infinity()), "-");
+  EXPECT_EQ(format_error(infinite), "-");
 }
 
 TEST(TextFormat, ExactNumbersReadBackToTheSameBits) {
@@ -41,7 +42,7 @@ TEST(TextFormat, ExactNumbersReadBackToTheSameBits) {
     EXPECT_EQ(std::stod(format_exact(value)), value);
   }
   EXPECT_EQ(format_exact(not_a_number), "");
-  EXPECT_EQ(format_exact(-std::numeric_limits<double>::infinity()), "");
+  EXPECT_EQ(format_exact(-infinite), "");
 }
 
 TEST(TextFormat, TypedNumbersAreWrittenOutAndReadBack) {
@@ -53,7 +54,7 @@ TEST(TextFormat, TypedNumbersAreWrittenOutAndReadBack) {
   EXPECT_EQ(format_typed(1e-7), "1e-07");
   EXPECT_EQ(format_typed(std::numeric_limits<double>::max()), "1.7976931348623157e+308");
   EXPECT_EQ(format_typed(not_a_number), "nan");
-  EXPECT_EQ(format_typed(-infinity), "-inf");
+  EXPECT_EQ(format_typed(-infinite), "-inf");
   // The longest there are without an exponent.
   for (const double value : {-1.2345678901234567e-6, -999999999999999.9}) {
     EXPECT_EQ(std::stod(format_typed(value)), value);
