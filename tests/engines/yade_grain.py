@@ -50,3 +50,14 @@ class Grain:
         body.state.mass = self.volume * material.density
         body.state.inertia = self.inertia * material.density
         return body
+
+
+def kinetic_energy(bodies):
+    """Of moving and turning, J."""
+    total = 0.0
+    for body in bodies:
+        state = body.state
+        turn = state.ori.conjugate() * state.angVel
+        total += 0.5 * state.mass * state.vel.squaredNorm()
+        total += 0.5 * sum(state.inertia[k] * turn[k] ** 2 for k in range(3))
+    return total

@@ -5,19 +5,18 @@
 # changes; between grains by that of yade_contacts.py. Yade's own acts between grains along the normal that
 # the node's own grain has there (told and checked below), and not along that of the surface which the
 # node is in: what is left of the energy by it is printed, and not asked for.
+import math
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-import math
-
 import numpy
 from yade import (Body, ForceResetter, FrictMat, InsertionSortCollider, InteractionLoop, NewtonIntegrator, O,
                   Quaternion, Vector3, Bo1_LevelSet_Aabb, Bo1_Wall_Aabb, Ig2_LevelSet_LevelSet_ScGeom,
                   Ig2_Wall_LevelSet_ScGeom, Ip2_FrictMat_FrictMat_FrictPhys,
                   Law2_ScGeom_FrictPhys_CundallStrack, MatchMaker, PyRunner, utils)
 from yade_contacts import GrainContacts
-from yade_grain import Grain
+from yade_grain import Grain, kinetic_energy
 
 
 def check(holds, sentence):
@@ -47,17 +46,6 @@ def scene():
     return material
 
 
-def kinetic_energy():
-    total = 0.0
-    for body in O.bodies:
-        if not body.dynamic:
-            continue
-        turn = body.state.ori.conjugate() * body.state.angVel
-        total += 0.5 * body.state.mass * body.state.vel.squaredNorm()
-        total += 0.5 * sum(body.state.inertia[k] * turn[k] ** 2 for k in range(3))
-    return total
-
-
 def collision(own_law=True, friction=0.0, look=lambda contact: None):
     """Kinetic energy after the bodies have met and left each other / that before, by Yade's own law or,
     for two grains, by that of yade_contacts; look(contact) sees their first contact."""
@@ -75,7 +63,8 @@ def collision(own_law=True, friction=0.0, look=lambda contact: None):
         O.engines += [PyRunner(command="contacts.apply()", iterPeriod=1)]
     O.engines += [NewtonIntegrator(damping=0.0, gravity=(0, 0, 0), exactAsphericalRot=True)]
     O.dt = 2e-6
-    start = kinetic_energy()
+    grains = [body for body in O.bodies if body.dynamic]
+    start = kinetic_energy(grains)
     touched = False
     looked = False
     for _ in range(100):
@@ -90,7 +79,7 @@ def collision(own_law=True, friction=0.0, look=lambda contact: None):
             break
     check(touched, "They touched.")
     check(elastic == 0, "They left each other.")
-    return kinetic_energy() / start
+    return kinetic_energy(grains) / start
 
 
 material = scene()
@@ -118,7 +107,8 @@ def thrown_at_each_other(pose):
         turn = random.normal(size=4)
         O.bodies.append(grain.body(
             Vector3(1.5 * radius * side, random.uniform(-0.5, 0.5) * radius, 0),
-            Quaternion(*[float(x) for x in turn / numpy.linalg.norm(turn)]), Vector3(-1.0 * side, 0, 0), material))
+            Quaternion(*[float(x) for x in turn / numpy.linalg.norm(turn)]), Vector3(-1.0 * side, 0, 0),
+            material))
     check(O.bodies[0].shape == O.bodies[1].shape, "Both bodies share the shape.")
 
 

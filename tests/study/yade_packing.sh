@@ -26,10 +26,14 @@ done
 # Without damping and friction the packing must keep its energy: else the law makes some in those below too.
 "$program" remesh -q "$here/../../meshes/sand_7228.ply" undamped.ply -n 100 -p scan \
   --frame principal --size 0.1 --node-table undamped.csv --sdf undamped.npy
-yade -n -x "$here/yade_packing.py" undamped.csv undamped.npy 1 undamped.energies 3 6 1 0 0 > undamped.log 2>&1 || {
-  tail -n 20 undamped.log >&2
-  exit 1
-}
+for law in contacts own; do
+  yade -n -x "$here/yade_packing.py" undamped.csv undamped.npy 1 undamped.energies 3 6 1 0 0 "$law" \
+    > undamped.log 2>&1 || {
+    tail -n 20 undamped.log >&2
+    exit 1
+  }
+  grep '^Yade undamped' undamped.log
+done
 # Seed by seed, so that a study that is stopped has every set as often, and as many at a time as there
 # are cores: one takes a minute for every 600 nodes.
 for seed in $seeds; do
