@@ -52,7 +52,7 @@ ParameterList remesh_parameters() {
                        "squares. 100 suffice; 0 keeps the nodes evenly spaced."),
       option_parameter("SmallestAngle", defaults.placement.refinement.smallest_angle,
                        refinement_angle_option, "Smallest angle of a refinement",
-                       "In degrees. Refinement gives no triangle a smaller one; smaller is closer "
+                       "In degrees. Refinement leaves no triangle a smaller one; smaller is closer "
                        "to the scan and less even."),
       table_parameter(
           "Parametrization", defaults.surface.parametrization, "Map to the sphere",

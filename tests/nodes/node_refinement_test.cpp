@@ -18,6 +18,7 @@
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/nodes/refinement_fan.h"
 #include "wscvt/nodes/refinement_flips.h"
 #include "wscvt/nodes/refinement_state.h"
 #include "wscvt/nodes/self_intersections.h"
@@ -256,6 +257,37 @@ TEST(NodeRefinement, SlidesNodesOnToTheEdgesOfABox) {
   EXPECT_GT(relocations, 0);
 }
 
+TEST(NodeRefinement, AnglesBelowTheLimitAreAllowedOnTheWayOnly) {
+  // Triangles of at least 30 degrees hardly let nodes go where they are missing. A descent that
+  // keeps to that from its first step on leaves 0.29 of the distance, this one 0.02.
+  const IndexedMesh body = test::subdivided(test::box(1.0, 1.2, 1.4), 4);
+  const Case start = on_surface(body, 150);
+  RefinementOptions options = rounds(60);
+  options.smallest_angle = 30.0;
+  const Refined refined = refine(start, options);
+  expect_promises(refined, 150);
+  expect_linked(refined.triangulation);
+  EXPECT_GE(measure_quality(mesh_of(refined)).smallest_angle, 30.0 - 1e-9);
+  EXPECT_LT(rms(mesh_of(refined), body), 0.1 * rms(start.mesh(), body));
+  EXPECT_LE(refined.report.history.size(), 60U);
+}
+
+TEST(NodeRefinement, ASmallAngleCountsByTheSquareOfHowFarItIsBeyondTheGoal) {
+  const auto node = [](double x, double y) { return RefinementNode{{x, y, 1.0}, {x, y, 1.0}, {}}; };
+  const auto isosceles = [&](double apex_degrees) {
+    const double half = std::tan(0.5 * apex_degrees * test::pi / 180.0);
+    return RefinementFacet(node(-half, 0.5), node(0.0, -0.5), node(half, 0.5));
+  };
+  const double goal = std::cos(30.0 * test::pi / 180.0);
+  const AnglePenalty penalty{goal, 8.0};
+  EXPECT_EQ(penalty(isosceles(60.0)), 0.0);
+  EXPECT_EQ(penalty(isosceles(30.1)), 0.0);
+  const double halfway = std::acos(0.5 * (1.0 + goal)) * 180.0 / test::pi;
+  EXPECT_NEAR(penalty.excess(isosceles(halfway)), 0.5, 1e-12);
+  EXPECT_NEAR(penalty(isosceles(halfway)), 2.0, 1e-12);
+  EXPECT_EQ((AnglePenalty{goal, 0.0}(isosceles(halfway))), 0.0);
+}
+
 TEST(NodeRefinement, FlipsTheEdgesThatCrossTheFacesOfABody) {
   // The body's own vertices with every fifth edge that allows it turned the wrong way: no move of
   // nodes leads back, only the same flips do.
@@ -311,8 +343,7 @@ TEST(NodeRefinement, DoesNotGiveUpACone) {
 }
 
 TEST(NodeRefinement, NoNodeSticksOutOfATip) {
-  // The triangles at a tip hold few samples, and the planes through those meet high above it: 0.4
-  // above without the nodes' own distances, 0.01 to 0.02 with them.
+  // The triangles at a tip hold few samples, and the planes through those meet high above it.
   for (const auto& [height, angle] : {std::pair{0.2, 0.08}, std::pair{0.3, 0.15}}) {
     SCOPED_TRACE(angle);
     const IndexedMesh body = sphere_with_cone(height, angle);
@@ -320,6 +351,81 @@ TEST(NodeRefinement, NoNodeSticksOutOfATip) {
     const MeshDistance distance(body);
     for (const Vector3& p : refined.positions) ASSERT_LT(distance.distance(p), 0.3 * height);
   }
+}
+
+/// A state of 100 nodes on a ball, and a fan of it to be moved.
+struct FanOfABall {
+  Case start = on_surface(test::sphere(4), 100);
+  RadialTarget target{start.original};
+  RefinementState state{radial_nodes(start.positions), start.triangulation, target, 30.0,
+                        Execution(1)};
+  std::int32_t node = 7;
+  FanWorkspace work;
+};
+
+TEST(NodeRefinement, ANodeWithoutSamplesGoesToTheSurface) {
+  // No triangle about it says where it should be: only its own distance does.
+  FanOfABall ball;
+  ball.state.nodes[ball.node].position *= 1.1;
+  load_fan(ball.state, ball.node, ball.work);
+  for (SampleList& list : ball.work.fan.lists) list.clear();
+  ball.work.fan.node_error = ball.state.node_error(ball.work.fan.node);
+  ball.work.fan.error = ball.work.fan.node_error;
+  ASSERT_TRUE(improve_fan(ball.state, ball.work, {1.0, -1.0}));
+  // A thousandth of the way is left, which is what holds a node where nothing pulls.
+  EXPECT_NEAR(ball.work.fan.node.position.norm(), 1.0, 0.002);
+}
+
+TEST(NodeRefinement, SamplesGoToTheTriangleInWhoseDirectionsTheyLie) {
+  FanOfABall ball;
+  load_fan(ball.state, ball.node, ball.work);
+  const RefinementFan& fan = ball.work.fan;
+  const Vector3 way = ball.state.nodes[fan.ring[0]].position - fan.node.position;
+  ASSERT_TRUE(place_fan(ball.state, fan, fan.node.position + 0.4 * way, {1.0, -1.0},
+                        ball.work.trial, ball.work.spokes));
+  std::size_t before = 0;
+  std::size_t after = 0;
+  std::size_t moved = 0;
+  const std::size_t count = fan.ring.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    before += fan.lists[j].size();
+    after += ball.work.trial.lists[j].size();
+    for (const std::int32_t s : ball.work.trial.lists[j]) {
+      const Vector3& sample = ball.state.samples.direction(s);
+      EXPECT_GE(ball.work.spokes[j].dot(sample), 0.0);
+      EXPECT_LE(ball.work.spokes[(j + 1) % count].dot(sample), 0.0);
+      moved += std::count(fan.lists[j].begin(), fan.lists[j].end(), s) == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(after, before);
+  EXPECT_GT(moved, 0U);
+}
+
+TEST(NodeRefinement, AStepWeighsAnglesByTheirSlope) {
+  // A node drawn towards one of its ring: the way along the terms' gradient is downhill, as steeply
+  // as they say.
+  FanOfABall ball;
+  load_fan(ball.state, ball.node, ball.work);
+  RefinementNode& node = ball.state.nodes[ball.node];
+  node.position += 0.7 * (ball.state.nodes[ball.work.fan.ring[0]].position - node.position);
+  node.direction = node.position;
+  load_fan(ball.state, ball.node, ball.work);
+  const AnglePenalty penalty{ball.state.cosine_limit, 3.0};
+  const auto cost = [&](const RefinementFan& fan) {
+    double sum = 0.0;
+    for (const RefinementFacet& facet : fan.facets) sum += penalty(facet);
+    return sum;
+  };
+  Matrix3 matrix = Matrix3::Zero();
+  Vector3 gradient = Vector3::Zero();
+  add_angles(ball.state, ball.work.fan, penalty, matrix, gradient);
+  const double before = cost(ball.work.fan);
+  ASSERT_GT(before, 0.0);
+  const Vector3 step = 1e-6 * gradient;
+  ASSERT_TRUE(place_fan(ball.state, ball.work.fan, ball.work.fan.node.position + step, {1.0, -1.0},
+                        ball.work.trial, ball.work.spokes));
+  // Half the gradient of a sum of squares is what a Gauss-Newton system holds.
+  EXPECT_NEAR((before - cost(ball.work.trial)) / (2.0 * gradient.dot(step)), 1.0, 1e-3);
 }
 
 TEST(NodeRefinement, TakesNodesToWhereTheyAreMissing) {

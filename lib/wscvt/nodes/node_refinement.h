@@ -34,7 +34,13 @@ struct RefinedNodes {
 /// RefinementState::may_turn). So the mesh stays closed, and over a radial map star-shaped about
 /// the origin; over any other its triangles may come to meet where sheets lie close to each other.
 /// Where the mesh has smaller angles than the limit, a round begins with flipping edges and moving
-/// nodes towards the middle of their neighbours, whatever that does to the sum.
+/// nodes so that the angles grow, whatever that does to the sum.
+///
+/// The limit of the angles holds at the end. From six rounds on, the first three quarters of them,
+/// and at most 35, allow angles of half the limit: those below it add to the sum, more from round
+/// to round, until there are none (the quadratic penalty method: Nocedal and Wright 2006,
+/// "Numerical Optimization", section 17.1). Steps that keep to the limit throughout get stuck early
+/// (see AngleSchedule in the source). A few triangles that the other guards hold may stay below.
 ///
 /// This is a descent. It does not alternate with the relaxation: nothing in it strives for
 /// centroidal cells or even triangles, and the angle limit is all that guards the shape.
@@ -43,8 +49,9 @@ struct RefinedNodes {
 /// unit normal and a a corner of the triangle in the direction of s on the sphere. So the distance
 ///  - is one-sided, from the original to the mesh;
 ///  - is point to plane: the plane goes on beyond its triangle, and another may be nearer;
-///  - holds neither the penalty for large distances nor the nodes' own distances, both of which are
-///    in the sum, so it need not fall in every round.
+///  - holds neither the penalty for large distances nor the nodes' own distances nor small angles,
+///    which are all in the sum, so it need not fall in every round, and rises by some per cent
+///    while small angles are made to go.
 /// It bounds no other distance. The Hausdorff distance, and any other from the mesh to the
 /// original, may rise while it falls; measure_distances has both sides.
 ///

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/nodes/refinement_angles.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "wscvt/nodes/refinement_fan.h"
@@ -16,7 +18,18 @@ namespace {
 /// states cannot take each other's place for ever, and 2e-4 degrees at 15 degrees.
 constexpr double smallest_mending = 1e-6;
 
-/// Takes a node with a smaller angle about it than allowed towards the middle of its neighbours.
+/// The step that takes a node's angles to the limit if they followed it in proportion, the shortest
+/// there is.
+Vector3 step_of_angles(const RefinementState& state, const RefinementFan& fan) {
+  Matrix3 matrix = Matrix3::Zero();
+  Vector3 gradient = Vector3::Zero();
+  add_angles(state, fan, {state.cosine_limit, 1.0}, matrix, gradient);
+  matrix.diagonal().array() += 1e-6 * matrix.trace() + std::numeric_limits<double>::min();
+  return matrix.ldlt().solve(gradient);
+}
+
+/// Takes a node with a smaller angle about it than allowed to where its angles are better, or else
+/// towards the middle of its neighbours.
 bool mend_node(RefinementState& state, std::int32_t node, FanWorkspace& work) {
   FanLimits limits = load_fan(state, node, work);
   if (limits.largest_cosine <= state.cosine_limit) return false;
@@ -26,10 +39,12 @@ bool mend_node(RefinementState& state, std::int32_t node, FanWorkspace& work) {
   // A step that does not reach the limit is taken too, if only it comes nearer.
   limits.largest_cosine = std::max(state.cosine_limit, limits.largest_cosine - smallest_mending);
   const Vector3 start = work.fan.node.position;
-  // The shortest step first: every step costs distance to the original.
-  for (const double share : {0.25, 0.5, 1.0}) {
-    if (place_fan(state, work.fan, start + share * (middle - start), limits, work.trial,
-                  work.spokes)) {
+  const Vector3 step = step_of_angles(state, work.fan);
+  const Vector3 way = middle - start;
+  // Shorter steps before longer ones: every step costs distance to the original.
+  for (const Vector3& shift : {Vector3(0.5 * step), step, Vector3(1.5 * step), Vector3(0.25 * way),
+                               Vector3(0.5 * way), way}) {
+    if (place_fan(state, work.fan, start + shift, limits, work.trial, work.spokes)) {
       std::swap(work.fan, work.trial);
       store_fan(state, node, work);
       return true;

@@ -6,8 +6,9 @@
 
 namespace wscvt {
 
-/// Flips edges and moves nodes towards the middle of their neighbours where an angle is smaller
-/// than allowed, whatever that does to the distance; gives up after ten passes.
+/// Flips edges, and moves nodes by the angles' slope or towards the middle of their neighbours,
+/// where an angle is smaller than allowed, whatever that does to the distance; gives up after ten
+/// passes.
 void mend_angles(RefinementState& state, const Execution& execution);
 
 }  // namespace wscvt

@@ -27,6 +27,26 @@ struct RefinementFacet {
   }
 };
 
+/// What small angles of triangles count besides distances: nothing down to a goal, and below it the
+/// weight times the square of how far the angle's cosine is on the way from the goal's to 1. A
+/// square, so that Gauss-Newton steps lower it as they lower distances.
+struct AnglePenalty {
+  double goal_cosine = 1.0;
+  double weight = 0.0;  ///< what a triangle with an angle of 0 counts; 0 when angles do not count
+
+  /// 0 where no angle is below the goal, 1 where one is 0.
+  double excess(const RefinementFacet& facet) const {
+    return facet.largest_cosine > goal_cosine
+               ? (facet.largest_cosine - goal_cosine) / (1.0 - goal_cosine)
+               : 0.0;
+  }
+  double operator()(const RefinementFacet& facet) const {
+    if (!(weight > 0.0)) return 0.0;
+    const double beyond = excess(facet);
+    return weight * beyond * beyond;
+  }
+};
+
 /// Unit normal of a triangle, outward for counter-clockwise corners; shorter or no number where the
 /// corners lie on a line.
 Vector3 facet_normal(const Vector3& a, const Vector3& b, const Vector3& c);

@@ -118,6 +118,42 @@ bool place_fan(const RefinementState& state, const RefinementFan& from, const Ve
   return true;
 }
 
+namespace {
+
+/// Gradient of a facet's AnglePenalty::excess by the position of its corner `node`; 1 / length. By
+/// central differences, since which of three angles is the smallest may change on the way, and six
+/// triangles cost little beside the samples of one.
+Vector3 excess_gradient(const AnglePenalty& penalty, const RefinementNode& node,
+                        const RefinementNode& a, const RefinementNode& b) {
+  const double step = 1e-4 * (a.position - node.position).norm();
+  Vector3 gradient;
+  for (int k = 0; k < 3; ++k) {
+    RefinementNode moved = node;
+    moved.position[k] += step;
+    const double above = penalty.excess({moved, a, b});
+    moved.position[k] -= 2.0 * step;
+    gradient[k] = (above - penalty.excess({moved, a, b})) / (2.0 * step);
+  }
+  return gradient;
+}
+
+}  // namespace
+
+void add_angles(const RefinementState& state, const RefinementFan& fan, const AnglePenalty& penalty,
+                Matrix3& matrix, Vector3& gradient) {
+  if (!(penalty.weight > 0.0)) return;
+  const std::size_t count = fan.ring.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    const double excess = penalty.excess(fan.facets[j]);
+    if (!(excess > 0.0)) continue;
+    const RefinementNode& a = state.nodes[fan.ring[j]];
+    const RefinementNode& b = state.nodes[fan.ring[j + 1 == count ? 0 : j + 1]];
+    const Vector3 slope = excess_gradient(penalty, fan.node, a, b);
+    matrix += penalty.weight * slope * slope.transpose();
+    gradient -= penalty.weight * excess * slope;
+  }
+}
+
 bool improve_fan(const RefinementState& state, FanWorkspace& work, const FanLimits& limits) {
   RefinementFan& fan = work.fan;
   const std::size_t count = fan.ring.size();
@@ -148,6 +184,7 @@ bool improve_fan(const RefinementState& state, FanWorkspace& work, const FanLimi
     matrix += squares * f.normal * f.normal.transpose();
     gradient += products * f.normal;
   }
+  add_angles(state, fan, state.angle_penalty, matrix, gradient);
   Vector3 normal;
   const double residual = state.original.residual(fan.node, normal);
   const double weight = state.node_weight * state.penalty_weight(residual);

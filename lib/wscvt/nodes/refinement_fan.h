@@ -65,6 +65,10 @@ void store_fan(RefinementState& state, std::int32_t node, FanWorkspace& work);
 bool place_fan(const RefinementState& state, const RefinementFan& from, const Vector3& position,
                const FanLimits& limits, RefinementFan& to, std::vector<Vector3>& spokes);
 
+/// Adds what small angles of a fan's triangles count to the system of its node's Gauss-Newton step.
+void add_angles(const RefinementState& state, const RefinementFan& fan, const AnglePenalty& penalty,
+                Matrix3& matrix, Vector3& gradient);
+
 /// One Gauss-Newton step of work.fan's node, shortened until it lowers the fan's error; false, and
 /// nothing changed, when three lengths do not.
 bool improve_fan(const RefinementState& state, FanWorkspace& work, const FanLimits& limits);

@@ -28,7 +28,7 @@ double flip_gain(const RefinementState& state, std::int32_t half_edge) {
   if (!(old_error > 0.0)) return 0.0;
   const FlipFacets flip = flip_facets(state, half_edge);
   if (!flip.acceptable(std::max(state.cosine_limit, flip.largest_cosine()))) return 0.0;
-  double error = 0.0;
+  double error = state.angle_penalty(flip.origin) + state.angle_penalty(flip.end);
   for (const std::int32_t t : {t0, t1}) {
     for (const std::int32_t s : state.lists[t]) {
       const RefinementFacet& facet =

@@ -57,6 +57,7 @@ double join_fan(const RefinementState& state, std::size_t towards, FanWorkspace&
   const auto across = [&](std::size_t k) { return work.fan.outer[(towards + k) % count]; };
   const RefinementNode& apex = state.nodes[corner(0)];
   double turn = 1.0;
+  double error = 0.0;
   std::vector<RefinementFacet>& facets = work.joined;
   // spokes[k]: plane of origin, apex and the far corner of facets[k]
   std::vector<Vector3>& spokes = work.spokes;
@@ -67,6 +68,7 @@ double join_fan(const RefinementState& state, std::size_t towards, FanWorkspace&
     const Vector3 before = k == 1 ? across(0) : facets.back().normal;
     facets.emplace_back(apex, state.nodes[corner(k)], far);
     if (!facets.back().acceptable(limits.largest_cosine)) return infinity;
+    error += state.angle_penalty(facets.back());
     const Vector3& normal = facets.back().normal;
     turn = std::min({turn, normal.dot(before), normal.dot(across(k))});
     spokes.push_back(apex.direction.cross(far.direction));
@@ -75,7 +77,6 @@ double join_fan(const RefinementState& state, std::size_t towards, FanWorkspace&
   turn = std::min(turn, facets.back().normal.dot(across(count - 1)));
   if (!state.may_turn(turn, limits.turn, work.triangles, work.fan.beside)) return infinity;
   if (joined != nullptr) joined->lists.resize(facets.size());
-  double error = 0.0;
   for (const std::int32_t t : work.triangles) {
     for (const std::int32_t s : state.lists[t]) {
       std::size_t k = 0;

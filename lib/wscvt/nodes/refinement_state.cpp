@@ -83,17 +83,27 @@ double RefinementState::measure(const Execution& execution) {
       }
     });
   };
-  // Twice: the weight of the fourth power follows from the mean of the plain squares.
+  // Twice: the weights of the fourth power and of the angles follow from the mean of the plain
+  // squares.
   outlier_weight = 0.0;
+  angle_penalty.weight = 0.0;
   update();
-  const double squares =
-      std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(samples.size());
+  const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
+  const double squares = sum / static_cast<double>(samples.size());
   if (squares > 0.0) outlier_weight = 1.0 / (outlier_ratio * outlier_ratio * squares);
+  angle_penalty.weight = angle_strength * sum / static_cast<double>(lists.size());
   update();
   execution.parallel_for(nodes.size(), refinement_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) node_errors[i] = node_error(nodes[i]);
   });
   return std::sqrt(squares);
+}
+
+int RefinementState::count_sharper(double cosine) const {
+  const std::vector<Triangle>& triangles = triangulation.triangles();
+  return static_cast<int>(std::count_if(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    return facet(t).largest_cosine > cosine;
+  }));
 }
 
 Vector3 RefinementState::normal(std::int32_t triangle) const {

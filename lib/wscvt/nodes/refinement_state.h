@@ -24,11 +24,15 @@ struct RefinementState {
   RefinementSamples samples;  ///< of the original
   double node_weight = 0.0;   ///< what a node's own distance counts, in samples
   double cosine_limit = 1.0;  ///< of the smallest angle allowed
+  AnglePenalty angle_penalty;
+  /// The penalty's weight, in sums of squared distances of the mean triangle: what measure() makes
+  /// of it.
+  double angle_strength = 0.0;
 
   std::vector<RefinementNode> nodes;
   SphereTriangulation triangulation;
   std::vector<SampleList> lists;    ///< per triangle: the samples in its directions
-  std::vector<double> errors;       ///< per triangle: sum of the penalties of its samples
+  std::vector<double> errors;       ///< per triangle: penalties of its samples and its angles
   std::vector<double> node_errors;  ///< per node: penalty of its own distance, weighed
   double outlier_weight = 0.0;      ///< of the fourth power in the penalty; 1 / length^2
 
@@ -39,13 +43,16 @@ struct RefinementState {
   /// What the moves, flips and relocations lower.
   double error() const;
 
-  /// Computes all errors, with distances weighed from here on by their rms now, and returns that.
+  /// Computes all errors, with distances and angles weighed from here on by the rms distance now,
+  /// and returns that.
   double measure(const Execution& execution);
 
   RefinementFacet facet(std::int32_t triangle) const {
     return facet(triangulation.triangles()[triangle]);
   }
   RefinementFacet facet(const Triangle& t) const { return {nodes[t[0]], nodes[t[1]], nodes[t[2]]}; }
+  /// How many triangles have an angle of a larger cosine.
+  int count_sharper(double cosine) const;
   /// The normal of a triangle's facet, without its angles.
   Vector3 normal(std::int32_t triangle) const;
   /// What a sample's distance counts.
@@ -58,7 +65,7 @@ struct RefinementState {
     return 1.0 + 2.0 * outlier_weight * residual * residual;
   }
   double error_of(const RefinementFacet& facet, const SampleList& list) const {
-    double sum = 0.0;
+    double sum = angle_penalty(facet);
     for (const std::int32_t s : list) sum += penalty(facet.residual(samples.points[s]));
     return sum;
   }
