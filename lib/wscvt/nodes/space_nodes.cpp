@@ -13,6 +13,7 @@
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/contact_fit.h"
 #include "wscvt/nodes/mended_fit.h"
+#include "wscvt/nodes/node_placement.h"
 #include "wscvt/nodes/node_refinement.h"
 #include "wscvt/nodes/normal_least_squares.h"
 #include "wscvt/nodes/self_intersections.h"
@@ -246,8 +247,9 @@ void refine_in_space(const MappedSurface& surface, const MeshDistance* to_level,
   MendedTriangles mended = mend_triangles(nodes.mesh, places, surface, mending, execution);
   result.report.mending = mended.report;
   nodes.mesh = std::move(mended.mesh);
-  const std::vector<Vector3> normals = vertex_normals(nodes.mesh.points, nodes.mesh.triangles);
-  offset_to_volume(normals, nodes.mesh.triangles, volume, nodes.mesh.points, execution);
+  // Not by an offset along the normals, as after a fit, which takes some hundredths of a degree
+  // from angles that are at the limit.
+  scale_to_volume(nodes.mesh.triangles, volume, nodes.mesh.points, execution);
 }
 
 [[noreturn]] void refuse_shape(std::size_t nodes, int enough_nodes) {
