@@ -12,7 +12,6 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh_stages.h"
 #include "wscvt/report/remesh_warnings.h"
-#include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_io.h"
 #include "wscvt/surface/harmonic_map.h"
@@ -161,11 +160,9 @@ RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
 RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
                     const Execution& execution) {
   constexpr int frequency = 64;
-  IndexedMesh mesh = subdivided_sphere(frequency);
-  mesh.points = map.positions(mesh.points, execution);
   RemeshOptions on_map = options;
   if (on_map.placement.kind == NodePlacement::Series) on_map.placement.kind = NodePlacement::Scan;
-  return remesh(std::move(mesh), on_map, execution);
+  return remesh(mesh_of_surface(map, frequency, execution), on_map, execution);
 }
 
 RemeshResult remesh(const GrainSurface& surface, const RemeshOptions& options,

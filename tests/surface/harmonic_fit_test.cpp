@@ -13,9 +13,9 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/surface/grain.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 namespace {

@@ -38,7 +38,7 @@ PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, Relaxation
                         double volume, const PlacementOptions& options, const Execution& execution);
 
 /// Largest absolute principal curvature of the grain's surface in each direction, 1 / length.
-std::vector<double> largest_curvatures(const RadialSurface& surface,
+std::vector<double> largest_curvatures(const SphereSurface& surface,
                                        const std::vector<Vector3>& directions,
                                        const Execution& execution);
 

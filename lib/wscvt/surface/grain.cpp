@@ -9,7 +9,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_collapse.h"
 
 namespace wscvt {
@@ -132,14 +131,6 @@ Grain grain_of_surface(const RadialSurface& surface, const SurfaceIntegrals& int
   // 40,962 points, whose chords lose 0.02 % of the volume.
   grain.mesh = mesh_of_surface(*grain.surface, 64, execution);
   return grain;
-}
-
-IndexedMesh mesh_of_surface(const RadialSurface& surface, int frequency,
-                            const Execution& execution) {
-  IndexedMesh mesh = subdivided_sphere(frequency);
-  const std::vector<double> radii = surface.radii(mesh.points, execution);
-  for (std::size_t i = 0; i < radii.size(); ++i) mesh.points[i] *= radii[i];
-  return mesh;
 }
 
 }  // namespace wscvt

@@ -62,9 +62,4 @@ Grain grain_of_scan(CheckedMesh scan, const ParametrizationChoice& choice,
 Grain grain_of_surface(const RadialSurface& surface, const SurfaceIntegrals& integrals,
                        const Execution& execution);
 
-/// A surface about its origin as a mesh, in its unit of length, with its points in the directions
-/// of subdivided_sphere(frequency). Throws as that, and what the surface throws.
-IndexedMesh mesh_of_surface(const RadialSurface& surface, int frequency,
-                            const Execution& execution);
-
 }  // namespace wscvt

@@ -7,10 +7,9 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
-
-using Matrix3 = Eigen::Matrix3d;
 
 /// Radius of a star-shaped surface in one direction u, with its derivatives on the unit sphere.
 ///
@@ -24,20 +23,12 @@ struct RadialJet {
   Matrix3 hessian = Matrix3::Zero();   ///< length units per radian^2
 };
 
-/// How far a RadialJet is to be filled in.
-enum class Derivatives { None, First, Second };
-
-/// Principal curvatures, positive where the surface is convex: maximum >= minimum. Unit 1/length.
-struct PrincipalCurvatures {
-  double maximum = 0.0;
-  double minimum = 0.0;
-};
-
-/// A star-shaped surface about the origin, x(u) = r(u) u for every unit vector u.
-class RadialSurface {
+/// A star-shaped surface about the origin, x(u) = r(u) u for every unit vector u: the case of a
+/// surface over the sphere that the published method is for. What works on radii, its weights by
+/// distance and its fit of one number a node, asks for radii; three numbers for one would cost it
+/// its speed.
+class RadialSurface : public SphereSurface {
  public:
-  virtual ~RadialSurface() = default;
-
   /// Radii and derivatives for `count` unit vectors. Fields beyond `derivatives` are left at zero.
   /// Must be callable from several threads at once, and the value for a direction must not depend
   /// on what other directions stand in the same call.
@@ -57,7 +48,17 @@ class RadialSurface {
 
   /// Radius in one direction, a unit vector; length.
   double radius(const Vector3& direction) const;
+
+  /// From `evaluate`.
+  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                     SurfaceJet* jets) const override;
+  /// From `evaluate_radii`.
+  void evaluate_positions(const Vector3* directions, std::size_t count,
+                          Vector3* positions) const override;
 };
+
+/// The point r u and its derivatives, as far as `derivatives` says.
+SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives);
 
 /// Surface area per solid angle, g = dA/dOmega = r sqrt(r^2 + |grad_Omega r|^2); length^2.
 inline double area_element(const RadialJet& jet) {

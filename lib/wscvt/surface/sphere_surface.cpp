@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 
@@ -24,45 +25,20 @@ std::vector<SurfaceJet> SphereSurface::surface_jets(const std::vector<Vector3>& 
   return result;
 }
 
+void SphereSurface::evaluate_positions(const Vector3* directions, std::size_t count,
+                                       Vector3* positions) const {
+  std::vector<SurfaceJet> jets(count);
+  evaluate_jets(directions, count, Derivatives::None, jets.data());
+  for (std::size_t i = 0; i < count; ++i) positions[i] = jets[i].position;
+}
+
 std::vector<Vector3> SphereSurface::positions(const std::vector<Vector3>& directions,
                                               const Execution& execution) const {
   std::vector<Vector3> result(directions.size());
   execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    std::vector<SurfaceJet> jets(end - begin);
-    evaluate_jets(directions.data() + begin, jets.size(), Derivatives::None, jets.data());
-    for (std::size_t i = begin; i < end; ++i) result[i] = jets[i - begin].position;
+    evaluate_positions(directions.data() + begin, end - begin, result.data() + begin);
   });
   return result;
-}
-
-SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives) {
-  SurfaceJet result;
-  const Vector3& u = direction;
-  result.position = jet.radius * u;
-  if (derivatives == Derivatives::None) return result;
-  // x = r(p) q(p) with q = p/|p|, whose Jacobian at |p| = 1 is the projection on the tangent plane.
-  const Matrix3 projection = Matrix3::Identity() - u * u.transpose();
-  result.jacobian = u * jet.gradient.transpose() + jet.radius * projection;
-  if (derivatives == Derivatives::First) return result;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const Vector3 gradient = projection.col(i);  // of q_i
-    // Hessian of q_i: -(e_i u^T + u e_i^T) - u_i I + 3 u_i u u^T, written with the gradient.
-    const Matrix3 mixed = gradient * u.transpose();
-    const Matrix3 hessian = -(mixed + mixed.transpose()) - u[i] * projection;
-    const Matrix3 product = gradient * jet.gradient.transpose();
-    result.hessians[static_cast<std::size_t>(i)] =
-        jet.radius * hessian + product + product.transpose() + u[i] * jet.hessian;
-  }
-  return result;
-}
-
-void RadialSphereSurface::evaluate_jets(const Vector3* directions, std::size_t count,
-                                        Derivatives derivatives, SurfaceJet* jets) const {
-  std::vector<RadialJet> radial(count);
-  surface_.evaluate(directions, count, derivatives, radial.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    jets[i] = surface_jet(radial[i], directions[i], derivatives);
-  }
 }
 
 Vector3 area_normal(const SurfaceJet& jet, const Vector3& direction) {
@@ -132,6 +108,13 @@ BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
   result.area = sums[1];
   if (result.volume != 0.0) result.centroid = sums.segment<3>(2) / result.volume;
   return result;
+}
+
+IndexedMesh mesh_of_surface(const SphereSurface& surface, int frequency,
+                            const Execution& execution) {
+  IndexedMesh mesh = subdivided_sphere(frequency);
+  mesh.points = surface.positions(mesh.points, execution);
+  return mesh;
 }
 
 }  // namespace wscvt

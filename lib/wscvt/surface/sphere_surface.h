@@ -7,9 +7,19 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
+
+using Matrix3 = Eigen::Matrix3d;
+
+/// How far derivatives are to be filled in.
+enum class Derivatives { None, First, Second };
+
+/// Principal curvatures, positive where the surface is convex: maximum >= minimum. Unit 1/length.
+struct PrincipalCurvatures {
+  double maximum = 0.0;
+  double minimum = 0.0;
+};
 
 /// The point of a surface over the direction u, with its derivatives on the unit sphere.
 ///
@@ -25,8 +35,9 @@ struct SurfaceJet {
 };
 
 /// A closed surface spread over the unit sphere: a point x(u) for every unit vector u. A radial
-/// surface, x = r u, is one case (RadialSphereSurface); a scan mapped to the sphere and a series
-/// for each coordinate are others.
+/// surface, x = r u, is one case (RadialSurface), which can be asked for radii as well; a scan
+/// mapped to the sphere (MappedSurface), which can be walked on, and a series for each coordinate
+/// (HarmonicMap) are others.
 class SphereSurface {
  public:
   virtual ~SphereSurface() = default;
@@ -37,30 +48,17 @@ class SphereSurface {
   virtual void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
                              SurfaceJet* jets) const = 0;
 
+  /// Points only, for `count` unit vectors. The default goes through `evaluate_jets`.
+  virtual void evaluate_positions(const Vector3* directions, std::size_t count,
+                                  Vector3* positions) const;
+
   /// As `evaluate_jets`, for a whole array and on the threads of `execution`.
   std::vector<SurfaceJet> surface_jets(const std::vector<Vector3>& directions,
                                        Derivatives derivatives, const Execution& execution) const;
 
-  /// Points only, on the threads of `execution`.
+  /// As `evaluate_positions`, for a whole array and on the threads of `execution`.
   std::vector<Vector3> positions(const std::vector<Vector3>& directions,
                                  const Execution& execution) const;
-};
-
-/// The point r u and its derivatives, as far as `derivatives` says.
-SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives);
-
-/// A radial surface seen as one over the sphere. What works on radii alone, the published method,
-/// goes on asking the RadialSurface itself: three numbers for one would cost it its speed.
-class RadialSphereSurface : public SphereSurface {
- public:
-  /// The surface must live as long.
-  explicit RadialSphereSurface(const RadialSurface& surface) : surface_(surface) {}
-
-  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
-                     SurfaceJet* jets) const override;
-
- private:
-  const RadialSurface& surface_;
 };
 
 /// Normal of the surface at direction u, as long as the surface's area per solid angle,
@@ -90,5 +88,10 @@ struct BodyIntegrals {
 /// on. Throws Error(InvalidInput) if polar_nodes < 1.
 BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
                              const Execution& execution);
+
+/// A surface as a mesh, with its points in the directions of subdivided_sphere(frequency). Throws
+/// as that, and what the surface throws.
+IndexedMesh mesh_of_surface(const SphereSurface& surface, int frequency,
+                            const Execution& execution);
 
 }  // namespace wscvt
