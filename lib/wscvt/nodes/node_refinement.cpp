@@ -22,10 +22,10 @@ namespace {
 constexpr int rounds_without_relocations = 2;
 
 /// Trying them all takes twice as long as the rest of a round; once there are hardly any left, one
-/// for so many nodes, which is after eight rounds or so, they are tried again when moves and flips
+/// for so many nodes, which is after five rounds or so, they are tried again when moves and flips
 /// have made room for more.
-constexpr int nodes_a_relocation = 500;
-constexpr int rounds_after_few = 5;
+constexpr int nodes_a_relocation = 100;
+constexpr int rounds_after_few = 3;
 
 /// A limit on the angles that no step may cross ends the descent early: nodes get stuck where a
 /// triangle beside them is at the limit, and at 30 degrees nearly every relocation is forbidden,
