@@ -259,7 +259,7 @@ TEST(NodeRefinement, SlidesNodesOnToTheEdgesOfABox) {
 
 TEST(NodeRefinement, AnglesBelowTheLimitAreAllowedOnTheWayOnly) {
   // Triangles of at least 30 degrees hardly let nodes go where they are missing. A descent that
-  // keeps to that from its first step on leaves 0.29 of the distance, this one 0.02.
+  // keeps to that from its first step on leaves 0.29 of the distance, this one 0.01.
   const IndexedMesh body = test::subdivided(test::box(1.0, 1.2, 1.4), 4);
   const Case start = on_surface(body, 150);
   RefinementOptions options = rounds(60);
