@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/nodes/refinement_angles.h"
+#include "wscvt/nodes/refinement_facet.h"
 #include "wscvt/nodes/refinement_flips.h"
 #include "wscvt/nodes/refinement_moves.h"
 #include "wscvt/nodes/refinement_relocations.h"
@@ -33,13 +33,12 @@ constexpr int rounds_after_few = 3;
 /// limit are allowed at first and cost something, which grows from round to round until there are
 /// none (the quadratic penalty method: Nocedal and Wright 2006, "Numerical Optimization", section
 /// 17.1). With 1000 nodes eight bodies with undercuts came an eighth to a quarter nearer to the
-/// scan, a slab with sharp rims two fifths, and six polyhedra with flat faces (convex hulls of 14
-/// to 44 points, cut up) to .013 to .045 % of R instead of .067 to .089. It takes up to five times
-/// as long.
+/// scan, a slab with sharp rims two fifths; of a box's distance at the start 0.01 is left instead
+/// of 0.29 (NodeRefinement.AnglesBelowTheLimit...). It takes up to five times as long.
 struct AngleSchedule {
   /// What an angle of 0 costs in the first round and in the last planned, see
-  /// RefinementState::angle_strength. From 0.1 on sharp places took nodes that did not come back,
-  /// from 3 on less was gained.
+  /// RefinementState::measure. From 0.1 on sharp places took nodes that did not come back, from 3
+  /// on less was gained.
   static constexpr double first_strength = 1.0;
   static constexpr double last_strength = 1e4;
   /// Above it the distance hardly changes any more, so that the end may come once no angle is
@@ -49,7 +48,7 @@ struct AngleSchedule {
   static constexpr double margin = 0.5;
   /// Of the limit: the smallest angle while those below the limit cost.
   static constexpr double share_allowed = 0.5;
-  /// 24, to 3e3, come as near to smooth bodies and half as near to those polyhedra.
+  /// 24, to a strength of 3e3, come as near to smooth bodies, but leave 0.1 of that box's distance.
   static constexpr int most_planned_rounds = 30;
   /// In fewer, angles are mended at more cost than the detour gains.
   static constexpr int fewest_rounds = 4;
@@ -68,56 +67,6 @@ struct AngleSchedule {
   }
 };
 
-double cosine_of(double degrees) { return std::cos(degrees * pi / 180.0); }
-
-/// The rounds of a refinement, one after the other.
-class Rounds {
- public:
-  Rounds(RefinementState& state, const RefinementOptions& options, RefinementReport& report,
-         const Execution& execution)
-      : state_(state), options_(options), report_(report), execution_(execution) {}
-
-  int made() const { return static_cast<int>(report_.history.size()); }
-
-  /// Moves, flips and relocations; returns whether they lowered the square root of the sum by the
-  /// tolerance's share of it. The caller measures.
-  bool make_one() {
-    const int round = made();
-    // A round takes seconds on many nodes; a cancel should not have to wait for its end.
-    const auto reached = [&](double share_of_round) {
-      execution_.report((round + share_of_round) / options_.rounds, "Refining the nodes");
-    };
-    reached(0.0);
-    // Not part of what convergence is judged by: mending may raise the error.
-    mend_angles(state_, execution_);
-    reached(0.1);
-    const double before = state_.error();
-    RefinementStep step;
-    step.moves = move_nodes(state_, execution_);
-    reached(0.5);
-    step.flips = flip_edges(state_, execution_);
-    reached(0.6);
-    if (round >= next_relocations_) {
-      step.relocations = relocate_nodes(state_, execution_);
-      const auto few = static_cast<int>(state_.nodes.size()) / nodes_a_relocation;
-      if (step.relocations <= few) next_relocations_ = round + rounds_after_few;
-    }
-    report_.history.push_back(step);
-    // 0 / 0, on a mesh that is the original, is no gain either.
-    return std::sqrt(state_.error() / before) < 1.0 - options_.tolerance;
-  }
-
-  /// To be called after each round.
-  void measure() { report_.history.back().distance = state_.measure(execution_); }
-
- private:
-  RefinementState& state_;
-  const RefinementOptions& options_;
-  RefinementReport& report_;
-  const Execution& execution_;
-  int next_relocations_ = rounds_without_relocations;
-};
-
 }  // namespace
 
 void check_refinement_options(const RefinementOptions& options) {
@@ -134,30 +83,49 @@ RefinedNodes refine_nodes(std::vector<RefinementNode> nodes, SphereTriangulation
   if (options.rounds == 0) return {std::move(nodes), std::move(triangulation), report};
   RefinementState state(std::move(nodes), std::move(triangulation), original,
                         options.smallest_angle, execution);
-  report.start_distance = state.measure(execution);
-  Rounds rounds(state, options, report, execution);
   const AngleSchedule schedule(options);
+  const double limit = state.cosine_limit;
+  double strength = 0.0;  // of what small angles cost; 0 where none is allowed
   if (schedule.rounds > 0) {
-    const double limit = state.cosine_limit;
-    state.cosine_limit = cosine_of(schedule.share_allowed * options.smallest_angle);
-    state.angle_penalty.goal_cosine = cosine_of(options.smallest_angle + schedule.margin);
-    state.angle_strength = schedule.first_strength;
-    state.measure(execution);
-    bool ends = false;
-    while (!ends && rounds.made() < schedule.rounds) {
-      const bool gains = rounds.make_one();
-      ends = (!gains || state.angle_strength > schedule.settled_strength) &&
-             state.count_sharper(limit) == 0;
-      state.angle_strength *= schedule.growth;
-      rounds.measure();
-    }
-    state.cosine_limit = limit;
-    state.angle_strength = 0.0;
-    state.measure(execution);
+    state.cosine_limit = cosine_of_degrees(schedule.share_allowed * options.smallest_angle);
+    state.angle_penalty.goal_cosine = cosine_of_degrees(options.smallest_angle + schedule.margin);
+    strength = schedule.first_strength;
   }
-  while (!report.converged && rounds.made() < options.rounds) {
-    report.converged = !rounds.make_one();
-    rounds.measure();
+  report.start_distance = state.measure(execution, strength);
+  const int few_relocations = static_cast<int>(state.nodes.size()) / nodes_a_relocation;
+  int next_relocations = rounds_without_relocations;
+  for (int round = 0; round < options.rounds && !report.converged; ++round) {
+    // A round takes seconds on many nodes; a cancel should not have to wait for its end.
+    const auto reached = [&](double share_of_round) {
+      execution.report((round + share_of_round) / options.rounds, "Refining the nodes");
+    };
+    reached(0.0);
+    // Not part of what convergence is judged by: mending may raise the error.
+    mend_angles(state, execution);
+    reached(0.1);
+    const double before = state.error();
+    RefinementStep step;
+    step.moves = move_nodes(state, execution);
+    reached(0.5);
+    step.flips = flip_edges(state, execution);
+    reached(0.6);
+    if (round >= next_relocations) {
+      step.relocations = relocate_nodes(state, execution);
+      if (step.relocations <= few_relocations) next_relocations = round + rounds_after_few;
+    }
+    // 0 / 0, on a mesh that is the original, is no gain either.
+    const bool gains = std::sqrt(state.error() / before) < 1.0 - options.tolerance;
+    if (strength == 0.0) {
+      report.converged = !gains;
+    } else if (round + 1 == schedule.rounds || ((!gains || strength > schedule.settled_strength) &&
+                                                state.count_sharper(limit) == 0)) {
+      state.cosine_limit = limit;
+      strength = 0.0;
+    } else {
+      strength *= schedule.growth;
+    }
+    step.distance = state.measure(execution, strength);
+    report.history.push_back(step);
   }
   return {std::move(state.nodes), std::move(state.triangulation), std::move(report)};
 }

@@ -43,7 +43,6 @@ RefinementFacet::RefinementFacet(const RefinementNode& a, const RefinementNode& 
   const double ab_length = ab.norm();
   const double bc_length = bc.norm();
   const double ca_length = ca.norm();
-  // Angles are compared by their cosines, which saves an arc cosine a triangle tried.
   largest_cosine =
       std::max({-ca.dot(ab) / (ca_length * ab_length), -ab.dot(bc) / (ab_length * bc_length),
                 -bc.dot(ca) / (bc_length * ca_length)});

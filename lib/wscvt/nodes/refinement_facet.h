@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
+
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/nodes/refinement_target.h"
 
 namespace wscvt {
@@ -26,6 +29,9 @@ struct RefinementFacet {
     return counter_clockwise && largest_cosine <= cosine_limit;
   }
 };
+
+/// Angles are compared by their cosines, which saves an arc cosine a triangle tried.
+inline double cosine_of_degrees(double degrees) { return std::cos(degrees * pi / 180.0); }
 
 /// What small angles of triangles count besides distances: nothing down to a goal, and below it the
 /// weight times the square of how far the angle's cosine is on the way from the goal's to 1. A

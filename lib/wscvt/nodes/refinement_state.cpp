@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
-#include "wscvt/base/pi.h"
 
 namespace wscvt {
 
@@ -63,7 +62,7 @@ RefinementState::RefinementState(std::vector<RefinementNode> start, SphereTriang
       samples(scan.samples(of_nodes.triangles().size(), execution)),
       node_weight(node_share * static_cast<double>(samples.size()) /
                   static_cast<double>(of_nodes.triangles().size())),
-      cosine_limit(std::cos(smallest_angle * pi / 180.0)),
+      cosine_limit(cosine_of_degrees(smallest_angle)),
       nodes(std::move(start)),
       triangulation(std::move(of_nodes)),
       lists(samples_of_triangles(nodes, triangulation, samples, execution)),
@@ -75,7 +74,7 @@ double RefinementState::error() const {
          std::accumulate(node_errors.begin(), node_errors.end(), 0.0);
 }
 
-double RefinementState::measure(const Execution& execution) {
+double RefinementState::measure(const Execution& execution, double angle_strength) {
   const auto update = [&] {
     execution.parallel_for(lists.size(), refinement_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {

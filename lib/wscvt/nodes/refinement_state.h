@@ -21,13 +21,10 @@ inline constexpr std::size_t refinement_block = 32;
 /// whoever moves a node its node error.
 struct RefinementState {
   const RefinementTarget& original;
-  RefinementSamples samples;  ///< of the original
-  double node_weight = 0.0;   ///< what a node's own distance counts, in samples
-  double cosine_limit = 1.0;  ///< of the smallest angle allowed
-  AnglePenalty angle_penalty;
-  /// The penalty's weight, in sums of squared distances of the mean triangle: what measure() makes
-  /// of it.
-  double angle_strength = 0.0;
+  RefinementSamples samples;   ///< of the original
+  double node_weight = 0.0;    ///< what a node's own distance counts, in samples
+  double cosine_limit = 1.0;   ///< of the smallest angle allowed
+  AnglePenalty angle_penalty;  ///< weighed by measure()
 
   std::vector<RefinementNode> nodes;
   SphereTriangulation triangulation;
@@ -43,9 +40,10 @@ struct RefinementState {
   /// What the moves, flips and relocations lower.
   double error() const;
 
-  /// Computes all errors, with distances and angles weighed from here on by the rms distance now,
-  /// and returns that.
-  double measure(const Execution& execution);
+  /// Computes all errors, with distances weighed from here on by their rms now, and returns that.
+  /// A triangle with an angle of 0 counts `angle_strength` times the mean triangle's sum of
+  /// squares.
+  double measure(const Execution& execution, double angle_strength = 0.0);
 
   RefinementFacet facet(std::int32_t triangle) const {
     return facet(triangulation.triangles()[triangle]);

@@ -12,8 +12,32 @@
 namespace wscvt {
 
 namespace {
+
 constexpr std::size_t block_size = 1024;
+
+/// The point r u and its derivatives, as far as `derivatives` says.
+SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives) {
+  SurfaceJet result;
+  const Vector3& u = direction;
+  result.position = jet.radius * u;
+  if (derivatives == Derivatives::None) return result;
+  // x = r(p) q(p) with q = p/|p|, whose Jacobian at |p| = 1 is the projection on the tangent plane.
+  const Matrix3 projection = Matrix3::Identity() - u * u.transpose();
+  result.jacobian = u * jet.gradient.transpose() + jet.radius * projection;
+  if (derivatives == Derivatives::First) return result;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Vector3 gradient = projection.col(i);  // of q_i
+    // Hessian of q_i: -(e_i u^T + u e_i^T) - u_i I + 3 u_i u u^T, written with the gradient.
+    const Matrix3 mixed = gradient * u.transpose();
+    const Matrix3 hessian = -(mixed + mixed.transpose()) - u[i] * projection;
+    const Matrix3 product = gradient * jet.gradient.transpose();
+    result.hessians[static_cast<std::size_t>(i)] =
+        jet.radius * hessian + product + product.transpose() + u[i] * jet.hessian;
+  }
+  return result;
 }
+
+}  // namespace
 
 void RadialSurface::evaluate_radii(const Vector3* directions, std::size_t count,
                                    double* radii) const {
@@ -61,27 +85,6 @@ void RadialSurface::evaluate_positions(const Vector3* directions, std::size_t co
   std::vector<double> radii(count);
   evaluate_radii(directions, count, radii.data());
   for (std::size_t i = 0; i < count; ++i) positions[i] = radii[i] * directions[i];
-}
-
-SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives) {
-  SurfaceJet result;
-  const Vector3& u = direction;
-  result.position = jet.radius * u;
-  if (derivatives == Derivatives::None) return result;
-  // x = r(p) q(p) with q = p/|p|, whose Jacobian at |p| = 1 is the projection on the tangent plane.
-  const Matrix3 projection = Matrix3::Identity() - u * u.transpose();
-  result.jacobian = u * jet.gradient.transpose() + jet.radius * projection;
-  if (derivatives == Derivatives::First) return result;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const Vector3 gradient = projection.col(i);  // of q_i
-    // Hessian of q_i: -(e_i u^T + u e_i^T) - u_i I + 3 u_i u u^T, written with the gradient.
-    const Matrix3 mixed = gradient * u.transpose();
-    const Matrix3 hessian = -(mixed + mixed.transpose()) - u[i] * projection;
-    const Matrix3 product = gradient * jet.gradient.transpose();
-    result.hessians[static_cast<std::size_t>(i)] =
-        jet.radius * hessian + product + product.transpose() + u[i] * jet.hessian;
-  }
-  return result;
 }
 
 Vector3 surface_normal(const RadialJet& jet, const Vector3& direction) {

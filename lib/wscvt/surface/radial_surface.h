@@ -57,9 +57,6 @@ class RadialSurface : public SphereSurface {
                           Vector3* positions) const override;
 };
 
-/// The point r u and its derivatives, as far as `derivatives` says.
-SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives);
-
 /// Surface area per solid angle, g = dA/dOmega = r sqrt(r^2 + |grad_Omega r|^2); length^2.
 inline double area_element(const RadialJet& jet) {
   return jet.radius * std::sqrt(jet.radius * jet.radius + jet.gradient.squaredNorm());
