@@ -60,6 +60,29 @@ TEST(SpaceNodes, ThinBodiesComeOutWithoutTrianglesThatMeet) {
   }
 }
 
+TEST(SpaceNodes, HaveEvenEdgesOnBodiesWithUndercuts) {
+  for (const test::BentGrain& body : test::bent_grains()) {
+    SCOPED_TRACE(body.name);
+    const SpaceNodes nodes = placed(test::bent_grain_mesh(body, 15000), 1000).nodes;
+    const MeshQuality quality = measure_quality(nodes.placed.mesh);
+    // What the prototype of the method reached, whose nodes were not fitted to the scan; thin rims
+    // are allowed more. A fit alone leaves crescent, mushroom and rod at .077 to .082, the flake at
+    // .094.
+    const bool thin = body.name == "flake" || body.name == "bowl";
+    EXPECT_LE(quality.edge_length.standard_deviation / quality.edge_length.mean,
+              thin ? 0.09 : 0.075);
+    EXPECT_LE(quality.edge_ratio.mean, thin ? 1.18 : 1.15);
+    EXPECT_LT(nodes.report.evening.deviation_after, nodes.report.evening.deviation_before);
+  }
+}
+
+TEST(SpaceNodes, AreNotEvenedSoFarThatTrianglesMeet) {
+  // Thirty rounds would take seven pairs of this crescent's triangles through each other.
+  const SpaceNodes nodes = placed("crescent", 350, 15000).nodes;
+  EXPECT_GT(nodes.report.evening.held_back, 0);
+  EXPECT_TRUE(self_intersections(nodes.placed.mesh).empty());
+}
+
 TEST(SpaceNodes, PassANeckOnARounderMapWhereTheyJamOnTheGrains) {
   // One of the rod's ends hangs on a neck five nodes round.
   const Placed rod = placed("rod", 1000, 15000);

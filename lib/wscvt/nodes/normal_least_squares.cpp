@@ -9,14 +9,15 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_placement.h"
 #include "wscvt/nodes/self_intersections.h"
+#include "wscvt/nodes/step_guard.h"
 
 namespace wscvt {
 
@@ -132,32 +133,6 @@ Eigen::VectorXd solve_steps(const std::vector<Row>& rows, std::size_t nodes) {
                 "not converge. Put the nodes on the surface instead.");
   }
   return steps;
-}
-
-/// What the guards watch: the smallest angle of each triangle and the turn at each half-edge, as
-/// cosines.
-struct Shape {
-  std::vector<double> angles;
-  std::vector<double> turns;
-};
-
-Shape shape_of(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
-               const HalfEdges& half_edges, const Execution& execution) {
-  Shape shape;
-  shape.angles.resize(triangles.size());
-  shape.turns.resize(3 * triangles.size());
-  std::vector<Vector3> normals(triangles.size());
-  execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto& [a, b, c] = triangles[t];
-      shape.angles[t] = largest_corner_cosine(points[a], points[b], points[c]);
-      normals[t] = face_normal(points, triangles[t]).normalized();
-    }
-  });
-  for (std::size_t h = 0; h < shape.turns.size(); ++h) {
-    shape.turns[h] = normals[h / 3].dot(normals[half_edges.opposite[h] / 3]);
-  }
-  return shape;
 }
 
 /// V(s) - volume as a polynomial in the offset s.
@@ -311,45 +286,24 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
 
   NormalFit fit;
   fit.report.samples = samples.size();
-  const Shape before = shape_of(positions, triangles, half_edges, execution);
+  std::vector<Vector3> along(count);
+  for (std::size_t i = 0; i < count; ++i)
+    along[i] = steps[static_cast<Eigen::Index>(i)] * normals[i];
+  GuardedSteps guarded(nodes, half_edges, std::move(along),
+                       {options.smallest_angle, options.largest_turn}, execution);
   std::optional<std::size_t> crossings_before;  // counted when some are found, which is rare
-  const double widest_cosine = std::cos(options.smallest_angle * pi / 180.0);
-  const double turned_cosine = std::cos(options.largest_turn * pi / 180.0);
-  // Halvings of each node's step; beyond the last it takes none.
-  constexpr int most_halvings = 4;
-  std::vector<int> halvings(count, 0);
   std::vector<Vector3> offset_normals = normals;
-  const auto hold_back = [&](std::int32_t node) {
-    if (halvings[node] > most_halvings) return false;
-    ++halvings[node];
-    return true;
-  };
   while (true) {
-    fit.positions = positions;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (halvings[i] > most_halvings) continue;
-      fit.positions[i] +=
-          std::ldexp(steps[static_cast<Eigen::Index>(i)], -halvings[i]) * normals[i];
-    }
-    bool held = false;
-    const Shape shape = shape_of(fit.positions, triangles, half_edges, execution);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (shape.angles[t] <= std::max(widest_cosine, before.angles[t])) continue;
-      for (const std::int32_t v : triangles[t]) held |= hold_back(v);
-    }
-    for (std::size_t h = 0; h < shape.turns.size(); ++h) {
-      if (shape.turns[h] >= std::min(turned_cosine, before.turns[h])) continue;
-      for (const std::int32_t v : triangles[h / 3]) held |= hold_back(v);
-    }
-    if (held) continue;
+    fit.positions = guarded.positions();
     fit.report.offset =
         offset_to_volume(offset_normals, triangles, volume, fit.positions, execution);
     const auto crossings = self_intersections({fit.positions, triangles}, execution);
     if (crossings.empty()) break;
     if (!crossings_before) crossings_before = self_intersections(nodes, execution).size();
     if (crossings.size() <= *crossings_before) break;
+    bool held = false;
     for (const std::int32_t v : vertices_of(crossings, triangles)) {
-      if (hold_back(v)) {
+      if (guarded.hold_back(v)) {
         held = true;
       } else if (!offset_normals[v].isZero()) {
         // At the rim of a body as thin as paper the offset alone makes triangles meet.
@@ -359,8 +313,7 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
     }
     if (!held) break;
   }
-  fit.report.held_back = static_cast<int>(
-      std::count_if(halvings.begin(), halvings.end(), [](int halved) { return halved > 0; }));
+  fit.report.held_back = guarded.held_back();
   return fit;
 }
 

@@ -12,6 +12,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/contact_fit.h"
+#include "wscvt/nodes/edge_evening.h"
 #include "wscvt/nodes/mended_fit.h"
 #include "wscvt/nodes/node_placement.h"
 #include "wscvt/nodes/node_refinement.h"
@@ -210,10 +211,10 @@ Laid lay(const MappedSurface& surface, Tessellated nodes, bool mends, const Exec
   Laid result{std::move(nodes), {}, meeting};
   const SpaceTessellation& tessellation = result.nodes.tessellation;
   result.triangles.mesh = {tessellation.positions, tessellation.triangulation.triangles()};
+  result.triangles.places = surface.locate(tessellation.seeds, execution);
   if (!mends) return result;
-  result.triangles =
-      mend_triangles(result.triangles.mesh, surface.locate(tessellation.seeds, execution), surface,
-                     TriangleMendingOptions(), execution, meeting);
+  result.triangles = mend_triangles(result.triangles.mesh, result.triangles.places, surface,
+                                    TriangleMendingOptions(), execution, meeting);
   // Mending makes none meet.
   if (meeting > 0) result.meeting = self_intersections(result.triangles.mesh, execution).size();
   return result;
@@ -250,6 +251,18 @@ void refine_in_space(const MappedSurface& surface, const MeshDistance* to_level,
   // Not by an offset along the normals, as after a fit, which takes some hundredths of a degree
   // from angles that are at the limit.
   scale_to_volume(nodes.mesh.triangles, volume, nodes.mesh.points, execution);
+}
+
+/// The distances of nodes at some places that a density wants, in any unit.
+std::vector<double> spacings_at(const std::vector<MeshPlace>& places, const MappedSurface& surface,
+                                const std::vector<double>& densities) {
+  std::vector<double> spacings;
+  if (densities.empty()) return spacings;
+  spacings.reserve(places.size());
+  for (const MeshPlace& place : places) {
+    spacings.push_back(1.0 / std::sqrt(value_at(surface.mesh(), densities, place)));
+  }
+  return spacings;
 }
 
 [[noreturn]] void refuse_shape(std::size_t nodes, int enough_nodes) {
@@ -352,13 +365,22 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   if (!(enclosed_volume(mended.mesh.points, mended.mesh.triangles) > 0.0)) {
     refuse_shape(tessellation.seeds.size(), result.report.enough_nodes);
   }
-  const bool changed = has_mended(mended.report);
+  // A refinement goes its own way, and who asks for other samplings gets these.
+  const bool evens = relaxes && !refines && is_fitted(placement.kind);
+  const bool changed = has_mended(mended.report) || evens;
   result.report.mending = mended.report;
   if (is_fitted(placement.kind)) {
     NormalFit fit = fit_mended(*surface, grain.is_level ? to_scan : nullptr, tessellation, mended,
                                volume, execution.part(0.87, 0.9));
     mended.mesh.points = std::move(fit.positions);
     result.report.fit = fit.report;
+    if (evens) {
+      EvenedEdges evened = even_edges(mended.mesh, spacings_at(mended.places, *surface, densities),
+                                      EdgeEveningOptions(), execution.part(0.9, 0.9));
+      mended.mesh.points = std::move(evened.positions);
+      scale_to_volume(mended.mesh.triangles, volume, mended.mesh.points, execution);
+      result.report.evening = evened.report;
+    }
   } else if (grain.is_level) {
     for (Vector3& point : mended.mesh.points) point = to_scan->nearest_point(point);
   }

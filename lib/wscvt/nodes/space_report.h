@@ -12,6 +12,14 @@ struct NormalFitReport {
   double offset = 0.0;      ///< along all normals, that made the volume exact; length
 };
 
+/// How edges were evened (edge_evening.h).
+struct EdgeEveningReport {
+  /// Standard deviation of the edges' length / wanted length; 0 before: edges were not evened.
+  double deviation_before = 0.0;
+  double deviation_after = 0.0;
+  int held_back = 0;  ///< nodes that went less than the whole way, for triangles that would meet
+};
+
 /// What mending of triangles did (triangle_mending.h).
 struct TriangleMendingReport {
   int flips = 0;        ///< of edges
@@ -34,6 +42,7 @@ struct SpaceNodesReport {
   int enough_nodes = 0;
   TriangleMendingReport mending;  ///< of triangles that the sphere had jammed
   NormalFitReport fit;            ///< of a least-squares placement
+  EdgeEveningReport evening;      ///< of fitted nodes
 };
 
 /// No number of nodes tried would do: twice that asked for and so on, up to sixteen times or

@@ -190,13 +190,15 @@ class Mender {
     return count;
   }
 
-  IndexedMesh result(std::vector<std::int32_t>& relocated) const {
-    IndexedMesh mesh;
+  MendedTriangles result() const {
+    MendedTriangles made;
+    auto& [mesh, places, relocated, report] = made;
     mesh.points.resize(points_.size());
-    relocated.clear();
+    places.resize(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const std::int32_t node = number_of(static_cast<std::int32_t>(i));
       mesh.points[node] = points_[i];
+      places[node] = places_[i];
       if (origin_[i] < 0) relocated.push_back(node);
     }
     std::sort(relocated.begin(), relocated.end());
@@ -206,7 +208,7 @@ class Mender {
       for (const auto v : mesh_.fv_range(face)) t[k++] = number_of(v.idx());
       mesh.triangles.push_back(t);
     }
-    return mesh;
+    return made;
   }
 
  private:
@@ -639,6 +641,7 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   }
   MendedTriangles unchanged;
   unchanged.mesh = nodes;
+  unchanged.places = places;
   Mender mender(nodes, places, surface, options, execution);
   const Worst before = mender.worst();
   unchanged.report.left = before.small;
@@ -679,7 +682,7 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
         (meeting == fewest_meeting && report.left < best.report.left && now.angle <= before.angle);
     if (!is_better) continue;
     fewest_meeting = meeting;
-    best.mesh = mender.result(best.relocated);
+    best = mender.result();
     best.report = report;
   }
   return best;

@@ -35,6 +35,7 @@ inline constexpr NumberOption<int> mending_rounds_option = {
 
 struct MendedTriangles {
   IndexedMesh mesh;                     ///< as many points and triangles as before
+  std::vector<MeshPlace> places;        ///< of its points, on the surface
   std::vector<std::int32_t> relocated;  ///< nodes that were relocated, ascending, each once
   TriangleMendingReport report;
 };

@@ -97,7 +97,10 @@ Json json_of(const SpaceNodesReport& space) {
           {"mending_left", space.mending.left},
           {"fit_samples", space.fit.samples},
           {"fit_held_back", space.fit.held_back},
-          {"fit_offset", space.fit.offset}};
+          {"fit_offset", space.fit.offset},
+          {"evening_deviation_before", space.evening.deviation_before},
+          {"evening_deviation_after", space.evening.deviation_after},
+          {"evening_held_back", space.evening.held_back}};
 }
 
 Json json_of(const HarmonicFitReport& fit, double equivalent_radius) {

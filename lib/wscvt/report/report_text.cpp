@@ -179,6 +179,12 @@ void append_mending(const RemeshResult& result, std::vector<std::string>& lines)
             counted(static_cast<std::size_t>(space.fit.held_back), "node", "nodes") +
             " held back by guards; offset for the volume " + format_number(space.fit.offset, 3)));
   }
+  if (space.evening.deviation_before > 0.0) {
+    lines.push_back(line("Evened", "edges, whose lengths deviate from the wanted ones by " +
+                                       format_number(100.0 * space.evening.deviation_after, 3) +
+                                       " % instead of " +
+                                       format_number(100.0 * space.evening.deviation_before, 3)));
+  }
 }
 
 void append_relaxation(const RemeshResult& result, std::vector<std::string>& lines) {
