@@ -35,6 +35,7 @@ struct SpaceNodesReport {
   /// Above 0: the nodes stand on a map of their own, in which angles count so much beside areas
   /// (SphereMapOptions), because they had jammed on the grain's.
   double angle_weight = 0.0;
+  int relocated_seeds = 0;   ///< from limbs in which they crowded to others, before a relaxation
   double volume_loss = 0.0;  ///< of the nodes on the surface, as a share of the grain's volume
   /// Above 0: the nodes asked for are too few for the shape (they lose more than a quarter of its
   /// volume, or their triangles meet), and so many would do; too_many_nodes where none of the

@@ -89,6 +89,7 @@ Json json_of(const SpaceNodesReport& space) {
   return {{"self_intersections", space.self_intersections},
           {"repairs", space.repairs},
           {"angle_weight", space.angle_weight},
+          {"relocated_seeds", space.relocated_seeds},
           {"volume_loss_on_surface", space.volume_loss},
           {"enough_nodes", space.enough_nodes},
           {"mending_flips", space.mending.flips},

@@ -151,6 +151,11 @@ void append_meeting(const RemeshResult& result, std::vector<std::string>& lines)
     text += "; the nodes jammed on the map and stand on one that keeps angles better (weight " +
             format_number(space.angle_weight, 3) + ")";
   }
+  if (space.relocated_seeds > 0) {
+    text += "; " +
+            counted(static_cast<std::size_t>(space.relocated_seeds), "seed was", "seeds were") +
+            " taken from where they had crowded";
+  }
   lines.push_back(line("Meeting", text));
   if (result.options.placement.kind == NodePlacement::Series) {
     lines.push_back(line("Placement", "on the scan; a spherical map has no fitted series"));

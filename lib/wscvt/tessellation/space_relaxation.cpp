@@ -27,12 +27,6 @@ constexpr std::size_t block_size = 512;
 /// move at the same time do not meet.
 constexpr double largest_share_of_ring = 0.45;
 
-/// No step and no flip takes a triangle's determinant on the sphere below this: it stays far above
-/// rounding, also in the triangles that a subdivision cuts it into. A million even triangles have
-/// determinants of 1e-5; a sheet of the map that is squeezed to a thread gets stuck here, where it
-/// would else end in triangles of which arithmetic cannot tell whether they stand.
-constexpr double smallest_determinant = 1e-12;
-
 /// Flat cells on a rough scan differ in area by up to a tenth however long they are relaxed. The
 /// relaxation ends at this share of its tolerance: going on to a hundredth lowered the mean edge
 /// ratio of such scans from 1.133 to 1.123, for ten times the iterations.
@@ -41,13 +35,10 @@ constexpr double settled_share = 0.5;
 /// Calls visit(second, third) for the corners of every triangle about a vertex, counter-clockwise.
 template <class Visit>
 void visit_ring(const SphereTriangulation& triangulation, std::int32_t vertex, const Visit& visit) {
-  const std::int32_t first = triangulation.first_half_edge()[vertex];
-  std::int32_t h = first;
-  do {
-    const std::int32_t back = SphereTriangulation::previous(h);
-    visit(triangulation.origin(SphereTriangulation::next(h)), triangulation.origin(back));
-    h = triangulation.opposite()[back];
-  } while (h != first);
+  visit_fan(triangulation, vertex, [&](std::int32_t h) {
+    visit(triangulation.origin(SphereTriangulation::next(h)),
+          triangulation.origin(SphereTriangulation::previous(h)));
+  });
 }
 
 /// det(a, b, c) of every triangle's seeds.
@@ -94,7 +85,7 @@ class Relaxation {
       }
     });
     const auto repair = triangulation_->restore_surface_delaunay(seeds_, positions_, execution_,
-                                                                 smallest_determinant);
+                                                                 smallest_seed_determinant);
     // A centroidal tessellation of density rho has rho^(1/2) cells per area.
     squares_ = wanted_;
     for (double& density : squares_) density *= density;
@@ -167,7 +158,7 @@ class Relaxation {
   /// Whether a triangle may change its determinant: one below the limit, as a start may have, must
   /// not fall further.
   static bool stands(double determinant, double before) {
-    return determinant > std::min(smallest_determinant, before) && determinant > 0.0;
+    return determinant > std::min(smallest_seed_determinant, before) && determinant > 0.0;
   }
 
   bool all_stand(const std::vector<Vector3>& moved) const {
@@ -294,7 +285,6 @@ void insert_seeds(const MappedSurface& surface, int extra, std::vector<Vector3>&
 void subdivide(const MappedSurface& surface, const SpaceTessellation& coarse,
                const Execution& execution, std::vector<Vector3>& seeds,
                std::vector<Triangle>& triangles) {
-  constexpr int bisections = 6;
   const SphereTriangulation& triangulation = coarse.triangulation;
   std::vector<std::int32_t> middle(triangulation.opposite().size());
   std::vector<std::int32_t> cut;
@@ -313,23 +303,7 @@ void subdivide(const MappedSurface& surface, const SpaceTessellation& coarse,
     for (std::size_t i = begin; i < end; ++i) {
       const std::int32_t a = triangulation.origin(cut[i]);
       const std::int32_t b = triangulation.origin(triangulation.opposite()[cut[i]]);
-      const auto at = [&](double share) {
-        return Vector3(((1.0 - share) * coarse.seeds[a] + share * coarse.seeds[b]).normalized());
-      };
-      // Not nearer to an end: see smallest_determinant.
-      double low = 0.1;
-      double high = 0.9;
-      std::int32_t face = -1;
-      for (int k = 0; k < bisections; ++k) {
-        const double share = 0.5 * (low + high);
-        const MeshPlace place = surface.locate(at(share), face);
-        face = place.triangle;
-        const Vector3 x = surface.position(place);
-        const bool nearer_a =
-            (x - coarse.positions[a]).squaredNorm() < (x - coarse.positions[b]).squaredNorm();
-        (nearer_a ? low : high) = share;
-      }
-      seeds[coarse.seeds.size() + i] = at(0.5 * (low + high));
+      seeds[coarse.seeds.size() + i] = halfway_seed(surface, coarse.seeds[a], coarse.seeds[b]);
     }
   });
   triangles.clear();
@@ -347,6 +321,29 @@ void subdivide(const MappedSurface& surface, const SpaceTessellation& coarse,
 }
 
 }  // namespace
+
+Vector3 halfway_seed(const MappedSurface& surface, const Vector3& a, const Vector3& b) {
+  constexpr int bisections = 6;
+  const auto at = [&](double share) {
+    return Vector3(((1.0 - share) * a + share * b).normalized());
+  };
+  const MeshPlace place_of_a = surface.locate(a);
+  const Vector3 position_of_a = surface.position(place_of_a);
+  const Vector3 position_of_b = surface.position(surface.locate(b, place_of_a.triangle));
+  // Not nearer to an end: see smallest_seed_determinant.
+  double low = 0.1;
+  double high = 0.9;
+  std::int32_t face = place_of_a.triangle;
+  for (int k = 0; k < bisections; ++k) {
+    const double share = 0.5 * (low + high);
+    const MeshPlace place = surface.locate(at(share), face);
+    face = place.triangle;
+    const Vector3 x = surface.position(place);
+    const bool nearer_a = (x - position_of_a).squaredNorm() < (x - position_of_b).squaredNorm();
+    (nearer_a ? low : high) = share;
+  }
+  return at(0.5 * (low + high));
+}
 
 std::vector<Vector3> surviving_seeds(const MappedSurface& surface,
                                      const std::vector<std::int32_t>& collapse_order, int count) {

@@ -22,6 +22,16 @@ struct SpaceTessellation {
   RelaxationReport report;
 };
 
+/// No step and no flip takes the determinant of a triangle's seeds below this: it stays far above
+/// rounding, also in the triangles that a subdivision cuts it into. A million even triangles have
+/// determinants of 1e-5; a sheet of the map that is squeezed to a thread gets stuck here, where it
+/// would else end in triangles of which arithmetic cannot tell whether they stand.
+inline constexpr double smallest_seed_determinant = 1e-12;
+
+/// Where between two seeds, along their great arc, the surface is as far from both; no nearer to an
+/// end than a tenth of their chord.
+Vector3 halfway_seed(const MappedSurface& surface, const Vector3& a, const Vector3& b);
+
 /// The seeds of a coarsest level: the directions of the `count` vertices that the collapse kept
 /// longest, which lie evenly over the surface; where the mesh has fewer vertices, all of them and
 /// the middles of the largest triangles. `collapse_order` is the map's. Throws Error(InvalidInput)
