@@ -277,7 +277,7 @@ TEST(RemeshSpherical, TrianglesThatMendingHasPartedDoNotMakeNodesTooFew) {
 
 TEST(RemeshSpherical, MeetingTrianglesAreRefusedWhereAskedFor) {
   // Flat triangles of 60 nodes bulge further than its sheets are apart.
-  const IndexedMesh thin = shell(0.01);
+  const IndexedMesh thin = shell(0.004);
   RemeshOptions options = options_of(60);
   const RemeshResult result = remesh(thin, options, Execution(1));
   ASSERT_GT(result.space.self_intersections, 0U);
