@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "report_file.h"
-#include "wscvt/base/threads_option.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt::filter {
 

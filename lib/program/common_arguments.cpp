@@ -2,7 +2,7 @@
 #include "common_arguments.h"
 
 #include "command.h"
-#include "wscvt/base/threads_option.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt::program {
 

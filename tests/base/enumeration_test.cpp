@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/base/enumeration.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "wscvt/base/option.h"
 
 namespace wscvt {
 namespace {

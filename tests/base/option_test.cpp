@@ -94,5 +94,12 @@ TEST(Option, TypedNumbersComeBackToTheLastBit) {
   }
 }
 
+TEST(Option, CapitalisesTheFirstLetterOnly) {
+  EXPECT_EQ(capitalised("one Two"), "One Two");
+  EXPECT_EQ(capitalised("WSCVT-D"), "WSCVT-D");
+  EXPECT_EQ(capitalised("4 nodes"), "4 nodes");
+  EXPECT_EQ(capitalised(""), "");
+}
+
 }  // namespace
 }  // namespace wscvt

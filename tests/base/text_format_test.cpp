@@ -61,13 +61,6 @@ TEST(TextFormat, TypedNumbersAreWrittenOutAndReadBack) {
   }
 }
 
-TEST(TextFormat, CapitalisesTheFirstLetterOnly) {
-  EXPECT_EQ(capitalised("one Two"), "One Two");
-  EXPECT_EQ(capitalised("WSCVT-D"), "WSCVT-D");
-  EXPECT_EQ(capitalised("4 nodes"), "4 nodes");
-  EXPECT_EQ(capitalised(""), "");
-}
-
 TEST(TextFormat, DoesNotDependOnTheLocale) {
   const test::GermanNumbers german;
   std::ostringstream stream;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/test_shapes.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/detailed_descriptors.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "wscvt/base/text_format.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/nodes/placed_nodes.h"
 #include "wscvt/surface/harmonic_surface.h"

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "wscvt/base/text_format.h"
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/surface/harmonic_io.h"
 #include "wscvt/surface/radial_surface.h"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "support/test_shapes.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"

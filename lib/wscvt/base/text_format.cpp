@@ -53,15 +53,6 @@ std::string format_exact(double value) {
   return {text.data(), end.ptr};
 }
 
-std::string capitalised(std::string_view text) {
-  std::string result(text);
-  // Not std::toupper, which asks the locale.
-  if (!result.empty() && result[0] >= 'a' && result[0] <= 'z') {
-    result[0] = static_cast<char>(result[0] - 'a' + 'A');
-  }
-  return result;
-}
-
 std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

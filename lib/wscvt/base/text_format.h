@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace wscvt {
@@ -27,9 +26,6 @@ std::string format_error(double percent);
 /// A number for another program: the shortest text that reads back to the same bits; empty for one
 /// that is not finite.
 std::string format_exact(double value);
-
-/// A text with its first letter as at the beginning of a sentence.
-std::string capitalised(std::string_view text);
 
 /// Rows of cells as lines: the first column flush left, the others flush right, two spaces apart.
 std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows);

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 

@@ -3,7 +3,6 @@
 
 #include <string_view>
 
-#include "wscvt/base/enumeration.h"
 #include "wscvt/base/option.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/node_count_search.h"

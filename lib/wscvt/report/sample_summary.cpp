@@ -11,6 +11,7 @@
 
 #include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/option.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"

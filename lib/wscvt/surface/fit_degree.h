@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "wscvt/base/enumeration.h"
 #include "wscvt/base/option.h"
 
 namespace wscvt {

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "wscvt/base/enumeration.h"
 #include "wscvt/base/option.h"
 #include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/spherical_harmonics.h"

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "wscvt/base/enumeration.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt {
 
