@@ -15,6 +15,7 @@
 #include "wscvt/remesh.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/report/report.h"
+#include "wscvt/scan/mesh_check.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/harmonic_map.h"

@@ -11,8 +11,7 @@
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/report/remesh_result.h"
-#include "wscvt/scan/handles.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/scan_options.h"
 #include "wscvt/surface/grain.h"
 #include "wscvt/surface/radial_surface.h"
 

@@ -30,6 +30,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/remesh.h"
+#include "wscvt/scan/mesh_check.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace {

@@ -19,6 +19,7 @@
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/report_file.h"
+#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt {
 

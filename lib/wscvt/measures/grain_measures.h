@@ -9,7 +9,7 @@
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/detailed_descriptors.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/scan_options.h"
 
 namespace wscvt {
 

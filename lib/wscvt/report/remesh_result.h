@@ -15,7 +15,7 @@
 #include "wscvt/nodes/refinement_options.h"
 #include "wscvt/nodes/space_report.h"
 #include "wscvt/report/remesh_options.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/scan_options.h"
 #include "wscvt/surface/fit_degree.h"
 #include "wscvt/surface/parametrization.h"
 #include "wscvt/surface/sphere_map.h"

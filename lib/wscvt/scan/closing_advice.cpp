@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/scan/closing_advice.h"
 
-#include "wscvt/scan/envelope.h"
+#include "wscvt/scan/scan_options.h"
 
 namespace wscvt {
 

@@ -16,6 +16,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/closing_advice.h"
+#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt {
 

@@ -1,54 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
-#include <vector>
-
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/option.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/scan_options.h"
 
 namespace wscvt {
-
-/// Which handles are cut.
-struct HandleOptions {
-  /// Longest loop along which a handle is cut, in equivalent radii; >= 0. Scanner noise makes
-  /// handles of a few voxels, up to half a radius on a rough scan; a ring, whose hole is real, has
-  /// no loop below 0.7 radii unless its tube is 150 times thinner than the ring is wide.
-  double length_limit = 0.7;
-  /// Scans with more handles are refused before one is cut: they are porous, and no sheet of nodes
-  /// that a simulation can afford follows their pores. Rough scans had up to 5, a coral 149.
-  int count_limit = 50;
-};
-
-inline constexpr NumberOption<int> handle_count_option{
-    "handles",  "largest number of handles",
-    0,          1000000,
-    Ends::Both, "that are cut; a scan with more is porous and refused"};
-
-inline constexpr NumberOption<double> handle_length_option{
-    "handle-length",
-    "longest loop along which a handle is cut",
-    0.0,
-    std::numeric_limits<double>::infinity(),
-    Ends::Both,
-    "in equivalent radii; a scan with a longer one, such as a ring, has no spherical map"};
-
-/// A handle that was cut.
-struct CutHandle {
-  double length = 0.0;              ///< of the loop it was cut along, length
-  Vector3 place = Vector3::Zero();  ///< mean of the loop's vertices, in the input's coordinates
-  int edges = 0;                    ///< of the loop
-};
-
-/// Which handles were cut.
-struct HandleReport {
-  std::vector<CutHandle> cut;  ///< in the order in which they were cut, shortest loops first
-  /// Volume afterwards / before, less 1, no unit: what filling tunnels adds, cutting bridges takes
-  /// away.
-  double volume_change = 0.0;
-};
 
 /// A mesh without handles and what was done to it.
 struct HandleFreeMesh {

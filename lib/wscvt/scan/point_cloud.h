@@ -6,7 +6,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/scan_options.h"
 
 namespace wscvt {
 

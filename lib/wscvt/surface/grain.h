@@ -7,7 +7,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/scan_options.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mapped_surface.h"
