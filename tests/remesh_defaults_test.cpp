@@ -8,6 +8,7 @@
 #include "grains/ct_grain.h"
 #include "support/test_shapes.h"
 #include "wscvt/remesh.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 namespace {

@@ -18,7 +18,7 @@
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_triangulation.h"
-#include "wscvt/surface/harmonic_map.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 namespace {

@@ -25,6 +25,7 @@
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 

@@ -13,8 +13,7 @@
 #include "wscvt/remesh_stages.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/surface/grain_surface.h"
-#include "wscvt/surface/harmonic_io.h"
-#include "wscvt/surface/harmonic_map.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 

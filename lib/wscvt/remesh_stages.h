@@ -13,7 +13,7 @@
 #include "wscvt/report/remesh_result.h"
 #include "wscvt/scan/scan_options.h"
 #include "wscvt/surface/grain.h"
-#include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 

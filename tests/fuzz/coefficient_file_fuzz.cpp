@@ -13,7 +13,7 @@
 
 #include "fuzz/promise.h"
 #include "wscvt/base/error.h"
-#include "wscvt/surface/harmonic_io.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/scan/mesh_io.h"
-#include "wscvt/surface/harmonic_io.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt::host_test {
 namespace {

@@ -9,7 +9,6 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
 namespace {

@@ -13,8 +13,8 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/harmonic_transform.h"
-#include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
 namespace {

@@ -9,7 +9,7 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/nodes/placed_nodes.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt::study {
 

@@ -11,8 +11,8 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/shape_descriptors.h"
-#include "wscvt/surface/harmonic_io.h"
-#include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt::study {
 

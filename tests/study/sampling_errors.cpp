@@ -13,7 +13,6 @@
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt::study {

@@ -8,7 +8,7 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/spherical_harmonics.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt::test {
 

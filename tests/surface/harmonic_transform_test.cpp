@@ -10,7 +10,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/spherical_harmonics.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/radial_surface.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -13,6 +11,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "wscvt/measures/shape_descriptors.h"
-#include "wscvt/surface/harmonic_io.h"
-#include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 namespace {

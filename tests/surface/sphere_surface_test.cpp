@@ -11,7 +11,6 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/quadric_surface.h"

@@ -10,7 +10,6 @@
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"
 #include "wscvt/measures/shape_descriptors.h"
-#include "wscvt/surface/fit_degree.h"
 #include "wscvt/surface/surface_options.h"
 
 namespace wscvt {

@@ -2,7 +2,7 @@
 #include "wscvt/report/coefficients_file.h"
 
 #include "wscvt/base/error.h"
-#include "wscvt/surface/harmonic_io.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 

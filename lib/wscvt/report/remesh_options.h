@@ -8,7 +8,6 @@
 #include "wscvt/nodes/node_count_search.h"
 #include "wscvt/nodes/placement_options.h"
 #include "wscvt/scan/scan_options.h"
-#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/surface_options.h"
 #include "wscvt/tessellation/relaxation_options.h"
 #include "wscvt/tessellation/seeding_options.h"

@@ -16,9 +16,8 @@
 #include "wscvt/nodes/space_report.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/scan_options.h"
-#include "wscvt/surface/fit_degree.h"
-#include "wscvt/surface/parametrization.h"
 #include "wscvt/surface/sphere_map.h"
+#include "wscvt/surface/surface_options.h"
 #include "wscvt/tessellation/relaxation_options.h"
 
 namespace wscvt {

@@ -13,8 +13,8 @@
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/parametrization_choice.h"
-#include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/sphere_map.h"
+#include "wscvt/surface/sphere_surface.h"
 #include "wscvt/surface/surface_options.h"
 
 namespace wscvt {

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
-#include "wscvt/surface/harmonic_io.h"
+#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {

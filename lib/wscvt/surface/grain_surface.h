@@ -5,8 +5,8 @@
 #include <string>
 
 #include "wscvt/base/option.h"
-#include "wscvt/surface/radial_surface.h"
-#include "wscvt/surface/spherical_harmonics.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 
@@ -31,7 +31,7 @@ struct GrainSurface {
   Vector3 semi_axes = Vector3::Ones();  ///< length, 1e-6 to 1e6; not of Harmonics
   double polar_exponent = 1.0;          ///< of a Superellipsoid, 0.1 to 2; no unit
   double azimuthal_exponent = 1.0;      ///< of a Superellipsoid, 0.1 to 2; no unit
-  std::string coefficients_file;        ///< of Harmonics: .dat or .json (see harmonic_io.h)
+  std::string coefficients_file;        ///< of Harmonics: .dat or .json (see harmonic_surface.h)
   int coefficient_degree = -1;          ///< the text form (.dat) is cut there; -1 to 200, -1: all
 };
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "wscvt/base/execution.h"
-#include "wscvt/surface/fit_degree.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/harmonic_io.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,8 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/harmonic_transform.h"
 
 namespace wscvt {
 

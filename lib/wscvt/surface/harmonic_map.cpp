@@ -109,45 +109,6 @@ double turned_share(const HarmonicMap& map, const MappedSurface& surface,
 
 }  // namespace
 
-HarmonicMap::HarmonicMap(std::array<std::vector<double>, 3> coefficients)
-    : coefficients_(std::move(coefficients)),
-      series_{HarmonicSeries(coefficients_[0]), HarmonicSeries(coefficients_[1]),
-              HarmonicSeries(coefficients_[2])} {
-  constexpr std::array<char, 3> names{'x', 'y', 'z'};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (coefficients_[k].size() != coefficients_[0].size()) {
-      throw Error(ErrorCode::InvalidInput, "The series for x, y and z have " +
-                                               std::to_string(coefficients_[0].size()) + ", " +
-                                               std::to_string(coefficients_[1].size()) + " and " +
-                                               std::to_string(coefficients_[2].size()) +
-                                               " coefficients; give them the same degree.");
-    }
-    for (std::size_t i = 0; i < coefficients_[k].size(); ++i) {
-      if (!std::isfinite(coefficients_[k][i])) {
-        throw Error(ErrorCode::InvalidInput, "Coefficient " + std::to_string(i) +
-                                                 " of the series for " + names[k] +
-                                                 " is not a finite number.");
-      }
-    }
-  }
-}
-
-void HarmonicMap::evaluate_jets(const Vector3* directions, std::size_t count,
-                                Derivatives derivatives, SurfaceJet* jets) const {
-  std::fill(jets, jets + count, SurfaceJet());
-  std::vector<RadialJet> coordinate(count);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    series_[k].sum(directions, count, derivatives, coordinate.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      jets[i].position[row] = coordinate[i].radius;
-      if (derivatives == Derivatives::None) continue;
-      jets[i].jacobian.row(row) = coordinate[i].gradient.transpose();
-      if (derivatives == Derivatives::Second) jets[i].hessians[k] = coordinate[i].hessian;
-    }
-  }
-}
-
 HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
                                 const Execution& execution) {
   require_in_range(degree, fit_degree_option);

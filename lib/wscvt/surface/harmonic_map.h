@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/surface/fit_degree.h"
-#include "wscvt/surface/sphere_surface.h"
-#include "wscvt/surface/spherical_harmonics.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
 
 class MappedSurface;
 
-/// A closed surface of genus 0 given by a series of real orthonormal spherical harmonics for each
-/// coordinate, x(u) = sum of a_lm Y_lm(u) (Brechbuehler, Gerig and Kuebler 1995, "Parametrization
-/// of closed surfaces for 3-D shape description"; see spherical_harmonics.h for the convention).
-/// Shells and hooks have such series, and smooth curvatures with them.
-class HarmonicMap : public SphereSurface {
- public:
-  /// `coefficients` of x, y and z: (degree + 1)^2 values each in length units, a_lm at index
-  /// l^2 + l + m. Throws Error(InvalidInput) when there are none, their numbers differ or are no
-  /// square, the degree is above maximum_harmonic_degree, or a value is not finite.
-  explicit HarmonicMap(std::array<std::vector<double>, 3> coefficients);
-
-  int degree() const { return series_[0].degree(); }
-  const std::array<std::vector<double>, 3>& coefficients() const { return coefficients_; }
-
-  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
-                     SurfaceJet* jets) const override;
-
- private:
-  std::array<std::vector<double>, 3> coefficients_;
-  std::array<HarmonicSeries, 3> series_;
-};
-
-/// How the fit went.
+/// How the fit of a harmonic map went.
 struct HarmonicMapReport {
   int requested_degree = 0;
   int degree = 0;  ///< lowered when the surface cannot carry the requested one

@@ -7,19 +7,8 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/sphere/sphere_grid.h"
-#include "wscvt/surface/harmonic_transform.h"
 
 namespace wscvt {
-
-namespace {
-
-/// Grid rows per degree on which the smallest radius is looked for: a series has no dip narrower
-/// than half a wavelength, pi / degree, and eight rows see its bottom to 2 % of its depth.
-constexpr int rows_per_degree = 8;
-constexpr int smallest_grid = 32;
-
-}  // namespace
 
 HarmonicSurface::HarmonicSurface(std::vector<double> coefficients)
     : coefficients_(std::move(coefficients)), series_(coefficients_) {
@@ -42,12 +31,43 @@ void HarmonicSurface::evaluate_radii(const Vector3* directions, std::size_t coun
   series_.sum(directions, count, radii);
 }
 
-double smallest_radius(const HarmonicSurface& surface, const Execution& execution) {
-  const int rows = std::max(smallest_grid, rows_per_degree * surface.degree());
-  const HarmonicTransform transform(surface.degree(), SphereGrid::row_cosines(rows),
-                                    SphereGrid::row_sines(rows), 2 * rows, execution);
-  const std::vector<double> radii = transform.synthesize(surface.coefficients(), execution);
-  return *std::min_element(radii.begin(), radii.end());
+HarmonicMap::HarmonicMap(std::array<std::vector<double>, 3> coefficients)
+    : coefficients_(std::move(coefficients)),
+      series_{HarmonicSeries(coefficients_[0]), HarmonicSeries(coefficients_[1]),
+              HarmonicSeries(coefficients_[2])} {
+  constexpr std::array<char, 3> names{'x', 'y', 'z'};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (coefficients_[k].size() != coefficients_[0].size()) {
+      throw Error(ErrorCode::InvalidInput, "The series for x, y and z have " +
+                                               std::to_string(coefficients_[0].size()) + ", " +
+                                               std::to_string(coefficients_[1].size()) + " and " +
+                                               std::to_string(coefficients_[2].size()) +
+                                               " coefficients; give them the same degree.");
+    }
+    for (std::size_t i = 0; i < coefficients_[k].size(); ++i) {
+      if (!std::isfinite(coefficients_[k][i])) {
+        throw Error(ErrorCode::InvalidInput, "Coefficient " + std::to_string(i) +
+                                                 " of the series for " + names[k] +
+                                                 " is not a finite number.");
+      }
+    }
+  }
+}
+
+void HarmonicMap::evaluate_jets(const Vector3* directions, std::size_t count,
+                                Derivatives derivatives, SurfaceJet* jets) const {
+  std::fill(jets, jets + count, SurfaceJet());
+  std::vector<RadialJet> coordinate(count);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    series_[k].sum(directions, count, derivatives, coordinate.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      jets[i].position[row] = coordinate[i].radius;
+      if (derivatives == Derivatives::None) continue;
+      jets[i].jacobian.row(row) = coordinate[i].gradient.transpose();
+      if (derivatives == Derivatives::Second) jets[i].hessians[k] = coordinate[i].hessian;
+    }
+  }
 }
 
 }  // namespace wscvt

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/surface/harmonic_transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
@@ -16,6 +18,11 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 /// Rows a block of the azimuthal products holds: enough for Eigen, few enough to share out.
 constexpr std::size_t row_block = 32;
+
+/// Grid rows per degree on which the smallest radius is looked for: a series has no dip narrower
+/// than half a wavelength, pi / degree, and eight rows see its bottom to 2 % of its depth.
+constexpr int rows_per_degree = 8;
+constexpr int smallest_grid = 32;
 
 Eigen::Index signed_index(std::size_t value) { return static_cast<Eigen::Index>(value); }
 
@@ -128,6 +135,14 @@ std::vector<double> HarmonicTransform::analyze(const std::vector<double>& values
     }
   });
   return coefficients;
+}
+
+double smallest_radius(const HarmonicSurface& surface, const Execution& execution) {
+  const int rows = std::max(smallest_grid, rows_per_degree * surface.degree());
+  const HarmonicTransform transform(surface.degree(), SphereGrid::row_cosines(rows),
+                                    SphereGrid::row_sines(rows), 2 * rows, execution);
+  const std::vector<double> radii = transform.synthesize(surface.coefficients(), execution);
+  return *std::min_element(radii.begin(), radii.end());
 }
 
 }  // namespace wscvt

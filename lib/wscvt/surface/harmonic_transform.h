@@ -5,6 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 
@@ -43,5 +44,9 @@ class HarmonicTransform {
   Eigen::MatrixXd trigonometric_;  ///< azimuths x (2 degree + 1): 1, then cosine, sine of m phi
   std::vector<Eigen::MatrixXd> legendre_;  ///< of every m: rows x (degree + 1 - m)
 };
+
+/// Smallest radius of the series on an equal-angle grid of eight rows a degree (32 at least),
+/// length; a surface that is not positive everywhere is not star-shaped about the origin.
+double smallest_radius(const HarmonicSurface& surface, const Execution& execution);
 
 }  // namespace wscvt

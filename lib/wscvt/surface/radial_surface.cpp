@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/radial_surface.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,6 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 

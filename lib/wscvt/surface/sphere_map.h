@@ -9,6 +9,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
+#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
 
@@ -39,25 +40,6 @@ inline constexpr NumberOption<double> map_tolerance_option{
     "map-tolerance", "tolerance of the map's levels", 0.0, std::numeric_limits<double>::infinity()};
 inline constexpr NumberOption<double> angle_weight_option{
     "angle-weight", "weight of the angles in the map's energy", 0.0, 1000.0};
-
-/// How the map came out. Distortions are those of the triangles of the mesh whose area is not zero.
-struct SphereMapReport {
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  int levels = 0;
-  int sweeps = 0;                   ///< over all levels
-  std::size_t clipped_kernels = 0;  ///< vertices put into the centroid of their ring's kernel
-  std::size_t mended_kernels = 0;   ///< vertices whose ring had to be widened first
-  /// (s1 / s2 + s2 / s1) / 2 of the stretches s1, s2 of a triangle: 1 where angles are kept.
-  /// The mean is taken over the area.
-  double mean_angle_distortion = 1.0;
-  double largest_angle_distortion = 1.0;
-  /// (Area on the sphere / 4 pi) / (area on the surface / its total): 1 where areas are kept.
-  double smallest_area_ratio = 1.0;
-  double largest_area_ratio = 1.0;
-  /// Symmetric Dirichlet energy over that of an isometry, mean over the area: >= 1.
-  double energy = 1.0;
-};
 
 /// A mesh spread over the unit sphere, one to one.
 struct SphereMap {

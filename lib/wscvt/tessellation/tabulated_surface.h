@@ -8,7 +8,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/surface/curvature.h"
-#include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 #include "wscvt/tessellation/cap_sums.h"
 
 namespace wscvt {

@@ -8,7 +8,7 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/surface/curvature.h"
-#include "wscvt/surface/radial_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 #include "wscvt/tessellation/relaxation_options.h"
 #include "wscvt/tessellation/seed_model.h"
 #include "wscvt/tessellation/weighting.h"
