@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common_arguments.h"
-#include "wscvt/measures/detailed_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt::program {
 

@@ -6,9 +6,9 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/report/remesh_result.h"
 #include "wscvt/scan/scan_options.h"

@@ -11,7 +11,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 namespace {

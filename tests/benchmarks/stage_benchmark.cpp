@@ -8,9 +8,9 @@
 #include <string>
 
 #include "dense_grain.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/nodes/node_placement.h"
 #include "wscvt/nodes/node_refinement.h"
 #include "wscvt/remesh.h"

@@ -20,7 +20,7 @@
 #include "sample_meshes.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"

@@ -14,7 +14,7 @@
 #include "programs.h"
 #include "sample_meshes.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/surface/harmonic_surface.h"
 

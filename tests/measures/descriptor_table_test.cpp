@@ -10,6 +10,7 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/measures/form_axes.h"
 
 namespace wscvt {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/mass_properties.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
 #include "support/test_shapes.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 namespace {

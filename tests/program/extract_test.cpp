@@ -10,7 +10,7 @@
 #include "support/flat_json.h"
 #include "support/made_volume.h"
 #include "wscvt/base/mesh.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {

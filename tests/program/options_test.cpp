@@ -9,7 +9,7 @@
 
 #include "program_run.h"
 #include "support/test_shapes.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"
 

@@ -15,7 +15,7 @@
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptor_table.h"
-#include "wscvt/measures/mass_properties.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/report/mass_table.h"
 
 namespace wscvt {

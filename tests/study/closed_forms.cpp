@@ -12,7 +12,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
-#include "wscvt/measures/detailed_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt::study {
 

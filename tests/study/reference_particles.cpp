@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "wscvt/base/text_format.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 

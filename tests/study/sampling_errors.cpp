@@ -10,8 +10,8 @@
 
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/roughness.h"
-#include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 

@@ -13,7 +13,7 @@
 #include "support/expect_error.h"
 #include "support/made_volume.h"
 #include "volume/label_table.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 namespace {

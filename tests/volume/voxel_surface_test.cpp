@@ -16,7 +16,7 @@
 #include "volume/smoothed_surface.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "wscvt/exchange/node_table.h"
-#include "wscvt/measures/mass_properties.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
-#include "wscvt/measures/mass_properties.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/measures/detailed_descriptors.h"
-#include "wscvt/measures/shape_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/detailed_descriptors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,6 +7,12 @@
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/form_axes.h"
+#include "wscvt/measures/inscribed_sphere.h"
+#include "wscvt/measures/orientation_tensor.h"
+#include "wscvt/measures/roughness.h"
+#include "wscvt/measures/roundness.h"
 #include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_fit.h"

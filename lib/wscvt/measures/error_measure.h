@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "wscvt/base/option.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/measures/shape_descriptors.h"
 
 namespace wscvt {
 

@@ -7,7 +7,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/measures/descriptor_table.h"
-#include "wscvt/measures/detailed_descriptors.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/scan/scan_options.h"
 

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
-
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
-
-/// A sphere inside a body, and how much larger the largest one can be at most.
-struct InscribedSphere {
-  Vector3 centre = Vector3::Zero();  ///< length
-  double radius = 0.0;               ///< length; the sphere lies inside
-  double upper_bound = 0.0;          ///< length; no sphere inside is larger than this
-};
 
 /// The largest sphere inside a closed mesh, whose radius Wadell's roundness refers to (see
 /// roundness.h), by a search of this library: branch and bound on cubes for the point farthest from

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/mass_properties.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 

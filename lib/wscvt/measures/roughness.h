@@ -2,21 +2,10 @@
 #pragma once
 
 #include "wscvt/base/execution.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
-
-/// Height parameters after ISO 25178-2, of the radial deviation of a surface from its low-degree
-/// shape: z(u) = r(u) - r_low(u), less its mean, where r_low is the harmonic series of degree
-/// `degree` fitted to r by least squares over solid angle; means are taken over the area A of the
-/// low-degree shape.
-struct Roughness {
-  int degree = 0;    ///< of the low-degree shape
-  double sa = 0.0;   ///< (1/A) integral |z| dA; length
-  double sq = 0.0;   ///< ((1/A) integral z^2 dA)^(1/2); length
-  double ssk = 0.0;  ///< (1/A) integral z^3 dA / Sq^3; no unit, 0 for heights symmetric about 0
-  double sku = 0.0;  ///< (1/A) integral z^4 dA / Sq^4; no unit, 3 for normally distributed heights
-};
 
 /// Measures roughness from the radii at `polar_nodes` Gauss-Legendre nodes in cos(theta) times
 /// twice as many azimuths. Where Sq is below 1e-12 of the mean radius there is no roughness to

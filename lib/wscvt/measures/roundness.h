@@ -2,15 +2,10 @@
 #pragma once
 
 #include "wscvt/base/execution.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
-
-/// Wadell's roundness of a body and the part of it that counts as corners.
-struct Roundness {
-  double roundness = 1.0;          ///< in (0, 1]; 1 when there are no corners
-  double corner_area_share = 0.0;  ///< of the surface area, in [0, 1]
-};
 
 /// Roundness after Wadell (1932, "Volume, shape, and roundness of rock particles", J. Geol. 40,
 /// 443-451): mean radius of curvature of the corners over the radius R of the largest inscribed

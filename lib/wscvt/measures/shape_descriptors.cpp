@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/shape_descriptors.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/principal_axes.h"
 
 namespace wscvt {

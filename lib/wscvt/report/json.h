@@ -7,8 +7,8 @@
 
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/measures/descriptor_table.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/measures/mass_properties.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/report/remesh_options.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/measures/mass_properties.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 

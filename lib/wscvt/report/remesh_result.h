@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/error_measure.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/measures/shape_descriptors.h"
 #include "wscvt/nodes/node_count_search.h"
 #include "wscvt/nodes/refinement_options.h"
 #include "wscvt/nodes/space_report.h"

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
+#include "wscvt/surface/surface_options.h"
+
+namespace wscvt {
+
+// What is measured of the shape of one body: in a moment, for every remesh, and in full.
+
+/// Shape descriptors of a closed, outward mesh that follow from integrals over it: cheap enough for
+/// every remesh. DetailedDescriptors holds the others.
+///
+/// Integrals over the volume are turned into sums over the faces by the divergence theorem: each
+/// face spans a signed tetrahedron with a point near the middle of the mesh (Lien and Kajiya 1984,
+/// IEEE Comput. Graph. Appl. 4 (10), 35-42; Mirtich 1996, "Fast and accurate computation of
+/// polyhedral mass properties", J. Graph. Tools 1 (2), 31-50). They are exact for the polyhedron.
+struct ShapeDescriptors {
+  /// (1/6) sum a . (b x c) over the faces, a, b, c their corners (Lien and Kajiya; Mirtich);
+  /// length^3.
+  double volume = 0.0;
+  double area = 0.0;  ///< (1/2) sum |(b - a) x (c - a)| over the faces; length^2
+  /// S/L of the inertia ellipsoid, in (0, 1]; no unit. Source as of inertia_semi_axes.
+  double aspect_ratio = 0.0;
+  /// (36 pi V^2)^(1/3) / A, in (0, 1]; no unit (Wadell 1932, "Volume, shape, and roundness of rock
+  /// particles", J. Geol. 40, 443-451).
+  double sphericity = 0.0;
+  /// Root-mean-square gradient of the radius, in a form of this library that does not depend on the
+  /// orientation. It takes the place of the paper's eq. 17, which does (see printed_sdq):
+  /// Sdq^2 = (1/A) integral of |grad_Omega r|^2 dOmega = (1/A) sum A_f (1 - c_f^2) / c_f, with c_f
+  /// the cosine between a face's normal and the direction of its centroid from the volume centroid.
+  /// c_f is taken as at least 0.05, so that folds do not count as infinitely steep. No unit; 0 for
+  /// a sphere.
+  double sdq = 0.0;
+  Vector3 centroid = Vector3::Zero();  ///< of the volume (Lien and Kajiya; Mirtich); length
+  /// Semi-axes of the homogeneous ellipsoid with the same second moments of volume per volume (the
+  /// inertia ellipsoid), S <= I <= L; length. a_k = (5 m_k)^(1/2) with m_k the eigenvalues of
+  /// (1/V) integral of x x^T dV about the centroid: the ellipsoid of equal radii of gyration of
+  /// Medalia (1971), "Dynamic shape factors of particles", Powder Technol. 4, 117-138.
+  Vector3 inertia_semi_axes = Vector3::Zero();
+  /// Tensor of inertia about the centroid at unit density (Lien and Kajiya; Mirtich); length^5.
+  Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();
+  /// Unit quaternion that turns the principal axes into the mesh's, as in MassProperties; no unit.
+  Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
+};
+
+/// Measures a closed outward mesh, as accurately far from the origin as near it. Throws
+/// Error(InvalidInput) when the volume is not positive.
+ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execution);
+
+/// 100 (value / reference - 1); 0 when the two are equal, even at zero.
+double relative_error_percent(double value, double reference);
+
+/// Largest absolute entry of the difference of two inertia tensors, in the principal axes of the
+/// reference, in % of the reference's largest principal moment: a measure of this library.
+double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference);
+
+/// Descriptors measured in lengths of `unit` about `centre`, in plain lengths.
+void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre);
+
+/// What a simulation asks of a rigid body, at unit density: mass is volume times density, moments
+/// are those here times density.
+struct MassProperties {
+  double volume = 0.0;                                       ///< length^3
+  Vector3 centroid = Vector3::Zero();                        ///< length
+  Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();  ///< about the centroid; length^5
+  Vector3 principal_moments = Vector3::Zero();               ///< ascending; length^5
+  /// Unit quaternion q: a point p of the principal frame is centroid + q p in the mesh's. x runs
+  /// along the longest axis, z along the shortest; lib/README.md says how signs are chosen.
+  Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
+};
+
+/// Of a body whose descriptors are known. Throws nothing.
+MassProperties mass_properties(const ShapeDescriptors& descriptors);
+
+/// What describe_shape_in_detail reads the radius by.
+struct DetailedOptions {
+  /// Degree of the harmonic series whose curvature roundness reads, 1 to 60.
+  int roundness_degree = 15;
+  /// Degree of the low-degree shape that roughness is measured from, 0 to 60.
+  int roughness_degree = 8;
+  /// Gauss-Legendre nodes in cos(theta) of the rays cast, times twice as many azimuths; 16 to 1024,
+  /// above both degrees.
+  int polar_nodes = 128;
+};
+
+inline constexpr NumberOption<int> roundness_degree_option = {
+    "roundness-degree",
+    "degree for roundness",
+    1,
+    fit_degree_option.maximum,
+    Ends::Both,
+    "of the series whose corners roundness reads"};
+inline constexpr NumberOption<int> roughness_degree_option = {
+    "roughness-degree",
+    "degree for roughness",
+    0,
+    fit_degree_option.maximum,
+    Ends::Both,
+    "of the smooth shape that roughness is measured from"};
+inline constexpr NumberOption<int> polar_nodes_option = {"polar-nodes", "number of polar nodes", 16,
+                                                         1024};
+
+/// Share of the solid angle in sheets beyond the first, seen from the volume centroid, above which
+/// a body has no radius to be measured by. A crescent, of which 23 % lie behind, would have a
+/// roundness of 0.98, the outermost layer's.
+inline constexpr double largest_measured_fold = 0.01 * usual_fold_limit_percent;
+
+/// Three mutually perpendicular dimensions of a body, S <= I <= L; full lengths, not halves.
+struct FormAxes {
+  double shortest = 0.0;      ///< S
+  double intermediate = 0.0;  ///< I
+  double longest = 0.0;       ///< L
+};
+
+/// Ratios of the three dimensions; none has a unit.
+struct FormRatios {
+  double aspect_ratio = 0.0;      ///< S/L, in (0, 1]
+  double zingg_elongation = 0.0;  ///< I/L, in (0, 1] (Zingg 1935, Beitrag zur Schotteranalyse)
+  double zingg_flatness = 0.0;    ///< S/I, in (0, 1] (the same)
+  /// (L - I)/L, in [0, 1) (Kong and Fonseca 2018, "Quantification of the morphology of shelly
+  /// carbonate sands using 3D images", Geotechnique; read as SHAPE does: Angelidakis, Nadimi and
+  /// Utili 2021, Comput. Phys. Commun. 265, 107983).
+  double kong_fonseca_elongation = 0.0;
+  double kong_fonseca_flatness = 0.0;  ///< (I - S)/I, in [0, 1) (the same)
+  /// Intercept sphericity (I S / L^2)^(1/3), in (0, 1] (Krumbein 1941, J. Sediment. Petrol. 11,
+  /// 64-72).
+  double krumbein_sphericity = 0.0;
+};
+
+/// A sphere inside a body, and how much larger the largest one can be at most.
+struct InscribedSphere {
+  Vector3 centre = Vector3::Zero();  ///< length
+  double radius = 0.0;               ///< length; the sphere lies inside
+  double upper_bound = 0.0;          ///< length; no sphere inside is larger than this
+};
+
+/// Surface orientation tensor of Orosz, Angelidakis and Bagi (2021), "Surface orientation tensor to
+/// predict preferred contact orientation and characterise the form of individual particles", Powder
+/// Technology, 312-325, doi 10.1016/j.powtec.2021.08.054: f = (1/A) sum A_k n_k (x) n_k over the
+/// faces, A_k their areas and n_k their unit normals. No unit; trace 1; eigenvalues f1 >= f2 >= f3.
+/// The three measures add up to 1.
+struct OrientationTensor {
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+  Vector3 eigenvalues = Vector3::Zero();  ///< f1, f2, f3
+  double compactness = 0.0;               ///< f3 / f1, 1 for a sphere or a cube
+  double flakiness = 0.0;                 ///< (f1 - f2) / f1, towards 1 for a plate
+  double rodness = 0.0;                   ///< (f2 - f3) / f1, towards 1 for a rod
+};
+
+/// Wadell's roundness of a body (1932, J. Geol. 40, 443-451), read by curvature as in Zhao and Wang
+/// (2016, Powder Technology), and the part of it that counts as corners; lib/README.md has the
+/// formula.
+struct Roundness {
+  double roundness = 1.0;          ///< in (0, 1]; 1 when there are no corners
+  double corner_area_share = 0.0;  ///< of the surface area, in [0, 1]
+};
+
+/// Height parameters after ISO 25178-2, of the radial deviation of a surface from its low-degree
+/// shape: z(u) = r(u) - r_low(u), less its mean, where r_low is the harmonic series of degree
+/// `degree` fitted to r by least squares over solid angle; means are taken over the area A of the
+/// low-degree shape.
+struct Roughness {
+  int degree = 0;    ///< of the low-degree shape
+  double sa = 0.0;   ///< (1/A) integral |z| dA; length
+  double sq = 0.0;   ///< ((1/A) integral z^2 dA)^(1/2); length
+  double ssk = 0.0;  ///< (1/A) integral z^3 dA / Sq^3; no unit, 0 for heights symmetric about 0
+  double sku = 0.0;  ///< (1/A) integral z^4 dA / Sq^4; no unit, 3 for normally distributed heights
+};
+
+/// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
+/// that computes it: form_axes.h, inscribed_sphere.h, orientation_tensor.h, roundness.h,
+/// roughness.h. lib/README.md has them all in one table.
+struct DetailedDescriptors {
+  ShapeDescriptors basic;
+  /// Of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell (1932);
+  /// length.
+  double equivalent_diameter = 0.0;
+  /// Full axes of the inertia ellipsoid, twice ShapeDescriptors::inertia_semi_axes.
+  FormAxes inertia_axes;
+  FormRatios inertia_ratios;  ///< their ratios; sources at FormRatios
+  FormAxes box_axes;  ///< edges of the smallest oriented box (Chang, Gorissen and Melchior 2011)
+  FormRatios box_ratios;
+  /// V / volume of the convex hull, in (0, 1]; no unit. As in SHAPE (Angelidakis, Nadimi
+  /// and Utili 2021; see FormRatios). Hull by convex_hull.
+  double convexity = 0.0;
+  InscribedSphere inscribed_sphere;
+  OrientationTensor orientation;
+  double folded_share = 0.0;  ///< of 4 pi, seen from the volume centroid
+  /// Whether those below exist: false when the volume centroid lies outside the body, and where the
+  /// surface folds by more than largest_measured_fold. Where it folds by less they see its
+  /// outermost layer.
+  bool has_radius = false;
+  Roundness roundness;       ///< of the fitted series of degree roundness_degree
+  int roundness_degree = 0;  ///< as fitted
+  Roughness roughness;
+  double printed_sdq = 0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (roughness.h)
+};
+
+/// Measures a closed outward mesh as checked by check_mesh; takes of the order of a second for
+/// 100,000 faces. Throws Error(InvalidInput) when the volume is not positive or an option is out of
+/// range, Error(NumericalFailure) when a ray from the volume centroid meets no face or no series
+/// can be fitted to r(u) (see fit_harmonics), Error(Cancelled).
+DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
+                                             const DetailedOptions& options,
+                                             const Execution& execution);
+
+}  // namespace wscvt
