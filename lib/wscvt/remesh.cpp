@@ -10,6 +10,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/nodes/node_count_search.h"
 #include "wscvt/remesh_stages.h"
 #include "wscvt/report/remesh_warnings.h"
 #include "wscvt/surface/grain_surface.h"

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/nodes/space_report.h"
+#include "wscvt/nodes/nodes_options.h"
 #include "wscvt/nodes/step_guard.h"
 
 namespace wscvt {

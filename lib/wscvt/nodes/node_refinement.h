@@ -5,7 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/nodes/refinement_options.h"
+#include "wscvt/nodes/nodes_options.h"
 #include "wscvt/nodes/refinement_target.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 

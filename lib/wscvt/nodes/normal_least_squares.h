@@ -10,7 +10,7 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/nodes/space_report.h"
+#include "wscvt/nodes/nodes_options.h"
 #include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {

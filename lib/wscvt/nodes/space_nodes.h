@@ -3,8 +3,8 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/nodes/nodes_options.h"
 #include "wscvt/nodes/placed_nodes.h"
-#include "wscvt/nodes/space_report.h"
 #include "wscvt/surface/grain.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/relaxation.h"

@@ -5,13 +5,10 @@
 
 #include "wscvt/base/option.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/nodes/node_count_search.h"
-#include "wscvt/nodes/placement_options.h"
+#include "wscvt/nodes/nodes_options.h"
 #include "wscvt/scan/scan_options.h"
 #include "wscvt/surface/surface_options.h"
-#include "wscvt/tessellation/relaxation_options.h"
-#include "wscvt/tessellation/seeding_options.h"
-#include "wscvt/tessellation/weighting.h"
+#include "wscvt/tessellation/tessellation_options.h"
 
 namespace wscvt {
 

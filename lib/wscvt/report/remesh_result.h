@@ -9,16 +9,12 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/measures/error_measure.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/nodes/node_count_search.h"
-#include "wscvt/nodes/refinement_options.h"
-#include "wscvt/nodes/space_report.h"
+#include "wscvt/nodes/nodes_options.h"
 #include "wscvt/report/remesh_options.h"
 #include "wscvt/scan/scan_options.h"
-#include "wscvt/surface/sphere_map.h"
 #include "wscvt/surface/surface_options.h"
-#include "wscvt/tessellation/relaxation_options.h"
+#include "wscvt/tessellation/tessellation_options.h"
 
 namespace wscvt {
 

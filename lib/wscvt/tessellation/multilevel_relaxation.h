@@ -5,7 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/tessellation/relaxation.h"
-#include "wscvt/tessellation/relaxation_options.h"
+#include "wscvt/tessellation/tessellation_options.h"
 
 namespace wscvt {
 

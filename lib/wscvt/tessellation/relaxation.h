@@ -7,8 +7,8 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/sphere_triangulation.h"
-#include "wscvt/tessellation/relaxation_options.h"
 #include "wscvt/tessellation/seed_model.h"
+#include "wscvt/tessellation/tessellation_options.h"
 
 namespace wscvt {
 

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/tessellation/seeding_options.h"
+#include "wscvt/tessellation/tessellation_options.h"
 #include "wscvt/tessellation/weights.h"
 
 namespace wscvt {

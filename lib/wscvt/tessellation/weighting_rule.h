@@ -7,12 +7,13 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/tessellation/tabulated_surface.h"
-#include "wscvt/tessellation/weighting.h"
+#include "wscvt/tessellation/tessellation_options.h"
 
 namespace wscvt {
 
 // What a weighting is to the seed model. Each weighting is one function in a file of its own; a new
-// one is such a file, a value with its row in weighting.h, and its place in weighting_rule.cpp.
+// one is such a file, a value with its row in tessellation_options.h, and its place in
+// weighting_rule.cpp.
 
 /// Largest alpha x of eq. 11, whose weight is then 3.6 / N: 3.118 times that is 0.89 of the mean
 /// cell, so that no cell is wanted smaller than nothing. Beyond it seeds lose their cells (measured

@@ -9,14 +9,13 @@
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/sphere_surface.h"
-#include "wscvt/tessellation/relaxation_options.h"
 #include "wscvt/tessellation/seed_model.h"
-#include "wscvt/tessellation/weighting.h"
+#include "wscvt/tessellation/tessellation_options.h"
 #include "wscvt/tessellation/weighting_rule.h"
 
 namespace wscvt {
 
-/// The weightings for a given surface (see weighting.h).
+/// The weightings for a given surface (see Weighting).
 ///
 /// Radius, area element and curvature are tabulated once, so a seed's weight costs a look-up and
 /// not a series.
