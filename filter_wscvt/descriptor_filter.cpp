@@ -3,7 +3,7 @@
 
 #include "log_text.h"
 #include "report_file.h"
-#include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt::filter {
 

@@ -19,8 +19,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/remesh.h"
-#include "wscvt/report/coefficients_file.h"
-#include "wscvt/report/report_file.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt::filter {
 

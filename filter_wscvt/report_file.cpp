@@ -6,7 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/report/report_file.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt::filter {
 

@@ -23,8 +23,6 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/report_file.h"
-#include "wscvt/report/report_origin.h"
 #include "wscvt/report/sample_summary.h"
 #include "wscvt/report/sample_table.h"
 #include "wscvt/scan/mesh_io.h"

@@ -6,7 +6,8 @@
 #include "exit_code.h"
 #include "output_paths.h"
 #include "work.h"
-#include "wscvt/report/report_file.h"
+#include "wscvt/report/report.h"
+#include "wscvt/report/sample_summary.h"
 #include "wscvt/report/sample_table.h"
 
 namespace wscvt::program {

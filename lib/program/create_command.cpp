@@ -10,7 +10,6 @@
 #include "work.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/report_file.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/surface/quadric_surface.h"
 

@@ -8,8 +8,7 @@
 #include "output_paths.h"
 #include "work.h"
 #include "wscvt/measures/grain_measures.h"
-#include "wscvt/report/descriptor_report.h"
-#include "wscvt/report/report_file.h"
+#include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {

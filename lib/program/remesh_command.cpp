@@ -11,9 +11,7 @@
 #include "remesh_arguments.h"
 #include "work.h"
 #include "wscvt/remesh.h"
-#include "wscvt/report/coefficients_file.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/report_file.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {

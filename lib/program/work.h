@@ -7,7 +7,7 @@
 #include "common_arguments.h"
 #include "progress_line.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/report/report_origin.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt::program {
 

@@ -17,7 +17,6 @@
 #include "wscvt/base/version.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/remesh.h"
-#include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/surface/grain_surface.h"

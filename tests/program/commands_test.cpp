@@ -14,7 +14,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/grain_measures.h"
-#include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {

@@ -18,7 +18,6 @@
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/report_file.h"
 #include "wscvt/scan/mesh_check.h"
 
 namespace wscvt {

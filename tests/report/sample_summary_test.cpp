@@ -12,7 +12,7 @@
 
 #include "support/expect_error.h"
 #include "support/flat_json.h"
-#include "wscvt/report/report_file.h"
+#include "wscvt/report/report.h"
 #include "wscvt/report/sample_table.h"
 
 namespace wscvt {

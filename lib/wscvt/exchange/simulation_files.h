@@ -9,7 +9,7 @@
 #include "wscvt/exchange/distance_grid.h"
 #include "wscvt/exchange/simulation_frame.h"
 #include "wscvt/report/remesh_result.h"
-#include "wscvt/report/report_origin.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt {
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/report_file.h"
-
 #include <algorithm>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/report/csv_table.h"
-#include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
@@ -78,20 +75,6 @@ void write_report(const std::string& path, const GrainMeasures& measures,
     case ReportFormat::Row:
       return append_to_table(path, descriptor_csv(measures, origin));
   }
-}
-
-void write_summary(const std::string& path, const SampleSummary& summary) {
-  write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary)
-                                                             : summary_json(summary));
-}
-
-void check_summary(const std::string& path) {
-  if (report_format(path) == ReportFormat::Row) {
-    throw Error(ErrorCode::InvalidInput, "\"" + path +
-                                             "\" is to hold a summary, which is a page or JSON; "
-                                             "give a name that ends in .html or .json.");
-  }
-  check_writable(path);
 }
 
 }  // namespace wscvt

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/report_origin.h"
-
 #include "wscvt/base/version.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt {
 

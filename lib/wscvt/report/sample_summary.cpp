@@ -12,11 +12,12 @@
 #include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
-#include "wscvt/report/report_origin.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt {
 
@@ -273,6 +274,20 @@ std::vector<std::string> summary_lines(const SampleSummary& summary) {
   if (table.size() == 1) return lines;
   for (std::string& line : aligned_lines(table)) lines.push_back(std::move(line));
   return lines;
+}
+
+void write_summary(const std::string& path, const SampleSummary& summary) {
+  write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary)
+                                                             : summary_json(summary));
+}
+
+void check_summary(const std::string& path) {
+  if (report_format(path) == ReportFormat::Row) {
+    throw Error(ErrorCode::InvalidInput, "\"" + path +
+                                             "\" is to hold a summary, which is a page or JSON; "
+                                             "give a name that ends in .html or .json.");
+  }
+  check_writable(path);
 }
 
 }  // namespace wscvt

@@ -53,4 +53,11 @@ std::string summary_html(const SampleSummary& summary);
 /// The same as lines for a log.
 std::vector<std::string> summary_lines(const SampleSummary& summary);
 
+/// Writes the summary as a page or as JSON, by the ending of the name. Throws Error: InvalidInput
+/// for another ending, InputOutput.
+void write_summary(const std::string& path, const SampleSummary& summary);
+
+/// Refuses before the work what write_summary would refuse after it.
+void check_summary(const std::string& path);
+
 }  // namespace wscvt
