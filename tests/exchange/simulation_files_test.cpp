@@ -14,6 +14,7 @@
 #include "support/expect_error.h"
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
+#include "wscvt/exchange/distance_grid.h"
 #include "wscvt/remesh.h"
 
 namespace wscvt {

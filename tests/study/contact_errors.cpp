@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "support/test_shapes.h"
-#include "wscvt/exchange/simulation_frame.h"
+#include "wscvt/exchange/simulation_options.h"
 #include "wscvt/scan/mesh_check.h"
 
 namespace wscvt::study {

@@ -8,7 +8,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/option.h"
+#include "wscvt/exchange/simulation_options.h"
 
 namespace wscvt {
 
@@ -21,24 +21,6 @@ struct DistanceGrid {
   /// (i counts[1] + j) counts[2] + k.
   std::vector<double> values;
 };
-
-/// How fine and how large a grid is.
-struct GridOptions {
-  double spacing = 0.0;  ///< length, >= 0; 0: a fiftieth of the equivalent diameter
-  int margin = 4;        ///< cells between the surface's box and the edge of the grid, 1 to 1000
-};
-
-inline constexpr NumberOption<double> grid_spacing_option = {
-    "sdf-spacing", "spacing of the grid of distances",
-    0.0,           std::numeric_limits<double>::infinity(),
-    Ends::Both,    "in the unit written; 0 takes a fiftieth of the equivalent diameter"};
-inline constexpr NumberOption<int> grid_margin_option = {
-    "sdf-margin",
-    "margin of the grid of distances",
-    1,
-    1000,
-    Ends::Both,
-    "cells between the grain's box and the grid's edge"};
 
 /// Distances are exact at the points (see MeshDistance), and so is their sign, which is that of a
 /// ray's crossings or, where the surface lies too far to come between, of a point beside. The grid

@@ -8,8 +8,10 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/exchange/distance_grid.h"
 #include "wscvt/exchange/node_table.h"
 #include "wscvt/exchange/rockable_shape.h"
+#include "wscvt/exchange/simulation_options.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt {

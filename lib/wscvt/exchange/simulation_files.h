@@ -2,43 +2,13 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/base/option.h"
-#include "wscvt/exchange/distance_grid.h"
-#include "wscvt/exchange/simulation_frame.h"
+#include "wscvt/exchange/simulation_options.h"
 #include "wscvt/report/remesh_result.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
-
-/// Whose surface the distances of a grid are to.
-enum class GridSurface { Scan, Remesh };
-
-template <>
-struct EnumerationTable<GridSurface> {
-  static constexpr std::string_view key = "sdf-surface";
-  static constexpr std::string_view subject = "surface of the grid of distances";
-  static constexpr Enumerator<GridSurface> rows[] = {
-      {GridSurface::Scan, "scan", "the scan, as it was mended"},
-      {GridSurface::Remesh, "remesh", "the remesh"},
-  };
-};
-
-/// How a remesh and files of it are written for a simulation.
-struct SimulationOptions {
-  FrameOptions frame;
-  GridSurface surface = GridSurface::Scan;
-  GridOptions grid;
-};
-
-/// The unit options share a type, so each has its name beside it.
-inline constexpr std::string_view input_unit_key = "input-unit";
-inline constexpr std::string_view output_unit_key = "output-unit";
-
-/// Throws Error(InvalidInput) for options out of range or at odds with each other.
-void check_simulation_options(const SimulationOptions& options);
 
 /// Throws Error(InvalidInput) for a name that does not end as a table of nodes does: .csv, .vtp or
 /// .shp, the last in the principal frame only.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/exchange/simulation_frame.h"
-
 #include <cmath>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/exchange/simulation_options.h"
 
 namespace wscvt {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <string_view>
 
 #include "wscvt/base/indexed_mesh.h"
@@ -8,6 +9,9 @@
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
+
+// How a grain is written for a simulation: in which frame, size and unit, and with which grid of
+// distances.
 
 /// Which coordinates files for a simulation hold.
 enum class Frame {
@@ -95,5 +99,50 @@ SimulationFrame simulation_frame(const ShapeDescriptors& grain, const FrameOptio
 /// The mesh, and what a simulation asks of the body, in the frame.
 IndexedMesh in_frame(IndexedMesh mesh, const SimulationFrame& frame);
 MassProperties in_frame(const MassProperties& mass, const SimulationFrame& frame);
+
+/// How fine and how large a grid is.
+struct GridOptions {
+  double spacing = 0.0;  ///< length, >= 0; 0: a fiftieth of the equivalent diameter
+  int margin = 4;        ///< cells between the surface's box and the edge of the grid, 1 to 1000
+};
+
+inline constexpr NumberOption<double> grid_spacing_option = {
+    "sdf-spacing", "spacing of the grid of distances",
+    0.0,           std::numeric_limits<double>::infinity(),
+    Ends::Both,    "in the unit written; 0 takes a fiftieth of the equivalent diameter"};
+inline constexpr NumberOption<int> grid_margin_option = {
+    "sdf-margin",
+    "margin of the grid of distances",
+    1,
+    1000,
+    Ends::Both,
+    "cells between the grain's box and the grid's edge"};
+
+/// Whose surface the distances of a grid are to.
+enum class GridSurface { Scan, Remesh };
+
+template <>
+struct EnumerationTable<GridSurface> {
+  static constexpr std::string_view key = "sdf-surface";
+  static constexpr std::string_view subject = "surface of the grid of distances";
+  static constexpr Enumerator<GridSurface> rows[] = {
+      {GridSurface::Scan, "scan", "the scan, as it was mended"},
+      {GridSurface::Remesh, "remesh", "the remesh"},
+  };
+};
+
+/// How a remesh and files of it are written for a simulation.
+struct SimulationOptions {
+  FrameOptions frame;
+  GridSurface surface = GridSurface::Scan;
+  GridOptions grid;
+};
+
+/// The unit options share a type, so each has its name beside it.
+inline constexpr std::string_view input_unit_key = "input-unit";
+inline constexpr std::string_view output_unit_key = "output-unit";
+
+/// Throws Error(InvalidInput) for options out of range or at odds with each other.
+void check_simulation_options(const SimulationOptions& options);
 
 }  // namespace wscvt
