@@ -115,6 +115,22 @@ TEST(EdgeEvening, SameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(evened(mesh, {}, {}, 1).points, evened(mesh, {}, {}, 3).points);
 }
 
+TEST(EdgeEvening, RefusesOptionsOutOfRange) {
+  const auto refusal = [](const EdgeEveningOptions& options) {
+    return test::refusal(ErrorCode::InvalidInput, [&] { check_edge_evening_options(options); });
+  };
+  EXPECT_EQ(refusal({}), "");
+  EdgeEveningOptions negative;
+  negative.rounds = -1;
+  EXPECT_NE(refusal(negative).find("0 or more"), std::string::npos);
+  EdgeEveningOptions wide;
+  wide.limits.smallest_angle = 60.0;
+  EXPECT_NE(refusal(wide).find("below 60"), std::string::npos);
+  EdgeEveningOptions turned;
+  turned.limits.largest_turn = 0.0;
+  EXPECT_NE(refusal(turned).find("above 0 and 180"), std::string::npos);
+}
+
 TEST(EdgeEvening, RefusesAnotherNumberOfSpacings) {
   const std::string said = test::refusal(ErrorCode::InvalidInput, [] {
     even_edges(test::icosahedron(), {1.0, 1.0}, EdgeEveningOptions(), Execution(1));

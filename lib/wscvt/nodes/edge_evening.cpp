@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -99,8 +100,15 @@ std::vector<Vector3> steps_of(const IndexedMesh& mesh, const HalfEdges& half_edg
 
 }  // namespace
 
+void check_edge_evening_options(const EdgeEveningOptions& options) {
+  require_in_range(options.rounds, evening_rounds_option);
+  require_in_range(options.limits.smallest_angle, evening_angle_option);
+  require_in_range(options.limits.largest_turn, evening_turn_option);
+}
+
 EvenedEdges even_edges(const IndexedMesh& nodes, const std::vector<double>& spacings,
                        const EdgeEveningOptions& options, const Execution& execution) {
+  check_edge_evening_options(options);
   const std::size_t count = nodes.points.size();
   if (!spacings.empty() && spacings.size() != count) {
     throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(count) + " nodes, but " +
@@ -119,11 +127,14 @@ EvenedEdges even_edges(const IndexedMesh& nodes, const std::vector<double>& spac
   std::vector<Vector3> ways(count);
   for (std::size_t i = 0; i < count; ++i) ways[i] = mesh.points[i] - nodes.points[i];
   GuardedSteps guarded(nodes, half_edges, std::move(ways), options.limits, execution);
+  std::optional<std::size_t> pairs_before;  // counted when some are found, which is rare
   EvenedEdges result;
   for (bool held = true; held;) {
     result.positions = guarded.positions();
     const auto pairs = self_intersections({result.positions, nodes.triangles}, execution);
-    if (pairs.empty() || pairs.size() <= self_intersections(nodes, execution).size()) break;
+    if (pairs.empty()) break;
+    if (!pairs_before) pairs_before = self_intersections(nodes, execution).size();
+    if (pairs.size() <= *pairs_before) break;
     held = false;
     for (const std::int32_t v : vertices_of(pairs, nodes.triangles)) held |= guarded.hold_back(v);
   }

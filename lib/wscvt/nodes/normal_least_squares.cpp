@@ -287,8 +287,9 @@ NormalFit fit_along_normals(const IndexedMesh& nodes, const std::vector<FitSampl
   NormalFit fit;
   fit.report.samples = samples.size();
   std::vector<Vector3> along(count);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     along[i] = steps[static_cast<Eigen::Index>(i)] * normals[i];
+  }
   GuardedSteps guarded(nodes, half_edges, std::move(along),
                        {options.smallest_angle, options.largest_turn}, execution);
   std::optional<std::size_t> crossings_before;  // counted when some are found, which is rare

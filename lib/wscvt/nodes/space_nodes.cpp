@@ -220,10 +220,10 @@ Laid lay(const MappedSurface& surface, Tessellated nodes, bool mends, const Exec
   Laid result{std::move(nodes), {}, meeting};
   const SpaceTessellation& tessellation = result.nodes.tessellation;
   result.triangles.mesh = {tessellation.positions, tessellation.triangulation.triangles()};
-  result.triangles.places = surface.locate(tessellation.seeds, execution);
   if (!mends) return result;
-  result.triangles = mend_triangles(result.triangles.mesh, result.triangles.places, surface,
-                                    TriangleMendingOptions(), execution, meeting);
+  result.triangles =
+      mend_triangles(result.triangles.mesh, surface.locate(tessellation.seeds, execution), surface,
+                     TriangleMendingOptions(), execution, meeting);
   // Mending makes none meet.
   if (meeting > 0) result.meeting = self_intersections(result.triangles.mesh, execution).size();
   return result;
@@ -239,14 +239,15 @@ void spread_crowded(const MappedSurface& surface, const std::vector<double>& den
                     const RelaxationOptions& relaxation, double volume, bool mends, Laid& best,
                     int& relocated, const Execution& execution) {
   constexpr int attempts = 5;
-  const std::size_t count = best.nodes.tessellation.seeds.size();
+  const auto count = static_cast<double>(best.nodes.tessellation.seeds.size());
   SpaceTessellation latest = best.nodes.tessellation;
   std::vector<double> shares = cell_shares(surface, densities, latest);
-  double fewest = crowded_seeds(shares);
-  if (fewest < crowded_share_at_start * static_cast<double>(count)) return;
+  double crowded = crowded_seeds(shares);
+  double fewest = crowded;
+  if (crowded < crowded_share_at_start * count) return;
   int taken = 0;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    if (crowded_seeds(shares) < crowded_share_at_end * static_cast<double>(count)) return;
+    if (crowded < crowded_share_at_end * count) return;
     const Execution part =
         execution.part(attempt / double{attempts}, (attempt + 1) / double{attempts});
     const int going = relocate_seeds(surface, shares, latest);
@@ -256,13 +257,14 @@ void spread_crowded(const MappedSurface& surface, const std::vector<double>& den
                             densities, relaxation, part);
     latest.report.coarser_levels = best.nodes.tessellation.report.coarser_levels;
     shares = cell_shares(surface, densities, latest);
-    if (!(crowded_seeds(shares) < fewest)) continue;
+    crowded = crowded_seeds(shares);
+    if (!(crowded < fewest)) continue;
     Laid other =
         lay(surface, {latest, flaws_of(latest, volume, part), best.nodes.from, best.nodes.repairs},
             mends, part.part(1.0, 1.0));
     if (best.is_better_mended_than(other)) continue;
     best = std::move(other);
-    fewest = crowded_seeds(shares);
+    fewest = crowded;
     relocated = taken;
   }
 }

@@ -112,17 +112,6 @@ class SphereTriangulation {
   std::vector<std::int32_t> first_half_edge_;  ///< of each vertex: one that starts there, any
 };
 
-/// Calls visit(h) for every half-edge that starts at a vertex, counter-clockwise from outside.
-template <class Visit>
-void visit_fan(const SphereTriangulation& triangulation, std::int32_t vertex, const Visit& visit) {
-  const std::int32_t first = triangulation.first_half_edge()[vertex];
-  std::int32_t h = first;
-  do {
-    visit(h);
-    h = triangulation.opposite()[SphereTriangulation::previous(h)];
-  } while (h != first);
-}
-
 /// The unit sphere as a mesh: the points of subdivided_icosahedron(frequency), 10 frequency^2 + 2,
 /// and their triangles. Throws as that.
 IndexedMesh subdivided_sphere(int frequency);

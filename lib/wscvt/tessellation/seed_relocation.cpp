@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -31,6 +33,13 @@ std::vector<std::int32_t> spread_by(const std::vector<double>& parts) {
     chosen.push_back(static_cast<std::int32_t>(i));
   }
   return chosen;
+}
+
+/// Calls visit(h) for every half-edge that starts at a seed, counter-clockwise.
+template <class Visit>
+void visit_outgoing_of(const SphereTriangulation& triangulation, std::int32_t seed,
+                       const Visit& visit) {
+  visit_outgoing(triangulation.opposite(), triangulation.first_half_edge()[seed], visit);
 }
 
 double too_many(double share) { return share < crowded_share ? 1.0 - share : 0.0; }
@@ -94,7 +103,7 @@ class Relocation {
   /// refinement_relocations.cpp.
   bool leave(std::int32_t seed, Patch& patch) const {
     std::vector<std::int32_t> ring;
-    visit_fan(triangulation_, seed, [&](std::int32_t h) {
+    visit_outgoing_of(triangulation_, seed, [&](std::int32_t h) {
       ring.push_back(triangulation_.origin(SphereTriangulation::next(h)));
       patch.slots.push_back(h / 3);
     });
@@ -118,7 +127,7 @@ class Relocation {
   std::int32_t longest_edge(std::int32_t seed) const {
     double longest = 0.0;
     std::int32_t edge = triangulation_.first_half_edge()[seed];
-    visit_fan(triangulation_, seed, [&](std::int32_t h) {
+    visit_outgoing_of(triangulation_, seed, [&](std::int32_t h) {
       const std::int32_t other = triangulation_.origin(SphereTriangulation::next(h));
       const double length = (positions_[other] - positions_[seed]).norm();
       if (!(length > longest)) return;
@@ -160,7 +169,7 @@ std::vector<double> cell_shares(const MappedSurface& surface, const std::vector<
     for (std::size_t i = 0; i < count; ++i) {
       double sum = before[i];
       int seeds = 1;
-      visit_fan(triangulation, static_cast<std::int32_t>(i), [&](std::int32_t h) {
+      visit_outgoing_of(triangulation, static_cast<std::int32_t>(i), [&](std::int32_t h) {
         sum += before[triangulation.origin(SphereTriangulation::next(h))];
         ++seeds;
       });

@@ -8,9 +8,10 @@
 
 namespace wscvt {
 
-/// How a tessellation's cells compare with the wanted ones about each seed: their areas over the
-/// wanted areas, in the mean over some three rings about it, so that single cells do not count.
-/// `densities` is that of relax_in_space.
+/// How a tessellation's cells compare with the wanted ones about each seed, one number a seed:
+/// areas / wanted areas, in the mean over some three rings about it, so that single cells do not
+/// count; 1 where all is as wanted. `densities` is that of relax_in_space, and what its result is
+/// measured by: a wanted area goes by 1 / density.
 std::vector<double> cell_shares(const MappedSurface& surface, const std::vector<double>& densities,
                                 const SpaceTessellation& tessellation);
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -35,7 +36,8 @@ constexpr double settled_share = 0.5;
 /// Calls visit(second, third) for the corners of every triangle about a vertex, counter-clockwise.
 template <class Visit>
 void visit_ring(const SphereTriangulation& triangulation, std::int32_t vertex, const Visit& visit) {
-  visit_fan(triangulation, vertex, [&](std::int32_t h) {
+  const std::int32_t start = triangulation.first_half_edge()[vertex];
+  visit_outgoing(triangulation.opposite(), start, [&](std::int32_t h) {
     visit(triangulation.origin(SphereTriangulation::next(h)),
           triangulation.origin(SphereTriangulation::previous(h)));
   });

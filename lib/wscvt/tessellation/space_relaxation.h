@@ -28,8 +28,8 @@ struct SpaceTessellation {
 /// would else end in triangles of which arithmetic cannot tell whether they stand.
 inline constexpr double smallest_seed_determinant = 1e-12;
 
-/// Where between two seeds, along their great arc, the surface is as far from both; no nearer to an
-/// end than a tenth of their chord.
+/// The seed, unit, on the great arc between two (unit, not opposite) where the surface is as far
+/// from it to both in space, by six bisections; no nearer to an end than a tenth of their chord.
 Vector3 halfway_seed(const MappedSurface& surface, const Vector3& a, const Vector3& b);
 
 /// The seeds of a coarsest level: the directions of the `count` vertices that the collapse kept
