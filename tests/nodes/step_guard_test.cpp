@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -55,6 +56,44 @@ TEST(GuardedSteps, KeepAnglesAndTurnsWithinTheLimits) {
     EXPECT_GE(normals[h / 3].dot(normals[half_edges.opposite[h] / 3]),
               std::cos(limits.largest_turn * test::pi / 180.0));
   }
+}
+
+TEST(GuardedSteps, LookAtAnglesWhereNothingTurns) {
+  // A node in the middle of a box's face slides within it.
+  const IndexedMesh mesh = test::subdivided(test::box(1.0, 1.0, 1.0), 2);
+  const HalfEdges half_edges = link_half_edges(mesh.triangles, mesh.points.size());
+  const Execution execution(1);
+  std::vector<Vector3> steps(mesh.points.size(), Vector3::Zero());
+  const double top =
+      std::max_element(mesh.points.begin(), mesh.points.end(),
+                       [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); })
+          ->z();
+  Vector3 middle = Vector3::Zero();
+  int corners = 0;
+  for (const Vector3& p : mesh.points) {
+    if (p.z() == top) {
+      middle += p;
+      ++corners;
+    }
+  }
+  middle /= corners;
+  std::size_t node = 0;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if ((mesh.points[i] - middle).norm() < 1e-12) node = i;
+  }
+  ASSERT_LT((mesh.points[node] - middle).norm(), 1e-12);
+  steps[node] = Vector3(0.1875, 0.0, 0.0);
+  const auto sharpest = [&](const StepLimits& limits) {
+    const std::vector<Vector3> moved =
+        GuardedSteps(mesh, half_edges, steps, limits, execution).positions();
+    double cosine = -1.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      cosine = std::max(cosine, largest_corner_cosine(moved[a], moved[b], moved[c]));
+    }
+    return std::acos(cosine) * 180.0 / test::pi;
+  };
+  EXPECT_LT(sharpest({0.0, 91.0}), 30.0);
+  EXPECT_GE(sharpest({40.0, 91.0}), 40.0);
 }
 
 TEST(GuardedSteps, HoldBackByHalvesAndAtLastAltogether) {
