@@ -47,7 +47,7 @@ class GuardedSteps {
 
   const IndexedMesh& nodes_;
   const HalfEdges& half_edges_;
-  const Execution& execution_;
+  Execution execution_;  // a copy: callers may pass a temporary
   std::vector<Vector3> steps_;
   std::vector<int> halvings_;  ///< of each node's step
   double angle_cosine_;        ///< of the limits
