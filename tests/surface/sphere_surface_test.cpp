@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -179,6 +181,83 @@ TEST(SphereSurface, SameBytesOnAnyNumberOfThreadsAndInAnyCompany) {
   SurfaceJet alone;
   map.evaluate_jets(&u[17], 1, Derivatives::Second, &alone);
   EXPECT_EQ(alone.jacobian, one[17].jacobian);
+}
+
+/// A ball of radius 2 about (0.5, 0, 0), each point in its direction from there: a surface that is
+/// not radial, known in closed form.
+HarmonicMap shifted_ball() {
+  const double linear = 2.0 * std::sqrt(4.0 * test::pi / 3.0);
+  std::array<std::vector<double>, 3> coefficients;
+  for (std::vector<double>& one : coefficients) one.assign(4, 0.0);
+  coefficients[0][0] = 0.5 * std::sqrt(4.0 * test::pi);
+  coefficients[0][harmonic_index(1, 1)] = -linear;
+  coefficients[1][harmonic_index(1, -1)] = -linear;
+  coefficients[2][harmonic_index(1, 0)] = linear;
+  return HarmonicMap(coefficients);
+}
+
+TEST(SphereSurface, ShapesOfAShiftedBallAreThoseOfTheFormula) {
+  const HarmonicMap ball = shifted_ball();
+  const std::vector<Vector3> directions = random_directions(50, test::announced(31));
+  std::vector<LocalShape> shapes(directions.size());
+  ball.evaluate_shapes(directions.data(), directions.size(), Derivatives::Second, shapes.data());
+  const std::vector<double> distances = ball.distances(directions, Execution(2));
+  const AreaElements read = area_elements(ball, directions, Execution(2));
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double distance = (Vector3(0.5, 0.0, 0.0) + 2.0 * directions[i]).norm();
+    // A few dozen operations on numbers of size 1.
+    EXPECT_NEAR(shapes[i].distance, distance, 1e-13);
+    EXPECT_NEAR(shapes[i].area_element, 4.0, 1e-13);
+    EXPECT_NEAR(shapes[i].curvatures.maximum, 0.5, 1e-7);  // the root of what cancels to rounding
+    EXPECT_NEAR(shapes[i].curvatures.minimum, 0.5, 1e-7);
+    EXPECT_EQ(distances[i], shapes[i].distance);
+    EXPECT_EQ(read.distances[i], shapes[i].distance);
+    EXPECT_EQ(read.elements[i], shapes[i].area_element);
+  }
+  EXPECT_NEAR(surface_area(ball, 8, Execution(1)), 16.0 * test::pi, 1e-12);
+}
+
+TEST(SphereSurface, ShapesByRadiiAreThoseByCoordinates) {
+  const HarmonicSurface series = lumpy_series();
+  const std::vector<Vector3> directions = random_directions(50, test::announced(32));
+  for (const Derivatives derivatives :
+       {Derivatives::None, Derivatives::First, Derivatives::Second}) {
+    std::vector<LocalShape> radial(directions.size());
+    std::vector<LocalShape> usual(directions.size());
+    series.evaluate_shapes(directions.data(), directions.size(), derivatives, radial.data());
+    series.SphereSurface::evaluate_shapes(directions.data(), directions.size(), derivatives,
+                                          usual.data());
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      EXPECT_NEAR(radial[i].distance, usual[i].distance, 1e-13);
+      EXPECT_NEAR(radial[i].area_element, usual[i].area_element, 1e-12);
+      // Two formulas, each with differences of numbers of size 1 and a root.
+      EXPECT_NEAR(radial[i].curvatures.maximum, usual[i].curvatures.maximum, 1e-9);
+      EXPECT_NEAR(radial[i].curvatures.minimum, usual[i].curvatures.minimum, 1e-9);
+    }
+  }
+  EXPECT_NEAR(
+      surface_area(series, 40, Execution(1)) / body_integrals(series, 40, Execution(1)).area, 1.0,
+      1e-12);
+}
+
+TEST(SphereSurface, WhereASearchBeginsLeavesThePointWhereItIs) {
+  const IndexedMesh mesh = test::lumpy(3);
+  const SphereMap map = map_to_sphere(mesh, SphereMapOptions(), Execution(1));
+  const MappedSurface scan(mesh, map.directions, Execution(1));
+  const HarmonicMap ball = shifted_ball();
+  for (const SphereSurface* surface : std::vector<const SphereSurface*>{&scan, &ball}) {
+    MeshPlace place;
+    for (const Vector3& u : random_directions(50, test::announced(33))) {
+      Vector3 point;
+      surface->evaluate_positions(&u, 1, &point);
+      EXPECT_LT((surface->position_near(u, place) - point).norm(), 1e-13);
+    }
+  }
+  // The place is that of the direction, so that the next search is short.
+  MeshPlace place;
+  const Vector3 point = scan.position_near(Vector3::UnitX(), place);
+  EXPECT_EQ(place.triangle, scan.locate(Vector3::UnitX()).triangle);
+  EXPECT_EQ(scan.position(place), point);
 }
 
 }  // namespace

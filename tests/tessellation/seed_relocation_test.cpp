@@ -66,7 +66,7 @@ TEST(SeedRelocation, SharesTellWhereCellsAreSmallerThanWanted) {
   // As wanted where that many are wanted there: twice as many for an area as below.
   std::vector<double> densities;
   for (const Vector3& p : ball().mesh().points) densities.push_back(p.z() > 0.0 ? 2.0 : 1.0);
-  EXPECT_LT(crowded_seeds(cell_shares(ball(), densities, tessellation)), 5.0);
+  EXPECT_LT(crowded_seeds(cell_shares(ball(), site_density(ball(), densities), tessellation)), 5.0);
 }
 
 TEST(SeedRelocation, TakesSeedsFromWhereTheyCrowdToWhereThereIsRoom) {

@@ -18,6 +18,7 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/quadric_surface.h"
 #include "wscvt/surface/sphere_map.h"
 
 namespace wscvt {
@@ -40,7 +41,8 @@ SpaceTessellation relaxed(const Body& body, int count, const std::vector<double>
                           const MultilevelOptions& levels = {}, int threads = 1) {
   const int coarsest = level_sizes(count, levels.coarsest_seeds).front();
   return relax_in_space(surviving_seeds(body.surface, body.map.collapse_order, coarsest), count,
-                        body.surface, densities, RelaxationOptions(), levels, Execution(threads));
+                        body.surface, site_density(body.surface, densities), RelaxationOptions(),
+                        levels, Execution(threads));
 }
 
 /// Closed with so many nodes, upright on the sphere, and on the surface.
@@ -66,6 +68,36 @@ TEST(SpaceRelaxation, EvensOutAHookThatNoRayDescribes) {
   EXPECT_GT(quality.smallest_angle, 25.0);
   EXPECT_NE(result.report.outcome, RelaxationOutcome::Stuck);
   EXPECT_LT(result.report.history.back().displacement, RelaxationOptions().displacement_tolerance);
+}
+
+TEST(SpaceRelaxation, TakesAnySurfaceOverTheSphere) {
+  // An ellipsoid by its radii: no mesh, no map.
+  const Vector3 axes(1.0, 0.7, 0.5);
+  const Ellipsoid ellipsoid(axes);
+  const MultilevelOptions levels;
+  const SiteDensity upper = [](const Vector3& u, const MeshPlace&) {
+    return u.z() > 0.0 ? 3.0 : 1.0;
+  };
+  for (const SiteDensity& density : {SiteDensity(), upper}) {
+    const int count = 200;
+    const SpaceTessellation result =
+        relax_in_space(fibonacci_lattice(level_sizes(count, levels.coarsest_seeds).front()), count,
+                       ellipsoid, density, RelaxationOptions(), levels, Execution(1));
+    ASSERT_EQ(result.positions.size(), 200U);
+    int above = 0;
+    for (const Vector3& p : result.positions) {
+      EXPECT_NEAR(p.cwiseQuotient(axes).norm(), 1.0, 1e-13);
+      above += p.z() > 0.0 ? 1 : 0;
+    }
+    // Half of them or three quarters, but for half a row of cells at the equator (13 of 26).
+    EXPECT_NEAR(above, density ? 150 : 100, 13);
+    const MeshQuality quality =
+        measure_quality({result.positions, result.triangulation.triangles()});
+    if (!density) {
+      EXPECT_LT(quality.edge_ratio.mean, 1.17);
+    }
+    EXPECT_NE(result.report.outcome, RelaxationOutcome::Stuck);
+  }
 }
 
 TEST(SpaceRelaxation, LevelsGiveExactlyTheNumberAskedFor) {

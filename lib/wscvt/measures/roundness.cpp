@@ -8,7 +8,7 @@
 
 namespace wscvt {
 
-Roundness wadell_roundness(const RadialSurface& surface, double inscribed_radius, int polar_nodes,
+Roundness wadell_roundness(const SphereSurface& surface, double inscribed_radius, int polar_nodes,
                            const Execution& execution) {
   if (!(inscribed_radius > 0.0)) {
     throw Error(
@@ -22,13 +22,13 @@ Roundness wadell_roundness(const RadialSurface& surface, double inscribed_radius
   // Total area, area of the corners, integral of 1/k over them.
   const Vector3 sums = execution.parallel_sum(
       u.size(), block_size, Vector3(Vector3::Zero()), [&](std::size_t begin, std::size_t end) {
-        std::vector<RadialJet> jets(end - begin);
-        surface.evaluate(u.data() + begin, end - begin, Derivatives::Second, jets.data());
+        std::vector<LocalShape> shapes(end - begin);
+        surface.evaluate_shapes(u.data() + begin, shapes.size(), Derivatives::Second,
+                                shapes.data());
         Vector3 part = Vector3::Zero();
         for (std::size_t i = begin; i < end; ++i) {
-          const RadialJet& jet = jets[i - begin];
-          const double area = quadrature.weights[i] * area_element(jet);
-          const double curvature = principal_curvatures(jet, u[i]).maximum;
+          const double area = quadrature.weights[i] * shapes[i - begin].area_element;
+          const double curvature = shapes[i - begin].curvatures.maximum;
           part[0] += area;
           if (curvature * inscribed_radius > 1.0) {
             part[1] += area;

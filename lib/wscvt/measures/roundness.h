@@ -20,7 +20,7 @@ namespace wscvt {
 /// `inscribed_radius` > 0 in the length of the surface. Integrated at `polar_nodes` Gauss-Legendre
 /// nodes in cos(theta) times twice as many azimuths. Throws Error(InvalidInput) for a radius or
 /// number of nodes that is not positive.
-Roundness wadell_roundness(const RadialSurface& surface, double inscribed_radius, int polar_nodes,
+Roundness wadell_roundness(const SphereSurface& surface, double inscribed_radius, int polar_nodes,
                            const Execution& execution);
 
 }  // namespace wscvt

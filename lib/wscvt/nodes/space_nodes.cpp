@@ -73,8 +73,8 @@ SpaceTessellation tessellate(const MappedSurface& surface,
     none.maximum_iterations = 0;
     std::vector<Vector3> seeds = unrelaxed_seeds(seeding.sampling, node_count);
     SphereTriangulation triangulation(seeds);
-    return relax_in_space(std::move(seeds), std::move(triangulation), surface, densities, none,
-                          execution);
+    return relax_in_space(std::move(seeds), std::move(triangulation), surface,
+                          site_density(surface, densities), none, execution);
   }
   const MultilevelOptions in_space = levels_in_space(options.levels, seeding.start, node_count);
   const int coarsest = level_sizes(node_count, in_space.coarsest_seeds).front();
@@ -83,8 +83,8 @@ SpaceTessellation tessellate(const MappedSurface& surface,
                                : from == SpaceStart::Spread
                                    ? spread_seeds(surface, densities, coarsest, execution)
                                    : surviving_seeds(surface, collapse_order, coarsest);
-  return relax_in_space(std::move(start), node_count, surface, densities, relaxation, in_space,
-                        execution);
+  return relax_in_space(std::move(start), node_count, surface, site_density(surface, densities),
+                        relaxation, in_space, execution);
 }
 
 /// Raises the density about the middles of triangles that meet: half as many nodes again there,
@@ -140,7 +140,7 @@ int repair(const MappedSurface& surface, const RelaxationOptions& options, doubl
   for (int count = 1; count <= most_repairs && !flaws.pairs.empty(); ++count) {
     raise_densities(surface, latest, left.pairs, densities, execution);
     latest = relax_in_space(std::move(latest.seeds), std::move(latest.triangulation), surface,
-                            densities, local, execution);
+                            site_density(surface, densities), local, execution);
     left = flaws_of(latest, volume, execution);
     if (left.pairs.size() >= flaws.pairs.size()) continue;
     best = count;
@@ -241,7 +241,8 @@ void spread_crowded(const MappedSurface& surface, const std::vector<double>& den
   constexpr int attempts = 5;
   const auto count = static_cast<double>(best.nodes.tessellation.seeds.size());
   SpaceTessellation latest = best.nodes.tessellation;
-  std::vector<double> shares = cell_shares(surface, densities, latest);
+  const SiteDensity density = site_density(surface, densities);
+  std::vector<double> shares = cell_shares(surface, density, latest);
   double crowded = crowded_seeds(shares);
   double fewest = crowded;
   if (crowded < crowded_share_at_start * count) return;
@@ -254,9 +255,9 @@ void spread_crowded(const MappedSurface& surface, const std::vector<double>& den
     if (going == 0) return;
     taken += going;
     latest = relax_in_space(std::move(latest.seeds), std::move(latest.triangulation), surface,
-                            densities, relaxation, part);
+                            density, relaxation, part);
     latest.report.coarser_levels = best.nodes.tessellation.report.coarser_levels;
-    shares = cell_shares(surface, densities, latest);
+    shares = cell_shares(surface, density, latest);
     crowded = crowded_seeds(shares);
     if (!(crowded < fewest)) continue;
     Laid other =

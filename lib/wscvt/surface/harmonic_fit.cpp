@@ -14,7 +14,6 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/plastic_sequence.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/area_elements.h"
 #include "wscvt/surface/harmonic_transform.h"
 
 namespace wscvt {
@@ -73,7 +72,7 @@ RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& ex
     grid.weights.insert(grid.weights.end(), circle.size(), grid.latitudes.weights[row] * pi / rows);
   }
   AreaElements read = area_elements(surface, directions, execution);
-  grid.radii = std::move(read.radii);
+  grid.radii = std::move(read.distances);
   grid.areas = std::move(read.elements);
   for (std::size_t i = 0; i < nodes; ++i) grid.areas[i] *= grid.weights[i];
   for (const double radius : grid.radii) {
@@ -202,7 +201,7 @@ AreaSamples sample_by_area(const RadialSurface& surface, const RadialGrid& grid,
   samples.weights.reserve(directions.size());
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const std::size_t node = nodes[k];
-    samples.points.push_back(read.radii[k] * directions[k]);
+    samples.points.push_back(read.distances[k] * directions[k]);
     samples.weights.push_back(read.elements[k] * grid.weights[node] / grid.areas[node]);
   }
   return samples;

@@ -160,6 +160,11 @@ std::vector<MeshPlace> MappedSurface::locate(const std::vector<Vector3>& directi
   return places;
 }
 
+Vector3 MappedSurface::position_near(const Vector3& direction, MeshPlace& place) const {
+  place = locate(direction, place.triangle);
+  return position(place);
+}
+
 MeshPlace MappedSurface::nearest(const Vector3& point, const MeshPlace& from) const {
   MeshPlace best = from;
   double smallest = (position(from) - point).squaredNorm();

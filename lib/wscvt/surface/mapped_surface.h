@@ -12,12 +12,6 @@
 
 namespace wscvt {
 
-/// A place on a triangle mesh: a triangle and barycentric weights >= 0 of its corners, sum 1.
-struct MeshPlace {
-  std::int32_t triangle = -1;
-  Vector3 weights = Vector3::Zero();
-};
-
 /// The point of a mesh at a place on it.
 inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
   // From a corner, so that on a large offset only what is small is multiplied.
@@ -69,6 +63,9 @@ class MappedSurface : public SphereSurface {
   Vector3 position(const Vector3& direction, std::int32_t hint = -1) const {
     return position(locate(direction, hint));
   }
+
+  /// Begins at the triangle of `place`.
+  Vector3 position_near(const Vector3& direction, MeshPlace& place) const override;
 
   /// A place near `point` on the sheet that `from` lies on: from face to face over their corners,
   /// downhill in the distance, so that a sheet behind or beside it is never taken. The nearest

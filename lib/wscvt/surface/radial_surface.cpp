@@ -86,6 +86,24 @@ void RadialSurface::evaluate_positions(const Vector3* directions, std::size_t co
   for (std::size_t i = 0; i < count; ++i) positions[i] = radii[i] * directions[i];
 }
 
+void RadialSurface::evaluate_shapes(const Vector3* directions, std::size_t count,
+                                    Derivatives derivatives, LocalShape* shapes) const {
+  if (derivatives == Derivatives::None) {
+    std::vector<double> radii(count);
+    evaluate_radii(directions, count, radii.data());
+    for (std::size_t i = 0; i < count; ++i) shapes[i] = {radii[i], 0.0, {}};
+    return;
+  }
+  std::vector<RadialJet> jets(count);
+  evaluate(directions, count, derivatives, jets.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    shapes[i] = {jets[i].radius, area_element(jets[i]), {}};
+    if (derivatives == Derivatives::Second) {
+      shapes[i].curvatures = principal_curvatures(jets[i], directions[i]);
+    }
+  }
+}
+
 Vector3 surface_normal(const RadialJet& jet, const Vector3& direction) {
   return (jet.radius * direction - jet.gradient).normalized();
 }

@@ -32,11 +32,42 @@ void SphereSurface::evaluate_positions(const Vector3* directions, std::size_t co
   for (std::size_t i = 0; i < count; ++i) positions[i] = jets[i].position;
 }
 
+void SphereSurface::evaluate_shapes(const Vector3* directions, std::size_t count,
+                                    Derivatives derivatives, LocalShape* shapes) const {
+  std::vector<SurfaceJet> jets(count);
+  evaluate_jets(directions, count, derivatives, jets.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    shapes[i] = LocalShape();
+    shapes[i].distance = jets[i].position.norm();
+    if (derivatives == Derivatives::None) continue;
+    shapes[i].area_element = area_element(jets[i], directions[i]);
+    if (derivatives == Derivatives::First) continue;
+    shapes[i].curvatures = principal_curvatures(jets[i], directions[i]);
+  }
+}
+
+Vector3 SphereSurface::position_near(const Vector3& direction, MeshPlace& /*place*/) const {
+  Vector3 position;
+  evaluate_positions(&direction, 1, &position);
+  return position;
+}
+
 std::vector<Vector3> SphereSurface::positions(const std::vector<Vector3>& directions,
                                               const Execution& execution) const {
   std::vector<Vector3> result(directions.size());
   execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
     evaluate_positions(directions.data() + begin, end - begin, result.data() + begin);
+  });
+  return result;
+}
+
+std::vector<double> SphereSurface::distances(const std::vector<Vector3>& directions,
+                                             const Execution& execution) const {
+  std::vector<double> result(directions.size());
+  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::vector<LocalShape> shapes(end - begin);
+    evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::None, shapes.data());
+    for (std::size_t i = begin; i < end; ++i) result[i] = shapes[i - begin].distance;
   });
   return result;
 }
@@ -108,6 +139,37 @@ BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
   result.area = sums[1];
   if (result.volume != 0.0) result.centroid = sums.segment<3>(2) / result.volume;
   return result;
+}
+
+AreaElements area_elements(const SphereSurface& surface, const std::vector<Vector3>& directions,
+                           const Execution& execution) {
+  AreaElements result;
+  result.distances.resize(directions.size());
+  result.elements.resize(directions.size());
+  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::vector<LocalShape> shapes(end - begin);
+    surface.evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::First,
+                            shapes.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      result.distances[i] = shapes[i - begin].distance;
+      result.elements[i] = shapes[i - begin].area_element;
+    }
+  });
+  return result;
+}
+
+double surface_area(const SphereSurface& surface, int polar_nodes, const Execution& execution) {
+  const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
+  const std::vector<Vector3>& u = quadrature.directions;
+  return execution.parallel_sum(u.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+    std::vector<LocalShape> shapes(end - begin);
+    surface.evaluate_shapes(u.data() + begin, shapes.size(), Derivatives::First, shapes.data());
+    double part = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      part += quadrature.weights[i] * shapes[i - begin].area_element;
+    }
+    return part;
+  });
 }
 
 IndexedMesh mesh_of_surface(const SphereSurface& surface, int frequency,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -20,6 +21,20 @@ enum class Derivatives { None, First, Second };
 struct PrincipalCurvatures {
   double maximum = 0.0;
   double minimum = 0.0;
+};
+
+/// A place on a triangle mesh: a triangle and barycentric weights >= 0 of its corners, sum 1.
+struct MeshPlace {
+  std::int32_t triangle = -1;
+  Vector3 weights = Vector3::Zero();
+};
+
+/// What a surface is like in a direction, in numbers that do not hang on coordinates: for those who
+/// need no derivatives, which of some surfaces are many more numbers.
+struct LocalShape {
+  double distance = 0.0;           ///< |x|, length; of a radial surface its radius
+  double area_element = 0.0;       ///< g = dA/dOmega, length^2; filled in from First on
+  PrincipalCurvatures curvatures;  ///< filled in from Second on
 };
 
 /// The point of a surface over the direction u, with its derivatives on the unit sphere.
@@ -53,6 +68,17 @@ class SphereSurface {
   virtual void evaluate_positions(const Vector3* directions, std::size_t count,
                                   Vector3* positions) const;
 
+  /// Distance from the origin, area element and curvatures, as far as `derivatives` says, for
+  /// `count` unit vectors. The default goes through `evaluate_jets`.
+  virtual void evaluate_shapes(const Vector3* directions, std::size_t count,
+                               Derivatives derivatives, LocalShape* shapes) const;
+
+  /// The point in one direction, and its place where the surface is a mesh; others leave `place` as
+  /// it is. What stands there, of another call best for a direction nearby, is where a search
+  /// begins; it changes the point by no more than rounding. May be called from several threads with
+  /// a place each.
+  virtual Vector3 position_near(const Vector3& direction, MeshPlace& place) const;
+
   /// As `evaluate_jets`, for a whole array and on the threads of `execution`.
   std::vector<SurfaceJet> surface_jets(const std::vector<Vector3>& directions,
                                        Derivatives derivatives, const Execution& execution) const;
@@ -60,6 +86,10 @@ class SphereSurface {
   /// As `evaluate_positions`, for a whole array and on the threads of `execution`.
   std::vector<Vector3> positions(const std::vector<Vector3>& directions,
                                  const Execution& execution) const;
+
+  /// The distances from the origin alone of `evaluate_shapes`, likewise; length.
+  std::vector<double> distances(const std::vector<Vector3>& directions,
+                                const Execution& execution) const;
 };
 
 /// Normal of the surface at direction u, as long as the surface's area per solid angle,
@@ -95,6 +125,21 @@ BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
 IndexedMesh mesh_of_surface(const SphereSurface& surface, int frequency,
                             const Execution& execution);
 
+/// Distances and area elements, one value a direction.
+struct AreaElements {
+  std::vector<double> distances;  ///< |x|, length; of a radial surface its radii
+  std::vector<double> elements;   ///< dA/dOmega, see area_element; length^2
+};
+
+/// Both in `directions`, unit vectors, without keeping a jet of many numbers a direction. Throws
+/// what the surface throws, and Error(Cancelled).
+AreaElements area_elements(const SphereSurface& surface, const std::vector<Vector3>& directions,
+                           const Execution& execution);
+
+/// Area of a surface by the quadrature of body_integrals, which needs no normals; length^2. Throws
+/// Error(InvalidInput) if polar_nodes < 1.
+double surface_area(const SphereSurface& surface, int polar_nodes, const Execution& execution);
+
 /// Radius of a star-shaped surface in one direction u, with its derivatives on the unit sphere.
 ///
 /// Both derivatives are those of the degree-0 homogeneous extension r(x) = r(x/|x|), taken at
@@ -108,9 +153,9 @@ struct RadialJet {
 };
 
 /// A star-shaped surface about the origin, x(u) = r(u) u for every unit vector u: the case of a
-/// surface over the sphere that the published method is for. What works on radii, its weights by
-/// distance and its fit of one number a node, asks for radii; three numbers for one would cost it
-/// its speed.
+/// surface over the sphere that the published method is for. Only what has no meaning without one
+/// number a direction asks for it: the fit of the series, cells that are moved along rays, nodes
+/// fitted along them, roughness and Sdq as printed.
 class RadialSurface : public SphereSurface {
  public:
   /// Radii and derivatives for `count` unit vectors. Fields beyond `derivatives` are left at zero.
@@ -139,6 +184,9 @@ class RadialSurface : public SphereSurface {
   /// From `evaluate_radii`.
   void evaluate_positions(const Vector3* directions, std::size_t count,
                           Vector3* positions) const override;
+  /// From `evaluate`, or `evaluate_radii` where that is enough: one number instead of three.
+  void evaluate_shapes(const Vector3* directions, std::size_t count, Derivatives derivatives,
+                       LocalShape* shapes) const override;
 };
 
 /// Surface area per solid angle, g = dA/dOmega = r sqrt(r^2 + |grad_Omega r|^2); length^2.

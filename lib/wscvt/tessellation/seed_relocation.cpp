@@ -52,7 +52,7 @@ struct Patch {
 
 class Relocation {
  public:
-  Relocation(const MappedSurface& surface, SpaceTessellation& tessellation)
+  Relocation(const SphereSurface& surface, SpaceTessellation& tessellation)
       : surface_(surface),
         seeds_(tessellation.seeds),
         positions_(tessellation.positions),
@@ -87,7 +87,8 @@ class Relocation {
         patch.triangles.push_back(t);
       }
     }
-    positions_[seed] = surface_.position(surface_.locate(seeds_[seed]));
+    MeshPlace place;
+    positions_[seed] = surface_.position_near(seeds_[seed], place);
     // The fan's triangles become two fewer, and the edge's two become four.
     triangulation_.replace(patch.slots, patch.triangles);
     return true;
@@ -137,7 +138,7 @@ class Relocation {
     return edge;
   }
 
-  const MappedSurface& surface_;
+  const SphereSurface& surface_;
   std::vector<Vector3>& seeds_;
   std::vector<Vector3>& positions_;
   SphereTriangulation& triangulation_;
@@ -145,16 +146,17 @@ class Relocation {
 
 }  // namespace
 
-std::vector<double> cell_shares(const MappedSurface& surface, const std::vector<double>& densities,
+std::vector<double> cell_shares(const SphereSurface& surface, const SiteDensity& density,
                                 const SpaceTessellation& tessellation) {
   const std::size_t count = tessellation.seeds.size();
   std::vector<double> wanted(count, 1.0);
   double area = 0.0;
   double all_wanted = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!densities.empty()) {
-      const MeshPlace place = surface.locate(tessellation.seeds[i]);
-      wanted[i] = 1.0 / value_at(surface.mesh(), densities, place);
+    if (density) {
+      MeshPlace place;
+      surface.position_near(tessellation.seeds[i], place);
+      wanted[i] = 1.0 / density(tessellation.seeds[i], place);
     }
     area += tessellation.cell_areas[i];
     all_wanted += wanted[i];
@@ -185,7 +187,7 @@ double crowded_seeds(const std::vector<double>& shares) {
   return sum;
 }
 
-int relocate_seeds(const MappedSurface& surface, const std::vector<double>& shares,
+int relocate_seeds(const SphereSurface& surface, const std::vector<double>& shares,
                    SpaceTessellation& tessellation) {
   double room = 0.0;
   for (const double share : shares) room += std::max(0.0, share - 1.0);

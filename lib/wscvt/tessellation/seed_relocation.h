@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "wscvt/surface/mapped_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 #include "wscvt/tessellation/space_relaxation.h"
 
 namespace wscvt {
 
 /// How a tessellation's cells compare with the wanted ones about each seed, one number a seed:
 /// areas / wanted areas, in the mean over some three rings about it, so that single cells do not
-/// count; 1 where all is as wanted. `densities` is that of relax_in_space, and what its result is
+/// count; 1 where all is as wanted. `density` is that of relax_in_space, and what its result is
 /// measured by: a wanted area goes by 1 / density.
-std::vector<double> cell_shares(const MappedSurface& surface, const std::vector<double>& densities,
+std::vector<double> cell_shares(const SphereSurface& surface, const SiteDensity& density,
                                 const SpaceTessellation& tessellation);
 
 /// How many seeds too many stand where cells are that much too small that no relaxation has
@@ -25,7 +25,7 @@ double crowded_seeds(const std::vector<double>& shares);
 /// ring and the seed is put on the longest edge about another, halfway on the surface; each only
 /// where all triangles stand on the sphere. Returns how many went. Of `tessellation` seeds,
 /// positions and triangulation follow, but not the cells: it is to be relaxed again.
-int relocate_seeds(const MappedSurface& surface, const std::vector<double>& shares,
+int relocate_seeds(const SphereSurface& surface, const std::vector<double>& shares,
                    SpaceTessellation& tessellation);
 
 }  // namespace wscvt

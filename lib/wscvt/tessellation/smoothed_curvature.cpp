@@ -23,11 +23,12 @@ GridField smoothed_curvature(const TabulatedSurface& table, CurvatureSquare squa
   if (samples == nullptr) {
     const std::vector<Vector3> nodes = SphereGrid::directions(rows);
     execution.parallel_for(nodes.size(), block_size, [&](std::size_t begin, std::size_t end) {
-      std::vector<RadialJet> jets(end - begin);
-      table.surface().evaluate(nodes.data() + begin, end - begin, Derivatives::Second, jets.data());
+      std::vector<LocalShape> shapes(end - begin);
+      table.surface().evaluate_shapes(nodes.data() + begin, shapes.size(), Derivatives::Second,
+                                      shapes.data());
       for (std::size_t i = begin; i < end; ++i) {
         const double share = moment.sines[i / columns];
-        moment.values[i] = share * square(principal_curvatures(jets[i - begin], nodes[i]));
+        moment.values[i] = share * square(shapes[i - begin].curvatures);
         measure.values[i] = share;
       }
     });

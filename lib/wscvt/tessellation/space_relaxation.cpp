@@ -59,9 +59,8 @@ std::vector<double> determinants(const SphereTriangulation& triangulation,
 
 class Relaxation {
  public:
-  Relaxation(const MappedSurface& surface, const std::vector<double>& densities,
-             const Execution& execution)
-      : surface_(surface), densities_(densities), execution_(execution) {}
+  Relaxation(const SphereSurface& surface, const SiteDensity& density, const Execution& execution)
+      : surface_(surface), density_(density), execution_(execution) {}
 
   SpaceTessellation run(std::vector<Vector3> seeds, SphereTriangulation triangulation,
                         const RelaxationOptions& options) {
@@ -78,12 +77,11 @@ class Relaxation {
   void evaluate() {
     const std::size_t count = seeds_.size();
     positions_.resize(count);
-    wanted_.resize(densities_.empty() ? 0 : count);
+    wanted_.resize(density_ ? count : 0);
     execution_.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        places_[i] = surface_.locate(seeds_[i], places_[i].triangle);
-        positions_[i] = surface_.position(places_[i]);
-        if (!wanted_.empty()) wanted_[i] = value_at(surface_.mesh(), densities_, places_[i]);
+        positions_[i] = surface_.position_near(seeds_[i], places_[i]);
+        if (density_) wanted_[i] = density_(seeds_[i], places_[i]);
       }
     });
     const auto repair = triangulation_->restore_surface_delaunay(seeds_, positions_, execution_,
@@ -245,8 +243,8 @@ class Relaxation {
     }
   }
 
-  const MappedSurface& surface_;
-  const std::vector<double>& densities_;
+  const SphereSurface& surface_;
+  const SiteDensity& density_;
   const Execution& execution_;
   std::vector<Vector3> seeds_, positions_;
   std::vector<MeshPlace> places_;
@@ -258,10 +256,13 @@ class Relaxation {
 };
 
 /// Puts `extra` seeds into the middles of the triangles that are largest in space, one by one.
-void insert_seeds(const MappedSurface& surface, int extra, std::vector<Vector3>& seeds,
+void insert_seeds(const SphereSurface& surface, int extra, std::vector<Vector3>& seeds,
                   std::vector<Triangle>& triangles) {
   if (extra <= 0) return;
-  const auto position = [&](std::int32_t v) { return surface.position(surface.locate(seeds[v])); };
+  const auto position = [&](std::int32_t v) {
+    MeshPlace place;
+    return surface.position_near(seeds[v], place);
+  };
   const auto area = [&](const Triangle& t) {
     return doubled_area_normal(position(t[0]), position(t[1]), position(t[2])).norm();
   };
@@ -284,7 +285,7 @@ void insert_seeds(const MappedSurface& surface, int extra, std::vector<Vector3>&
 }
 
 /// Cuts every edge where the surface is as far from both its ends, and every triangle in four.
-void subdivide(const MappedSurface& surface, const SpaceTessellation& coarse,
+void subdivide(const SphereSurface& surface, const SpaceTessellation& coarse,
                const Execution& execution, std::vector<Vector3>& seeds,
                std::vector<Triangle>& triangles) {
   const SphereTriangulation& triangulation = coarse.triangulation;
@@ -324,27 +325,33 @@ void subdivide(const MappedSurface& surface, const SpaceTessellation& coarse,
 
 }  // namespace
 
-Vector3 halfway_seed(const MappedSurface& surface, const Vector3& a, const Vector3& b) {
+Vector3 halfway_seed(const SphereSurface& surface, const Vector3& a, const Vector3& b) {
   constexpr int bisections = 6;
   const auto at = [&](double share) {
     return Vector3(((1.0 - share) * a + share * b).normalized());
   };
-  const MeshPlace place_of_a = surface.locate(a);
-  const Vector3 position_of_a = surface.position(place_of_a);
-  const Vector3 position_of_b = surface.position(surface.locate(b, place_of_a.triangle));
+  MeshPlace place;
+  const Vector3 position_of_a = surface.position_near(a, place);
+  MeshPlace place_of_b = place;
+  const Vector3 position_of_b = surface.position_near(b, place_of_b);
   // Not nearer to an end: see smallest_seed_determinant.
   double low = 0.1;
   double high = 0.9;
-  std::int32_t face = place_of_a.triangle;
   for (int k = 0; k < bisections; ++k) {
     const double share = 0.5 * (low + high);
-    const MeshPlace place = surface.locate(at(share), face);
-    face = place.triangle;
-    const Vector3 x = surface.position(place);
+    const Vector3 x = surface.position_near(at(share), place);
     const bool nearer_a = (x - position_of_a).squaredNorm() < (x - position_of_b).squaredNorm();
     (nearer_a ? low : high) = share;
   }
   return at(0.5 * (low + high));
+}
+
+SiteDensity site_density(const MappedSurface& surface, const std::vector<double>& values) {
+  check_densities(surface.mesh(), values);
+  if (values.empty()) return {};
+  return [&surface, &values](const Vector3& /*direction*/, const MeshPlace& place) {
+    return value_at(surface.mesh(), values, place);
+  };
 }
 
 std::vector<Vector3> surviving_seeds(const MappedSurface& surface,
@@ -369,27 +376,25 @@ std::vector<Vector3> surviving_seeds(const MappedSurface& surface,
 }
 
 SpaceTessellation relax_in_space(std::vector<Vector3> seeds, SphereTriangulation triangulation,
-                                 const MappedSurface& surface, const std::vector<double>& densities,
+                                 const SphereSurface& surface, const SiteDensity& density,
                                  const RelaxationOptions& options, const Execution& execution) {
   check_relaxation_options(options);
-  check_densities(surface.mesh(), densities);
   if (seeds.size() != triangulation.vertex_count()) {
     throw Error(ErrorCode::InvalidInput,
                 "The triangulation has " + std::to_string(triangulation.vertex_count()) +
                     " vertices, but there are " + std::to_string(seeds.size()) +
                     " seeds; give one each.");
   }
-  return Relaxation(surface, densities, execution)
+  return Relaxation(surface, density, execution)
       .run(std::move(seeds), std::move(triangulation), options);
 }
 
 SpaceTessellation relax_in_space(std::vector<Vector3> start, int count,
-                                 const MappedSurface& surface, const std::vector<double>& densities,
+                                 const SphereSurface& surface, const SiteDensity& density,
                                  const RelaxationOptions& options, const MultilevelOptions& levels,
                                  const Execution& execution) {
   check_relaxation_options(options);
   check_multilevel_options(levels);
-  check_densities(surface.mesh(), densities);
   const std::vector<int> sizes = level_sizes(count, levels.coarsest_seeds);
   if (static_cast<int>(start.size()) != sizes.front()) {
     throw Error(ErrorCode::InvalidInput, "The coarsest level has " + std::to_string(start.size()) +
@@ -404,7 +409,7 @@ SpaceTessellation relax_in_space(std::vector<Vector3> start, int count,
     const double begin = done;
     done += sizes[level];
     const Execution part = execution.part(begin / all, done / all);
-    return Relaxation(surface, densities, part)
+    return Relaxation(surface, density, part)
         .run(std::move(seeds), std::move(triangulation),
              level_options(options, levels, level + 1 == sizes.size(), false));
   };

@@ -2,20 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mapped_surface.h"
+#include "wscvt/surface/sphere_surface.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/relaxation.h"
 
 namespace wscvt {
 
-/// Sites on a mapped surface, and their triangulation on the sphere of the map.
+/// Sites on a surface over the sphere, and their triangulation there.
 struct SpaceTessellation {
-  std::vector<Vector3> seeds;         ///< unit: where the sites lie on the sphere of the map
+  std::vector<Vector3> seeds;         ///< unit: where the sites lie on the sphere
   std::vector<Vector3> positions;     ///< the sites, on the surface
   SphereTriangulation triangulation;  ///< of the seeds; no triangle turned on the sphere
   std::vector<double> cell_areas;     ///< of the surface, length^2
@@ -28,9 +30,18 @@ struct SpaceTessellation {
 /// would else end in triangles of which arithmetic cannot tell whether they stand.
 inline constexpr double smallest_seed_determinant = 1e-12;
 
+/// The wanted number of sites per area in a direction, > 0, in any common scale; empty for the same
+/// everywhere. The place is that of SphereSurface::position_near in this direction, so that nothing
+/// is searched twice. Called from several threads.
+using SiteDensity = std::function<double(const Vector3& direction, const MeshPlace& place)>;
+
+/// A density given at the vertices of the surface's mesh, linear between; none for no values. What
+/// is given must outlive it. Throws Error(InvalidInput) for another number of values than vertices.
+SiteDensity site_density(const MappedSurface& surface, const std::vector<double>& values);
+
 /// The seed, unit, on the great arc between two (unit, not opposite) where the surface is as far
 /// from it to both in space, by six bisections; no nearer to an end than a tenth of their chord.
-Vector3 halfway_seed(const MappedSurface& surface, const Vector3& a, const Vector3& b);
+Vector3 halfway_seed(const SphereSurface& surface, const Vector3& a, const Vector3& b);
 
 /// The seeds of a coarsest level: the directions of the `count` vertices that the collapse kept
 /// longest, which lie evenly over the surface; where the mesh has fewer vertices, all of them and
@@ -39,8 +50,8 @@ Vector3 halfway_seed(const MappedSurface& surface, const Vector3& a, const Vecto
 std::vector<Vector3> surviving_seeds(const MappedSurface& surface,
                                      const std::vector<std::int32_t>& collapse_order, int count);
 
-/// Relaxes sites in space, on a surface that is mapped to the sphere: a centroidal Voronoi
-/// tessellation of the surface itself, whatever its shape, with the sphere as its guard.
+/// Relaxes sites in space, on any surface over the sphere, such as a mapped scan: a centroidal
+/// Voronoi tessellation of the surface itself, whatever its shape, with the sphere as its guard.
 ///
 /// Cells and centroids are those of the sites' positions (CellGeometry::Surface). A site's shift
 /// is written as a combination of itself and two neighbours of its ring in space; its seed becomes
@@ -55,21 +66,19 @@ std::vector<Vector3> surviving_seeds(const MappedSurface& surface,
 /// report are those of relax(); `options.metric` has no meaning here. The levels are those of
 /// relax_multilevel; edges are cut where the surface is as far from both ends.
 ///
-/// `densities` is the wanted number of sites per area, any common scale, at the vertices of the
-/// surface's mesh, linear between; empty for the same everywhere. `start` has as many seeds as the
-/// coarsest of level_sizes(count, levels.coarsest_seeds).
+/// `start` has as many seeds as the coarsest of level_sizes(count, levels.coarsest_seeds).
 ///
 /// The same bytes on any number of threads. Throws Error(InvalidInput) for options out of range and
-/// for other numbers of seeds or densities, Error(NumericalFailure) when the start cannot be
-/// triangulated, Error(Cancelled).
+/// for another number of seeds, Error(NumericalFailure) when the start cannot be triangulated,
+/// Error(Cancelled).
 SpaceTessellation relax_in_space(std::vector<Vector3> start, int count,
-                                 const MappedSurface& surface, const std::vector<double>& densities,
+                                 const SphereSurface& surface, const SiteDensity& density,
                                  const RelaxationOptions& options, const MultilevelOptions& levels,
                                  const Execution& execution);
 
 /// The same for sites that have a triangulation already, on one level.
 SpaceTessellation relax_in_space(std::vector<Vector3> seeds, SphereTriangulation triangulation,
-                                 const MappedSurface& surface, const std::vector<double>& densities,
+                                 const SphereSurface& surface, const SiteDensity& density,
                                  const RelaxationOptions& options, const Execution& execution);
 
 }  // namespace wscvt

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "wscvt/surface/area_elements.h"
-
 namespace wscvt {
 
 namespace {
@@ -15,21 +13,23 @@ int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
 
 }  // namespace
 
-TabulatedSurface::TabulatedSurface(const RadialSurface& surface, const CurvatureSamples* samples,
+TabulatedSurface::TabulatedSurface(const SphereSurface& surface, const CurvatureSamples* samples,
                                    int node_count, const Execution& execution)
     : surface_(surface), samples_(samples), node_count_(node_count), execution_(execution) {}
 
 int TabulatedSurface::rows() const { return rows_for(node_count_); }
 
-const std::vector<double>& TabulatedSurface::radii() const {
-  if (radii_.empty()) radii_ = surface_.radii(SphereGrid::directions(rows()), execution_);
-  return radii_;
+const std::vector<double>& TabulatedSurface::distances() const {
+  if (distances_.empty()) {
+    distances_ = surface_.distances(SphereGrid::directions(rows()), execution_);
+  }
+  return distances_;
 }
 
 const GridField& TabulatedSurface::area_elements() const {
   if (!area_elements_) {
     AreaElements read = wscvt::area_elements(surface_, SphereGrid::directions(rows()), execution_);
-    radii_ = std::move(read.radii);
+    distances_ = std::move(read.distances);
     area_elements_.emplace(rows()).values = std::move(read.elements);
   }
   return *area_elements_;
@@ -40,7 +40,7 @@ double TabulatedSurface::area() const {
   // series of degree 20 and to 1e-3 on those of 60 (sixteen scans), beside a weight that no cell
   // follows to more than some per cent.
   return area_elements_ ? area_elements_->integral([](double g) { return g; })
-                        : integrate(surface_, 3 * rows() / 8, execution_).area;
+                        : surface_area(surface_, 3 * rows() / 8, execution_);
 }
 
 }  // namespace wscvt

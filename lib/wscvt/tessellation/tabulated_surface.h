@@ -14,21 +14,22 @@
 namespace wscvt {
 
 /// A surface as weightings see it, tabulated at the nodes of an equal-angle grid: what is asked
-/// for, when it is, since derivatives take three times as long as radii. Not for several threads at
-/// once.
+/// for, when it is, since derivatives take three times as long as distances. Not for several
+/// threads at once.
 class TabulatedSurface {
  public:
   /// For `node_count` seeds. `samples` stand in the place of the surface's own curvature; they may
   /// be null. What is given must outlive the table.
-  TabulatedSurface(const RadialSurface& surface, const CurvatureSamples* samples, int node_count,
+  TabulatedSurface(const SphereSurface& surface, const CurvatureSamples* samples, int node_count,
                    const Execution& execution);
 
-  const RadialSurface& surface() const { return surface_; }
+  const SphereSurface& surface() const { return surface_; }
   const CurvatureSamples* samples() const { return samples_; }
   int node_count() const { return node_count_; }
-  int rows() const;                          ///< of the grid
-  const std::vector<double>& radii() const;  ///< at the nodes of the grid
-  const GridField& area_elements() const;    ///< dA/dOmega there
+  int rows() const;  ///< of the grid
+  /// From the origin to the surface at the nodes of the grid; the radii of a radial surface.
+  const std::vector<double>& distances() const;
+  const GridField& area_elements() const;  ///< dA/dOmega there
   /// S, of the surface: from the area elements where they were asked for, else by quadrature; both
   /// within 1e-3.
   double area() const;
@@ -36,11 +37,11 @@ class TabulatedSurface {
   double radius() const { return std::sqrt(area() / (4.0 * pi)); }
 
  private:
-  const RadialSurface& surface_;
+  const SphereSurface& surface_;
   const CurvatureSamples* samples_;
   int node_count_;
   Execution execution_;
-  mutable std::vector<double> radii_;
+  mutable std::vector<double> distances_;
   mutable std::optional<GridField> area_elements_;
 };
 

@@ -74,7 +74,7 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
   const int rows = table.rows();
   if (metric == RelaxationMetric::Surface) {
     area_element_.emplace(rows, surface_stencil, table.area_elements().values);
-    radius_.emplace(rows, surface_stencil, table.radii());
+    radius_.emplace(rows, surface_stencil, table.distances());
   }
   rule_ = weighting_rule(table, options, execution);
   GridField field(rows);
