@@ -38,8 +38,9 @@ ParameterList remesh_parameters() {
       weighting_parameter(),
       option_parameter(
           "HarmonicDegree", defaults.surface.degree, harmonic_degree_option, "Harmonic degree",
-          "Degree of the spherical-harmonic series fitted to the surface, on the radial map only. "
-          "0: follows the grain, the log says how; as published then means 20."),
+          "Degree of the spherical-harmonic series fitted to the surface; on the spherical map "
+          "WSCVT-C alone takes its curvature from one. 0: follows the grain, the log says how; as "
+          "published, and on the spherical map, then means 20."),
       curvature_alpha_parameter(),
       table_parameter("CurvatureSource", defaults.weighting.curvature_source, "Curvature from",
                       "Where WSCVT-C takes the surface's curvature from."),

@@ -178,9 +178,27 @@ TEST(RemeshSpherical, WhatTheMapCannotFollowIsSaidAndReportedAsUsed) {
   const RemeshResult result = remesh(body("hook"), options, Execution(1));
   EXPECT_TRUE(says(result.warnings, "take the radial parametrization for cells on the sphere"));
   EXPECT_EQ(result.options.relaxation.metric, RelaxationMetric::Surface);
-  EXPECT_EQ(result.options.weighting.curvature_source, CurvatureSource::QuadricFit);
   options.relaxation.metric = RelaxationMetric::Surface;
   EXPECT_FALSE(says(remesh(body("hook"), options, Execution(1)).warnings, "cells on the sphere"));
+}
+
+TEST(RemeshSpherical, CurvatureComesFromWhereItIsAskedFor) {
+  RemeshOptions options = options_of(200);
+  options.surface.parametrization = Parametrization::Spherical;
+  options.weighting.kind = Weighting::Curvature;
+  const IndexedMesh scan = test::scaled(test::sphere(4), Vector3(3, 1, 1));
+  const RemeshResult series = remesh(scan, options, Execution(1));
+  EXPECT_TRUE(says(report_lines(series), "curvature from series"));
+  options.surface.degree = 4;
+  EXPECT_NE(remesh(scan, options, Execution(1)).mesh.points, series.mesh.points)
+      << "the degree is that of the map's series";
+  options.weighting.curvature_source = CurvatureSource::QuadricFit;
+  const RemeshResult quadrics = remesh(scan, options, Execution(1));
+  EXPECT_TRUE(says(report_lines(quadrics), "curvature from quadrics on the scan"));
+  EXPECT_NE(quadrics.mesh.points, series.mesh.points);
+  options.surface.degree = 20;
+  EXPECT_EQ(remesh(scan, options, Execution(1)).mesh.points, quadrics.mesh.points)
+      << "quadrics have no degree";
 }
 
 TEST(RemeshSpherical, CurvatureWeightingsGatherNodesWhereItBends) {

@@ -71,6 +71,12 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   }
 }
 
+/// Of the series for x, y and z of a mapped scan.
+int map_degree(const SurfaceOptions& options) {
+  constexpr int usual_degree = 20;
+  return options.degree == automatic_degree ? usual_degree : options.degree;
+}
+
 RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
                             const Execution& execution) {
   execution.report(0.0, "Weighing the seeds");
@@ -174,12 +180,10 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   PlacedNodes nodes;
   if (grain.parametrization == Parametrization::Spherical) {
     metric = RelaxationMetric::Surface;
-    if (options.weighting.kind == Weighting::Curvature) {
-      result.options.weighting.curvature_source = CurvatureSource::QuadricFit;
-    }
     SpaceNodes in_space =
         place_in_space(grain, prepared.distance ? &*prepared.distance : nullptr, options.node_count,
-                       {options.seeding, options.weighting, options.relaxation, options.levels},
+                       {options.seeding, options.weighting, options.relaxation, options.levels,
+                        map_degree(options.surface)},
                        options.placement, prepared.original.volume, execution.part(0.0, 0.9));
     result.relaxation = std::move(in_space.relaxation);
     result.space = in_space.report;
@@ -222,11 +226,9 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
   }
 
   if (grain.mapped && options.measures.coefficients) {
-    constexpr int usual_degree = 20;
-    const int degree =
-        options.surface.degree == automatic_degree ? usual_degree : options.surface.degree;
     result.map_coefficients =
-        fit_harmonic_map(*grain.mapped, degree, execution.part(0.98, 0.99)).map.coefficients();
+        fit_harmonic_map(*grain.mapped, map_degree(options.surface), execution.part(0.98, 0.99))
+            .map.coefficients();
   }
   result.centre = grain.centre;
   result.input = prepared.input;

@@ -3,15 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/curvature.h"
+#include "wscvt/surface/harmonic_map.h"
 #include "wscvt/tessellation/weighting_rule.h"
 
 namespace wscvt {
 
 namespace {
+
+constexpr std::size_t block_size = 1024;
 
 /// Takes means over the vertices' rings, by area, as often as carries a value `distance` far: one
 /// round has the spread of a walk by one edge.
@@ -57,20 +62,52 @@ Weighting weighting_in_space(Weighting asked) {
                                                                             : Weighting::Area;
 }
 
-std::vector<double> densities_in_space(const IndexedMesh& mesh, const WeightingOptions& options,
-                                       int node_count, const Execution& execution) {
+std::vector<PrincipalCurvatures> curvatures_in_space(const MappedSurface& surface,
+                                                     const WeightingOptions& options, int degree,
+                                                     const Execution& execution) {
   check_weighting_options(options);
   const Weighting weighting = weighting_in_space(options.kind);
   if (weighting == Weighting::Area) return {};
-  // The paper fits over one ring, which scans leave under-determined.
-  constexpr int rings = 2;
+  if (weighting == Weighting::ErrorAdaptive ||
+      options.curvature_source == CurvatureSource::QuadricFit) {
+    // The paper fits over one ring, which scans leave under-determined.
+    constexpr int rings = 2;
+    return quadric_fit_curvatures(surface.mesh(), rings, execution);
+  }
+  const HarmonicMap map = fit_harmonic_map(surface, degree, execution).map;
+  const std::vector<Vector3>& directions = surface.directions();
+  std::vector<PrincipalCurvatures> curvatures(directions.size());
+  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    std::vector<LocalShape> shapes(end - begin);
+    map.evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::Second,
+                        shapes.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      const PrincipalCurvatures& k = shapes[i - begin].curvatures;
+      // Where a map folds it has no normal: a vertex there says nothing.
+      if (std::isfinite(k.maximum) && std::isfinite(k.minimum)) curvatures[i] = k;
+    }
+  });
+  return curvatures;
+}
+
+std::vector<double> densities_in_space(const IndexedMesh& mesh,
+                                       const std::vector<PrincipalCurvatures>& curvatures,
+                                       const WeightingOptions& options, int node_count) {
+  check_weighting_options(options);
+  const Weighting weighting = weighting_in_space(options.kind);
+  if (weighting == Weighting::Area) return {};
+  if (curvatures.size() != mesh.points.size()) {
+    throw Error(ErrorCode::InvalidInput,
+                "There are " + std::to_string(curvatures.size()) + " pairs of curvatures for " +
+                    std::to_string(mesh.points.size()) + " vertices; give one each.");
+  }
   const std::vector<double> areas = vertex_areas(mesh);
   double area = 0.0;
   for (const double part : areas) area += part;
   const double radius = std::sqrt(area / (4.0 * pi));
   std::vector<double> field;
   field.reserve(areas.size());
-  for (const PrincipalCurvatures& k : quadric_fit_curvatures(mesh, rings, execution)) {
+  for (const PrincipalCurvatures& k : curvatures) {
     const double largest = std::max(k.maximum * k.maximum, k.minimum * k.minimum);
     const double mean = 0.5 * (k.maximum * k.maximum + k.minimum * k.minimum);
     field.push_back(weighting == Weighting::Curvature ? largest : mean);

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/mapped_surface.h"
 #include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
@@ -13,16 +14,25 @@ namespace wscvt {
 /// nothing about a cell there: WSCVT-D and Constant are the area weighting.
 Weighting weighting_in_space(Weighting asked);
 
+/// Principal curvatures at the vertices of a mapped scan, for a weighting; 1 / length. WSCVT-C by
+/// CurvatureSource::Series takes those of the scan's harmonic map of `degree` (fit_harmonic_map),
+/// all others those of quadrics over two rings. Empty for weightings that read none. Throws as
+/// fit_harmonic_map.
+std::vector<PrincipalCurvatures> curvatures_in_space(const MappedSurface& surface,
+                                                     const WeightingOptions& options, int degree,
+                                                     const Execution& execution);
+
 /// The wanted number of nodes per area at every vertex of a mesh, any common scale; empty for the
 /// area weighting, which wants the same everywhere.
 ///
-/// Curvatures are those of quadrics over two rings, as root mean square over caps of 0.6 h, h =
-/// sqrt(area / node_count), like those of SurfaceSeedModel. WSCVT-C gives a cell the area that
-/// eqs. 11 to 14 and the law "cell area = 3.118 w + C" give it on the unit sphere, with mean and
-/// deviation over the surface; ErrorAdaptive the density k^exponent.
+/// `curvatures` are one pair a vertex, taken as root mean square over caps of 0.6 h, h = sqrt(area
+/// / node_count), like those of SurfaceSeedModel. WSCVT-C gives a cell the area that eqs. 11 to 14
+/// and the law "cell area = 3.118 w + C" give it on the unit sphere, with mean and deviation over
+/// the surface; ErrorAdaptive the density k^exponent.
 ///
-/// Throws Error(InvalidInput) for options out of range.
-std::vector<double> densities_in_space(const IndexedMesh& mesh, const WeightingOptions& options,
-                                       int node_count, const Execution& execution);
+/// Throws Error(InvalidInput) for options out of range and another number of curvatures.
+std::vector<double> densities_in_space(const IndexedMesh& mesh,
+                                       const std::vector<PrincipalCurvatures>& curvatures,
+                                       const WeightingOptions& options, int node_count);
 
 }  // namespace wscvt

@@ -101,7 +101,7 @@ struct EnumerationTable<Weighting> {
 
 /// Which curvature the curvature weighting reads.
 enum class CurvatureSource {
-  Series,      ///< analytic, from the fitted series
+  Series,      ///< analytic, from the series fitted to the radii, or to x, y and z
   QuadricFit,  ///< the paper's local quadric fit on the scan (2-ring)
 };
 
@@ -121,7 +121,7 @@ struct WeightingOptions {
   Weighting kind = Weighting::RadialDistance;
   double curvature_alpha = 1.0;          ///< alpha of eq. 11, -3 to 3
   double adaptive_exponent = 2.0 / 3.0;  ///< of the curvature in ErrorAdaptive, 0 to 1.5
-  /// A formula has its own only, and a grain that is mapped whole has no series: quadrics there.
+  /// A formula has its own only. On a spherical map the series is that of the harmonic map.
   CurvatureSource curvature_source = CurvatureSource::Series;
 };
 
