@@ -63,7 +63,7 @@ std::vector<Sample> read_surface(const std::vector<Vector3>& directions,
   execution.report(0.0, stage);
   execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
     std::vector<Vector3> sample_directions(count);
-    std::vector<RadialJet> jets(count);
+    std::vector<LocalShape> shapes(count);
     for (std::size_t t = begin; t < end; ++t) {
       const Vector3& a = directions[triangles[t][0]];
       const Vector3& b = directions[triangles[t][1]];
@@ -76,15 +76,15 @@ std::vector<Sample> read_surface(const std::vector<Vector3>& directions,
         own[q].height = foot.norm();
         sample_directions[q] = foot / own[q].height;
       }
-      surface.evaluate(sample_directions.data(), count, Derivatives::First, jets.data());
+      surface.evaluate_shapes(sample_directions.data(), count, Derivatives::First, shapes.data());
       for (std::size_t q = 0; q < count; ++q) {
-        const double r = jets[q].radius;
+        const double r = shapes[q].distance;
         own[q].inverse_radius = 1.0 / r;
         // A difference d in 1/r is r^2 d along the ray, and r^2 d cos(tilt) off the surface; its
         // square counts with the surface that the sample stands for, g per solid angle. And
         // g cos^2(tilt) = r^4 / g, since cos(tilt) = r^2 / g.
         own[q].weight =
-            solid_angle / std::pow(own[q].height, 3) * std::pow(r, 8) / area_element(jets[q]);
+            solid_angle / std::pow(own[q].height, 3) * std::pow(r, 8) / shapes[q].area_element;
       }
     }
   });

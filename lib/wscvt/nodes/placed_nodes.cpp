@@ -98,12 +98,10 @@ PlacedNodes place_nodes(const Grain& grain, RelaxationResult relaxed, Relaxation
   nodes.directions = std::move(relaxed.seeds);
   nodes.cell_areas = std::move(relaxed.cell_areas);
   SphereTriangulation& triangulation = relaxed.triangulation;
-  const std::vector<RadialJet> jets =
-      grain.surface->jets(nodes.directions, Derivatives::First, execution);
-  nodes.radii.resize(jets.size());
-  for (std::size_t i = 0; i < jets.size(); ++i) {
-    nodes.radii[i] = jets[i].radius;
-    if (metric == RelaxationMetric::Sphere) nodes.cell_areas[i] *= area_element(jets[i]);
+  AreaElements read = area_elements(*grain.surface, nodes.directions, execution);
+  nodes.radii = std::move(read.distances);
+  if (metric == RelaxationMetric::Sphere) {
+    for (std::size_t i = 0; i < nodes.radii.size(); ++i) nodes.cell_areas[i] *= read.elements[i];
   }
   if (options.kind == NodePlacement::Scan && grain.is_scan) {
     nodes.radii = grain.rays->radii(nodes.directions, execution);
