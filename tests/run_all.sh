@@ -49,14 +49,14 @@ for step in "$@"; do
       configure_and_build asan-ubsan
       ctest --preset asan-ubsan -j "$jobs" ;;
     replay)
-      # Of the sanitizers, what was found by fuzzing, and the rooms that read what users bring: minutes
-      # instead of an hour.
+      # Of the sanitizers, what was found by fuzzing, the rooms that read what users bring, and those
+      # of seeds and nodes, which keep references to what they are given: minutes instead of an hour.
       configure asan-ubsan
       cmake --build --preset asan-ubsan -j "$jobs" --target \
         replay_mesh_file replay_coefficient_file replay_soup replay_remesh \
-        base_tests sphere_tests scan_tests exchange_tests
+        base_tests sphere_tests scan_tests exchange_tests tessellation_tests nodes_tests
       ctest --preset asan-ubsan -j "$jobs" -R '^replay_'
-      ctest --preset asan-ubsan -j "$jobs" -L '^(base|sphere|scan|exchange)$' ;;
+      ctest --preset asan-ubsan -j "$jobs" -L '^(base|sphere|scan|exchange|tessellation|nodes)$' ;;
     format)
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
