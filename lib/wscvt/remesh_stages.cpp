@@ -17,6 +17,7 @@
 #include "wscvt/surface/parametrization_choice.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/seeding.h"
+#include "wscvt/tessellation/space_weights.h"
 
 namespace wscvt {
 
@@ -49,6 +50,12 @@ double residual_of_folds(const Grain& grain, const Execution& execution) {
                       execution);
 }
 
+/// Of the series for x, y and z of a mapped scan.
+int map_degree(const SurfaceOptions& options) {
+  constexpr int usual_degree = 20;
+  return options.degree == automatic_degree ? usual_degree : options.degree;
+}
+
 /// What the later stages read off the grain, made once.
 void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Execution& execution) {
   Grain& grain = prepared.grain;
@@ -66,15 +73,18 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   if (radial && !grain.rays && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
+  if (grain.mapped) {
+    if (options.measures.coefficients || reads_map_series(options.weighting)) {
+      grain.map_series =
+          fit_harmonic_map(*grain.mapped, map_degree(options.surface), execution.part(0.5, 0.8));
+    }
+    grain.map_curvatures =
+        curvatures_in_space(*grain.mapped, grain.map_series ? &grain.map_series->map : nullptr,
+                            options.weighting, execution.part(0.8, 0.9));
+  }
   if (measures_distances(options) || grain.is_level) {
     prepared.distance.emplace(grain.mesh, execution.part(0.9, 1.0));
   }
-}
-
-/// Of the series for x, y and z of a mapped scan.
-int map_degree(const SurfaceOptions& options) {
-  constexpr int usual_degree = 20;
-  return options.degree == automatic_degree ? usual_degree : options.degree;
 }
 
 RelaxationResult tessellate(const Grain& grain, const RemeshOptions& options,
@@ -182,8 +192,7 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
     metric = RelaxationMetric::Surface;
     SpaceNodes in_space =
         place_in_space(grain, prepared.distance ? &*prepared.distance : nullptr, options.node_count,
-                       {options.seeding, options.weighting, options.relaxation, options.levels,
-                        map_degree(options.surface)},
+                       {options.seeding, options.weighting, options.relaxation, options.levels},
                        options.placement, prepared.original.volume, execution.part(0.0, 0.9));
     result.relaxation = std::move(in_space.relaxation);
     result.space = in_space.report;
@@ -225,10 +234,11 @@ RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions&
     result.misfit = rms_distance(grain.mesh, result.mesh, misfit_samples, execution);
   }
 
-  if (grain.mapped && options.measures.coefficients) {
-    result.map_coefficients =
-        fit_harmonic_map(*grain.mapped, map_degree(options.surface), execution.part(0.98, 0.99))
-            .map.coefficients();
+  if (grain.map_series) {
+    result.map_degree = grain.map_series->report.degree;
+    if (options.measures.coefficients) {
+      result.map_coefficients = grain.map_series->map.coefficients();
+    }
   }
   result.centre = grain.centre;
   result.input = prepared.input;

@@ -14,6 +14,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/curvature.h"
+#include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 #include "wscvt/tessellation/power_cells.h"
@@ -70,8 +71,9 @@ TEST(SpaceWeights, TakeTheCurvatureOfTheSourceAskedFor) {
   const std::vector<Vector3>& points = surface.mesh().points;
   WeightingOptions options;
   options.kind = Weighting::Curvature;
+  const HarmonicMap map = fit_harmonic_map(surface, 6, Execution(1)).map;
   const std::vector<PrincipalCurvatures> series =
-      curvatures_in_space(surface, options, 6, Execution(2));
+      curvatures_in_space(surface, &map, options, Execution(2));
   ASSERT_EQ(series.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3 u = points[i].normalized();
@@ -89,7 +91,7 @@ TEST(SpaceWeights, TakeTheCurvatureOfTheSourceAskedFor) {
   for (const Weighting kind : {Weighting::Curvature, Weighting::ErrorAdaptive}) {
     options.kind = kind;
     const std::vector<PrincipalCurvatures> read =
-        curvatures_in_space(surface, options, 6, Execution(2));
+        curvatures_in_space(surface, nullptr, options, Execution(2));
     ASSERT_EQ(read.size(), quadrics.size());
     for (std::size_t i = 0; i < read.size(); ++i) {
       EXPECT_EQ(read[i].maximum, quadrics[i].maximum);
@@ -98,15 +100,16 @@ TEST(SpaceWeights, TakeTheCurvatureOfTheSourceAskedFor) {
     options.curvature_source = CurvatureSource::Series;  // of no meaning to the second
   }
   options.kind = Weighting::RadialDistance;
-  EXPECT_TRUE(curvatures_in_space(surface, options, 6, Execution(1)).empty());
+  EXPECT_TRUE(curvatures_in_space(surface, nullptr, options, Execution(1)).empty());
 }
 
 TEST(SpaceWeights, AMapWithoutANormalCountsAsFlat) {
   // Of degree 0 all directions have one point.
   WeightingOptions options;
   options.kind = Weighting::Curvature;
+  const HarmonicMap point({{{1.0}, {2.0}, {3.0}}});
   for (const PrincipalCurvatures& k :
-       curvatures_in_space(stretched_ball(), options, 0, Execution(1))) {
+       curvatures_in_space(stretched_ball(), &point, options, Execution(1))) {
     EXPECT_EQ(k.maximum, 0.0);
     EXPECT_EQ(k.minimum, 0.0);
   }
@@ -236,6 +239,8 @@ TEST(SpaceWeights, RefuseOptionsOutOfRange) {
   WeightingOptions curvature;
   curvature.kind = Weighting::Curvature;
   EXPECT_ERROR(densities_in_space(mesh, {}, curvature, 100), InvalidInput);
+  EXPECT_ERROR(curvatures_in_space(stretched_ball(), nullptr, curvature, Execution(1)),
+               InvalidInput);
 }
 
 }  // namespace

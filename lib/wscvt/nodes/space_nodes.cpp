@@ -341,10 +341,10 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
   }
   execution.report(0.0, "Weighing the seeds");
   SpaceNodes result;
-  const std::vector<PrincipalCurvatures> curvatures = curvatures_in_space(
-      *grain.mapped, options.weighting, options.map_degree, execution.part(0.0, 0.05));
-  const std::vector<double> densities =
-      densities_in_space(grain.mapped->mesh(), curvatures, options.weighting, node_count);
+  const auto densities_for = [&](int count) {
+    return densities_in_space(grain.mapped->mesh(), grain.map_curvatures, options.weighting, count);
+  };
+  const std::vector<double> densities = densities_for(node_count);
   const std::vector<std::int32_t>& order = grain.map.collapse_order;
   const bool relaxes = options.seeding.sampling == Sampling::Weighted;
   // A refinement needs the directions, which mending gives up, and mends by itself.
@@ -400,10 +400,8 @@ SpaceNodes place_in_space(const Grain& grain, const MeshDistance* to_scan, int n
     result.report.enough_nodes = too_many_nodes;
     for (int k = 1; k <= most_doublings && (node_count << k) <= 20000; ++k) {
       const int more = node_count << k;
-      const SpaceTessellation trial =
-          tessellate(*surface, order, more, quick, from,
-                     densities_in_space(grain.mapped->mesh(), curvatures, options.weighting, more),
-                     execution.part(0.8, 0.85));
+      const SpaceTessellation trial = tessellate(*surface, order, more, quick, from,
+                                                 densities_for(more), execution.part(0.8, 0.85));
       if (flaws_of(trial, volume, execution.part(0.8, 0.8)).any()) continue;
       result.report.enough_nodes = more;
       break;

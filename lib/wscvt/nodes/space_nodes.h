@@ -25,7 +25,6 @@ struct SpaceTessellationOptions {
   WeightingOptions weighting;
   RelaxationOptions relaxation;  ///< in space whatever its metric
   MultilevelOptions levels;
-  int map_degree = 20;  ///< of the harmonic map whose curvature WSCVT-C may take; 0 to 60
 };
 
 /// Tessellates a spherical grain in space and puts the nodes on the scan, or fits them to it along

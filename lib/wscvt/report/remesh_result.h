@@ -54,6 +54,7 @@ struct RemeshResult {
   /// Of series of x, y and z about `centre` (see HarmonicMap), length; of a Spherical one, if asked
   /// for.
   std::array<std::vector<double>, 3> map_coefficients;
+  int map_degree = 0;  ///< of these series, where the weighting or the user read them; else 0
   RelaxationReport relaxation;
   RefinementReport refinement;  ///< of no rounds where none were asked for
   /// Rms distance from the scan to the remesh; length. Over the samples of `distances`, or over

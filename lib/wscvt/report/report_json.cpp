@@ -225,6 +225,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
       {"steep_share", result.steep_share},
       {"parametrization", key_of(result.parametrization)},
       {"map", json_of(result.map)},
+      {"map_degree", result.map_degree},
       {"space", json_of(result.space)},
       {"fit", json_of(result.fit, result.input.equivalent_radius)},
       {"relaxation", json_of(result.relaxation)},

@@ -207,6 +207,9 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
   if (weighting.kind == Weighting::Curvature) {
     weights += ", alpha " + format_number(weighting.curvature_alpha, 3) + ", curvature from " +
                label_of(weighting.curvature_source);
+    if (result.map_degree > 0 && weighting.curvature_source == CurvatureSource::Series) {
+      weights += " of degree " + std::to_string(result.map_degree);
+    }
   }
   if (weighting.kind == Weighting::ErrorAdaptive) {
     weights += ", curvature exponent " + format_number(weighting.adaptive_exponent, 3);

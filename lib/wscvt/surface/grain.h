@@ -10,6 +10,7 @@
 #include "wscvt/scan/scan_options.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_fit.h"
+#include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/parametrization_choice.h"
@@ -40,10 +41,14 @@ struct Grain {
   std::vector<double> coefficients;            ///< of the series; empty of a formula
   std::optional<MeshSurface> rays;             ///< at the mesh; of a formula only if asked for
   std::optional<CurvatureSamples> curvatures;  ///< of the scan itself, for who weighs by them
+  std::optional<HarmonicMapFit> map_series;    ///< of `mapped`, for who reads it
+  /// At the vertices of `mapped`, for who weighs by them: see curvatures_in_space.
+  std::vector<PrincipalCurvatures> map_curvatures;
 };
 
 /// Centres a scan on its volume centroid and fits the series, or maps it to the sphere, as was
-/// chosen for it. Leaves `curvatures` empty.
+/// chosen for it. Leaves `curvatures`, `map_series` and
+/// `map_curvatures` empty.
 ///
 /// A dense scan need not be mapped whole: one with more than 50,000 vertices and more than 40 a
 /// node of the `largest_node_count` that will be asked for is collapsed to that number first. The

@@ -9,7 +9,6 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/curvature.h"
-#include "wscvt/surface/harmonic_map.h"
 #include "wscvt/tessellation/weighting_rule.h"
 
 namespace wscvt {
@@ -62,25 +61,34 @@ Weighting weighting_in_space(Weighting asked) {
                                                                             : Weighting::Area;
 }
 
+bool reads_map_series(const WeightingOptions& options) {
+  return options.kind == Weighting::Curvature &&
+         options.curvature_source == CurvatureSource::Series;
+}
+
 std::vector<PrincipalCurvatures> curvatures_in_space(const MappedSurface& surface,
-                                                     const WeightingOptions& options, int degree,
+                                                     const HarmonicMap* series,
+                                                     const WeightingOptions& options,
                                                      const Execution& execution) {
   check_weighting_options(options);
-  const Weighting weighting = weighting_in_space(options.kind);
-  if (weighting == Weighting::Area) return {};
-  if (weighting == Weighting::ErrorAdaptive ||
-      options.curvature_source == CurvatureSource::QuadricFit) {
+  if (weighting_in_space(options.kind) == Weighting::Area) return {};
+  if (!reads_map_series(options)) {
     // The paper fits over one ring, which scans leave under-determined.
     constexpr int rings = 2;
     return quadric_fit_curvatures(surface.mesh(), rings, execution);
   }
-  const HarmonicMap map = fit_harmonic_map(surface, degree, execution).map;
+  if (series == nullptr) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "The weighting reads the curvature of the harmonic map, and there is none; give the "
+        "fitted one, or take the curvature of quadrics.");
+  }
   const std::vector<Vector3>& directions = surface.directions();
   std::vector<PrincipalCurvatures> curvatures(directions.size());
   execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
     std::vector<LocalShape> shapes(end - begin);
-    map.evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::Second,
-                        shapes.data());
+    series->evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::Second,
+                            shapes.data());
     for (std::size_t i = begin; i < end; ++i) {
       const PrincipalCurvatures& k = shapes[i - begin].curvatures;
       // Where a map folds it has no normal: a vertex there says nothing.

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/tessellation/weights.h"
 
@@ -14,12 +15,17 @@ namespace wscvt {
 /// nothing about a cell there: WSCVT-D and Constant are the area weighting.
 Weighting weighting_in_space(Weighting asked);
 
-/// Principal curvatures at the vertices of a mapped scan, for a weighting; 1 / length. WSCVT-C by
-/// CurvatureSource::Series takes those of the scan's harmonic map of `degree` (fit_harmonic_map),
-/// all others those of quadrics over two rings. Empty for weightings that read none. Throws as
-/// fit_harmonic_map.
+/// Whether a weighting reads the curvature of the scan's harmonic map: WSCVT-C by
+/// CurvatureSource::Series.
+bool reads_map_series(const WeightingOptions& options);
+
+/// Principal curvatures at the vertices of a mapped scan, for a weighting, 1 / length: those of
+/// `series`, the scan's harmonic map, where the weighting reads it, and elsewhere of quadrics over
+/// two rings. Empty for weightings that read none. `series` may be null where it is not read;
+/// throws Error(InvalidInput) where it is, and for options out of range; Error(Cancelled).
 std::vector<PrincipalCurvatures> curvatures_in_space(const MappedSurface& surface,
-                                                     const WeightingOptions& options, int degree,
+                                                     const HarmonicMap* series,
+                                                     const WeightingOptions& options,
                                                      const Execution& execution);
 
 /// The wanted number of nodes per area at every vertex of a mesh, any common scale; empty for the
