@@ -4,15 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
+#include "support/affine_map.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/surface/harmonic_map.h"
-#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {
@@ -60,22 +57,10 @@ Roundness ellipsoid_roundness(const Vector3& axes, double inscribed_radius) {
   return {radii / (corners * inscribed_radius), corners / area};
 }
 
-/// The ellipsoid with each point in the direction of its parameters instead of its own: a map that
-/// is not radial.
-HarmonicMap stretched_ball(const Vector3& axes) {
-  const double linear = std::sqrt(4.0 * test::pi / 3.0);
-  std::array<std::vector<double>, 3> coefficients;
-  for (std::vector<double>& one : coefficients) one.assign(4, 0.0);
-  coefficients[0][harmonic_index(1, 1)] = -axes.x() * linear;
-  coefficients[1][harmonic_index(1, -1)] = -axes.y() * linear;
-  coefficients[2][harmonic_index(1, 0)] = axes.z() * linear;
-  return HarmonicMap(coefficients);
-}
-
 TEST(Roundness, DoesNotHangOnHowTheSurfaceIsLaidOverTheSphere) {
   const Vector3 axes(0.5, 0.7, 1.0);
   const Roundness expected = ellipsoid_roundness(axes, 0.5);
-  const Roundness r = wadell_roundness(stretched_ball(axes), 0.5, 128, Execution(1));
+  const Roundness r = wadell_roundness(test::affine_map(axes), 0.5, 128, Execution(1));
   // The edge of the corners crosses the quadrature's cells, 256 x 128 of them.
   EXPECT_NEAR(r.roundness, expected.roundness, 2e-3);
   EXPECT_NEAR(r.corner_area_share, expected.corner_area_share, 5e-3);

@@ -3,14 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <string>
-#include <vector>
 
+#include "support/affine_map.h"
 #include "support/expect_error.h"
 #include "wscvt/surface/quadric_surface.h"
 
@@ -57,14 +56,9 @@ TEST(GrainSurface, ReadsHarmonicsByTheEndingOfTheirFile) {
 }
 
 TEST(GrainSurface, KnowsAFileOfAMap) {
-  std::array<std::vector<double>, 3> coefficients;
-  for (std::vector<double>& one : coefficients) one.assign(4, 0.0);
-  coefficients[0][harmonic_index(1, 1)] = -1.0;
-  coefficients[1][harmonic_index(1, -1)] = -1.0;
-  coefficients[2][harmonic_index(1, 0)] = 1.0;
   GrainSurface surface;
   surface.coefficients_file = testing::TempDir() + "wscvt_grain_surface_map.json";
-  write_harmonic_map(surface.coefficients_file, HarmonicMap(coefficients));
+  write_harmonic_map(surface.coefficients_file, test::affine_map(Vector3(1.0, 0.7, 0.5)));
   EXPECT_FALSE(holds_map(surface)) << "an ellipsoid, whatever file is named";
   surface.kind = SurfaceKind::Harmonics;
   EXPECT_TRUE(holds_map(surface));

@@ -5,10 +5,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "support/affine_map.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -141,17 +141,8 @@ TEST(SphereSurface, AgreesWithTheRadialFormulas) {
 
 TEST(SphereSurface, IntegralsOfAnEllipsoid) {
   // Half axes 2, 1.5 and 1: not by its radius but as an affine image of the sphere.
-  const double unit = std::sqrt(4.0 * test::pi / 3.0);
   const Vector3 shift(0.3, -0.2, 0.1);
-  std::array<std::vector<double>, 3> coefficients;
-  for (std::size_t k = 0; k < 3; ++k) {
-    coefficients[k].assign(4, 0.0);
-    coefficients[k][0] = shift[static_cast<Eigen::Index>(k)] * std::sqrt(4.0 * test::pi);
-  }
-  coefficients[0][harmonic_index(1, 1)] = -2.0 * unit;
-  coefficients[1][harmonic_index(1, -1)] = -1.5 * unit;
-  coefficients[2][harmonic_index(1, 0)] = unit;
-  const HarmonicMap ellipsoid(coefficients);
+  const HarmonicMap ellipsoid = test::affine_map(Vector3(2.0, 1.5, 1.0), shift);
   const BodyIntegrals sums = body_integrals(ellipsoid, 60, Execution(2));
   EXPECT_NEAR(sums.volume, 4.0 * test::pi / 3.0 * 3.0, 1e-12);
   EXPECT_LT((sums.centroid - shift).norm(), 1e-12);
@@ -183,17 +174,9 @@ TEST(SphereSurface, SameBytesOnAnyNumberOfThreadsAndInAnyCompany) {
   EXPECT_EQ(alone.jacobian, one[17].jacobian);
 }
 
-/// A ball of radius 2 about (0.5, 0, 0), each point in its direction from there: a surface that is
-/// not radial, known in closed form.
+/// A ball of radius 2 about (0.5, 0, 0), each point in its direction from there.
 HarmonicMap shifted_ball() {
-  const double linear = 2.0 * std::sqrt(4.0 * test::pi / 3.0);
-  std::array<std::vector<double>, 3> coefficients;
-  for (std::vector<double>& one : coefficients) one.assign(4, 0.0);
-  coefficients[0][0] = 0.5 * std::sqrt(4.0 * test::pi);
-  coefficients[0][harmonic_index(1, 1)] = -linear;
-  coefficients[1][harmonic_index(1, -1)] = -linear;
-  coefficients[2][harmonic_index(1, 0)] = linear;
-  return HarmonicMap(coefficients);
+  return test::affine_map(Vector3::Constant(2.0), Vector3(0.5, 0.0, 0.0));
 }
 
 TEST(SphereSurface, ShapesOfAShiftedBallAreThoseOfTheFormula) {

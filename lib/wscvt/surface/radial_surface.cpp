@@ -57,11 +57,7 @@ std::vector<RadialJet> RadialSurface::jets(const std::vector<Vector3>& direction
 
 std::vector<double> RadialSurface::radii(const std::vector<Vector3>& directions,
                                          const Execution& execution) const {
-  std::vector<double> result(directions.size());
-  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    evaluate_radii(directions.data() + begin, end - begin, result.data() + begin);
-  });
-  return result;
+  return distances(directions, execution);
 }
 
 double RadialSurface::radius(const Vector3& direction) const {

@@ -160,16 +160,15 @@ AreaElements area_elements(const SphereSurface& surface, const std::vector<Vecto
 
 double surface_area(const SphereSurface& surface, int polar_nodes, const Execution& execution) {
   const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
-  const std::vector<Vector3>& u = quadrature.directions;
-  return execution.parallel_sum(u.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
-    std::vector<LocalShape> shapes(end - begin);
-    surface.evaluate_shapes(u.data() + begin, shapes.size(), Derivatives::First, shapes.data());
-    double part = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      part += quadrature.weights[i] * shapes[i - begin].area_element;
-    }
-    return part;
-  });
+  const std::vector<double> elements =
+      area_elements(surface, quadrature.directions, execution).elements;
+  return execution.parallel_sum(elements.size(), block_size, 0.0,
+                                [&](std::size_t begin, std::size_t end) {
+                                  double part = 0.0;
+                                  for (std::size_t i = begin; i < end; ++i)
+                                    part += quadrature.weights[i] * elements[i];
+                                  return part;
+                                });
 }
 
 IndexedMesh mesh_of_surface(const SphereSurface& surface, int frequency,

@@ -29,8 +29,8 @@ struct MeshPlace {
   Vector3 weights = Vector3::Zero();
 };
 
-/// What a surface is like in a direction, in numbers that do not hang on coordinates: for those who
-/// need no derivatives, which of some surfaces are many more numbers.
+/// What a surface is like in a direction, in numbers that do not hang on coordinates. Of a radial
+/// surface they are had without the coordinates' derivatives.
 struct LocalShape {
   double distance = 0.0;           ///< |x|, length; of a radial surface its radius
   double area_element = 0.0;       ///< g = dA/dOmega, length^2; filled in from First on
@@ -69,14 +69,14 @@ class SphereSurface {
                                   Vector3* positions) const;
 
   /// Distance from the origin, area element and curvatures, as far as `derivatives` says, for
-  /// `count` unit vectors. The default goes through `evaluate_jets`.
+  /// `count` unit vectors; under the same rules as `evaluate_jets`, through which the default goes.
   virtual void evaluate_shapes(const Vector3* directions, std::size_t count,
                                Derivatives derivatives, LocalShape* shapes) const;
 
-  /// The point in one direction, and its place where the surface is a mesh; others leave `place` as
-  /// it is. What stands there, of another call best for a direction nearby, is where a search
-  /// begins; it changes the point by no more than rounding. May be called from several threads with
-  /// a place each.
+  /// The point in one direction, a unit vector; length. Of a surface that is a mesh `place` becomes
+  /// the point's place on it; others leave it as it is. A search begins at the place given, that of
+  /// a direction nearby at best, which changes the point by no more than rounding. May be called
+  /// from several threads with a place each.
   virtual Vector3 position_near(const Vector3& direction, MeshPlace& place) const;
 
   /// As `evaluate_jets`, for a whole array and on the threads of `execution`.
