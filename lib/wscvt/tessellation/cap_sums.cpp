@@ -27,6 +27,8 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
   result.sums.assign(field.values.size(), 0.0);
   execution.parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
     std::vector<double> kernel;
+    std::vector<double> thrice(3 * static_cast<std::size_t>(columns));
+    std::vector<double> row_sums(static_cast<std::size_t>(columns));
     for (std::size_t j = begin; j < end; ++j) {
       const int row = static_cast<int>(j);
       double* target = result.sums.data() + j * columns;
@@ -59,16 +61,27 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
           continue;
         }
         terms[j] += static_cast<std::size_t>(columns) * kernel.size();
+        // Three times round, so that no index wraps, and all columns for one shift after the other:
+        // the loop over them is the processor's vector registers' then, and each column still adds
+        // its terms in the order of the shifts.
         for (std::ptrdiff_t k = 0; k < columns; ++k) {
-          double sum = kernel[0] * source[k];
-          for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
-            const std::ptrdiff_t right = k + shift < columns ? k + shift : k + shift - columns;
-            const std::ptrdiff_t left = k >= shift ? k - shift : k - shift + columns;
-            sum += kernel[shift] *
-                   (shift == columns / 2 ? source[right] : source[right] + source[left]);
-          }
-          target[k] += sum;
+          thrice[k] = thrice[k + columns] = thrice[k + 2 * columns] = source[k];
+          row_sums[k] = kernel[0] * source[k];
         }
+        const double* const middle = thrice.data() + columns;
+        for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
+          const double weight = kernel[shift];
+          const double* const right = middle + shift;
+          const double* const left = middle - shift;
+          if (shift == columns / 2) {  // both ways round to the same node
+            for (std::ptrdiff_t k = 0; k < columns; ++k) row_sums[k] += weight * right[k];
+          } else {
+            for (std::ptrdiff_t k = 0; k < columns; ++k) {
+              row_sums[k] += weight * (right[k] + left[k]);
+            }
+          }
+        }
+        for (std::ptrdiff_t k = 0; k < columns; ++k) target[k] += row_sums[k];
       }
     }
   });
