@@ -27,8 +27,6 @@ IndexedMesh body(const std::string& name) {
   return test::bent_grain_mesh(test::bent_grain(name), 2500);
 }
 
-IndexedMesh sand() { return read_mesh(WSCVT_MESHES_DIR "/sand_7228.ply"); }
-
 RemeshOptions options_of(int nodes, NodePlacement placement = NodePlacement::Scan) {
   RemeshOptions options;
   options.node_count = nodes;
@@ -226,7 +224,8 @@ TEST(RemeshSpherical, SteepCurvatureWeightsSettle) {
   options.weighting.kind = Weighting::Curvature;
   for (const double alpha : {-3.0, 1.0, 3.0}) {
     options.weighting.curvature_alpha = alpha;
-    const RemeshResult result = remesh(sand(), options, Execution(2));
+    const RemeshResult result =
+        remesh(read_mesh(WSCVT_MESHES_DIR "/sand_7228.ply"), options, Execution(2));
     EXPECT_NE(result.relaxation.outcome, RelaxationOutcome::IterationLimit) << alpha;
     EXPECT_LT(result.relaxation.iterations, 700) << alpha;
     // Where nodes crowd so, triangles are jammed and have to be mended.

@@ -147,3 +147,6 @@ bool FilterWscvt::applyFilter(QAction* action, MeshDocument& document,
 }
 
 MESHLAB_PLUGIN_NAME_EXPORTER(FilterWscvt)
+
+// The class of the header is a QObject; read here, its metadata cost no second reading of vcglib.
+#include "moc_filter_wscvt.cpp"

@@ -136,3 +136,6 @@ std::map<std::string, QVariant> FilterWscvt::applyFilter(const QAction* action,
 }
 
 MESHLAB_PLUGIN_NAME_EXPORTER(FilterWscvt)
+
+// The class of the header is a QObject; read here, its metadata cost no second reading of vcglib.
+#include "moc_filter_wscvt.cpp"

@@ -19,10 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw Error(ErrorCode::InvalidInput, sentence);
-}
-
 void add_folder(const std::string& folder, std::vector<std::string>& files) {
   const std::size_t before = files.size();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

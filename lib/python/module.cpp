@@ -28,12 +28,9 @@ namespace {
 using wscvt::Error;
 using wscvt::ErrorCode;
 using wscvt::IndexedMesh;
+using wscvt::refuse;
 using wscvt::Vector3;
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw Error(ErrorCode::InvalidInput, sentence);
-}
 
 const char* name_of(ErrorCode code) {
   switch (code) {

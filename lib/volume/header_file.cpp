@@ -45,7 +45,7 @@ std::vector<double> numbers_in(std::string_view text, const HeaderFile& file) {
   TextFields fields(plain);
   for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
     const std::optional<double> number = number_in(field);
-    if (!number) file.fail_line("has " + quoted(field) + " where a number belongs.");
+    if (!number) file.fail_line("has " + in_quotes(field) + " where a number belongs.");
     numbers.push_back(*number);
   }
   return numbers;
@@ -59,7 +59,7 @@ Vector3 vector_in(std::string_view text, const HeaderFile& file) {
 
 std::int64_t whole_number_of(std::string_view text, const HeaderFile& file) {
   const std::optional<std::int64_t> number = whole_number_in(trimmed(text));
-  if (!number) file.fail_line("has " + quoted(text) + " where a whole number belongs.");
+  if (!number) file.fail_line("has " + in_quotes(text) + " where a whole number belongs.");
   return *number;
 }
 

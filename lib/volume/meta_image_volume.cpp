@@ -59,7 +59,7 @@ void read_field(const std::string& name, const std::string& value, const HeaderF
   }
 }
 
-MetaHeader read_header(HeaderFile& file) {
+MetaHeader read_meta_header(HeaderFile& file) {
   MetaHeader header;
   while (header.data_file.empty()) {  // which is the last
     const std::string line = file.line();
@@ -77,7 +77,7 @@ MetaHeader read_header(HeaderFile& file) {
 std::unique_ptr<LabelVolume> open_meta_image(const std::string& path,
                                              const std::optional<Vector3>& voxel_size) {
   HeaderFile file(path);
-  const MetaHeader header = read_header(file);
+  const MetaHeader header = read_meta_header(file);
   if (!header.has_sizes) refuse_volume(path, "does not say how large it is; export it again.");
   VolumeGeometry geometry;
   geometry.counts = voxel_counts(header.sizes, path);

@@ -66,7 +66,7 @@ void read_field(const std::string& name, const std::string& value, const HeaderF
   }
 }
 
-NrrdHeader read_header(HeaderFile& file) {
+NrrdHeader read_nrrd_header(HeaderFile& file) {
   if (file.line().rfind("NRRD000", 0) != 0) file.fail_line("is not that of an NRRD file.");
   NrrdHeader header;
   while (!file.is_at_end()) {
@@ -86,7 +86,7 @@ NrrdHeader read_header(HeaderFile& file) {
 std::unique_ptr<LabelVolume> open_nrrd(const std::string& path,
                                        const std::optional<Vector3>& voxel_size) {
   HeaderFile file(path);
-  const NrrdHeader header = read_header(file);
+  const NrrdHeader header = read_nrrd_header(file);
   if (!header.has_sizes) refuse_volume(path, "does not say how large it is; export it again.");
   VolumeGeometry geometry;
   geometry.counts = voxel_counts(header.sizes, path);
@@ -98,7 +98,7 @@ std::unique_ptr<LabelVolume> open_nrrd(const std::string& path,
   VoxelData data;
   data.is_packed = header.encoding == "gzip" || header.encoding == "gz";
   if (!data.is_packed && header.encoding != "raw") {
-    refuse_volume(path, "is packed as " + quoted(header.encoding) + "; save it raw or as gzip.");
+    refuse_volume(path, "is packed as " + in_quotes(header.encoding) + "; save it raw or as gzip.");
   }
   data.path = header.data_file.empty() ? path : voxel_file_beside(path, header.data_file);
   data.offset = header.data_file.empty() ? file.offset() : 0;

@@ -120,7 +120,7 @@ VoxelType voxel_type_of(std::string_view name, const std::string& path) {
       if (lower == known) return {row.bytes, row.has_sign, false};
     }
   }
-  refuse_volume(path, "holds voxels of type " + quoted(name) +
+  refuse_volume(path, "holds voxels of type " + in_quotes(name) +
                           ", and labels are whole numbers; save it as 8, 16 or 32 bits without a "
                           "sign.");
 }

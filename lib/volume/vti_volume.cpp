@@ -207,7 +207,7 @@ std::array<double, Count> numbers_of(const Attributes& attributes, const std::st
   for (double& number : numbers) {
     const std::optional<double> value = number_in(fields.next());
     if (!value)
-      refuse_volume(path, "has " + quoted(text) + " as its " + key + "; export it again.");
+      refuse_volume(path, "has " + in_quotes(text) + " as its " + key + "; export it again.");
     number = *value;
   }
   return numbers;
@@ -226,7 +226,7 @@ std::array<std::int64_t, 6> extent_of(const VtiHeader& header, const std::string
     const std::optional<std::int64_t> number = whole_number_in(fields.next());
     constexpr std::int64_t farthest = 1000000000;
     if (!number || *number > farthest || *number < -farthest) {
-      refuse_volume(path, "has " + quoted(text) + " as its extent; export it again.");
+      refuse_volume(path, "has " + in_quotes(text) + " as its extent; export it again.");
     }
     place = *number;
   }
@@ -291,7 +291,7 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path,
   const bool is_packed = !packer.empty();
   const bool is_known = format == "appended" || format == "binary";
   if (!is_known || (is_packed && packer != "vtkZLibDataCompressor")) {
-    refuse_volume(path, "has its voxels as " + quoted(is_known ? packer : format) +
+    refuse_volume(path, "has its voxels as " + in_quotes(is_known ? packer : format) +
                             "; save it binary or appended, plain or by ZLib.");
   }
   std::uint64_t begin = header.data;

@@ -21,7 +21,7 @@
 namespace wscvt {
 namespace {
 
-MappedSurface mapped(const IndexedMesh& mesh) {
+MappedSurface mapped_body(const IndexedMesh& mesh) {
   return MappedSurface(mesh, map_to_sphere(mesh, {}, Execution(1)).directions, Execution(1));
 }
 
@@ -56,7 +56,7 @@ TEST(HarmonicMap, ComesCloserToBentGrainsWithTheDegree) {
   for (const char* name : {"hook", "C-shape", "mushroom"}) {
     const IndexedMesh mesh = test::bent_grain_mesh(test::bent_grain(name), 5000);
     const auto report = check_mesh(mesh, {}, Execution(1)).report;
-    const MappedSurface surface = mapped(mesh);
+    const MappedSurface surface = mapped_body(mesh);
     double before = 1.0;
     for (const int degree : {5, 10, 20}) {
       const HarmonicMapFit fit = fit_harmonic_map(surface, degree, Execution(1));
@@ -142,7 +142,7 @@ TEST(HarmonicMap, DependsOnTheSurfaceAndNotOnItsTriangles) {
 }
 
 TEST(HarmonicMap, SameBytesOnAnyNumberOfThreads) {
-  const MappedSurface surface = mapped(test::lumpy(4));
+  const MappedSurface surface = mapped_body(test::lumpy(4));
   const HarmonicMapFit one = fit_harmonic_map(surface, 10, Execution(1));
   const HarmonicMapFit two = fit_harmonic_map(surface, 10, Execution(2));
   EXPECT_EQ(one.map.coefficients(), two.map.coefficients());

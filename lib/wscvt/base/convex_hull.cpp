@@ -23,7 +23,7 @@ using Hull = CGAL::Surface_mesh<Point>;
 
 /// CGAL's traits, whose question on which side of a face a point lies reports as well: the hull of
 /// a million points takes seconds.
-struct ReportingTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true> {
+struct ReportingHullTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true> {
   using Base = CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true>;
 
   // NOLINTNEXTLINE(readability-identifier-naming): the name that CGAL asks for
@@ -84,7 +84,7 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
   for (const Vector3& p : points) input.emplace_back(p.x(), p.y(), p.z());
   Hull hull;
   std::size_t asked = 0;
-  ReportingTraits traits;
+  ReportingHullTraits traits;
   traits.execution = &execution;
   traits.asked = &asked;
   CGAL::convex_hull_3(input.begin(), input.end(), hull, traits);

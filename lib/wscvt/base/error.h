@@ -27,4 +27,9 @@ class Error : public std::runtime_error {
   ErrorCode code_;
 };
 
+/// Throws Error(InvalidInput) with the sentence.
+[[noreturn]] inline void refuse(const std::string& sentence) {
+  throw Error(ErrorCode::InvalidInput, sentence);
+}
+
 }  // namespace wscvt

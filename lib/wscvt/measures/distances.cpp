@@ -16,11 +16,11 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t distance_block = 256;
 
-constexpr const char* stage = "Measuring distances";
+constexpr const char* distance_stage = "Measuring distances";
 
-void require_faces(const IndexedMesh& mesh) {
+void require_target_faces(const IndexedMesh& mesh) {
   if (!mesh.triangles.empty()) return;
   throw Error(ErrorCode::InvalidInput,
               "The mesh has no faces, so no distance to it can be measured; give a triangle mesh.");
@@ -36,8 +36,8 @@ void require_area(bool has_area) {
 }  // namespace
 
 MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution) {
-  require_faces(mesh);
-  boxes_ = std::make_unique<FaceBoxes>(mesh, execution, stage);
+  require_target_faces(mesh);
+  boxes_ = std::make_unique<FaceBoxes>(mesh, execution, distance_stage);
   require_area(!boxes_->empty());
 }
 
@@ -124,7 +124,7 @@ struct DistanceSums {
 };
 
 DistanceSums sums_of(const std::vector<double>& distances, const Execution& execution) {
-  return execution.parallel_sum(distances.size(), block_size, DistanceSums(),
+  return execution.parallel_sum(distances.size(), distance_block, DistanceSums(),
                                 [&](std::size_t begin, std::size_t end) {
                                   DistanceSums part;
                                   for (std::size_t i = begin; i < end; ++i) {
@@ -168,7 +168,7 @@ void check_distance_options(const DistanceOptions& options) {
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 const DistanceOptions& options, const Execution& execution) {
   check_distance_options(options);
-  execution.report(0.0, stage);
+  execution.report(0.0, distance_stage);
   return measure_distances(mesh, reference, MeshDistance(reference, execution), options, execution);
 }
 
@@ -177,12 +177,12 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
                                 const Execution& execution) {
   check_distance_options(options);
   MeshDistances result;
-  execution.report(0.0, stage);
+  execution.report(0.0, distance_stage);
   result.to_reference = one_sided(mesh, to_reference, options.samples, execution);
-  execution.report(0.5, stage);
+  execution.report(0.5, distance_stage);
   result.from_reference =
       one_sided(reference, MeshDistance(mesh, execution), options.samples, execution);
-  execution.report(1.0, stage);
+  execution.report(1.0, distance_stage);
   result.largest = std::max(result.to_reference.maximum, result.from_reference.maximum);
   result.root_mean_square =
       std::max(result.to_reference.root_mean_square, result.from_reference.root_mean_square);

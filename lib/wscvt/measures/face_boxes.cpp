@@ -14,7 +14,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t facet_block = 256;
 
 Vector3 nearest_of(const std::array<Vector3, 3>& corners, const Vector3& point) {
   const auto& [a, b, c] = corners;
@@ -210,7 +210,7 @@ double FaceBoxes::distance(const Vector3& point) const {
 std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,
                                          const Execution& execution) const {
   std::vector<double> result(points.size());
-  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     std::size_t face = 0;
     for (std::size_t i = begin; i < end; ++i) result[i] = std::sqrt(search(points[i], face));
   });

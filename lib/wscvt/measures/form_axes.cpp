@@ -18,7 +18,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr const char* stage = "Turning the bounding box";
+constexpr const char* box_stage = "Turning the bounding box";
 
 /// More points than this are thinned before the box is turned.
 constexpr std::size_t maximum_points = 2000;
@@ -29,7 +29,7 @@ std::vector<Vector3> extreme_points(const std::vector<Vector3>& points,
                                     const Execution& execution) {
   std::vector<std::size_t> extremes;
   for (const Vector3& direction : fibonacci_lattice(thinning_directions)) {
-    execution.report(0.0, stage);
+    execution.report(0.0, box_stage);
     std::size_t farthest = 0;
     double reach = direction.dot(points[0]);
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -52,16 +52,16 @@ std::vector<Vector3> extreme_points(const std::vector<Vector3>& points,
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// CGAL's traits, which report as well with each turn that is tried: thousands of them in a second.
-struct ReportingTraits : CGAL::Oriented_bounding_box_traits_3<Kernel> {
+struct ReportingBoxTraits : CGAL::Oriented_bounding_box_traits_3<Kernel> {
   using Base = CGAL::Oriented_bounding_box_traits_3<Kernel>;
 
   // CGAL's code asks for a default, which it does not use.
-  explicit ReportingTraits(const Execution* to = nullptr) : execution(to) {}
+  explicit ReportingBoxTraits(const Execution* to = nullptr) : execution(to) {}
 
   // CGAL's name.
   // NOLINTNEXTLINE(readability-identifier-naming)
   Matrix get_Q(const Matrix& m) const {
-    execution->report(0.0, stage);
+    execution->report(0.0, box_stage);
     return Base::get_Q(m);
   }
 
@@ -96,7 +96,7 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points, const Execution& 
   // would change from call to call.
   CGAL::oriented_bounding_box(candidates, turn,
                               CGAL::parameters::random_seed(1U).use_convex_hull(false).geom_traits(
-                                  ReportingTraits(&execution)));
+                                  ReportingBoxTraits(&execution)));
 
   std::array<double, 3> edges{};
   for (int k = 0; k < 3; ++k) {

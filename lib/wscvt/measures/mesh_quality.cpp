@@ -14,7 +14,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 16384;
+constexpr std::size_t edge_block = 16384;
 constexpr double degrees_per_radian = 180.0 / pi;
 
 /// Running mean, sum of squared deviations and extremes; two of them merge by Chan, Golub and
@@ -121,7 +121,7 @@ void count(Histogram& histogram, double value) {
 MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution) {
   require_faces(mesh);
   const TriangleMoments moments =
-      execution.parallel_sum(mesh.triangles.size(), block_size, TriangleMoments(),
+      execution.parallel_sum(mesh.triangles.size(), edge_block, TriangleMoments(),
                              [&](std::size_t begin, std::size_t end) {
                                TriangleMoments part;
                                for (std::size_t f = begin; f < end; ++f) {

@@ -10,7 +10,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
+constexpr std::size_t axes_block = 8192;
 
 /// A body whose skewness along an axis is below this is symmetric there: rounding leaves less.
 constexpr double smallest_skewness = 1e-9;
@@ -33,7 +33,7 @@ struct AxisMoments {
 AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const IndexedMesh& mesh,
                           const Vector3& centroid, const Execution& execution) {
   return execution.parallel_sum(
-      mesh.triangles.size(), block_size, AxisMoments(), [&](std::size_t begin, std::size_t end) {
+      mesh.triangles.size(), axes_block, AxisMoments(), [&](std::size_t begin, std::size_t end) {
         AxisMoments part;
         for (std::size_t f = begin; f < end; ++f) {
           const Triangle& t = mesh.triangles[f];

@@ -14,7 +14,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
+constexpr std::size_t descriptor_block = 8192;
 
 /// Smallest cosine between normal and radius that Sdq takes seriously.
 constexpr double smallest_cosine = 0.05;
@@ -43,7 +43,7 @@ Vector3 local_origin(const IndexedMesh& mesh, const Execution& execution) {
   if (mesh.points.empty()) return Vector3::Zero();
   const Vector3 start = mesh.points.front();
   const Vector3 sum =
-      execution.parallel_sum(mesh.points.size(), block_size, Vector3(Vector3::Zero()),
+      execution.parallel_sum(mesh.points.size(), descriptor_block, Vector3(Vector3::Zero()),
                              [&](std::size_t begin, std::size_t end) {
                                Vector3 part = Vector3::Zero();
                                for (std::size_t i = begin; i < end; ++i)
@@ -57,7 +57,8 @@ Vector3 local_origin(const IndexedMesh& mesh, const Execution& execution) {
 VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
                              const Execution& execution) {
   return execution.parallel_sum(
-      mesh.triangles.size(), block_size, VolumeMoments(), [&](std::size_t begin, std::size_t end) {
+      mesh.triangles.size(), descriptor_block, VolumeMoments(),
+      [&](std::size_t begin, std::size_t end) {
         VolumeMoments part;
         for (std::size_t f = begin; f < end; ++f) {
           const Triangle& t = mesh.triangles[f];
@@ -81,7 +82,7 @@ VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
 /// Integral of |grad_Omega r|^2 dOmega about `centre`, face by face.
 double gradient_square(const IndexedMesh& mesh, const Vector3& centre, const Execution& execution) {
   return execution.parallel_sum(
-      mesh.triangles.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+      mesh.triangles.size(), descriptor_block, 0.0, [&](std::size_t begin, std::size_t end) {
         double part = 0.0;
         for (std::size_t f = begin; f < end; ++f) {
           const Triangle& t = mesh.triangles[f];

@@ -25,7 +25,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;
+constexpr std::size_t contact_block = 1024;
 constexpr std::size_t balls_per_node = 60;
 constexpr std::size_t most_balls = 120000;
 constexpr int steps = 30;
@@ -55,7 +55,7 @@ std::vector<Ball> touching_balls(const IndexedMesh& grain, const MeshDistance& s
   const std::vector<Vector3> centres = area_uniform_samples(offset, count);
   const std::vector<double> distances = surface.distances(centres, execution);
   std::vector<char> outside(centres.size(), 0);
-  execution.parallel_for(centres.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(centres.size(), contact_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       // Chords of the offset surface lie a little deeper than its vertices.
       constexpr double smallest_share = 0.97;
@@ -69,11 +69,11 @@ std::vector<Ball> touching_balls(const IndexedMesh& grain, const MeshDistance& s
   return balls;
 }
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using NumberedPoint = std::tuple<Kernel::Point_3, std::size_t>;
+using SearchKernel = CGAL::Simple_cartesian<double>;
+using NumberedPoint = std::tuple<SearchKernel::Point_3, std::size_t>;
 using PointOf = CGAL::Nth_of_tuple_property_map<0, NumberedPoint>;
 using SearchTraits =
-    CGAL::Search_traits_adapter<NumberedPoint, PointOf, CGAL::Search_traits_3<Kernel>>;
+    CGAL::Search_traits_adapter<NumberedPoint, PointOf, CGAL::Search_traits_3<SearchKernel>>;
 using NearestSearch = CGAL::Orthogonal_k_neighbor_search<SearchTraits>;
 
 /// The node nearest to each ball's centre.
@@ -82,15 +82,15 @@ std::vector<std::size_t> nearest_nodes(const std::vector<Vector3>& nodes,
   std::vector<NumberedPoint> points;
   points.reserve(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    points.emplace_back(Kernel::Point_3(nodes[i].x(), nodes[i].y(), nodes[i].z()), i);
+    points.emplace_back(SearchKernel::Point_3(nodes[i].x(), nodes[i].y(), nodes[i].z()), i);
   }
   NearestSearch::Tree tree(points.begin(), points.end());
   tree.build();  // now, not at the first query, which may come from several threads
   std::vector<std::size_t> nearest(balls.size());
-  execution.parallel_for(balls.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(balls.size(), contact_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const Vector3& c = balls[b].centre;
-      const NearestSearch search(tree, Kernel::Point_3(c.x(), c.y(), c.z()), 1);
+      const NearestSearch search(tree, SearchKernel::Point_3(c.x(), c.y(), c.z()), 1);
       nearest[b] = std::get<1>(search.begin()->first);
     }
   });

@@ -17,7 +17,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t evening_block = 256;
 
 /// Of the way that the majorization says, which is short: it bounds the stress as if that rose
 /// across an edge as it does along it. 1.6 gains no more.
@@ -79,7 +79,7 @@ std::vector<Vector3> steps_of(const IndexedMesh& mesh, const HalfEdges& half_edg
   const double unit = wanted.unit(mesh.points);
   const std::vector<Vector3> normals = vertex_normals(mesh.points, mesh.triangles);
   std::vector<Vector3> steps(mesh.points.size());
-  execution.parallel_for(steps.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(steps.size(), evening_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Vector3 pull = Vector3::Zero();
       int neighbours = 0;

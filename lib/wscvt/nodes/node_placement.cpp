@@ -23,9 +23,9 @@ namespace {
 // unknowns 1/r_i, and the best radii come from one sparse linear solve; in r itself the problem
 // would have to be linearised again and again.
 
-constexpr const char* stage = "Placing the nodes";
+constexpr const char* placement_stage = "Placing the nodes";
 /// Each triangle reads tens of radii off the surface, so that a few dozen fill a task.
-constexpr std::size_t block_size = 64;
+constexpr std::size_t placement_block = 64;
 /// A fit that goes further has no surface to follow: its triangles span a right angle and more, as
 /// those of a dozen nodes that hardly surround the origin.
 constexpr double largest_radius_change = 1.5;
@@ -58,36 +58,38 @@ std::vector<Sample> read_surface(const std::vector<Vector3>& directions,
                                  const std::vector<Vector3>& barycentric,
                                  const RadialSurface& surface, const Execution& execution) {
   const std::size_t count = barycentric.size();
-  execution.report(0.0, stage);  // a million nodes' samples take half a gigabyte
+  execution.report(0.0, placement_stage);  // a million nodes' samples take half a gigabyte
   std::vector<Sample> samples(triangles.size() * count);
-  execution.report(0.0, stage);
-  execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    std::vector<Vector3> sample_directions(count);
-    std::vector<LocalShape> shapes(count);
-    for (std::size_t t = begin; t < end; ++t) {
-      const Vector3& a = directions[triangles[t][0]];
-      const Vector3& b = directions[triangles[t][1]];
-      const Vector3& c = directions[triangles[t][2]];
-      const double solid_angle = six_volumes(a, b, c) / (2.0 * static_cast<double>(count));
-      Sample* const own = &samples[t * count];
-      for (std::size_t q = 0; q < count; ++q) {
-        const Vector3& w = barycentric[q];
-        const Vector3 foot = w[0] * a + w[1] * b + w[2] * c;
-        own[q].height = foot.norm();
-        sample_directions[q] = foot / own[q].height;
-      }
-      surface.evaluate_shapes(sample_directions.data(), count, Derivatives::First, shapes.data());
-      for (std::size_t q = 0; q < count; ++q) {
-        const double r = shapes[q].distance;
-        own[q].inverse_radius = 1.0 / r;
-        // A difference d in 1/r is r^2 d along the ray, and r^2 d cos(tilt) off the surface; its
-        // square counts with the surface that the sample stands for, g per solid angle. And
-        // g cos^2(tilt) = r^4 / g, since cos(tilt) = r^2 / g.
-        own[q].weight =
-            solid_angle / std::pow(own[q].height, 3) * std::pow(r, 8) / shapes[q].area_element;
-      }
-    }
-  });
+  execution.report(0.0, placement_stage);
+  execution.parallel_for(
+      triangles.size(), placement_block, [&](std::size_t begin, std::size_t end) {
+        std::vector<Vector3> sample_directions(count);
+        std::vector<LocalShape> shapes(count);
+        for (std::size_t t = begin; t < end; ++t) {
+          const Vector3& a = directions[triangles[t][0]];
+          const Vector3& b = directions[triangles[t][1]];
+          const Vector3& c = directions[triangles[t][2]];
+          const double solid_angle = six_volumes(a, b, c) / (2.0 * static_cast<double>(count));
+          Sample* const own = &samples[t * count];
+          for (std::size_t q = 0; q < count; ++q) {
+            const Vector3& w = barycentric[q];
+            const Vector3 foot = w[0] * a + w[1] * b + w[2] * c;
+            own[q].height = foot.norm();
+            sample_directions[q] = foot / own[q].height;
+          }
+          surface.evaluate_shapes(sample_directions.data(), count, Derivatives::First,
+                                  shapes.data());
+          for (std::size_t q = 0; q < count; ++q) {
+            const double r = shapes[q].distance;
+            own[q].inverse_radius = 1.0 / r;
+            // A difference d in 1/r is r^2 d along the ray, and r^2 d cos(tilt) off the surface;
+            // its square counts with the surface that the sample stands for, g per solid angle. And
+            // g cos^2(tilt) = r^4 / g, since cos(tilt) = r^2 / g.
+            own[q].weight =
+                solid_angle / std::pow(own[q].height, 3) * std::pow(r, 8) / shapes[q].area_element;
+          }
+        }
+      });
   return samples;
 }
 
@@ -147,17 +149,19 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
                                  const std::vector<Sample>& samples,
                                  const std::vector<Vector3>& barycentric,
                                  const Eigen::VectorXd* fit, const Execution& execution) {
-  execution.report(0.0, stage);  // a million nodes' take a quarter of a gigabyte
+  execution.report(0.0, placement_stage);  // a million nodes' take a quarter of a gigabyte
   std::vector<LocalSystem> systems(triangles.size());
-  execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const Triangle& corner = triangles[t];
-      Vector3 at_corners = Vector3::Zero();
-      if (fit != nullptr) at_corners = {(*fit)[corner[0]], (*fit)[corner[1]], (*fit)[corner[2]]};
-      systems[t] = local_system(&samples[t * barycentric.size()], barycentric,
-                                fit != nullptr ? &at_corners : nullptr);
-    }
-  });
+  execution.parallel_for(
+      triangles.size(), placement_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+          const Triangle& corner = triangles[t];
+          Vector3 at_corners = Vector3::Zero();
+          if (fit != nullptr)
+            at_corners = {(*fit)[corner[0]], (*fit)[corner[1]], (*fit)[corner[2]]};
+          systems[t] = local_system(&samples[t * barycentric.size()], barycentric,
+                                    fit != nullptr ? &at_corners : nullptr);
+        }
+      });
   // Column by column, and in each the triangles in their order: the sums' bits do not depend on
   // threads. Eigen's setFromTriplets adds them up in the same order, but takes twelve million
   // triplets at a million nodes, and half a second that nothing can stop.
@@ -170,7 +174,7 @@ NormalEquations normal_equations(const std::vector<Triangle>& triangles, Eigen::
   equations.matrix.resize(nodes, nodes);
   int* const starts = equations.matrix.outerIndexPtr();
   const auto for_each_column = [&](const auto& take) {
-    execution.parallel_for(static_cast<std::size_t>(nodes), block_size,
+    execution.parallel_for(static_cast<std::size_t>(nodes), placement_block,
                            [&](std::size_t begin, std::size_t end) {
                              std::vector<std::pair<std::int32_t, double>> column;
                              for (std::size_t v = begin; v < end; ++v) {
@@ -205,7 +209,7 @@ class ReportingPreconditioner : public Eigen::DiagonalPreconditioner<double> {
 
   template <class Residual>
   auto solve(const Eigen::MatrixBase<Residual>& residual) const {
-    execution_->report(0.0, stage);
+    execution_->report(0.0, placement_stage);
     return Eigen::DiagonalPreconditioner<double>::solve(residual);
   }
 

@@ -23,7 +23,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t sample_block = 256;
 
 /// Of the samples a node has on the average, each worth one: holds nodes that no sample reaches,
 /// and changes the others' steps by less than a thousandth.
@@ -84,7 +84,7 @@ std::vector<Row> rows_of(const std::vector<FitSample>& samples, const IndexedMes
                          const Execution& execution) {
   const NearestTriangle nearest(nodes, half_edges);
   std::vector<Row> rows(samples.size());
-  execution.parallel_for(samples.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(samples.size(), sample_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       Vector3 weights;
       const std::int32_t triangle = nearest.find(samples[s].point, samples[s].triangle, weights);
@@ -210,7 +210,7 @@ std::vector<MappedSample> mapped_samples(const MappedSurface& surface, const Mes
                                          std::size_t count, const Execution& execution) {
   const std::vector<MeshPlace> places = area_uniform_places(surface.mesh(), count);
   std::vector<MappedSample> samples(places.size());
-  execution.parallel_for(places.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(places.size(), sample_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3 point = surface.position(places[i]);
       samples[i] = {to_scan == nullptr ? point : to_scan->nearest_point(point),
@@ -227,7 +227,7 @@ std::vector<FitSample> deal_out(const std::vector<MappedSample>& samples,
                                 const Execution& execution) {
   const MappedSurface nodes({positions, triangles}, seeds, execution);
   std::vector<FitSample> result(samples.size());
-  execution.parallel_for(samples.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(samples.size(), sample_block, [&](std::size_t begin, std::size_t end) {
     std::int32_t hint = -1;
     for (std::size_t s = begin; s < end; ++s) {
       hint = nodes.locate(samples[s].direction, hint).triangle;

@@ -15,7 +15,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
-constexpr const char* stage = "Looking for triangles that meet";
+constexpr const char* intersection_stage = "Looking for triangles that meet";
 
 Kernel::Point_3 exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -28,7 +28,7 @@ CGAL::Bbox_3 box_of(const std::vector<Vector3>& points, const Triangle& t) {
 }  // namespace
 
 std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh, const Execution& execution) {
-  execution.report(0.0, stage);
+  execution.report(0.0, intersection_stage);
   const std::vector<Vector3>& points = mesh.points;
   std::vector<TrianglePair> pairs;
   std::vector<Box> boxes;

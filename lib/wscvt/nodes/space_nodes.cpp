@@ -31,7 +31,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t node_block = 256;
 /// Nodes on the surface that lose more volume than this are too few: 25 nodes on a ball.
 constexpr double largest_volume_loss = 0.25;
 /// Of the seeds that crowd: from the first on they are taken elsewhere, down to the second.
@@ -101,7 +101,7 @@ void raise_densities(const MappedSurface& surface, const SpaceTessellation& tess
   for (const std::int32_t v : vertices_of(pairs, tessellation.triangulation.triangles())) {
     places.push_back(tessellation.positions[v]);
   }
-  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(points.size(), node_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       double nearest = reach * reach;
       for (const Vector3& place : places) {

@@ -13,7 +13,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t step_block = 256;
 
 /// Of a step; a node that is held back beyond takes none, since less than a sixteenth is not worth
 /// another look at all triangles.
@@ -72,7 +72,7 @@ GuardedSteps::Shape GuardedSteps::shape_of(const std::vector<Vector3>& points) c
   shape.angles.resize(triangles.size());
   shape.turns.resize(3 * triangles.size());
   std::vector<Vector3> normals(triangles.size());
-  execution_.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution_.parallel_for(triangles.size(), step_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto& [a, b, c] = triangles[t];
       shape.angles[t] = largest_corner_cosine(points[a], points[b], points[c]);

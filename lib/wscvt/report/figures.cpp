@@ -14,7 +14,7 @@ namespace {
 
 // In units of the drawing, which the page scales: its texts are to be read at a width of 360
 // pixels.
-constexpr double width = 440.0;
+constexpr double figure_width = 440.0;
 constexpr double height = 300.0;
 constexpr double font_size = 14.0;
 constexpr double left = 62.0;
@@ -75,7 +75,7 @@ std::string frame(const std::string& x_title, const Axis& x, const std::vector<T
 
 std::string drawing(const std::string& title, const std::string& content,
                     double drawn_height = height) {
-  return "<svg viewBox=\"0 0 " + number(width) + " " + number(drawn_height) +
+  return "<svg viewBox=\"0 0 " + number(figure_width) + " " + number(drawn_height) +
          "\" role=\"img\" font-family=\"sans-serif\" font-size=\"" + number(font_size) +
          "\"><title>" + html_escaped(title) + "</title>\n" + content + "</svg>\n";
 }
@@ -169,7 +169,7 @@ std::vector<double> round_ticks(double lower, double upper, int most) {
 
 std::string histogram_figure(const std::string& axis, const std::string& counted,
                              const std::vector<NamedHistogram>& histograms) {
-  Axis x{0.0, 1.0, left, width - right};
+  Axis x{0.0, 1.0, left, figure_width - right};
   Axis y{0.0, 1.0, height - bottom, top};
   if (!histograms.empty()) {
     x.lower = histograms.front().histogram.lower;
@@ -206,7 +206,7 @@ std::string colour_scale(double limit) {
            std::to_string(colour[0]) + "," + std::to_string(colour[1]) + "," +
            std::to_string(colour[2]) + ")\"/>";
   }
-  const Axis x{-limit, limit, 40.0, width - 40.0};
+  const Axis x{-limit, limit, 40.0, figure_width - 40.0};
   svg += "</linearGradient>\n<rect x=\"" + number(x.from) + "\" y=\"4\" width=\"" +
          number(x.to - x.from) + "\" height=\"14\" fill=\"url(#scale)\" stroke=\"#888\"/>\n";
   for (const double value : {-limit, 0.0, limit}) {
@@ -227,7 +227,7 @@ std::string logarithmic_figure(const std::string& x_axis, const std::string& y_a
   const auto by_y = [](const CurvePoint& a, const CurvePoint& b) { return a.y < b.y; };
   const auto [lowest, highest] = std::minmax_element(points.begin(), points.end(), by_y);
   const bool has_level = level > 0.0 && std::isfinite(level);
-  const Axis x = logarithmic_axis(points.front().x, points.back().x, left, width - right);
+  const Axis x = logarithmic_axis(points.front().x, points.back().x, left, figure_width - right);
   const Axis y =
       logarithmic_axis(has_level ? std::min(level, lowest->y) : lowest->y,
                        has_level ? std::max(level, highest->y) : highest->y, height - bottom, top);

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::int32_t nothing = -1;
 
-struct Place {
+struct PixelPlace {
   double x;
   double y;
   double depth;  ///< towards the viewer
 };
 
-double doubled_area(const Place& a, const Place& b, double x, double y) {
+double doubled_area(const PixelPlace& a, const PixelPlace& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
@@ -61,7 +61,7 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view) {
   seen.edges.assign(count, 0.0);
   std::vector<double> depths(count, -std::numeric_limits<double>::infinity());
 
-  std::vector<Place> places;
+  std::vector<PixelPlace> places;
   places.reserve(mesh.points.size());
   for (const Vector3& p : mesh.points) {
     const Vector3 from = p - view.centre;
@@ -70,7 +70,7 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view) {
   }
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
-    const std::array<Place, 3> at = {places[t[0]], places[t[1]], places[t[2]]};
+    const std::array<PixelPlace, 3> at = {places[t[0]], places[t[1]], places[t[2]]};
     const double area = doubled_area(at[0], at[1], at[2].x, at[2].y);
     if (!(area > 0.0)) continue;
     const auto bound = [&](double value) {
@@ -86,8 +86,8 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view) {
         std::array<double, 3> share{};
         double edge = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < 3; ++k) {
-          const Place& a = at[(k + 1) % 3];
-          const Place& b = at[(k + 2) % 3];
+          const PixelPlace& a = at[(k + 1) % 3];
+          const PixelPlace& b = at[(k + 2) % 3];
           const double doubled = doubled_area(a, b, x + 0.5, y + 0.5);
           share[k] = doubled / area;
           edge = std::min(edge, doubled / std::hypot(b.x - a.x, b.y - a.y));

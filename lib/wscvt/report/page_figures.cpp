@@ -17,8 +17,8 @@ namespace wscvt {
 namespace {
 
 /// Reported before each step, of which one over a million vertices takes tenths of a second.
-constexpr const char* stage = "Drawing the page";
-constexpr std::size_t bins = 60;
+constexpr const char* page_stage = "Drawing the page";
+constexpr std::size_t histogram_bins = 60;
 constexpr const char* reference_colour = "#6e6e6e";
 constexpr const char* shown_colour = "#0a58b4";
 /// Pictures are drawn twice as wide and high and halved, which smooths their edges.
@@ -52,10 +52,10 @@ double usual_distance(const std::vector<double>& distances) {
 }
 
 Histogram histogram_of(const std::vector<double>& values, double half_width) {
-  Histogram histogram{-half_width, half_width, std::vector<std::size_t>(bins, 0)};
+  Histogram histogram{-half_width, half_width, std::vector<std::size_t>(histogram_bins, 0)};
   for (const double value : values) {
     const double share = (value + half_width) / (2.0 * half_width);
-    const double bin = std::clamp(std::floor(share * bins), 0.0, bins - 1.0);
+    const double bin = std::clamp(std::floor(share * histogram_bins), 0.0, histogram_bins - 1.0);
     ++histogram.counts[static_cast<std::size_t>(bin)];
   }
   return histogram;
@@ -73,8 +73,8 @@ void add_triangle_histograms(std::vector<Figure>& figures,
   std::vector<NamedHistogram> ratios;
   std::vector<NamedHistogram> angles;
   const auto add = [&](const ShownMesh& mesh, const std::string& colour) {
-    execution.report(0.0, stage);
-    QualityHistograms histograms = quality_histograms(mesh.mesh, bins);
+    execution.report(0.0, page_stage);
+    QualityHistograms histograms = quality_histograms(mesh.mesh, histogram_bins);
     lengths.push_back({mesh.name, colour, std::move(histograms.relative_edge_length)});
     ratios.push_back({mesh.name, colour, std::move(histograms.edge_ratio)});
     angles.push_back({mesh.name, colour, std::move(histograms.angle)});
@@ -95,20 +95,20 @@ void add_triangle_histograms(std::vector<Figure>& figures,
 PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownMesh& shown,
                          const Execution& execution) {
   PageFigures figures;
-  execution.report(0.0, stage);
+  execution.report(0.0, page_stage);
   // Both are to be seen whole: a few nodes that enclose the same volume stand far out of the scan.
   std::vector<const IndexedMesh*> both = {&shown.mesh};
   if (reference) both.push_back(&reference->mesh);
   const MeshView view = view_of(both, drawn_pixels);
   if (reference) {
-    execution.report(0.0, stage);
+    execution.report(0.0, page_stage);
     // On a dense scan the edges would hide the surface.
     figures.pictures.push_back(picture_figure(
         draw(reference->mesh, look_at(reference->mesh, view), view, false, {}),
         reference->name + ": " + std::to_string(reference->mesh.points.size()) + " vertices, " +
             std::to_string(reference->mesh.triangles.size()) + " faces"));
   }
-  execution.report(0.0, stage);
+  execution.report(0.0, page_stage);
   const SeenMesh seen = look_at(shown.mesh, view);
   figures.pictures.push_back(
       picture_figure(draw(shown.mesh, seen, view, true, {}),

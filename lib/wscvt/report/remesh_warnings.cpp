@@ -175,7 +175,7 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
   }
 }
 
-std::string told(double misfit, double area_off) {
+std::string missed_by(double misfit, double area_off) {
   return "rms distance " + format_percent(misfit) + " of the equivalent radius, area " +
          (area_off < 0.0 ? "-" : "+") + format_percent(std::abs(area_off));
 }
@@ -184,7 +184,7 @@ void warn_of_misfit(const RemeshResult& result, Sentences& warnings) {
   if (result.input.input_vertices == 0 || !misses_the_scan(result)) return;
   const double misfit = result.misfit / result.input.equivalent_radius;
   const double area_off = result.remesh.area / result.original.area - 1.0;
-  std::string text = "The remesh misses the scan: " + told(misfit, area_off) + ".";
+  std::string text = "The remesh misses the scan: " + missed_by(misfit, area_off) + ".";
   // The measure that is farthest over its limit decides which change helps most.
   const auto badness = [](double rms, double area) {
     return std::max(rms / misfit_warning_limit, std::abs(area) / area_warning_limit);
@@ -195,7 +195,7 @@ void warn_of_misfit(const RemeshResult& result, Sentences& warnings) {
       });
   if (best != result.tried.end()) {
     text += badness(best->misfit, best->area_off) < badness(misfit, area_off)
-                ? " With " + best->change + ": " + told(best->misfit, best->area_off) + "."
+                ? " With " + best->change + ": " + missed_by(best->misfit, best->area_off) + "."
                 : std::string(" None of the changes tried brings it nearer.");
   }
   warnings.push_back(text);

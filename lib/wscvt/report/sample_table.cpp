@@ -43,7 +43,7 @@ std::vector<std::string> first_fields(const std::string& grain, const char* stat
 }
 
 /// Where the row of a grain stands.
-struct Place {
+struct RowPlace {
   std::string grain;
   std::size_t table;
   std::size_t offset;
@@ -69,7 +69,7 @@ std::ifstream open(const std::string& path) {
 }
 
 void add_places(const std::string& path, std::size_t table, std::string& header,
-                std::vector<Place>& places) {
+                std::vector<RowPlace>& places) {
   std::ifstream stream = open(path);
   CsvReader reader(stream);
   const std::string own_header = read_header(path, reader);
@@ -154,12 +154,12 @@ void SampleTable::append(const std::string& row) {
 
 void join_tables(const std::vector<std::string>& tables, const std::string& joined) {
   std::string header;
-  std::vector<Place> places;
+  std::vector<RowPlace> places;
   for (std::size_t table = 0; table < tables.size(); ++table) {
     add_places(tables[table], table, header, places);
   }
   std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.grain < b.grain; });
+                   [](const RowPlace& a, const RowPlace& b) { return a.grain < b.grain; });
   std::vector<std::ifstream> streams;
   streams.reserve(tables.size());
   for (const std::string& table : tables) streams.push_back(open(table));
@@ -167,7 +167,7 @@ void join_tables(const std::vector<std::string>& tables, const std::string& join
     stream << header;
     std::string last;
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const Place& place = places[k];
+      const RowPlace& place = places[k];
       std::string row(place.size, '\0');
       streams[place.table].seekg(static_cast<std::streamoff>(place.offset));
       streams[place.table].read(row.data(), static_cast<std::streamsize>(row.size()));

@@ -12,7 +12,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = std::size_t{1} << 18;
+constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ ByteReader::ByteReader(std::istream& stream, std::uintmax_t size, std::string pa
                        Execution execution)
     : stream_(stream),
       path_(std::move(path)),
-      buffer_(block_size),
+      buffer_(bytes_at_once),
       size_(size),
       unread_(size),
       execution_(std::move(execution)) {}
@@ -47,7 +47,7 @@ bool ByteReader::fill(std::size_t count) {
 bool ByteReader::skip(std::uintmax_t count) {
   if (count > remaining()) return false;
   while (count > 0) {
-    const auto part = static_cast<std::size_t>(std::min<std::uintmax_t>(count, block_size));
+    const auto part = static_cast<std::size_t>(std::min<std::uintmax_t>(count, bytes_at_once));
     if (next(part) == nullptr) return false;
     count -= part;
   }
@@ -63,7 +63,7 @@ std::string_view ByteReader::peek(std::size_t count) {
 std::optional<std::string_view> ByteReader::line() {
   if (line_number_ == 0) {
     if (peek(3) == "\xEF\xBB\xBF") skip(3);
-    const std::string_view start = peek(block_size);
+    const std::string_view start = peek(bytes_at_once);
     const std::size_t first = start.find_first_of("\r\n");
     if (first != std::string_view::npos && start[first] == '\r' &&
         start.substr(first + 1, 1) != "\n") {
@@ -91,7 +91,7 @@ std::optional<std::string_view> ByteReader::line() {
     }
     searched = held;
     // Twice as much each time: a file of one line takes as long as any other.
-    peek(std::max(block_size, 2 * held));
+    peek(std::max(bytes_at_once, 2 * held));
   }
 }
 

@@ -12,13 +12,13 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
+constexpr std::size_t component_block = 8192;
 
 /// Whether every edge lies between two faces that already look the same way.
 bool is_closed_and_oriented(const std::vector<Triangle>& triangles,
                             const std::vector<std::int32_t>& rings, const Execution& execution) {
   const std::size_t others = execution.parallel_sum(
-      triangles.size(), block_size, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+      triangles.size(), component_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
           const auto half_edge = static_cast<std::int32_t>(h);
           const std::int32_t other = rings[h];

@@ -13,7 +13,7 @@ namespace wscvt {
 namespace {
 
 /// Large enough that starting a block costs nothing.
-constexpr std::size_t block_size = 16384;
+constexpr std::size_t ring_block = 16384;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::vector<std::int32_t> edge_rings(const IndexedMesh& mesh, const Execution& e
       });
   std::vector<std::int32_t> rings(3 * triangles.size());
   // Each half-edge lies in one bucket, so no two blocks write to the same place.
-  execution.parallel_for(vertices, block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(vertices, ring_block, [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<std::int32_t, std::int32_t>> bucket;  // higher vertex, half-edge
     for (std::size_t v = begin; v < end; ++v) {
       bucket.clear();

@@ -13,7 +13,7 @@ namespace wscvt {
 namespace {
 
 /// Large enough that starting a block costs nothing.
-constexpr std::size_t block_size = 16384;
+constexpr std::size_t enclosure_block = 16384;
 
 /// 1 when the projection of edge a b to the plane z = 0 passes above the point (in y) rightward, -1
 /// when leftward, 0 when it does not. Both faces of an edge get the same answer with opposite
@@ -46,7 +46,7 @@ std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>
   };
   // One block, one list of all points: few blocks, so that many points cost no more memory than a
   // mesh.
-  const std::size_t block = std::max(block_size, (mesh.triangles.size() + 15) / 16);
+  const std::size_t block = std::max(enclosure_block, (mesh.triangles.size() + 15) / 16);
   const Windings windings = execution.parallel_sum(
       mesh.triangles.size(), block, Windings{std::vector<int>(points.size(), 0)},
       [&](std::size_t begin, std::size_t end) {

@@ -76,7 +76,7 @@ struct PointOracle : parts::Point_set_oracle<Kernel> {
   const std::vector<Kernel::Point_3>* points_;
 };
 
-constexpr const char* stage = "Wrapping the scan";
+constexpr const char* envelope_stage = "Wrapping the scan";
 
 /// Faces given to the oracle at once: some hundredths of a second.
 constexpr std::size_t faces_a_report = 1 << 17;
@@ -87,7 +87,7 @@ struct ReportingVisitor : parts::Wrapping_default_visitor {
 
   template <class Wrapper, class Gate>
   void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
-    execution.report(0.1, stage);
+    execution.report(0.1, envelope_stage);
   }
 
   const Execution& execution;
@@ -106,8 +106,8 @@ Wrap alpha_wrap(Oracle oracle, double alpha, double offset, const Execution& exe
   if (tree.empty()) refuse_nothing();  // CGAL leaves out faces without area
   using Traits = typename std::decay_t<decltype(tree)>::AABB_traits;
   tree.custom_build(tree.traits().compute_bbox_object(),
-                    ReportingSplit<Traits>(tree.traits(), execution, stage));
-  execution.report(0.0, stage);
+                    ReportingSplit<Traits>(tree.traits(), execution, envelope_stage));
+  execution.report(0.0, envelope_stage);
   oracle.choose_hints();
   Wrap wrap;
   ReportingVisitor visitor(execution);
@@ -118,7 +118,7 @@ Wrap alpha_wrap(Oracle oracle, double alpha, double offset, const Execution& exe
   parts::Alpha_wrapper_3<Oracle>{oracle}(alpha, offset, wrap, parameters,
                                          CGAL::parameters::default_values());
 #endif
-  execution.report(0.9, stage);
+  execution.report(0.9, envelope_stage);
   // The wrap stands off, so that it has nothing of the scan's flaws; back at the scan its volume is
   // not larger by that. A tenth stays, because vertices about one corner come from one point there.
   for (const auto v : wrap.vertices()) {
@@ -135,7 +135,7 @@ FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
   FaceOracle oracle(alpha);
   std::vector<std::array<std::size_t, 3>> faces;
   for (std::size_t begin = 0; begin < triangles.size(); begin += faces_a_report) {
-    execution.report(0.0, stage);
+    execution.report(0.0, envelope_stage);
     faces.clear();
     for (std::size_t f = begin; f < std::min(triangles.size(), begin + faces_a_report); ++f) {
       const Triangle& t = triangles[f];
@@ -180,7 +180,7 @@ IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
   if (!(options.opening_percent > 0.0) || !(box.diagonal().norm() > 0.0)) {
     refuse_nothing();
   }
-  execution.report(0.0, stage);
+  execution.report(0.0, envelope_stage);
   // In units of the diagonal about the middle: digits do not depend on where and how large it is.
   const double unit = box.diagonal().norm();
   const Vector3 middle = box.center();
@@ -197,7 +197,7 @@ IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
   const Wrap wrap = of_points ? alpha_wrap(PointOracle(points), alpha, offset, execution)
                               : alpha_wrap(oracle_of(points, scan.triangles, alpha, execution),
                                            alpha, offset, execution);
-  execution.report(1.0, stage);
+  execution.report(1.0, envelope_stage);
   IndexedMesh result;
   std::vector<std::int32_t> number(wrap.number_of_vertices() + wrap.number_of_removed_vertices());
   for (const auto v : wrap.vertices()) {

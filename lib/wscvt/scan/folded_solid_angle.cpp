@@ -12,19 +12,19 @@ namespace wscvt {
 namespace {
 
 /// Large enough that starting a block costs nothing.
-constexpr std::size_t block_size = 16384;
+constexpr std::size_t fold_block = 16384;
 
 }  // namespace
 
 double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
                           const Execution& execution) {
   std::vector<Vector3> directions(mesh.points.size());
-  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(directions.size(), fold_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       directions[i] = (mesh.points[i] - centre).normalized();
   });
   return execution
-      .parallel_sum(mesh.triangles.size(), block_size, SolidAngleSums(),
+      .parallel_sum(mesh.triangles.size(), fold_block, SolidAngleSums(),
                     [&](std::size_t begin, std::size_t end) {
                       SolidAngleSums part;
                       for (std::size_t f = begin; f < end; ++f) {

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr const char* stage = "Cutting handles";
+constexpr const char* handle_stage = "Cutting handles";
 
 /// Places a shortest loop is looked for at; every handle has two.
 constexpr std::size_t maximum_roots = 64;
@@ -164,7 +164,7 @@ const Loop* shortest_of(const std::vector<Loop>& loops) {
 /// A loop as short as searches from all handles find it.
 Loop short_loop(const IndexedMesh& mesh, const HalfEdges& links, const Execution& execution) {
   std::vector<Loop> found =
-      TreeCotree(mesh, links).loops(0, infinity, [&] { execution.report(0.0, stage); });
+      TreeCotree(mesh, links).loops(0, infinity, [&] { execution.report(0.0, handle_stage); });
   // Every handle has a loop here, but from afar: the root of the next search stands on it.
   std::vector<std::int32_t> roots;
   for (const Loop& loop : found) {
@@ -292,7 +292,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
   for (std::size_t left = genus; left > 0; --left) {
-    execution.report(static_cast<double>(genus - left) / static_cast<double>(genus), stage);
+    execution.report(static_cast<double>(genus - left) / static_cast<double>(genus), handle_stage);
     const Loop loop = short_loop(mesh, links, execution);
     CutHandle handle;
     handle.length = loop.length;
@@ -324,7 +324,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
   }
   if (genus > 0) result.report.volume_change = volume_of(mesh) / volume - 1.0;
   result.mesh = std::move(mesh);
-  execution.report(1.0, stage);
+  execution.report(1.0, handle_stage);
   return result;
 }
 

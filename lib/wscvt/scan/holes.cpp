@@ -76,8 +76,7 @@ std::vector<Triangle> triangulate(const IndexedMesh& mesh, const Rim& rim,
   constexpr std::size_t largest_rim = 200;
   if (rim.size() == 3) return {{0, 1, 2}};
   if (rim.size() > largest_rim) return {};
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  std::vector<Kernel::Point_3> points;
+  std::vector<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> points;
   for (const std::int32_t v : rim) {
     const Vector3& p = mesh.points[index(v)];
     points.emplace_back(p.x(), p.y(), p.z());

@@ -33,10 +33,6 @@ namespace {
 /// surface is a sheet within rounding.
 constexpr double flat_limit = 1e-9;
 
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw Error(ErrorCode::InvalidInput, sentence);
-}
-
 /// "1 face", "2 faces".
 std::string count_of(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");

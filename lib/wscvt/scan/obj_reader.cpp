@@ -77,7 +77,7 @@ class ObjReader {
         reader_.fail_line(
             field.empty()
                 ? "gives a vertex fewer than three coordinates" + std::string(export_again)
-                : "has " + quoted(field) + " where a coordinate is due" + export_again);
+                : "has " + in_quotes(field) + " where a coordinate is due" + export_again);
       }
       coordinate = *value;
     }
@@ -93,7 +93,7 @@ class ObjReader {
       const std::string_view vertex = field.substr(0, field.find('/'));
       const std::optional<std::int64_t> number = whole_number_in(vertex);
       if (!number || *number == 0) {
-        reader_.fail_line("has " + quoted(field) +
+        reader_.fail_line("has " + in_quotes(field) +
                           " where a face's vertex is due, numbered from 1" + export_again);
       }
       const auto known = static_cast<std::int64_t>(mesh_.points.size());

@@ -34,7 +34,7 @@ void check_keyword(ByteReader& reader, std::string_view keyword) {
                 std::string(export_again));
   }
   if (form.find_first_of("4n") != std::string::npos) {
-    reader.fail("holds coordinates in other than three dimensions (" + quoted(keyword) +
+    reader.fail("holds coordinates in other than three dimensions (" + in_quotes(keyword) +
                 "); export it as plain OFF.");
   }
 }
@@ -42,7 +42,7 @@ void check_keyword(ByteReader& reader, std::string_view keyword) {
 std::size_t whole_number(ByteReader& reader, std::string_view field, const std::string& due) {
   const std::optional<std::int64_t> value = whole_number_in(field);
   if (!value || *value < 0) {
-    reader.fail_line((field.empty() ? "ends" : "has " + quoted(field)) + " where " + due +
+    reader.fail_line((field.empty() ? "ends" : "has " + in_quotes(field)) + " where " + due +
                      " is due" + export_again);
   }
   return static_cast<std::size_t>(*value);
@@ -94,7 +94,7 @@ IndexedMesh read_off(ByteReader& reader) {
       const std::optional<double> value = number_in(field);
       if (!value) {
         reader.fail_line("(vertex " + std::to_string(i) + ") " +
-                         (field.empty() ? "ends" : "has " + quoted(field)) +
+                         (field.empty() ? "ends" : "has " + in_quotes(field)) +
                          " where a coordinate is due" + export_again);
       }
       coordinate = *value;

@@ -132,7 +132,7 @@ Header read_header(ByteReader& reader) {
           {"binary_big_endian", Encoding::BigEndian}};
       const auto found = encodings.find(format);
       if (found == encodings.end()) {
-        reader.fail_line("gives the format " + quoted(format) +
+        reader.fail_line("gives the format " + in_quotes(format) +
                          "; it must be ascii, binary_little_endian or binary_big_endian.");
       }
       header.encoding = found->second;
@@ -143,8 +143,8 @@ Header read_header(ByteReader& reader) {
       const std::string_view field = fields.next();
       const std::optional<std::int64_t> count = whole_number_in(field);
       if (!count || *count < 0) {
-        reader.fail_line("gives " + quoted(field) + " for the number of elements " +
-                         quoted(element.name) + "; it must be a whole number from 0.");
+        reader.fail_line("gives " + in_quotes(field) + " for the number of elements " +
+                         in_quotes(element.name) + "; it must be a whole number from 0.");
       }
       element.count = static_cast<std::uint64_t>(*count);
       header.elements.push_back(std::move(element));
@@ -159,7 +159,7 @@ Header read_header(ByteReader& reader) {
         const std::string count_type = lower_case(fields.next());
         const std::optional<ScalarType> known = scalar_type(count_type);
         if (!known || *known == ScalarType::Float32 || *known == ScalarType::Float64) {
-          reader.fail_line("counts a list in the type " + quoted(count_type) +
+          reader.fail_line("counts a list in the type " + in_quotes(count_type) +
                            "; it must be a type of whole numbers.");
         }
         property.count_type = *known;
@@ -167,14 +167,14 @@ Header read_header(ByteReader& reader) {
       }
       const std::optional<ScalarType> known = scalar_type(type);
       if (!known) {
-        reader.fail_line("has a property of the type " + quoted(type) +
+        reader.fail_line("has a property of the type " + in_quotes(type) +
                          ", which PLY does not know" + export_again);
       }
       property.type = *known;
       property.name = lower_case(fields.next());
       header.elements.back().properties.push_back(std::move(property));
     } else {
-      reader.fail_line("of the header begins with " + quoted(keyword) +
+      reader.fail_line("of the header begins with " + in_quotes(keyword) +
                        ", which is no keyword of PLY" + export_again);
     }
   }
@@ -493,7 +493,7 @@ class Body {
       fail_record(element, record,
                   field.empty() ? "holds fewer numbers than the header declares for one" +
                                       std::string(export_again)
-                                : "has " + quoted(field) + " where a number is due.");
+                                : "has " + in_quotes(field) + " where a number is due.");
     };
     scalars_.resize(element.properties.size());
     for (std::size_t k = 0; k < element.properties.size(); ++k) {

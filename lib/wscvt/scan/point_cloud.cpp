@@ -16,12 +16,12 @@ namespace wscvt {
 
 namespace {
 
-constexpr const char* stage = "Making a surface of the points";
+constexpr const char* cloud_stage = "Making a surface of the points";
 
 }  // namespace
 
 IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution) {
-  execution.report(0.0, stage);
+  execution.report(0.0, cloud_stage);
   IndexedMesh mesh;
   mesh.points = different_points(std::move(points), execution);
   Vector3 centre = Vector3::Zero();

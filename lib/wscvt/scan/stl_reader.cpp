@@ -109,7 +109,7 @@ class TextReader {
 
   void expect(const std::string& due) {
     const std::string word = next_word();
-    if (word != due) fail(word, quoted(due));
+    if (word != due) fail(word, in_quotes(due));
   }
 
   /// The next word in lower case; empty at the end of the file.
@@ -133,7 +133,7 @@ class TextReader {
     if (word.empty()) {
       reader_.fail("ends where " + due + " is due; it was cut off" + export_again);
     }
-    reader_.fail_line("has " + quoted(word) + " where " + due + " is due" + export_again);
+    reader_.fail_line("has " + in_quotes(word) + " where " + due + " is due" + export_again);
   }
 
   ByteReader& reader_;

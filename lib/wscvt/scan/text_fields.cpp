@@ -36,7 +36,7 @@ std::string shown(std::string_view field) {
   return text + (field.size() > longest ? "..." : "");
 }
 
-std::string quoted(std::string_view field) { return "\"" + shown(field) + "\""; }
+std::string in_quotes(std::string_view field) { return "\"" + shown(field) + "\""; }
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);

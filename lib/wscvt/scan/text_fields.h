@@ -46,7 +46,7 @@ std::optional<std::int64_t> whole_number_in(std::string_view field);
 std::string shown(std::string_view field);
 
 /// The same in quotes.
-std::string quoted(std::string_view field);
+std::string in_quotes(std::string_view field);
 
 /// Lower-case letters in place of ASCII capitals.
 std::string lower_case(std::string_view text);

@@ -11,7 +11,7 @@ namespace wscvt {
 namespace {
 
 /// Large enough that starting a block costs nothing.
-constexpr std::size_t block_size = 16384;
+constexpr std::size_t vertex_block = 16384;
 
 }  // namespace
 
@@ -49,13 +49,14 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
     } while (corner != start);
   };
   // One list a block, joined in order: the same list on any number of threads.
-  std::vector<std::vector<std::int32_t>> found((vertices + block_size - 1) / block_size);
-  execution.parallel_for(vertices, block_size, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::vector<std::int32_t>> found((vertices + vertex_block - 1) / vertex_block);
+  execution.parallel_for(vertices, vertex_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       if (valence[v] == 0) continue;
       std::int32_t visited = 0;
       walk_fan(first_corner[v], [&](std::int32_t) { ++visited; });
-      if (visited != valence[v]) found[begin / block_size].push_back(static_cast<std::int32_t>(v));
+      if (visited != valence[v])
+        found[begin / vertex_block].push_back(static_cast<std::int32_t>(v));
     }
   });
 

@@ -18,21 +18,17 @@ namespace wscvt {
 namespace {
 
 /// Large enough that starting a block costs nothing.
-constexpr std::size_t block_size = 16384;
-
-[[noreturn]] void refuse(const std::string& sentence) {
-  throw Error(ErrorCode::InvalidInput, sentence);
-}
+constexpr std::size_t usable_block = 16384;
 
 /// First index in [0, count) for which `wrong` holds, or count. The first and not any, so that the
 /// message names the same one on any number of threads.
 template <class Predicate>
 std::size_t first_wrong(std::size_t count, const Execution& execution, const Predicate& wrong) {
-  std::vector<std::size_t> first((count + block_size - 1) / block_size, count);
-  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> first((count + usable_block - 1) / usable_block, count);
+  execution.parallel_for(count, usable_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (wrong(i)) {
-        first[begin / block_size] = i;
+        first[begin / usable_block] = i;
         break;
       }
     }

@@ -12,7 +12,7 @@ namespace wscvt {
 namespace {
 
 /// Large enough that starting a block costs nothing.
-constexpr std::size_t block_size = 16384;
+constexpr std::size_t weld_block = 16384;
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -62,8 +62,8 @@ Cell cell_at(const Eigen::Array3d& position) {
 
 Box box_of_faces(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t faces = mesh.triangles.size();
-  std::vector<Box> parts((faces + block_size - 1) / block_size);
-  execution.parallel_for(faces, block_size, [&](std::size_t begin, std::size_t end) {
+  std::vector<Box> parts((faces + weld_block - 1) / weld_block);
+  execution.parallel_for(faces, weld_block, [&](std::size_t begin, std::size_t end) {
     const Vector3& start = mesh.points[index(mesh.triangles[begin][0])];
     Box part{start, start};
     for (std::size_t f = begin; f < end; ++f) {
@@ -72,7 +72,7 @@ Box box_of_faces(const IndexedMesh& mesh, const Execution& execution) {
         part.high = part.high.cwiseMax(mesh.points[index(v)]);
       }
     }
-    parts[begin / block_size] = part;
+    parts[begin / weld_block] = part;
   });
   if (parts.empty()) return {};
   Box box = parts.front();
@@ -102,7 +102,7 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
   constexpr std::uint32_t at_side = 1U << 31U;    // equals may lie in the next cubes too
   constexpr std::uint32_t outside = 0xFFFFFFFFU;  // not looked at
   std::vector<std::uint32_t> slots(count);
-  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(count, weld_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& p = points[i];
       // Asked so that what is not a number is outside: it has no cell.

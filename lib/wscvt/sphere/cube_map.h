@@ -17,6 +17,12 @@ class CubeMap {
   /// `resolution` >= 1, which is not checked.
   explicit CubeMap(int resolution) : resolution_(resolution) {}
 
+  /// About two triangles of an even mesh to a cell: a cell is touched by about five, and a walk
+  /// from a cell's own triangle is a few steps long.
+  static int resolution_for(std::size_t triangles) {
+    return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles) / 12.0)), 1, 4096);
+  }
+
   std::size_t cells() const {
     return 6 * static_cast<std::size_t>(resolution_) * static_cast<std::size_t>(resolution_);
   }

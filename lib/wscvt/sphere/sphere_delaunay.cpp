@@ -21,9 +21,9 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using ExactPoint = Kernel::Point_3;
 
-ExactPoint exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
+ExactPoint exact_point(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
-constexpr const char* stage = "Triangulating the sphere";
+constexpr const char* delaunay_stage = "Triangulating the sphere";
 
 /// A few hundredths of a second.
 constexpr std::size_t insertions_a_report = 8192;
@@ -41,11 +41,11 @@ std::vector<Triangle> sphere_delaunay(const std::vector<Vector3>& seeds,
 
   std::vector<ExactPoint> points;
   points.reserve(seeds.size());
-  for (const Vector3& seed : seeds) points.push_back(exact(seed));
+  for (const Vector3& seed : seeds) points.push_back(exact_point(seed));
   std::vector<std::size_t> order(seeds.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   using Map = CGAL::Pointer_property_map<ExactPoint>::const_type;
-  execution.report(0.0, stage);
+  execution.report(0.0, delaunay_stage);
   CGAL::spatial_sort(order.begin(), order.end(),
                      CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(
                          CGAL::make_property_map(std::as_const(points))));
@@ -55,14 +55,15 @@ std::vector<Triangle> sphere_delaunay(const std::vector<Vector3>& seeds,
   std::size_t inserted = 0;
   for (const std::size_t i : order) {
     if (inserted++ % insertions_a_report == 0) {
-      execution.report(static_cast<double>(inserted) / static_cast<double>(order.size()), stage);
+      execution.report(static_cast<double>(inserted) / static_cast<double>(order.size()),
+                       delaunay_stage);
     }
     const auto vertex = triangulation.insert(points[i], hint);
     if (vertex == nullptr || triangulation.number_of_vertices() == 0) return {};
     vertex->info() = static_cast<std::int32_t>(i);
     hint = vertex->face();
   }
-  execution.report(1.0, stage);
+  execution.report(1.0, delaunay_stage);
   std::vector<Triangle> triangles;
   if (triangulation.number_of_vertices() != seeds.size()) return triangles;
   if (triangulation.number_of_ghost_faces() != 0) return triangles;

@@ -22,7 +22,7 @@ namespace {
 /// neither overflow nor underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
 constexpr double weight_limit = 200.0;
 
-constexpr std::size_t block_size = 4096;
+constexpr std::size_t triangle_block = 4096;
 
 bool can_be_lifted(const std::vector<double>& weights) {
   return std::all_of(weights.begin(), weights.end(),
@@ -57,7 +57,7 @@ bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vec
                    const Execution& execution) {
   if (triangles.size() != 2 * seeds.size() - 4) return false;
   const std::size_t turned = execution.parallel_sum(
-      triangles.size(), block_size, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+      triangles.size(), triangle_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
         std::size_t count = 0;
         for (std::size_t i = begin; i < end; ++i) {
           const auto& [a, b, c] = triangles[i];

@@ -18,7 +18,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t quadric_block = 256;
 
 /// Below this share of the largest pivot a column of the fit does not count.
 constexpr double rank_tolerance = 1e-10;
@@ -127,7 +127,7 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
   }
   const VertexCorners corners(mesh);
   std::vector<PrincipalCurvatures> result(mesh.points.size());
-  execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(result.size(), quadric_block, [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t> vertices;
     for (std::size_t i = begin; i < end; ++i) {
       const auto v = static_cast<std::int32_t>(i);

@@ -15,7 +15,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;
+constexpr std::size_t grain_block = 1024;
 
 /// A surface in units of `unit`.
 class ScaledSurface : public RadialSurface {
@@ -98,7 +98,7 @@ Grain grain_of_scan(CheckedMesh scan, const ParametrizationChoice& choice,
   grain.centre = scan.report.centroid;
   grain.mesh = std::move(scan.mesh);
   std::vector<Vector3>& points = grain.mesh.points;
-  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(points.size(), grain_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) points[i] = (points[i] - grain.centre) / grain.unit;
   });
 

@@ -21,11 +21,11 @@ constexpr std::size_t maximum_stored_points = 2000;
 
 /// Grid rows per degree, and points of its interpolation along each angle. With 8 rows the moments
 /// of the weights err by at most 1e-3 at the top, which the second pass of the fit squares.
-constexpr int rows_per_degree = 8;
+constexpr int moment_rows_per_degree = 8;
 constexpr int fit_stencil = 6;
-constexpr int smallest_grid = 32;
+constexpr int smallest_moment_grid = 32;
 
-constexpr std::size_t point_block = 1024;
+constexpr std::size_t equation_block = 1024;
 
 using Vector = Eigen::VectorXd;
 
@@ -83,7 +83,7 @@ class SpreadMoments : public HarmonicEquations {
  public:
   SpreadMoments(const WeightedDirections& samples, int degree, const Execution& execution)
       : samples_(samples),
-        rows_(std::max(smallest_grid, rows_per_degree * degree)),
+        rows_(std::max(smallest_moment_grid, moment_rows_per_degree * degree)),
         weight_moments_(moments_of_weights(degree, execution)) {}
 
   void set_degree(int degree, const Execution& execution) override {
@@ -131,7 +131,7 @@ class SpreadMoments : public HarmonicEquations {
     const SphereGrid grid(rows_, fit_stencil,
                           on_points_grid_->synthesize(to_array(coefficients), execution));
     std::vector<double> values(samples_.directions.size());
-    execution.parallel_for(values.size(), point_block, [&](std::size_t begin, std::size_t end) {
+    execution.parallel_for(values.size(), equation_block, [&](std::size_t begin, std::size_t end) {
       grid.interpolate(samples_.directions.data() + begin, end - begin, values.data() + begin);
     });
     return values;
@@ -244,7 +244,7 @@ double condition_of(const HarmonicEquations& equations, int degree, const Execut
 
 double weighted_mean(const WeightedDirections& points, const std::vector<double>& values,
                      const Execution& execution) {
-  return execution.parallel_sum(values.size(), point_block, 0.0,
+  return execution.parallel_sum(values.size(), equation_block, 0.0,
                                 [&](std::size_t begin, std::size_t end) {
                                   double part = 0.0;
                                   for (std::size_t i = begin; i < end; ++i) {

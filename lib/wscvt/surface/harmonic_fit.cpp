@@ -20,13 +20,13 @@ namespace wscvt {
 
 namespace {
 
-constexpr const char* stage = "Fitting spherical harmonics";
+constexpr const char* fit_stage = "Fitting spherical harmonics";
 
 /// Rows of the first grid. What the surface holds beyond the degree folds back into the
 /// coefficients at random where the grid does not resolve it: with four rows a degree a noise of
 /// the radii reaches the series at a fifth of its size or less, (degree + 1) over the square root
 /// of the number of rays.
-constexpr int rows_per_degree = 4;
+constexpr int ray_rows_per_degree = 4;
 constexpr int smallest_rows = 96;
 
 /// A needle's tip may lie between the rays. Then its volume changes with the grid.
@@ -36,7 +36,7 @@ constexpr double volume_tolerance = 1e-3;
 /// The residual is read at so many points, by area: on a bar of 4 : 1 as many directions of equal
 /// solid angle leave it 10 % off, since few of them see the ends.
 constexpr std::size_t residual_points = 3000;
-constexpr std::size_t point_block = 256;
+constexpr std::size_t residual_block = 256;
 
 /// A surface on a Gauss-Legendre grid, row by row.
 struct RadialGrid {
@@ -87,11 +87,11 @@ RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& ex
 
 RadialGrid read_resolved_grid(const RadialSurface& surface, int degree,
                               const Execution& execution) {
-  int rows = std::max(smallest_rows, rows_per_degree * (degree + 1));
+  int rows = std::max(smallest_rows, ray_rows_per_degree * (degree + 1));
   // A quarter of the rays tell whether the volume stays.
   double coarser_volume = read_grid(surface, rows / 2, execution).volume();
   for (;; rows *= 2) {
-    execution.report(0.2, stage);
+    execution.report(0.2, fit_stage);
     RadialGrid grid = read_grid(surface, rows, execution);
     const double volume = grid.volume();
     if (std::abs(volume - coarser_volume) <= volume_tolerance * volume || 2 * rows > largest_rows) {
@@ -211,7 +211,7 @@ double rms_distance(const AreaSamples& samples, const HarmonicSurface& series,
                     const Execution& execution) {
   const std::vector<Vector3>& points = samples.points;
   const double squares = execution.parallel_sum(
-      points.size(), point_block, 0.0, [&](std::size_t begin, std::size_t end) {
+      points.size(), residual_block, 0.0, [&](std::size_t begin, std::size_t end) {
         const std::vector<double> distances =
             distances_to(series, {points.begin() + static_cast<std::ptrdiff_t>(begin),
                                   points.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -229,13 +229,13 @@ class Fitter {
  public:
   Fitter(const RadialSurface& surface, int highest_degree, const Execution& execution)
       : execution_(execution) {
-    execution.report(0.0, stage);
+    execution.report(0.0, fit_stage);
     const RadialGrid grid = read_resolved_grid(surface, highest_degree, execution);
     rays_ = grid.radii.size();
     coefficients_ = project(grid, highest_degree, execution);
-    execution.report(0.6, stage);
+    execution.report(0.6, fit_stage);
     samples_ = sample_by_area(surface, grid, execution);
-    execution.report(0.8, stage);
+    execution.report(0.8, fit_stage);
   }
 
   /// A lower degree is a part of the higher one's coefficients. Empty where it is not positive
@@ -257,7 +257,7 @@ class Fitter {
   /// degree asked for never yields a lower one than a lower request.
   HarmonicFit highest(int degree) const {
     for (int trial = degree; trial >= 0; --trial) {
-      execution_.report(0.8, stage);
+      execution_.report(0.8, fit_stage);
       if (std::optional<HarmonicFit> fit = of_degree(trial)) {
         fit->report.limit = trial < degree ? DegreeLimit::Radius : DegreeLimit::None;
         return *std::move(fit);
@@ -282,7 +282,7 @@ HarmonicFit fit_harmonics(const RadialSurface& surface, int degree, const Execut
   require_in_range(degree, fit_degree_option);
   HarmonicFit fit = Fitter(surface, degree, execution).highest(degree);
   fit.report.requested_degree = degree;
-  execution.report(1.0, stage);
+  execution.report(1.0, fit_stage);
   return fit;
 }
 
@@ -317,7 +317,7 @@ HarmonicFit fit_harmonics_for_nodes(const RadialSurface& surface, int node_count
   constexpr int usual_degree = 20;
   std::optional<HarmonicFit> found;
   const auto close_enough = [&](const Fitter& fitter, int degree) {
-    execution.report(0.9, stage);
+    execution.report(0.9, fit_stage);
     std::optional<HarmonicFit> fit = fitter.of_degree(degree);
     if (!fit) return false;
     fit->report.chord_error = chord_error(fit->surface, node_count, execution);
@@ -346,7 +346,7 @@ HarmonicFit fit_harmonics_for_nodes(const RadialSurface& surface, int node_count
     }
   }
   found->report.requested_degree = automatic_degree;
-  execution.report(1.0, stage);
+  execution.report(1.0, fit_stage);
   return *std::move(found);
 }
 

@@ -33,12 +33,12 @@ std::ifstream open_for_reading(const std::string& path) {
   return stream;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+[[noreturn]] void refuse_file(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::InvalidInput, "The file " + path + " is not usable: " + what);
 }
 
 [[noreturn]] void refuse_line(const std::string& path, std::size_t line, const std::string& what) {
-  refuse(path, "line " + std::to_string(line) + " " + what);
+  refuse_file(path, "line " + std::to_string(line) + " " + what);
 }
 
 /// One line of the text form; `line` is 0 where none was read.
@@ -84,7 +84,7 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path) {
     throw Error(ErrorCode::InputOutput,
                 "Reading the file " + path + " failed at line " + std::to_string(line) + ".");
   }
-  if (coefficients.empty()) refuse(path, "it holds no coefficients.");
+  if (coefficients.empty()) refuse_file(path, "it holds no coefficients.");
   return coefficients;
 }
 
@@ -92,7 +92,7 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path) {
 HarmonicSurface make_surface(const std::string& path, std::vector<double> coefficients) {
   HarmonicSurface surface(std::move(coefficients));
   if (!(smallest_radius(surface, Execution(1)) > 0.0)) {
-    refuse(path, "the radius of its series is not positive everywhere.");
+    refuse_file(path, "the radius of its series is not positive everywhere.");
   }
   return surface;
 }
@@ -104,20 +104,20 @@ auto read_json(const std::string& path, const Read& read) {
   try {
     const nlohmann::json json = nlohmann::json::parse(stream);
     if (json.at("format").get<std::string>() != format_tag) {
-      refuse(path, std::string("its \"format\" is not \"") + format_tag + "\".");
+      refuse_file(path, std::string("its \"format\" is not \"") + format_tag + "\".");
     }
     return read(json);
   } catch (const nlohmann::json::exception& error) {
     // The parser's message holds the line and column.
-    refuse(path, error.what());
+    refuse_file(path, error.what());
   }
 }
 
 HarmonicKind kind_of(const std::string& path, const nlohmann::json& json) {
   const std::string kind = json.value("kind", std::string(radial_kind));
   if (kind != radial_kind && kind != map_kind) {
-    refuse(path, "its \"kind\" is \"" + kind + "\"; it must be \"" + radial_kind + "\" or \"" +
-                     map_kind + "\".");
+    refuse_file(path, "its \"kind\" is \"" + kind + "\"; it must be \"" + radial_kind + "\" or \"" +
+                          map_kind + "\".");
   }
   return kind == map_kind ? HarmonicKind::Map : HarmonicKind::Radial;
 }
@@ -127,23 +127,23 @@ std::vector<double> coefficients_of(const std::string& path, const nlohmann::jso
   // The library would cut 2.7 to 2, take 1e30 for any number and true for 1.
   if (!degree_json.is_number_integer() || degree_json < 0 ||
       degree_json > maximum_harmonic_degree) {
-    refuse(path, "its \"degree\" is no whole number from 0 to " +
-                     std::to_string(maximum_harmonic_degree) + ".");
+    refuse_file(path, "its \"degree\" is no whole number from 0 to " +
+                          std::to_string(maximum_harmonic_degree) + ".");
   }
   const int degree = degree_json.get<int>();
-  if (!values.is_array()) refuse(path, "its \"coefficients\" are no list.");
+  if (!values.is_array()) refuse_file(path, "its \"coefficients\" are no list.");
   std::vector<double> coefficients;
   for (const nlohmann::json& coefficient : values) {
     if (!coefficient.is_number()) {
-      refuse(path, "coefficient " + std::to_string(coefficients.size()) + " is no number.");
+      refuse_file(path, "coefficient " + std::to_string(coefficients.size()) + " is no number.");
     }
     coefficients.push_back(coefficient.get<double>());
   }
   if (coefficients.size() != harmonic_count(degree)) {
-    refuse(path, "\"degree\" is " + std::to_string(degree) + " and there are " +
-                     std::to_string(coefficients.size()) +
-                     " coefficients; there must be (degree + 1)^2, degree 0 to " +
-                     std::to_string(maximum_harmonic_degree) + ".");
+    refuse_file(path, "\"degree\" is " + std::to_string(degree) + " and there are " +
+                          std::to_string(coefficients.size()) +
+                          " coefficients; there must be (degree + 1)^2, degree 0 to " +
+                          std::to_string(maximum_harmonic_degree) + ".");
   }
   return coefficients;
 }
@@ -168,8 +168,8 @@ HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
     for (int m = 0; m <= n; ++m) {
       const ComplexCoefficient& coefficient = complex[harmonic_index(n, m)];
       if (coefficient.line == 0) {
-        refuse(path, "the coefficient n = " + std::to_string(n) + ", m = " + std::to_string(m) +
-                         " is missing.");
+        refuse_file(path, "the coefficient n = " + std::to_string(n) +
+                              ", m = " + std::to_string(m) + " is missing.");
       }
       // r is real: c_n,-m = (-1)^m conj(c_nm), which makes c_n0 real.
       const ComplexCoefficient& mirrored = complex[harmonic_index(n, -m)];
@@ -195,8 +195,8 @@ HarmonicKind read_harmonic_kind(const std::string& path) {
 HarmonicSurface read_harmonics(const std::string& path) {
   return read_json(path, [&](const nlohmann::json& json) {
     if (kind_of(path, json) != HarmonicKind::Radial) {
-      refuse(path,
-             "it holds series of x, y and z, not one of the radius; read it as a harmonic map.");
+      refuse_file(
+          path, "it holds series of x, y and z, not one of the radius; read it as a harmonic map.");
     }
     return make_surface(path, coefficients_of(path, json.at("degree"), json.at("coefficients")));
   });
@@ -214,7 +214,7 @@ void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
 HarmonicMap read_harmonic_map(const std::string& path) {
   return read_json(path, [&](const nlohmann::json& json) {
     if (kind_of(path, json) != HarmonicKind::Map) {
-      refuse(path, "it holds one series, of the radius; read it as a radial surface.");
+      refuse_file(path, "it holds one series, of the radius; read it as a radial surface.");
     }
     const nlohmann::json& all = json.at("coefficients");
     std::array<std::vector<double>, 3> coefficients;
@@ -224,7 +224,7 @@ HarmonicMap read_harmonic_map(const std::string& path) {
     HarmonicMap map(std::move(coefficients));
     // Twice as many rows as the cube of the series needs.
     if (!(body_integrals(map, 3 * map.degree() + 4, Execution(1)).volume > 0.0)) {
-      refuse(path, "the surface of its series encloses no volume, or is turned inside out.");
+      refuse_file(path, "the surface of its series encloses no volume, or is turned inside out.");
     }
     return map;
   });

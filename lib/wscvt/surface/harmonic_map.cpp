@@ -18,7 +18,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
+constexpr std::size_t series_block = 8192;
 
 /// Sides of the quadrature's triangles on the sphere, times the degree. The midpoint rule is wrong
 /// by about spacing^2 / 24 of the highest harmonics, one per cent.
@@ -92,7 +92,7 @@ double turned_share(const HarmonicMap& map, const MappedSurface& surface,
   const std::vector<Vector3>& u = quadrature.directions;
   using Sums = Eigen::Vector2d;
   const Sums sums = execution.parallel_sum(
-      u.size(), block_size, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
+      u.size(), series_block, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
         std::vector<SurfaceJet> jets(end - begin);
         map.evaluate_jets(u.data() + begin, jets.size(), Derivatives::First, jets.data());
         Sums part = Sums::Zero();

@@ -21,8 +21,8 @@ constexpr std::size_t row_block = 32;
 
 /// Grid rows per degree on which the smallest radius is looked for: a series has no dip narrower
 /// than half a wavelength, pi / degree, and eight rows see its bottom to 2 % of its depth.
-constexpr int rows_per_degree = 8;
-constexpr int smallest_grid = 32;
+constexpr int dip_rows_per_degree = 8;
+constexpr int smallest_dip_grid = 32;
 
 Eigen::Index signed_index(std::size_t value) { return static_cast<Eigen::Index>(value); }
 
@@ -138,7 +138,7 @@ std::vector<double> HarmonicTransform::analyze(const std::vector<double>& values
 }
 
 double smallest_radius(const HarmonicSurface& surface, const Execution& execution) {
-  const int rows = std::max(smallest_grid, rows_per_degree * surface.degree());
+  const int rows = std::max(smallest_dip_grid, dip_rows_per_degree * surface.degree());
   const HarmonicTransform transform(surface.degree(), SphereGrid::row_cosines(rows),
                                     SphereGrid::row_sines(rows), 2 * rows, execution);
   const std::vector<double> radii = transform.synthesize(surface.coefficients(), execution);

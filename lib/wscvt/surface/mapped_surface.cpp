@@ -18,16 +18,11 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
+constexpr std::size_t mapped_block = 8192;
 /// Directions that follow each other from the first one's search through the table.
 constexpr std::size_t search_block_size = 256;
 
-/// About two triangles to a cell: the walk from the cell's own triangle is a few steps long.
-int resolution_for(std::size_t triangles) {
-  return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles) / 12.0)), 1, 4096);
-}
-
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_directions(const std::string& what) {
   throw Error(ErrorCode::InvalidInput,
               "The mesh is not spread over the sphere: " + what +
                   " Take the directions map_to_sphere gives for this mesh.");
@@ -39,35 +34,36 @@ MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
                              const Execution& execution)
     : mesh_(std::move(mesh)),
       directions_(std::move(directions)),
-      cube_(resolution_for(mesh_.triangles.size())) {
+      cube_(CubeMap::resolution_for(mesh_.triangles.size())) {
   const std::size_t vertices = mesh_.points.size();
   if (directions_.size() != vertices) {
-    refuse("it has " + std::to_string(vertices) + " vertices and " +
-           std::to_string(directions_.size()) + " directions.");
+    refuse_directions("it has " + std::to_string(vertices) + " vertices and " +
+                      std::to_string(directions_.size()) + " directions.");
   }
   for (std::size_t i = 0; i < vertices; ++i) {
     // Written so that a NaN fails.
     if (!(std::abs(directions_[i].squaredNorm() - 1.0) < 1e-9)) {
-      refuse("the direction of vertex " + std::to_string(i) + " is not a unit vector.");
+      refuse_directions("the direction of vertex " + std::to_string(i) + " is not a unit vector.");
     }
   }
   for (const Triangle& t : mesh_.triangles) {
     for (const std::int32_t v : t) {
       if (v < 0 || static_cast<std::size_t>(v) >= vertices) {
-        refuse("a face names the vertex " + std::to_string(v) + " of " + std::to_string(vertices) +
-               ".");
+        refuse_directions("a face names the vertex " + std::to_string(v) + " of " +
+                          std::to_string(vertices) + ".");
       }
     }
   }
   opposite_ = link_half_edges(mesh_.triangles, vertices).opposite;
   for (std::size_t h = 0; h < opposite_.size(); ++h) {
     if (opposite_[h] < 0 || opposite_[opposite_[h]] != static_cast<std::int32_t>(h)) {
-      refuse("it has a border at vertex " + std::to_string(mesh_.triangles[h / 3][h % 3]) + ".");
+      refuse_directions("it has a border at vertex " +
+                        std::to_string(mesh_.triangles[h / 3][h % 3]) + ".");
     }
   }
   std::vector<std::int32_t> cells(mesh_.triangles.size());
   const double angles = execution.parallel_sum(
-      mesh_.triangles.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+      mesh_.triangles.size(), mapped_block, 0.0, [&](std::size_t begin, std::size_t end) {
         double part = 0.0;
         for (std::size_t f = begin; f < end; ++f) {
           const Triangle& t = mesh_.triangles[f];
@@ -75,7 +71,7 @@ MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
           const Vector3& b = directions_[t[1]];
           const Vector3& c = directions_[t[2]];
           if (!counter_clockwise(a, b, c)) {
-            refuse("face " + std::to_string(f) + " is turned over there.");
+            refuse_directions("face " + std::to_string(f) + " is turned over there.");
           }
           part += solid_angle(a, b, c);
           // The sum of a thin triangle's directions may be short, but it is never zero.
@@ -84,8 +80,8 @@ MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
         return part;
       });
   if (!(std::abs(angles / (4.0 * pi) - 1.0) < 1e-3)) {
-    refuse("its faces cover the sphere " + std::to_string(std::lround(angles / (4.0 * pi))) +
-           " times.");
+    refuse_directions("its faces cover the sphere " +
+                      std::to_string(std::lround(angles / (4.0 * pi))) + " times.");
   }
   starts_.assign(cube_.cells(), -1);
   for (std::size_t f = cells.size(); f-- > 0;) starts_[cells[f]] = static_cast<std::int32_t>(f);

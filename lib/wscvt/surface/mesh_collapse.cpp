@@ -19,19 +19,17 @@ namespace {
 
 /// A vertex of more neighbours waits until some of them are gone. It is never the last to go: a
 /// planar triangulation always has vertices of at most five neighbours.
-constexpr std::int32_t largest_valence = 16;
+constexpr std::int32_t largest_collapsed_valence = 16;
 /// From here on a vertex counts as a hub, whose ring is not walked to look for one neighbour.
 constexpr std::int32_t hub_valence = 24;
 /// How many collapses pass between two reports of progress, and how many vertices and faces are
 /// made ready for them.
-constexpr std::size_t report_interval = 4096;
+constexpr std::size_t collapses_a_report = 4096;
 constexpr std::size_t preparation_interval = 65536;
 constexpr std::size_t choice_block = 4096;
 /// Down to so many vertices they may go in rounds; below, one by one.
 constexpr std::size_t fewest_for_rounds = 100000;
-constexpr const char* stage = "Collapsing the scan";
-
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::InvalidInput, what); }
+constexpr const char* collapse_stage = "Collapsing the scan";
 
 /// What is wrong with a mesh that ought to be one sphere; returns its half-edges.
 HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
@@ -73,7 +71,7 @@ HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
              " does not lie between two faces that run along it in opposite ways." + advice);
     }
   }
-  execution.report(0.0, stage);
+  execution.report(0.0, collapse_stage);
   // Every corner must be met going once round its vertex, and every face from the first one.
   std::size_t corners = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -85,7 +83,7 @@ HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
   if (corners != links.opposite.size()) {
     refuse("The mesh touches itself in a vertex." + advice);
   }
-  execution.report(0.0, stage);
+  execution.report(0.0, collapse_stage);
   std::vector<char> met(mesh.triangles.size(), 0);
   std::vector<std::int32_t> stack{0};
   met[0] = 1;
@@ -178,7 +176,7 @@ std::vector<Vector3> normalised(const IndexedMesh& mesh) {
 
 MeshCollapse::MeshCollapse(const IndexedMesh& mesh, const Execution& execution) {
   HalfEdges links = linked_sphere(mesh, execution);
-  execution.report(0.0, stage);
+  execution.report(0.0, collapse_stage);
   triangles_ = mesh.triangles;
   opposite_ = std::move(links.opposite);
   first_ = std::move(links.first);
@@ -272,7 +270,7 @@ class MeshCollapse::Queue {
     hubs_.assign(count, 0);
     const std::vector<char> absent = mesh.absent_triangles();
     for (std::size_t f = 0; f < mesh.triangles_.size(); ++f) {
-      if (f % preparation_interval == 0) execution.report(0.0, stage);
+      if (f % preparation_interval == 0) execution.report(0.0, collapse_stage);
       const Triangle& t = mesh.triangles_[f];
       if (absent[f] != 0) continue;
       const Vector3& a = mesh.points_[t[0]];
@@ -357,7 +355,7 @@ class MeshCollapse::Queue {
       // A neighbour whose valence has come down enough joins at the cost of the day; its own is
       // computed when its turn comes.
       for (const std::int32_t u : workspace_.ring) {
-        if ((states_[u] & waiting) == 0 && mesh_.valences_[u] <= largest_valence) {
+        if ((states_[u] & waiting) == 0 && mesh_.valences_[u] <= largest_collapsed_valence) {
           push({entry.cost, u});
         }
       }
@@ -383,7 +381,7 @@ class MeshCollapse::Queue {
   static constexpr unsigned char stale = 2;    ///< its choice is out of date
 
   /// The neighbours of one vertex, and what its collapse onto any of them needs. Not longer than
-  /// `largest_valence`: it is searched from end to end.
+  /// `largest_collapsed_valence`: it is searched from end to end.
   struct Workspace {
     std::vector<std::int32_t> ring;
     std::vector<std::int32_t> outgoing;
@@ -396,7 +394,7 @@ class MeshCollapse::Queue {
   };
 
   bool may_go(std::int32_t v) const {
-    return mesh_.has_vertex(v) && mesh_.valences_[v] <= largest_valence;
+    return mesh_.has_vertex(v) && mesh_.valences_[v] <= largest_collapsed_valence;
   }
 
   void push(const Entry& entry) {
@@ -601,7 +599,7 @@ void MeshCollapse::collapse_to(std::size_t vertices, const Execution& execution)
     log_.reserve(log_.size() + alive_ - aim);
     const auto report = [&] {
       execution.report(static_cast<double>(start - alive_) / static_cast<double>(start - aim),
-                       stage);
+                       collapse_stage);
     };
     // One by one, cheapest first, the vertices of a dense scan are jumped to all over the memory;
     // whole rounds take half of the time, on two threads a quarter, and the queue still has the
@@ -614,7 +612,7 @@ void MeshCollapse::collapse_to(std::size_t vertices, const Execution& execution)
     queue.fill(execution);
     while (alive_ > aim) {
       queue.collapse_next();
-      if (alive_ % report_interval == 0) report();
+      if (alive_ % collapses_a_report == 0) report();
     }
   }
   const std::vector<char> absent = absent_triangles();

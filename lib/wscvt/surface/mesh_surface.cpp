@@ -12,13 +12,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
-
-/// About two triangles to a cell, so that a cell is touched by about five.
-int resolution_for(std::size_t triangles) {
-  const double cells_per_face = static_cast<double>(triangles) / 12.0;
-  return std::clamp(static_cast<int>(std::sqrt(cells_per_face)), 1, 4096);
-}
+constexpr std::size_t ray_block = 8192;
 
 /// More entries in the bins than this for each triangle are not worth their memory. Even meshes
 /// have about three.
@@ -32,7 +26,7 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
 
 MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
                          double folded_share, const Execution& execution)
-    : star_shaped_(folded_share == 0.0), cube_(resolution_for(mesh.triangles.size())) {
+    : star_shaped_(folded_share == 0.0), cube_(CubeMap::resolution_for(mesh.triangles.size())) {
   if (mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput, "The mesh is empty; check it before casting rays at it.");
   }
@@ -42,7 +36,7 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   }
   mesh_.triangles = mesh.triangles;
   mesh_.points.resize(mesh.points.size());
-  execution.parallel_for(mesh.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(mesh.points.size(), ray_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) mesh_.points[i] = (mesh.points[i] - centre) / unit;
   });
   if (folded_share >= 1.0) {
@@ -52,24 +46,23 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   }
 
   std::vector<CubeMap::Image> images(mesh_.points.size());
-  execution.parallel_for(images.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(images.size(), ray_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) images[i] = CubeMap::image(mesh_.points[i]);
   });
   const auto entries = [&] {
-    return execution.parallel_sum(mesh_.triangles.size(), block_size, std::size_t{0},
-                                  [&](std::size_t begin, std::size_t end) {
-                                    std::size_t part = 0;
-                                    for (std::size_t f = begin; f < end; ++f) {
-                                      const Triangle& t = mesh_.triangles[f];
-                                      part += cube_.count_cells(images[t[0]], images[t[1]],
-                                                                images[t[2]]);
-                                    }
-                                    return part;
-                                  });
+    return execution.parallel_sum(
+        mesh_.triangles.size(), ray_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+          std::size_t part = 0;
+          for (std::size_t f = begin; f < end; ++f) {
+            const Triangle& t = mesh_.triangles[f];
+            part += cube_.count_cells(images[t[0]], images[t[1]], images[t[2]]);
+          }
+          return part;
+        });
   };
   // A needle, as of a fan about a pole, is entered in the whole rectangle of cells about it: as
   // many entries for each as there are triangles.
-  int resolution = resolution_for(mesh_.triangles.size());
+  int resolution = CubeMap::resolution_for(mesh_.triangles.size());
   while (resolution > 1 && entries() > entries_per_triangle * mesh_.triangles.size()) {
     resolution /= 2;
     cube_ = CubeMap(resolution);

@@ -11,7 +11,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
+constexpr std::size_t radial_block = 8192;
 
 /// Cells, 1.4 degrees across in the middle, in which a fold is looked for.
 constexpr int fold_resolution = 64;
@@ -35,7 +35,7 @@ void hide_vertices(const IndexedMesh& mesh, const std::vector<double>& angles,
                      [&](std::size_t cell) { folded[cell] = 1; });
   }
   const MeshSurface surface(mesh, Vector3::Zero(), 1.0, execution);
-  execution.parallel_for(mesh.points.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(mesh.points.size(), radial_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double radius = mesh.points[i].norm();
       if (!(radius > 0.0) || !folded[cube.cell(samples.directions[i])]) continue;
@@ -54,12 +54,12 @@ RadialSamples radial_samples(const IndexedMesh& mesh, const Execution& execution
   const std::size_t count = mesh.points.size();
   RadialSamples samples;
   samples.directions.resize(count);
-  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(count, radial_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) samples.directions[i] = mesh.points[i].normalized();
   });
   std::vector<double> angles(mesh.triangles.size());
   const SolidAngleSums sums = execution.parallel_sum(
-      angles.size(), block_size, SolidAngleSums(), [&](std::size_t begin, std::size_t end) {
+      angles.size(), radial_block, SolidAngleSums(), [&](std::size_t begin, std::size_t end) {
         SolidAngleSums part;
         for (std::size_t f = begin; f < end; ++f) {
           const Triangle& t = mesh.triangles[f];

@@ -12,7 +12,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;
+constexpr std::size_t radius_block = 1024;
 
 /// The point r u and its derivatives, as far as `derivatives` says.
 SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives) {
@@ -49,7 +49,7 @@ std::vector<RadialJet> RadialSurface::jets(const std::vector<Vector3>& direction
                                            Derivatives derivatives,
                                            const Execution& execution) const {
   std::vector<RadialJet> result(directions.size());
-  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(directions.size(), radius_block, [&](std::size_t begin, std::size_t end) {
     evaluate(directions.data() + begin, end - begin, derivatives, result.data() + begin);
   });
   return result;
@@ -138,7 +138,7 @@ SurfaceIntegrals integrate(const RadialSurface& surface, int polar_nodes,
   const std::vector<Vector3>& u = quadrature.directions;
   using Sums = Eigen::Matrix<double, 6, 1>;
   const Sums sums = execution.parallel_sum(
-      u.size(), block_size, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
+      u.size(), radius_block, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
         std::vector<RadialJet> jets(end - begin);
         surface.evaluate(u.data() + begin, end - begin, Derivatives::First, jets.data());
         Sums part = Sums::Zero();

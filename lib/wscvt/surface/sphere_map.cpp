@@ -21,10 +21,10 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 8192;
-constexpr std::size_t report_interval = 4096;
+constexpr std::size_t map_block = 8192;
+constexpr std::size_t insertions_a_report = 4096;
 /// A neighbour of more is left to the sweeps: each insertion into its ring would go round it.
-constexpr std::int32_t largest_valence = 32;
+constexpr std::int32_t largest_inserted_valence = 32;
 
 void check_options(const SphereMapOptions& options) {
   require_in_range(options.level_growth, level_growth_option);
@@ -73,7 +73,7 @@ class Embedding {
         optimise(sweeps, execution);
         next_level = options_.level_growth * static_cast<double>(count);
       }
-      if (count % report_interval == 0) {
+      if (count % insertions_a_report == 0) {
         execution.report(1.0 - static_cast<double>(mesh_.collapses()) / static_cast<double>(total),
                          "Mapping the scan to the sphere");
       }
@@ -110,7 +110,7 @@ class Embedding {
     if (mesh_.vertex_count() > options_.fine_vertices) return;
     mesh_.visit_outgoing(v, [&](std::int32_t h) {
       const std::int32_t u = target_of(mesh_.triangles(), h);
-      if (mesh_.valence(u) > largest_valence) return;
+      if (mesh_.valence(u) > largest_inserted_valence) return;
       load_fan(u);
       fan_.improve(directions_[u]);
     });
@@ -278,7 +278,7 @@ void verify(const std::vector<Triangle>& triangles, const std::vector<Vector3>& 
       return *this;
     }
   };
-  const Sums sums = execution.parallel_sum(triangles.size(), block_size, Sums{},
+  const Sums sums = execution.parallel_sum(triangles.size(), map_block, Sums{},
                                            [&](std::size_t begin, std::size_t end) {
                                              Sums part;
                                              for (std::size_t f = begin; f < end; ++f) {
@@ -325,7 +325,7 @@ void measure_distortion(const std::vector<Vector3>& points, const std::vector<Tr
                         const std::vector<Vector3>& directions, const Execution& execution,
                         SphereMapReport& report) {
   const Distortion sum = execution.parallel_sum(
-      triangles.size(), block_size, Distortion{}, [&](std::size_t begin, std::size_t end) {
+      triangles.size(), map_block, Distortion{}, [&](std::size_t begin, std::size_t end) {
         Distortion part;
         for (std::size_t f = begin; f < end; ++f) {
           const Triangle& t = triangles[f];

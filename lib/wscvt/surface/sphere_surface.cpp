@@ -11,7 +11,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;
+constexpr std::size_t direction_block = 1024;
 
 }  // namespace
 
@@ -19,9 +19,10 @@ std::vector<SurfaceJet> SphereSurface::surface_jets(const std::vector<Vector3>& 
                                                     Derivatives derivatives,
                                                     const Execution& execution) const {
   std::vector<SurfaceJet> result(directions.size());
-  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    evaluate_jets(directions.data() + begin, end - begin, derivatives, result.data() + begin);
-  });
+  execution.parallel_for(
+      directions.size(), direction_block, [&](std::size_t begin, std::size_t end) {
+        evaluate_jets(directions.data() + begin, end - begin, derivatives, result.data() + begin);
+      });
   return result;
 }
 
@@ -55,20 +56,22 @@ Vector3 SphereSurface::position_near(const Vector3& direction, MeshPlace& /*plac
 std::vector<Vector3> SphereSurface::positions(const std::vector<Vector3>& directions,
                                               const Execution& execution) const {
   std::vector<Vector3> result(directions.size());
-  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    evaluate_positions(directions.data() + begin, end - begin, result.data() + begin);
-  });
+  execution.parallel_for(
+      directions.size(), direction_block, [&](std::size_t begin, std::size_t end) {
+        evaluate_positions(directions.data() + begin, end - begin, result.data() + begin);
+      });
   return result;
 }
 
 std::vector<double> SphereSurface::distances(const std::vector<Vector3>& directions,
                                              const Execution& execution) const {
   std::vector<double> result(directions.size());
-  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    std::vector<LocalShape> shapes(end - begin);
-    evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::None, shapes.data());
-    for (std::size_t i = begin; i < end; ++i) result[i] = shapes[i - begin].distance;
-  });
+  execution.parallel_for(
+      directions.size(), direction_block, [&](std::size_t begin, std::size_t end) {
+        std::vector<LocalShape> shapes(end - begin);
+        evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::None, shapes.data());
+        for (std::size_t i = begin; i < end; ++i) result[i] = shapes[i - begin].distance;
+      });
   return result;
 }
 
@@ -120,7 +123,7 @@ BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
   const std::vector<Vector3>& u = quadrature.directions;
   using Sums = Eigen::Matrix<double, 5, 1>;
   const Sums sums = execution.parallel_sum(
-      u.size(), block_size, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
+      u.size(), direction_block, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
         std::vector<SurfaceJet> jets(end - begin);
         surface.evaluate_jets(u.data() + begin, jets.size(), Derivatives::First, jets.data());
         Sums part = Sums::Zero();
@@ -146,15 +149,16 @@ AreaElements area_elements(const SphereSurface& surface, const std::vector<Vecto
   AreaElements result;
   result.distances.resize(directions.size());
   result.elements.resize(directions.size());
-  execution.parallel_for(directions.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    std::vector<LocalShape> shapes(end - begin);
-    surface.evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::First,
-                            shapes.data());
-    for (std::size_t i = begin; i < end; ++i) {
-      result.distances[i] = shapes[i - begin].distance;
-      result.elements[i] = shapes[i - begin].area_element;
-    }
-  });
+  execution.parallel_for(directions.size(), direction_block,
+                         [&](std::size_t begin, std::size_t end) {
+                           std::vector<LocalShape> shapes(end - begin);
+                           surface.evaluate_shapes(directions.data() + begin, shapes.size(),
+                                                   Derivatives::First, shapes.data());
+                           for (std::size_t i = begin; i < end; ++i) {
+                             result.distances[i] = shapes[i - begin].distance;
+                             result.elements[i] = shapes[i - begin].area_element;
+                           }
+                         });
   return result;
 }
 
@@ -162,7 +166,7 @@ double surface_area(const SphereSurface& surface, int polar_nodes, const Executi
   const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
   const std::vector<double> elements =
       area_elements(surface, quadrature.directions, execution).elements;
-  return execution.parallel_sum(elements.size(), block_size, 0.0,
+  return execution.parallel_sum(elements.size(), direction_block, 0.0,
                                 [&](std::size_t begin, std::size_t end) {
                                   double part = 0.0;
                                   for (std::size_t i = begin; i < end; ++i)

@@ -11,7 +11,7 @@ namespace wscvt {
 namespace {
 
 /// Few, as in weights.cpp.
-constexpr std::size_t block_size = 128;
+constexpr std::size_t cell_block = 128;
 
 // (O - a).ab = (|ab|^2 + w_a - w_b) / 2 and the same for ac, solved in the triangle's plane.
 Vector3 radical_centre(const Vector3& a, const Vector3& b, const Vector3& c, double lower_ab,
@@ -54,7 +54,7 @@ void compute_power_cells(const SphereTriangulation& triangulation,
   const bool dense = !densities.empty();
 
   cells.vertices.resize(triangles.size());
-  execution.parallel_for(triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(triangles.size(), cell_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto [a, b, c] = triangles[t];
       const double w = weighted ? weights[a] : 0.0;
@@ -67,7 +67,7 @@ void compute_power_cells(const SphereTriangulation& triangulation,
 
   cells.centroids.resize(count);
   cells.areas.resize(count);
-  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(count, cell_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& site = sites[i];
       const std::int32_t first = triangulation.first_half_edge()[i];

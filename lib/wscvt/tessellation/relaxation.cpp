@@ -15,12 +15,12 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 4096;
+constexpr std::size_t seed_block = 4096;
 
 double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>& to,
                    const Execution& execution) {
   const double sum =
-      execution.parallel_sum(from.size(), block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+      execution.parallel_sum(from.size(), seed_block, 0.0, [&](std::size_t begin, std::size_t end) {
         double part = 0.0;
         for (std::size_t i = begin; i < end; ++i) part += (to[i] - from[i]).squaredNorm();
         return part;
@@ -43,7 +43,7 @@ class Evaluation {
     if (metric_ == RelaxationMetric::Surface) {
       model_.on_surface(seeds, execution_, radii_, wanted_);
       positions_.resize(seeds.size());
-      execution_.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
+      execution_.parallel_for(seeds.size(), seed_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) positions_[i] = radii_[i] * seeds[i];
       });
       if (!triangulate_surface(seeds, report)) return false;
@@ -133,7 +133,7 @@ class Evaluation {
     };
     const std::vector<double>& shares = surface ? wanted_ : weights_;
     const Sums sums =
-        execution_.parallel_sum(count, block_size, Sums(), [&](std::size_t begin, std::size_t end) {
+        execution_.parallel_sum(count, seed_block, Sums(), [&](std::size_t begin, std::size_t end) {
           Sums part;
           for (std::size_t i = begin; i < end; ++i) {
             part.area += cells_.areas[i];
@@ -150,7 +150,7 @@ class Evaluation {
                       mean_area + cell_area_per_weight * (shares[i] - mean_share));
     };
     const Sums ratios =
-        execution_.parallel_sum(count, block_size, Sums(), [&](std::size_t begin, std::size_t end) {
+        execution_.parallel_sum(count, seed_block, Sums(), [&](std::size_t begin, std::size_t end) {
           Sums part;
           for (std::size_t i = begin; i < end; ++i) {
             const double ratio = cells_.areas[i] / target(i);
@@ -244,7 +244,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
     const std::vector<Vector3>& sites = evaluation.sites(seeds);
     const std::vector<Vector3>& centroids = evaluation.centroids();
     const double uphill =
-        execution.parallel_sum(count, block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+        execution.parallel_sum(count, seed_block, 0.0, [&](std::size_t begin, std::size_t end) {
           double part = 0.0;
           for (std::size_t i = begin; i < end; ++i) {
             stepped[i] = (sites[i] + factor * (centroids[i] - sites[i])).normalized();
@@ -256,7 +256,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
     // of O'Donoghue and Candes, which needs no energy. Momentum that is never dropped swings about
     // the end and takes more than twice the steps.
     const double carry = options.acceleration && !plain ? momentum.carry(uphill > 0.0) : 0.0;
-    execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    execution.parallel_for(count, seed_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Vector3 moved = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();
         arrived[i] = seeds[i];

@@ -28,7 +28,7 @@ using Box = bg::model::box<Point>;
 using Entry = std::pair<Point, std::int32_t>;
 using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
 
-constexpr std::size_t block_size = 512;
+constexpr std::size_t elimination_block = 512;
 
 /// Candidates for each seed. Yuksel takes three to five; more make the spacing no more even.
 constexpr int candidates_per_seed = 5;
@@ -94,7 +94,7 @@ std::vector<std::vector<Neighbour>> neighbours_of(const Candidates& candidates, 
   const double nearest = reach * smallest_spacing_share();
   const bool is_even = candidates.stretches.empty();
   std::vector<std::vector<Neighbour>> result(count);
-  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(count, elimination_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& here = candidates.points[i];
       // A pair's distance counts by the mean of both stretches, which is at least half of either.

@@ -8,7 +8,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;
+constexpr std::size_t curvature_block = 1024;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ GridField smoothed_curvature(const TabulatedSurface& table, CurvatureSquare squa
   const std::size_t columns = moment.columns();
   if (samples == nullptr) {
     const std::vector<Vector3> nodes = SphereGrid::directions(rows);
-    execution.parallel_for(nodes.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    execution.parallel_for(nodes.size(), curvature_block, [&](std::size_t begin, std::size_t end) {
       std::vector<LocalShape> shapes(end - begin);
       table.surface().evaluate_shapes(nodes.data() + begin, shapes.size(), Derivatives::Second,
                                       shapes.data());

@@ -22,7 +22,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t block_size = 512;
+constexpr std::size_t site_block = 512;
 
 /// A shift takes its site at most this far towards the far edge of its ring: two neighbours that
 /// move at the same time do not meet.
@@ -48,7 +48,7 @@ std::vector<double> determinants(const SphereTriangulation& triangulation,
                                  const std::vector<Vector3>& seeds, const Execution& execution) {
   const std::vector<Triangle>& triangles = triangulation.triangles();
   std::vector<double> result(triangles.size());
-  execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(result.size(), site_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto& [a, b, c] = triangles[t];
       result[t] = six_volumes(seeds[a], seeds[b], seeds[c]);
@@ -78,7 +78,7 @@ class Relaxation {
     const std::size_t count = seeds_.size();
     positions_.resize(count);
     wanted_.resize(density_ ? count : 0);
-    execution_.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    execution_.parallel_for(count, site_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         positions_[i] = surface_.position_near(seeds_[i], places_[i]);
         if (density_) wanted_[i] = density_(seeds_[i], places_[i]);
@@ -220,7 +220,7 @@ class Relaxation {
       execution_.report(static_cast<double>(report_.iterations) / (report_.iterations + 50.0),
                         "Relaxing the seeds");
       const double uphill =
-          execution_.parallel_sum(count, block_size, 0.0, [&](std::size_t begin, std::size_t end) {
+          execution_.parallel_sum(count, site_block, 0.0, [&](std::size_t begin, std::size_t end) {
             double part = 0.0;
             for (std::size_t i = begin; i < end; ++i) {
               plain_step[i] = stepped(static_cast<std::int32_t>(i), factor);
@@ -302,7 +302,7 @@ void subdivide(const SphereSurface& surface, const SpaceTessellation& coarse,
   }
   seeds = coarse.seeds;
   seeds.resize(coarse.seeds.size() + cut.size());
-  execution.parallel_for(cut.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(cut.size(), site_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::int32_t a = triangulation.origin(cut[i]);
       const std::int32_t b = triangulation.origin(triangulation.opposite()[cut[i]]);

@@ -16,7 +16,7 @@ namespace wscvt {
 namespace {
 
 /// Few, so that the coarsest level's hundreds of seeds are shared by the threads as well.
-constexpr std::size_t block_size = 128;
+constexpr std::size_t weight_block = 128;
 /// Of what is tabulated of the surface itself.
 constexpr int surface_stencil = 6;
 
@@ -109,7 +109,7 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
   result.clear();
   if (!field_) return;
   result.resize(seeds.size());
-  execution.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(seeds.size(), weight_block, [&](std::size_t begin, std::size_t end) {
     field_->interpolate(seeds.data() + begin, end - begin, result.data() + begin);
   });
   const auto count = static_cast<double>(seeds.size());
@@ -138,7 +138,7 @@ void SurfaceSeedModel::on_surface(const std::vector<Vector3>& seeds, const Execu
   densities.resize(rule_.even_on_surface ? 0 : seeds.size());
   // WSCVT-D's field has the stencil of radius and area element, and is looked up with them.
   const bool alike = field_ && rule_.stencil == surface_stencil;
-  execution.parallel_for(seeds.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(seeds.size(), weight_block, [&](std::size_t begin, std::size_t end) {
     const Vector3* directions = seeds.data() + begin;
     const std::size_t count = end - begin;
     double* radius = radii.data() + begin;
@@ -146,8 +146,8 @@ void SurfaceSeedModel::on_surface(const std::vector<Vector3>& seeds, const Execu
       radius_->interpolate(directions, count, radius);
       return;
     }
-    std::array<double, block_size> elements{};
-    std::array<double, block_size> values{};
+    std::array<double, weight_block> elements{};
+    std::array<double, weight_block> values{};
     if (alike) {
       SphereGrid::interpolate({&*radius_, &*area_element_, &*field_}, directions, count,
                               {radius, elements.data(), values.data()});
@@ -171,7 +171,7 @@ double SurfaceSeedModel::number_density(double value) const {
 std::vector<double> SurfaceSeedModel::number_densities(const std::vector<Vector3>& directions,
                                                        const Execution& execution) const {
   std::vector<double> result(directions.size(), 0.0);
-  execution.parallel_for(result.size(), block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(result.size(), weight_block, [&](std::size_t begin, std::size_t end) {
     if (field_) field_->interpolate(directions.data() + begin, end - begin, result.data() + begin);
     for (std::size_t i = begin; i < end; ++i) result[i] = number_density(result[i]);
   });
