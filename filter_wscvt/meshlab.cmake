@@ -66,8 +66,9 @@ function(wscvt_add_plugin target host meshlab)
   add_library(${target} MODULE
     ${PROJECT_SOURCE_DIR}/filter_wscvt/${host}/filter_wscvt.cpp
     ${PROJECT_SOURCE_DIR}/filter_wscvt/${host}/filter_wscvt.h)
-  set_target_properties(${target} PROPERTIES AUTOMOC ON CXX_VISIBILITY_PRESET hidden
-    LINKER_LANGUAGE CXX)
+  # The header's metadata wants no library built first, so that a file can be read alone without one.
+  set_target_properties(${target} PROPERTIES AUTOMOC ON AUTOGEN_ORIGIN_DEPENDS OFF
+    CXX_VISIBILITY_PRESET hidden LINKER_LANGUAGE CXX)
   target_link_libraries(${target} PRIVATE wscvt_filter ${meshlab} wscvt_warnings)
   # Nothing of the library is to be seen by, or mixed up with, what other plugins carry.
   target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)

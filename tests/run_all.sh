@@ -23,11 +23,12 @@ configure_and_build() {
   cmake --build --preset "$1" -j "$jobs"
 }
 
-# Compile commands that name each file alone, in build/files, where nothing is built: those of release
-# name files that are compiled together.
+# Compile commands that name each file alone, in build/files, where nothing is built but the metadata
+# that the plugin includes: those of release name files that are compiled together.
 commands_file_by_file() {
   cmake --preset release -B build/files -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_QUICK_BUILD=OFF \
-    -DMESHLAB_SOURCE_DIR="$meshlab_source" "$@"
+    -DMESHLAB_SOURCE_DIR="$meshlab_source"
+  cmake --build build/files --target filter_wscvt_autogen
 }
 
 [ $# -gt 0 ] || set -- install release hosts
@@ -41,9 +42,10 @@ for step in "$@"; do
       configure_and_build release -DWSCVT_BUILD_BENCHMARKS=OFF -DWSCVT_BUILD_STUDY=OFF
       ctest --preset release -j "$jobs" ;;
     extras)
-      # Benchmarks and study are built, so that they do not rot, but not run.
+      # Benchmarks and study are built, so that they do not rot, but not run. Their files are compiled
+      # alone there already.
       configure_and_build release -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
-      commands_file_by_file -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
+      commands_file_by_file
       /usr/bin/python3 tests/each_alone.py build/files lib filter_wscvt tests meshes ;;
     sanitizers)
       configure_and_build asan-ubsan

@@ -34,13 +34,17 @@ std::vector<double> numbers_after(const std::string& text, const std::string& be
   return {std::istream_iterator<double>(stream), {}};
 }
 
-/// Values of an attribute of all elements of one kind.
+/// Values of an attribute of all elements of one kind; not a number where one lacks it.
 std::vector<double> attributes(const std::string& svg, const std::string& element,
                                const std::string& name) {
   std::vector<double> values;
   for (std::size_t at = svg.find("<" + element); at != std::string::npos;
        at = svg.find("<" + element, at + 1)) {
-    values.push_back(numbers_after(svg.substr(at), " " + name + "=\"", "").front());
+    const std::string one = svg.substr(at, svg.find('>', at) - at);
+    const std::string opening = " " + name + "=\"";
+    values.push_back(one.find(opening) == std::string::npos
+                         ? std::nan("")
+                         : numbers_after(one, opening, "").front());
   }
   return values;
 }

@@ -13,7 +13,7 @@ struct MeshTraits : OpenMesh::DefaultTraits {
   using Normal = OpenMesh::Vec3d;
 };
 
-/// The public mesh type: what the remesher returns.
+/// The public half-edge type, for those who walk over a mesh: to_mesh makes one of a result.
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
 
 /// Builds the half-edge mesh, vertices and faces in the same order. Throws Error(InvalidInput) when

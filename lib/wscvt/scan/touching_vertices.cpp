@@ -11,7 +11,7 @@ namespace wscvt {
 namespace {
 
 /// Large enough that starting a block costs nothing.
-constexpr std::size_t vertex_block = 16384;
+constexpr std::size_t fan_block = 16384;
 
 }  // namespace
 
@@ -49,14 +49,13 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
     } while (corner != start);
   };
   // One list a block, joined in order: the same list on any number of threads.
-  std::vector<std::vector<std::int32_t>> found((vertices + vertex_block - 1) / vertex_block);
-  execution.parallel_for(vertices, vertex_block, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::vector<std::int32_t>> found((vertices + fan_block - 1) / fan_block);
+  execution.parallel_for(vertices, fan_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       if (valence[v] == 0) continue;
       std::int32_t visited = 0;
       walk_fan(first_corner[v], [&](std::int32_t) { ++visited; });
-      if (visited != valence[v])
-        found[begin / vertex_block].push_back(static_cast<std::int32_t>(v));
+      if (visited != valence[v]) found[begin / fan_block].push_back(static_cast<std::int32_t>(v));
     }
   });
 

@@ -15,7 +15,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t space_weight_block = 1024;
+constexpr std::size_t shape_block = 1024;
 
 /// Takes means over the vertices' rings, by area, as often as carries a value `distance` far: one
 /// round has the spread of a walk by one edge.
@@ -85,18 +85,16 @@ std::vector<PrincipalCurvatures> curvatures_in_space(const MappedSurface& surfac
   }
   const std::vector<Vector3>& directions = surface.directions();
   std::vector<PrincipalCurvatures> curvatures(directions.size());
-  execution.parallel_for(directions.size(), space_weight_block,
-                         [&](std::size_t begin, std::size_t end) {
-                           std::vector<LocalShape> shapes(end - begin);
-                           series->evaluate_shapes(directions.data() + begin, shapes.size(),
-                                                   Derivatives::Second, shapes.data());
-                           for (std::size_t i = begin; i < end; ++i) {
-                             const PrincipalCurvatures& k = shapes[i - begin].curvatures;
-                             // Where a map folds it has no normal: a vertex there says nothing.
-                             if (std::isfinite(k.maximum) && std::isfinite(k.minimum))
-                               curvatures[i] = k;
-                           }
-                         });
+  execution.parallel_for(directions.size(), shape_block, [&](std::size_t begin, std::size_t end) {
+    std::vector<LocalShape> shapes(end - begin);
+    series->evaluate_shapes(directions.data() + begin, shapes.size(), Derivatives::Second,
+                            shapes.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      const PrincipalCurvatures& k = shapes[i - begin].curvatures;
+      // Where a map folds it has no normal: a vertex there says nothing.
+      if (std::isfinite(k.maximum) && std::isfinite(k.minimum)) curvatures[i] = k;
+    }
+  });
   return curvatures;
 }
 
