@@ -84,6 +84,12 @@ TEST(Figures, HistogramsShowEverySeriesByItsName) {
   EXPECT_NE(svg.find(">two<"), std::string::npos);
   EXPECT_NE(svg.find("share of the edges, %"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+  // Each name has a patch of its colour beside it, which without a width would not be seen.
+  for (const char* side : {"width", "height"}) {
+    const std::vector<double> sides = attributes(svg, "rect", side);
+    EXPECT_EQ(sides.size(), 2U);
+    for (const double length : sides) EXPECT_GT(length, 0.0) << side;
+  }
   // Nothing counted is nothing drawn, not a division by it.
   EXPECT_EQ(histogram_figure("x", "y", {{"none", "#111111", {0.0, 1.0, {0, 0}}}}).find("nan"),
             std::string::npos);
