@@ -111,6 +111,19 @@ TEST(TriangleMending, FreesSliversOnTheScan) {
   EXPECT_GT(same, 200U);
 }
 
+TEST(TriangleMending, TakesWhatItReachesWhereSmallAnglesAreLeft) {
+  // No closed mesh has all angles near 60 degrees, so that some are left however long one goes on.
+  const Jammed bad = slivered(even_nodes(), 0.04);
+  TriangleMendingOptions options;
+  options.smallest_angle = 59.0;
+  options.rounds = 1;
+  const MendedTriangles mended =
+      mend_triangles(bad.nodes, bad.places, bad.surface, options, Execution(1));
+  EXPECT_GE(mended.report.left, static_cast<int>(bad.nodes.triangles.size()) / 2);
+  EXPECT_GT(measure_quality(mended.mesh).smallest_angle,
+            measure_quality(bad.nodes).smallest_angle + 5.0);
+}
+
 TEST(TriangleMending, CutsNoRidgeBeyondTheLimit) {
   // A roof: across the ridge from 0 to 1 the triangles have 21 degrees at its ends, and 32 with the
   // other diagonal, from 2 to 3. That lies below the ridge and turns by 115 degrees into the sides.

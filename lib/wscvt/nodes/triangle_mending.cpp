@@ -656,9 +656,11 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
   mender.build_boxes();
 
   // Relocations may leave more small angles for a while, so the best of all rounds is taken: the
-  // one in which the fewest triangles meet, and of those the one with the fewest small angles.
+  // one in which the fewest triangles meet, of those the one with the fewest small angles, and of
+  // those the one whose smallest angle is largest.
   MendedTriangles best = unchanged;
   std::size_t fewest_meeting = meeting;
+  double best_angle = before.angle;
   TriangleMendingReport report = unchanged.report;
   for (int round = 0; round < options.rounds && (report.left > 0 || meeting > 0) && !is_lost();
        ++round) {
@@ -679,9 +681,11 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
     // relocated may lie all but on another.
     const bool is_better =
         meeting < fewest_meeting ||
-        (meeting == fewest_meeting && report.left < best.report.left && now.angle <= before.angle);
+        (meeting == fewest_meeting && now.angle <= before.angle &&
+         std::pair(report.left, now.angle) < std::pair(best.report.left, best_angle - least_gain));
     if (!is_better) continue;
     fewest_meeting = meeting;
+    best_angle = now.angle;
     best = mender.result();
     best.report = report;
   }
