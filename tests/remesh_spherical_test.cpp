@@ -427,17 +427,44 @@ TEST(RemeshSpherical, CoefficientsOfAMapGiveTheBodyAgain) {
   EXPECT_TRUE(remesh(body("hook"), options_of(50), Execution(1)).map_coefficients[0].empty());
 }
 
-TEST(RemeshSpherical, AMissedScanIsSaidWithTheChangeThatHelpsMost) {
-  const RemeshResult few = remesh(body("mushroom"), options_of(80, NodePlacement::LeastSquares));
+TEST(RemeshSpherical, AMissedScanIsSaidWithTheChangesThatHelpMost) {
+  RemeshOptions options = options_of(80, NodePlacement::LeastSquares);
+  const RemeshResult few = remesh(body("mushroom"), options);
   ASSERT_TRUE(misses_the_scan(few));
   ASSERT_EQ(few.space.enough_nodes, 0);
-  ASSERT_EQ(few.tried.size(), 1U);
-  EXPECT_LT(few.tried[0].misfit, few.misfit / few.input.equivalent_radius);
   EXPECT_TRUE(says(few.warnings, "misses the scan: rms distance"));
+  // Followed, each gives what it promises, in the order in which they are tried.
+  ASSERT_EQ(few.tried.size(), 3U);
+  const auto expect_promised = [](const RemeshOptions& followed, const TriedChange& promised) {
+    const RemeshResult result = remesh(body("mushroom"), followed);
+    EXPECT_DOUBLE_EQ(result.misfit / result.input.equivalent_radius, promised.misfit);
+    EXPECT_DOUBLE_EQ(result.remesh.area / result.original.area - 1.0, promised.area_off);
+  };
+  RemeshOptions adaptive = options;
+  adaptive.weighting.kind = Weighting::ErrorAdaptive;
+  EXPECT_EQ(few.tried[0].change, "error-adaptive weighting");
+  expect_promised(adaptive, few.tried[0]);
+  adaptive.placement.refinement.rounds = 20;
+  EXPECT_EQ(few.tried[1].change,
+            "error-adaptive weighting and 20 rounds of refinement, whose triangles are less even");
+  expect_promised(adaptive, few.tried[1]);
+  RemeshOptions twice = options;
+  twice.node_count = 160;
+  EXPECT_EQ(few.tried[2].change, "160 nodes");
+  expect_promised(twice, few.tried[2]);
+  EXPECT_LT(few.tried[2].misfit, few.misfit / few.input.equivalent_radius);
   EXPECT_TRUE(says(few.warnings, "With 160 nodes: rms distance"));
-  // Followed, the advice gives what it promises.
-  const RemeshResult more = remesh(body("mushroom"), options_of(160, NodePlacement::LeastSquares));
-  EXPECT_DOUBLE_EQ(more.misfit / more.input.equivalent_radius, few.tried[0].misfit);
+  // The weighting asked for is taken up again after another was tried.
+  options.weighting.kind = twice.weighting.kind = Weighting::Curvature;
+  const RemeshResult curved = remesh(body("mushroom"), options);
+  ASSERT_EQ(curved.tried.size(), 3U);
+  expect_promised(twice, curved.tried[2]);
+  // Where even triangles as many as before do, nothing else is tried.
+  IndexedMesh flat = test::sphere(5);
+  for (Vector3& p : flat.points) p = Vector3(3.0 * p.x(), p.y(), 0.3 * p.z());
+  const RemeshResult blunted = remesh(flat, options_of(300, NodePlacement::LeastSquares));
+  EXPECT_EQ(blunted.tried.size(), 1U);
+  EXPECT_TRUE(says(blunted.warnings, "With error-adaptive weighting: rms distance"));
   // Where the nodes are too few for the shape, how many would do is said instead.
   const RemeshResult too_few = remesh(body("hook"), options_of(60, NodePlacement::LeastSquares));
   EXPECT_NE(too_few.space.enough_nodes, 0);

@@ -155,7 +155,7 @@ TEST(RemeshWarnings, TellASeriesThatMissesTheScan) {
   });
 }
 
-TEST(RemeshWarnings, TellARemeshThatMissesTheScanAndTheBestOfTheChangesTried) {
+TEST(RemeshWarnings, TellARemeshThatMissesTheScanAndTheBestTwoOfTheChangesTried) {
   expect_warnings({
       {[](RemeshResult& r) { r.misfit = 0.02; }, {}},
       {[](RemeshResult& r) { r.misfit = 0.03; }, {"rms distance 1.5 % of the equivalent radius"}},
@@ -184,6 +184,12 @@ TEST(RemeshWarnings, TellARemeshThatMissesTheScanAndTheBestOfTheChangesTried) {
          r.tried = {{"more nodes", 0.02, 0.01}, {"luck", 0.03, 0.0}};
        },
        {"None of the changes tried"}},
+      {[](RemeshResult& r) {
+         r.misfit = 0.04;
+         r.tried = {{"luck", 0.018, 0.0}, {"more nodes", 0.016, 0.01}, {"care", 0.012, -0.01}};
+       },
+       {"area +0 %. With care: rms distance 1.2 % of the equivalent radius, area -1 %. With more "
+        "nodes: rms distance 1.6 % of the equivalent radius, area +1 %."}},
   });
 }
 
@@ -216,6 +222,21 @@ TEST(RemeshWarnings, TellWhatASphericalMapCouldNotDo) {
   const std::vector<std::string> warnings = remesh_warnings(result, asked);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings.front().find("The cells are those on the surface"), std::string::npos);
+}
+
+TEST(RemeshWarnings, TellWhereARefinementLeavesASmallerAngleThanAskedFor) {
+  const auto refined = [](RemeshResult& r, int rounds, double limit, double smallest) {
+    r.options.placement.refinement.rounds = rounds;
+    r.options.placement.refinement.smallest_angle = limit;
+    r.quality.smallest_angle = smallest;
+  };
+  expect_warnings({
+      {[&](RemeshResult& r) { refined(r, 0, 30.0, 2.75); }, {}},
+      {[&](RemeshResult& r) { refined(r, 5, 30.0, 29.95); }, {}},
+      {[&](RemeshResult& r) { refined(r, 5, 0.0, 2.75); }, {}},
+      {[&](RemeshResult& r) { refined(r, 5, 30.0, 2.75); },
+       {"is 2.75 degrees", "below the 30 asked for", "Another number of nodes or of rounds"}},
+  });
 }
 
 TEST(RemeshWarnings, TellWhyARelaxationEndedAndWhatMayHelp) {

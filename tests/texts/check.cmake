@@ -1,6 +1,6 @@
 # cmake -D source_dir=DIR -P check.cmake: what the project's texts say of its own files is so. README.md
-# keeps to one sitting, the files that texts name are there, and no comment leans on a document that
-# is not in the repository.
+# keeps to one sitting, the files that texts name are there, no comment leans on a document that is not
+# in the repository, and no sentence of the library speaks for its host.
 cmake_minimum_required(VERSION 3.22)
 set(faults)
 
@@ -46,6 +46,16 @@ foreach(source ${sources})
   foreach(line ${cited})
     string(APPEND faults "  ${source} cites a document that is not here:${line}\n")
   endforeach()
+endforeach()
+
+# What a failure leaves unchanged is the host's to say: the library does not know what its user had.
+foreach(source ${sources})
+  if(source MATCHES "^lib/")
+    file(STRINGS ${source_dir}/${source} said REGEX "Nothing was changed")
+    foreach(line ${said})
+      string(APPEND faults "  ${source} speaks for its host:${line}\n")
+    endforeach()
+  endif()
 endforeach()
 
 if(faults)

@@ -69,7 +69,7 @@ inline constexpr FlagOption distances_option = {"distances", "distances to the s
 
 inline constexpr FlagOption advice_option = {
     "advice", "advice",
-    "where the remesh misses the scan: other settings are tried and the best is named"};
+    "where the remesh misses the scan: other settings are tried and the best two are named"};
 
 /// Calls `visitor` for every option of a remesh that its result or its report follows: with a
 /// number and its NumberOption, with a flag and its FlagOption, or with an enumeration, which has

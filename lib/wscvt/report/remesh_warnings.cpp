@@ -189,16 +189,37 @@ void warn_of_misfit(const RemeshResult& result, Sentences& warnings) {
   const auto badness = [](double rms, double area) {
     return std::max(rms / misfit_warning_limit, std::abs(area) / area_warning_limit);
   };
-  const auto best = std::min_element(
-      result.tried.begin(), result.tried.end(), [&](const TriedChange& a, const TriedChange& b) {
-        return badness(a.misfit, a.area_off) < badness(b.misfit, b.area_off);
-      });
-  if (best != result.tried.end()) {
-    text += badness(best->misfit, best->area_off) < badness(misfit, area_off)
-                ? " With " + best->change + ": " + missed_by(best->misfit, best->area_off) + "."
-                : std::string(" None of the changes tried brings it nearer.");
+  std::vector<TriedChange> better;
+  for (const TriedChange& one : result.tried) {
+    if (badness(one.misfit, one.area_off) < badness(misfit, area_off)) better.push_back(one);
+  }
+  std::stable_sort(better.begin(), better.end(), [&](const TriedChange& a, const TriedChange& b) {
+    return badness(a.misfit, a.area_off) < badness(b.misfit, b.area_off);
+  });
+  // Two, since the nearest may cost nodes or evenness that one does not want to pay.
+  constexpr std::size_t most_named = 2;
+  for (std::size_t k = 0; k < std::min(most_named, better.size()); ++k) {
+    text +=
+        " With " + better[k].change + ": " + missed_by(better[k].misfit, better[k].area_off) + ".";
+  }
+  if (better.empty() && !result.tried.empty()) {
+    text += " None of the changes tried brings it nearer.";
   }
   warnings.push_back(text);
+}
+
+/// A refinement promises its smallest angle, so one below it is said; a tenth of a degree is what
+/// making the volume exact may cost, and no loss to anyone.
+void warn_of_angles(const RemeshResult& result, Sentences& warnings) {
+  constexpr double slack = 0.1;
+  const RefinementOptions& refinement = result.options.placement.refinement;
+  const double smallest = result.quality.smallest_angle;
+  if (refinement.rounds == 0 || smallest >= refinement.smallest_angle - slack) return;
+  warnings.push_back(
+      "The smallest angle is " + format_number(smallest, 3) + " degrees, below the " +
+      format_number(refinement.smallest_angle) +
+      " asked for: at a thin or sharp place nodes had no room for better triangles. Another number "
+      "of nodes or of rounds gives other triangles there.");
 }
 
 void warn_of_search(const RemeshResult& result, Sentences& warnings) {
@@ -228,6 +249,7 @@ std::vector<std::string> remesh_warnings(const RemeshResult& result, const Remes
   warn_of_misfit(result, warnings);
   warn_of_space(result, asked, warnings);
   warn_of_relaxation(result, warnings);
+  warn_of_angles(result, warnings);
   warn_of_search(result, warnings);
   return warnings;
 }

@@ -55,7 +55,7 @@ IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& ex
                   " points and no faces. If it was exported without its faces, export it again; if "
                   "its points are all there is, choose to make a surface of them: --points in the "
                   "program, Points in the filter \"Remeshing: Weighted Spherical Centroidal "
-                  "Voronoi\", RemeshOptions::points in the library. Nothing was changed.");
+                  "Voronoi\", RemeshOptions::points in the library.");
 }
 
 void count_given(std::size_t points, std::size_t faces, std::size_t different,
