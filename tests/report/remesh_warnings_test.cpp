@@ -26,6 +26,7 @@ RemeshResult clean() {
   result.relaxation.outcome = RelaxationOutcome::Converged;
   result.relaxation.iterations = 7;
   result.relaxation.history = {{1e-4, 0.125, 0}};
+  result.quality.smallest_angle = 40.0;
   return result;
 }
 
@@ -224,18 +225,30 @@ TEST(RemeshWarnings, TellWhatASphericalMapCouldNotDo) {
   EXPECT_NE(warnings.front().find("The cells are those on the surface"), std::string::npos);
 }
 
-TEST(RemeshWarnings, TellWhereARefinementLeavesASmallerAngleThanAskedFor) {
+TEST(RemeshWarnings, TellAnglesSmallerThanPromisedOrUsual) {
   const auto refined = [](RemeshResult& r, int rounds, double limit, double smallest) {
     r.options.placement.refinement.rounds = rounds;
     r.options.placement.refinement.smallest_angle = limit;
     r.quality.smallest_angle = smallest;
   };
   expect_warnings({
-      {[&](RemeshResult& r) { refined(r, 0, 30.0, 2.75); }, {}},
       {[&](RemeshResult& r) { refined(r, 5, 30.0, 29.95); }, {}},
       {[&](RemeshResult& r) { refined(r, 5, 0.0, 2.75); }, {}},
-      {[&](RemeshResult& r) { refined(r, 5, 30.0, 2.75); },
-       {"is 2.75 degrees", "below the 30 asked for", "Another number of nodes or of rounds"}},
+      {[&](RemeshResult& r) { refined(r, 5, 30.0, 26.5); },
+       {"is 26.5 degrees, below the 30 asked for:", "Another number of nodes, or of rounds"}},
+      {[&](RemeshResult& r) { refined(r, 0, 30.0, 20.5); }, {}},
+      {[&](RemeshResult& r) { refined(r, 0, 30.0, 2.75); }, {"is 2.75 degrees: at a thin"}},
+      // What is not relaxed on the surface has such angles as a matter of course.
+      {[&](RemeshResult& r) {
+         refined(r, 0, 30.0, 2.75);
+         r.options.seeding.sampling = Sampling::Fibonacci;
+       },
+       {}},
+      {[&](RemeshResult& r) {
+         refined(r, 0, 30.0, 2.75);
+         r.options.relaxation.metric = RelaxationMetric::Sphere;
+       },
+       {}},
   });
 }
 

@@ -209,17 +209,25 @@ void warn_of_misfit(const RemeshResult& result, Sentences& warnings) {
 }
 
 /// A refinement promises its smallest angle, so one below it is said; a tenth of a degree is what
-/// making the volume exact may cost, and no loss to anyone.
+/// making the volume exact may cost, and no loss to anyone. Without refinement nothing is promised,
+/// but triangles relaxed on the surface had angles of 23 degrees and more on every scan tried, with
+/// 60 to 1000 nodes, and of 12 and less on bodies with limbs like an animal's, where nodes jam.
 void warn_of_angles(const RemeshResult& result, Sentences& warnings) {
   constexpr double slack = 0.1;
+  constexpr double jammed = 20.0;
   const RefinementOptions& refinement = result.options.placement.refinement;
+  const bool is_even = result.options.seeding.sampling == Sampling::Weighted &&
+                       result.options.relaxation.metric == RelaxationMetric::Surface;
+  const double limit =
+      refinement.rounds > 0 ? refinement.smallest_angle - slack : (is_even ? jammed : 0.0);
   const double smallest = result.quality.smallest_angle;
-  if (refinement.rounds == 0 || smallest >= refinement.smallest_angle - slack) return;
-  warnings.push_back(
-      "The smallest angle is " + format_number(smallest, 3) + " degrees, below the " +
-      format_number(refinement.smallest_angle) +
-      " asked for: at a thin or sharp place nodes had no room for better triangles. Another number "
-      "of nodes or of rounds gives other triangles there.");
+  if (smallest >= limit) return;
+  warnings.push_back("The smallest angle is " + format_number(smallest, 3) + " degrees" +
+                     (refinement.rounds > 0
+                          ? ", below the " + format_number(refinement.smallest_angle) + " asked for"
+                          : std::string()) +
+                     ": at a thin or sharp place nodes had no room for better triangles. Another "
+                     "number of nodes, or of rounds of refinement, gives other triangles there.");
 }
 
 void warn_of_search(const RemeshResult& result, Sentences& warnings) {
