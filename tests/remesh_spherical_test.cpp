@@ -285,9 +285,9 @@ IndexedMesh shell(double thickness) {
 }
 
 TEST(RemeshSpherical, TrianglesThatMendingHasPartedDoNotMakeNodesTooFew) {
-  // Of 300 on the rod triangles meet until they are mended; an eighth of the volume is no quarter.
+  // Of 200 on the rod triangles meet until they are mended; an eighth of the volume is no quarter.
   const IndexedMesh rod = test::bent_grain_mesh(test::bent_grain("rod"), 15000);
-  const RemeshResult mended = remesh(rod, options_of(300, NodePlacement::LeastSquares));
+  const RemeshResult mended = remesh(rod, options_of(200, NodePlacement::LeastSquares));
   EXPECT_LT(mended.space.volume_loss, 0.25);
   EXPECT_EQ(mended.space.self_intersections, 0U);
   EXPECT_EQ(mended.space.enough_nodes, 0);

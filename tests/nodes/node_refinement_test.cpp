@@ -18,6 +18,7 @@
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
+#include "wscvt/nodes/refinement_angles.h"
 #include "wscvt/nodes/refinement_fan.h"
 #include "wscvt/nodes/refinement_flips.h"
 #include "wscvt/nodes/refinement_state.h"
@@ -426,6 +427,47 @@ TEST(NodeRefinement, AStepWeighsAnglesByTheirSlope) {
                         ball.work.trial, ball.work.spokes));
   // Half the gradient of a sum of squares is what a Gauss-Newton system holds.
   EXPECT_NEAR((before - cost(ball.work.trial)) / (2.0 * gradient.dot(step)), 1.0, 1e-3);
+}
+
+TEST(NodeRefinement, MendsAnAngleByTheShortestWay) {
+  // A node drawn towards one of its ring has an angle of 29.3 degrees. The slope of the angles
+  // leads to 30 within 0.006; a quarter of the way to the middle of the ring is 0.035 and
+  // overshoots to 34.
+  FanOfABall ball;
+  load_fan(ball.state, ball.node, ball.work);
+  RefinementNode& node = ball.state.nodes[ball.node];
+  node.position += 0.4 * (ball.state.nodes[ball.work.fan.ring[0]].position - node.position);
+  node.direction = node.position.normalized();
+  const std::vector<Vector3> drawn = positions_of(ball.state.nodes);
+  ASSERT_EQ(ball.state.count_sharper(ball.state.cosine_limit), 1);
+  mend_angles(ball.state, Execution(1));
+  EXPECT_EQ(ball.state.count_sharper(ball.state.cosine_limit), 0);
+  double way = 0.0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    way += (ball.state.nodes[i].position - drawn[i]).norm();
+  }
+  EXPECT_LT(way, 0.01);
+}
+
+TEST(NodeRefinement, ReachesForASampleThatIsFarFromItsTriangle) {
+  // A tip beside a node, so high that it counts more by its fourth power than by its square.
+  FanOfABall ball;
+  load_fan(ball.state, ball.node, ball.work);
+  Vector3& tip = ball.state.samples.points[ball.work.fan.lists[0].front()];
+  tip *= 1.2;
+  ball.state.measure(Execution(1));
+  load_fan(ball.state, ball.node, ball.work);
+  const RefinementFan before = ball.work.fan;
+  ASSERT_TRUE(reach_for_outlier(ball.state, ball.work, {1.0, -1.0}));
+  EXPECT_LT(ball.work.fan.error, before.error);
+  const double share = (ball.work.fan.node.position - before.node.position).norm() /
+                       (tip - before.node.position).norm();
+  EXPECT_TRUE(std::abs(share - 0.5) < 1e-12 || std::abs(share - 1.0) < 1e-12) << share;
+  // One no farther than the others is left alone.
+  FanOfABall even;
+  even.state.measure(Execution(1));
+  load_fan(even.state, even.node, even.work);
+  EXPECT_FALSE(reach_for_outlier(even.state, even.work, {1.0, -1.0}));
 }
 
 TEST(NodeRefinement, TakesNodesToWhereTheyAreMissing) {
