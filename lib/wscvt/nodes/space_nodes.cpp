@@ -294,7 +294,10 @@ void refine_in_space(const MappedSurface& surface, const MeshDistance* to_level,
   std::vector<MeshPlace> places;
   for (const RefinementNode& node : refined.nodes) places.push_back(node.place);
   TriangleMendingOptions mending;
-  mending.smallest_angle = options.smallest_angle;
+  // Angles that the refinement's own mending takes for large enough are up to 2e-4 degrees smaller.
+  constexpr double slack = 1e-3;
+  mending.smallest_angle = std::max(0.0, options.smallest_angle - slack);
+  mending.sparing = true;
   MendedTriangles mended = mend_triangles(nodes.mesh, places, surface, mending, execution);
   result.report.mending = mended.report;
   nodes.mesh = std::move(mended.mesh);

@@ -33,6 +33,16 @@ const double flat_cosine = std::cos(3.0 * pi / 180.0);
 /// Rings about a small angle in which nodes may move and edges flip.
 constexpr int active_rings = 2;
 
+/// Of the steps towards the middle of its triangles that a spared node is moved by, the shortest
+/// that mends its angles, or widens the smallest by so much of a cosine, since one that is too
+/// short would be followed by many; the whole way is gone for any gain.
+constexpr double spared_shares[] = {0.0625, 0.125, 0.25, 0.5, 1.0};
+constexpr double least_spared_gain = 1e-3;
+
+/// A node whose triangles turn by more than 30 degrees stands on a ridge of the scan, which the
+/// middle of its triangles lies below.
+const double ridge_cosine = std::cos(30.0 * pi / 180.0);
+
 /// Of a node of a closed mesh; the angles decide whether so few are wanted.
 constexpr unsigned fewest_neighbours = 3;
 
@@ -67,7 +77,8 @@ class Mender {
         places_(places),
         origin_(nodes.points.size()),
         angle_limit_(std::cos(options.smallest_angle * pi / 180.0)),
-        turn_limit_(std::cos(options.largest_turn * pi / 180.0)) {
+        turn_limit_(std::cos(options.largest_turn * pi / 180.0)),
+        moves_(options.sparing ? Moves::Spared : Moves::All) {
     mesh_.request_vertex_status();
     mesh_.request_edge_status();
     mesh_.request_face_status();
@@ -88,6 +99,13 @@ class Mender {
     Worst worst;
     for (const auto face : mesh_.faces()) count_angle(face, worst);
     return worst;
+  }
+
+  /// Whether from here on more moves are tried than the sparing ones, of which there are no more.
+  bool try_more_moves() {
+    if (moves_ != Moves::Spared) return false;
+    moves_ = Moves::OffRidges;
+    return true;
   }
 
   /// Flips and moves about the small angles; returns how many.
@@ -213,6 +231,13 @@ class Mender {
 
  private:
   void report_progress() const { execution_.report(0.0, "Mending triangles"); }
+
+  /// Of which nodes in the rings about a small angle.
+  enum class Moves {
+    All,
+    Spared,     ///< those at small angles, by short steps
+    OffRidges,  ///< all, but for those on ridges whose own angles are large enough
+  };
 
   using Faces = std::vector<OpenMesh::FaceHandle>;
   using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
@@ -406,16 +431,41 @@ class Mender {
     const std::int32_t v = vertex.idx();
     const Vector3 start = points_[v];
     const Worst before = worst_around(vertex);
+    const bool has_small = before.angle > angle_limit_;
+    if (moves_ == Moves::Spared) return has_small && try_short_move(vertex, before);
+    if (moves_ == Moves::OffRidges && !has_small && before.turn < ridge_cosine) return false;
     const Vector3 target = ring_centroid(vertex);
     for (const double share : {1.0, 0.5, 0.25}) {
       const MeshPlace place = surface_.nearest(start + share * (target - start), places_[v]);
       points_[v] = surface_.position(place);
       const Worst after = worst_around(vertex);
-      const bool better = before.angle > angle_limit_ ? after.angle < before.angle - least_gain
-                                                      : after.angle < angle_limit_;
+      const bool better =
+          has_small ? after.angle < before.angle - least_gain : after.angle < angle_limit_;
       // Steps of a thousandth of the way would go on for ever.
       const bool moves = (points_[v] - start).norm() > 1e-3 * shortest_about(vertex);
       if (better && moves && turns_less(after, before) && !meets_more(vertex, start)) {
+        places_[v] = place;
+        update_boxes(faces_around(vertex));
+        return true;
+      }
+    }
+    points_[v] = start;
+    return false;
+  }
+
+  /// Moves a spared node, whose triangles are `before`, as far from the surface as it was.
+  bool try_short_move(OpenMesh::VertexHandle vertex, const Worst& before) {
+    const std::int32_t v = vertex.idx();
+    const Vector3 start = points_[v];
+    const Vector3 foot = surface_.position(places_[v]);
+    const Vector3 way = ring_centroid(vertex) - start;
+    for (const double share : spared_shares) {
+      const MeshPlace place = surface_.nearest(foot + share * way, places_[v]);
+      points_[v] = surface_.position(place) + (start - foot);
+      const Worst after = worst_around(vertex);
+      const double least = share < 1.0 ? least_spared_gain : least_gain;
+      const bool better = after.angle <= angle_limit_ || after.angle < before.angle - least;
+      if (better && turns_less(after, before) && !meets_more(vertex, start)) {
         places_[v] = place;
         update_boxes(faces_around(vertex));
         return true;
@@ -619,6 +669,7 @@ class Mender {
   Tree tree_;
   double angle_limit_;
   double turn_limit_;
+  Moves moves_;
 };
 
 void check_options(const TriangleMendingOptions& options) {
@@ -672,7 +723,9 @@ MendedTriangles mend_triangles(const IndexedMesh& nodes, const std::vector<MeshP
       if (meeting > 0) changes += mender.separate(report);
       changes += mender.relocate(report);
     }
-    if (changes == 0) break;
+    // Sparing moves may go on for long, each a little.
+    const bool is_stuck = changes == 0 || round == options.rounds / 2;
+    if (is_stuck && !mender.try_more_moves() && changes == 0) break;
     const Worst now = mender.worst();
     report.left = now.small;
     // Nothing else makes any meet, and looking through all takes as long as the rest of a round.
