@@ -25,9 +25,9 @@ configure_and_build() {
 
 # Compile commands that name each file alone, in build/files, where nothing is built but the metadata
 # that the plugin includes: those of release name files that are compiled together.
-commands_file_by_file() {
+commands_file_by_file() {  # more options
   cmake --preset release -B build/files -DWSCVT_WARNINGS_AS_ERRORS=ON -DWSCVT_QUICK_BUILD=OFF \
-    -DMESHLAB_SOURCE_DIR="$meshlab_source"
+    -DMESHLAB_SOURCE_DIR="$meshlab_source" "$@"
   cmake --build build/files --target filter_wscvt_autogen
 }
 
@@ -62,7 +62,9 @@ for step in "$@"; do
     format)
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
-      commands_file_by_file
+      # With a newer host, whose own file would be read without its commands otherwise.
+      filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source-trixie" trixie
+      commands_file_by_file "-DMESHLAB_OTHER_SOURCE_DIRS=$PWD/build/meshlab-source-trixie"
       sources lib filter_wscvt | grep '\.cpp$' |
         xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/files ;;
     page)

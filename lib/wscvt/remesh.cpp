@@ -120,18 +120,20 @@ std::vector<TriedChange> try_changes(PreparedGrain& prepared, const RemeshOption
              options.placement.refinement.rounds == 0) {
     RemeshOptions adaptive = plain;
     adaptive.weighting.kind = Weighting::ErrorAdaptive;
-    weigh_anew(prepared, adaptive, execution.part(0.0, 0.1));
-    if (options.weighting.kind != Weighting::ErrorAdaptive &&
-        helps("error-adaptive weighting",
-              [&] { return remesh_prepared(prepared, adaptive, execution.part(0.1, 0.3)); })) {
-      return tried;
-    }
+    const bool suffices = options.weighting.kind != Weighting::ErrorAdaptive &&
+                          helps("error-adaptive weighting", [&] {
+                            weigh_anew(prepared, adaptive, execution.part(0.0, 0.1));
+                            return remesh_prepared(prepared, adaptive, execution.part(0.1, 0.3));
+                          });
     constexpr int rounds = 20;
     adaptive.placement.refinement.rounds = rounds;
-    helps("error-adaptive weighting and " + std::to_string(rounds) +
-              " rounds of refinement, whose triangles are less even",
-          [&] { return remesh_prepared(prepared, adaptive, execution.part(0.3, 0.5)); });
+    if (!suffices) {
+      helps("error-adaptive weighting and " + std::to_string(rounds) +
+                " rounds of refinement, whose triangles are less even",
+            [&] { return remesh_prepared(prepared, adaptive, execution.part(0.3, 0.5)); });
+    }
     weigh_anew(prepared, plain, execution.part(0.5, 0.5));
+    if (suffices) return tried;
   }
   // More would take long only to be told so.
   constexpr int most_nodes_tried = 20000;

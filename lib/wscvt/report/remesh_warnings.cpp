@@ -210,8 +210,8 @@ void warn_of_misfit(const RemeshResult& result, Sentences& warnings) {
 
 /// A refinement promises its smallest angle, so one below it is said; a tenth of a degree is what
 /// making the volume exact may cost, and no loss to anyone. Without refinement nothing is promised,
-/// but triangles relaxed on the surface had angles of 23 degrees and more on every scan tried, with
-/// 60 to 1000 nodes, and of 12 and less on bodies with limbs like an animal's, where nodes jam.
+/// but triangles relaxed on the surface had angles above 20 degrees on each of 60 bodies, with 60
+/// to 1000 nodes, and of 12 and less on three with limbs like an animal's, where nodes jam.
 void warn_of_angles(const RemeshResult& result, Sentences& warnings) {
   constexpr double slack = 0.1;
   constexpr double jammed = 20.0;
