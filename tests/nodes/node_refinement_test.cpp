@@ -330,9 +330,8 @@ IndexedMesh sphere_with_cone(double height, double angle) {
 
 TEST(NodeRefinement, DoesNotGiveUpACone) {
   // The rms distance of 200 nodes is 0.003, and three samples in a thousand lie on the cone: by
-  // squares alone it loses 0.030 to 0.056 of its height of 0.1, and without reaching for the
-  // farthest sample two of these lose 0.064 and 0.068. Measured are 0.015 to 0.023, where triangles
-  // of that size leave 0.011 on a sphere.
+  // squares alone it loses 0.030 to 0.056 of its height of 0.1. Measured are 0.015 to 0.023, where
+  // triangles of that size leave 0.011 on a sphere.
   for (const double angle : {0.08, 0.09, 0.1, 0.11, 0.12, 0.15}) {
     SCOPED_TRACE(angle);
     const IndexedMesh body = sphere_with_cone(0.1, angle);
