@@ -59,7 +59,7 @@ bool host_has_window() {
 }
 
 std::string shown_line(const LogLine& line) {
-  const std::string text = line.warning ? "Warning: " + line.text : line.text;
+  std::string text = line.warning ? "Warning: " + line.text : line.text;
   if (!host_has_window()) return text;
   return line.warning ? "<font color=\"red\">" + html_line(text) + "</font>" : html_line(text);
 }

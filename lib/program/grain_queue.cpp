@@ -45,6 +45,7 @@ void GrainQueue::run(int threads, const Watch& watch) {
   most_ahead_ = grains_ahead * static_cast<std::size_t>(threads);
   working_ = threads;
   std::vector<std::thread> workers;
+  workers.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work_on_grains(); });
   {
     std::unique_lock<std::mutex> lock(mutex_);

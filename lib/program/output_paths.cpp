@@ -30,6 +30,7 @@ void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<
 
 std::vector<NamedFile> named_reports(const std::vector<std::string>& reports) {
   std::vector<NamedFile> files;
+  files.reserve(reports.size());
   for (const std::string& report : reports) files.push_back({"a report", report});
   return files;
 }

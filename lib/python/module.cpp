@@ -331,6 +331,7 @@ PYBIND11_MODULE(_wscvt, module) {
   error_type.attr("__doc__") =
       "What the library refuses or could not do, in a sentence that says what to do. `code` is "
       "invalid-input, not-star-shaped, numerical-failure, input-output or cancelled.";
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature that pybind11 asks for
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
