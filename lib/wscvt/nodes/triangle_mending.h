@@ -23,11 +23,12 @@ struct TriangleMendingOptions {
   /// cut corners: 28 and 31 degrees, at a larger distance from the scan.
   double largest_turn = 90.0;
   int rounds = 40;  ///< at most; >= 0
-  /// For nodes that were fitted to the scan, as a refinement's, and lie off it: those at small angles
-  /// alone are moved, by the shortest step that helps and keeping their distance from the surface.
-  /// Where that leads no further the others about them are moved too, on to the surface, but for
-  /// those on ridges. On 15 refined meshes with angles to mend the rms distance from the scan rises
-  /// by a sixth at most; without this it rose by a half and more on six, to the fivefold on two.
+  /// For nodes that were fitted to the scan, as a refinement's, and lie off it: those at small
+  /// angles alone are moved, by the shortest step that helps and keeping their distance from the
+  /// surface. Where that leads no further the others about them are moved too, on to the surface,
+  /// but for those on ridges. On 15 refined meshes with angles to mend the rms distance from the
+  /// scan rises by a sixth at most; without this it rose by a half and more on six, to the fivefold
+  /// on two.
   bool sparing = false;
 };
 
