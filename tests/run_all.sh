@@ -9,6 +9,7 @@ set -eu
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
 meshlab_source=$PWD/build/meshlab-source
+newer_source=$PWD/build/meshlab-source-trixie
 
 sources() { find "$@" \( -name '*.h' -o -name '*.cpp' \) | sort; }
 
@@ -63,8 +64,8 @@ for step in "$@"; do
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
       # With a newer host, whose own file would be read without its commands otherwise.
-      filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source-trixie" trixie
-      commands_file_by_file "-DMESHLAB_OTHER_SOURCE_DIRS=$PWD/build/meshlab-source-trixie"
+      filter_wscvt/get_meshlab_source.sh "$newer_source" trixie
+      commands_file_by_file "-DMESHLAB_OTHER_SOURCE_DIRS=$newer_source"
       sources lib filter_wscvt | grep '\.cpp$' |
         xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/files ;;
     page)
@@ -91,8 +92,8 @@ for step in "$@"; do
       # The plugin for versions of MeshLab that are not installed, with the tests that need no
       # program of theirs: those of Debian 13 and of Debian unstable, which may move on to one that
       # the plugin does not know.
-      others=$PWD/build/meshlab-source-trixie
-      filter_wscvt/get_meshlab_source.sh "$others" trixie
+      others=$newer_source
+      filter_wscvt/get_meshlab_source.sh "$newer_source" trixie
       newest=$PWD/build/meshlab-source-sid
       filter_wscvt/get_meshlab_source.sh "$newest" sid
       if [ "$(cat "$newest/ML_VERSION")" = 2025.07 ]; then

@@ -122,7 +122,7 @@ std::vector<TriedChange> try_changes(PreparedGrain& prepared, const RemeshOption
     adaptive.weighting.kind = Weighting::ErrorAdaptive;
     const bool suffices = options.weighting.kind != Weighting::ErrorAdaptive &&
                           helps("error-adaptive weighting", [&] {
-                            weigh_anew(prepared, adaptive, execution.part(0.0, 0.1));
+                            read_curvatures(prepared, adaptive, execution.part(0.0, 0.1));
                             return remesh_prepared(prepared, adaptive, execution.part(0.1, 0.3));
                           });
     constexpr int rounds = 20;
@@ -132,7 +132,7 @@ std::vector<TriedChange> try_changes(PreparedGrain& prepared, const RemeshOption
                 " rounds of refinement, whose triangles are less even",
             [&] { return remesh_prepared(prepared, adaptive, execution.part(0.3, 0.5)); });
     }
-    weigh_anew(prepared, plain, execution.part(0.5, 0.5));
+    read_curvatures(prepared, plain, execution.part(0.5, 0.5));
     if (suffices) return tried;
   }
   // More would take long only to be told so.

@@ -56,25 +56,6 @@ int map_degree(const SurfaceOptions& options) {
   return options.degree == automatic_degree ? usual_degree : options.degree;
 }
 
-/// The curvatures that the weighting reads, in place of what another read.
-void read_curvatures(Grain& grain, const RemeshOptions& options, const Execution& execution) {
-  const bool radial = grain.parametrization == Parametrization::Radial;
-  grain.curvatures.reset();
-  if (radial && grain.is_scan && options.weighting.kind == Weighting::Curvature &&
-      options.weighting.curvature_source == CurvatureSource::QuadricFit) {
-    grain.curvatures = scan_curvatures(grain.mesh, execution);
-  }
-  if (!grain.mapped) return;
-  const bool reads_series = options.measures.coefficients || reads_map_series(options.weighting);
-  if (reads_series && !grain.map_series) {
-    grain.map_series =
-        fit_harmonic_map(*grain.mapped, map_degree(options.surface), execution.part(0.0, 0.8));
-  }
-  grain.map_curvatures =
-      curvatures_in_space(*grain.mapped, grain.map_series ? &grain.map_series->map : nullptr,
-                          options.weighting, execution.part(0.8, 1.0));
-}
-
 /// What the later stages read off the grain, made once.
 void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Execution& execution) {
   Grain& grain = prepared.grain;
@@ -88,7 +69,7 @@ void make_ready(PreparedGrain& prepared, const RemeshOptions& options, const Exe
   if (radial && !grain.rays && needs_rays(options.placement, grain.is_scan)) {
     grain.rays.emplace(grain.mesh, Vector3::Zero(), 1.0, execution);
   }
-  read_curvatures(grain, options, execution.part(0.5, 0.9));
+  read_curvatures(prepared, options, execution.part(0.5, 0.9));
   if (measures_distances(options) || grain.is_level) {
     prepared.distance.emplace(grain.mesh, execution.part(0.9, 1.0));
   }
@@ -177,8 +158,24 @@ PreparedGrain prepare(const RadialSurface& surface, const RemeshOptions& options
   return prepared;
 }
 
-void weigh_anew(PreparedGrain& prepared, const RemeshOptions& options, const Execution& execution) {
-  read_curvatures(prepared.grain, options, execution);
+void read_curvatures(PreparedGrain& prepared, const RemeshOptions& options,
+                     const Execution& execution) {
+  Grain& grain = prepared.grain;
+  const bool radial = grain.parametrization == Parametrization::Radial;
+  grain.curvatures.reset();
+  if (radial && grain.is_scan && options.weighting.kind == Weighting::Curvature &&
+      options.weighting.curvature_source == CurvatureSource::QuadricFit) {
+    grain.curvatures = scan_curvatures(grain.mesh, execution);
+  }
+  if (!grain.mapped) return;
+  const bool reads_series = options.measures.coefficients || reads_map_series(options.weighting);
+  if (reads_series && !grain.map_series) {
+    grain.map_series =
+        fit_harmonic_map(*grain.mapped, map_degree(options.surface), execution.part(0.0, 0.8));
+  }
+  grain.map_curvatures =
+      curvatures_in_space(*grain.mapped, grain.map_series ? &grain.map_series->map : nullptr,
+                          options.weighting, execution.part(0.8, 1.0));
 }
 
 RemeshResult remesh_prepared(const PreparedGrain& prepared, const RemeshOptions& options,

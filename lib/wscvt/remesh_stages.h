@@ -39,9 +39,11 @@ PreparedGrain prepare(IndexedMesh scan, const RemeshOptions& options, const Exec
 PreparedGrain prepare(const RadialSurface& surface, const RemeshOptions& options,
                       const Execution& execution);
 
-/// Makes a prepared grain ready for options that differ from those it was prepared with by their
-/// weighting alone. Throws as remesh does.
-void weigh_anew(PreparedGrain& prepared, const RemeshOptions& options, const Execution& execution);
+/// Reads the curvatures that the options' weighting asks for, in place of those that another read:
+/// makes a prepared grain ready for options that differ by their weighting alone. Throws as remesh
+/// does.
+void read_curvatures(PreparedGrain& prepared, const RemeshOptions& options,
+                     const Execution& execution);
 
 /// Relaxes, places and measures `options.node_count` nodes; no error target, no warnings. Throws as
 /// remesh does.

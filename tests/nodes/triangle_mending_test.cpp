@@ -112,7 +112,8 @@ TEST(TriangleMending, FreesSliversOnTheScan) {
 }
 
 TEST(TriangleMending, TakesWhatItReachesWhereSmallAnglesAreLeft) {
-  // No closed mesh has all angles near 60 degrees, so that some are left however long one goes on.
+  // No closed mesh of 400 nodes has all angles near 60 degrees: some are left however long one goes
+  // on.
   const Jammed bad = slivered(even_nodes(), 0.04);
   TriangleMendingOptions options;
   options.smallest_angle = 59.0;
@@ -151,7 +152,8 @@ TEST(TriangleMending, SparesNodesThatWereFitted) {
   const std::vector<Vector3> ends = moved(spared);
   ASSERT_FALSE(ends.empty());
   EXPECT_LT(2 * ends.size(), moved(mended(false)).size());
-  // The offset stays as it was, while the surface below a node turns by less than a quarter.
+  // The way from the scan stays as it was; how far it leads depends on how the scan turns below it.
+  // Pressed on to the scan the nodes would have none.
   const MeshDistance scan(bad.surface.mesh());
   for (const Vector3& p : ends) EXPECT_NEAR(scan.distance(p), offset, 0.25 * offset);
 }

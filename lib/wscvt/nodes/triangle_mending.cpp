@@ -101,7 +101,7 @@ class Mender {
     return worst;
   }
 
-  /// Whether from here on more moves are tried than the sparing ones, of which there are no more.
+  /// From here on other moves than sparing ones are tried as well; false where they are already.
   bool try_more_moves() {
     if (moves_ != Moves::Spared) return false;
     moves_ = Moves::OffRidges;
