@@ -307,6 +307,18 @@ TEST(RemeshSpherical, MendingAfterARefinementKeepsTheShape) {
   EXPECT_LT(result.misfit, 0.011 * result.input.equivalent_radius);
 }
 
+TEST(RemeshSpherical, AnAngleAtTheLimitToRoundingIsNotMended) {
+  // Of which the refinement leaves one on the rod. Mending it would flip ten edges.
+  const IndexedMesh rod = test::bent_grain_mesh(test::bent_grain("rod"), 15000);
+  RemeshOptions options = options_of(800, NodePlacement::LeastSquares);
+  options.placement.refinement.rounds = 10;
+  const RemeshResult result = remesh(rod, options);
+  EXPECT_LT(result.quality.smallest_angle, 30.0);
+  EXPECT_GE(result.quality.smallest_angle, 30.0 - 1e-3);
+  EXPECT_EQ(result.space.mending.flips + result.space.mending.moves, 0);
+  EXPECT_EQ(result.space.mending.left, 0);
+}
+
 TEST(RemeshSpherical, HasEvenEdgesOnBodiesWithUndercuts) {
   for (const test::BentGrain& body : test::bent_grains()) {
     SCOPED_TRACE(body.name);
