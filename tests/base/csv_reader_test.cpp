@@ -17,6 +17,7 @@ using Fields = std::vector<std::string>;
 TEST(CsvReader, ReadsBackWhatIsWritten) {
   const std::vector<Fields> records = {
       {"plain", "", "with, comma", "with \"quotes\"", "\"", "\"\"", "two\r\nlines"},
+      {"\r", "\n", "lone\rreturn", "lone\nfeed", ",", "last\r"},
       {"", ""},
       {"one"}};
   std::string text;

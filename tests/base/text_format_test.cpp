@@ -28,6 +28,8 @@ TEST(TextFormat, Errors) {
   EXPECT_EQ(format_error(-12.34567), "-12.346");
   EXPECT_EQ(format_error(0.0), "+0.000");
   EXPECT_EQ(format_error(-2.5e-10), "-2.5e-10");
+  EXPECT_EQ(format_error(0.001), "+0.001");
+  EXPECT_EQ(format_error(-0.000999), "-1.0e-03");
   EXPECT_EQ(format_error(not_a_number), "-");
   EXPECT_EQ(format_error(infinite), "-");
 }
@@ -86,6 +88,16 @@ TEST(TextFormat, CsvQuotesWhatNeedsIt) {
   EXPECT_EQ(csv_record({"plain", "", "1.5"}), "plain,,1.5\r\n");
   EXPECT_EQ(csv_record({"a,b", "say \"so\"", "two\nlines"}),
             "\"a,b\",\"say \"\"so\"\"\",\"two\nlines\"\r\n");
+  // Each of the signs alone, at either end and in the middle.
+  for (const char sign : {',', '"', '\r', '\n'}) {
+    const std::string doubled(sign == '"' ? 2 : 1, sign);
+    for (const std::string before : {"", "a"}) {
+      for (const std::string after : {"", "b"}) {
+        EXPECT_EQ(csv_record({before + sign + after, "c"}),
+                  "\"" + before + doubled + after + "\",c\r\n");
+      }
+    }
+  }
 }
 
 }  // namespace

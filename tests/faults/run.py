@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts faults into the library, one at a time, and looks whether the tests notice.
+"""Puts faults into the sources, one at a time, and looks whether the tests notice.
 
-  tests/faults/run.py [--check] [--table] [--build DIRECTORY] [--jobs NUMBER] [WORD ...]
+  tests/faults/run.py [--check] [--changed COMMIT] [--table] [--build DIRECTORY] [--jobs NUMBER]
+                      [WORD ...]
 
-faults.txt lists the faults; WORDs keep those whose room, title or file holds one of them. Each is
-put into a copy of the sources under DIRECTORY (build/faults), the tests of its own subject are
-built and run, and the fault is taken out again. The tree itself is only read, so that it is as it
-was also after an interruption. A fault is killed when a test fails, crashes, or takes ten times as
-long as without it. --check only tells whether every fault still finds its place; after a change of
-the library that is to be mended in faults.txt. --table writes what came of them into README.md,
-where the rows of faults that were not tried stay as they are.
+faults.txt lists the faults; WORDs keep those whose folder, title or file holds one of them, and
+--changed keeps those of files that differ from a commit. Each is put into a copy of the sources
+under DIRECTORY (build/faults), what its tests need is built, the tests of its own subject are run,
+and the fault is taken out again. The tree itself is only read, so that it is as it was also after
+an interruption. A fault is killed when a test fails, crashes, or takes ten times as long as without
+it. --check only tells whether every fault still finds its place; after a change of the library that
+is to be mended in faults.txt. --table writes what came of them into README.md, where the rows of
+faults that were not tried stay as they are.
 
 Exit code 0: every fault is killed, or survives for the reason that faults.txt gives. A run takes as
 long as a build and half a minute a fault. With --jobs there are several copies, each of which is
@@ -19,6 +21,7 @@ built: only worth it with ccache, which is used where it is installed.
 
 import argparse
 import concurrent.futures
+import datetime
 import filecmp
 import os
 import pathlib
@@ -32,23 +35,47 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-FIELDS = {"file", "find", "replace", "tests", "survives"}
+FIELDS = {"file", "find", "replace", "tests", "elsewhere", "survives"}
+TABLE = "| folder | fault | tried | what came of it |\n|---|---|---|---|\n"
+SUMMARY = ("| folder | tried | killed by its own tests | elsewhere | equivalent | surviving |\n"
+           "|---|---|---|---|---|---|\n")
+
+
+class Tests:
+    """A line "PROGRAM [FILTER]": a test program and its filter, or "ctest:TARGET,... REGEX": the
+    tests of ctest whose names the regular expression finds, and what they need built."""
+
+    def __init__(self, line):
+        self.program, _, self.names = line.partition(" ")
+        self.uses_ctest = self.program.startswith("ctest:")
+        self.targets = (self.program.partition(":")[2].split(",") if self.uses_ctest
+                        else [self.program])
+        if not self.uses_ctest:
+            self.names = self.names or "*"
+
+    def command(self, binaries):
+        if self.uses_ctest:
+            return ["ctest", "--test-dir", str(binaries), "-R", self.names, "--output-on-failure",
+                    "--no-tests=error"]
+        return [str(binaries / "tests" / self.folder / self.program),
+                "--gtest_filter=" + self.names]
+
+    @property
+    def folder(self):
+        return "host" if self.program == "host_tests" else "."
 
 
 class Fault:
     def __init__(self, room, title, line):
         self.room, self.title, self.line = room, title, line
-        self.file = self.find = self.tests = None
+        self.file = self.find = self.tests = self.elsewhere = self.survives = None
         self.replace = ""
-        self.survives = None
 
-    @property
-    def target(self):
-        return self.tests.partition(" ")[0]
-
-    @property
-    def names(self):
-        return self.tests.partition(" ")[2] or "*"
+    def all_tests(self):
+        """(tests, how a kill by them is told): first those of the fault's own subject."""
+        yield Tests(self.tests), "killed by "
+        if self.elsewhere:
+            yield Tests(self.elsewhere), "killed elsewhere by "
 
     def place(self, root):
         """The one file that the text to find stands in, once; a sentence where there is none."""
@@ -67,6 +94,10 @@ def read_faults(path):
         head = re.fullmatch(r"\[(\w+)\] (.+)", line)
         if head:
             faults.append(Fault(head.group(1), head.group(2), number))
+            field = ""
+            continue
+        if line.startswith("  ") and faults and field:
+            setattr(faults[-1], field, getattr(faults[-1], field) + "\n" + line.rstrip())
             continue
         field, _, value = line.partition(" ")
         if field not in FIELDS or not faults:
@@ -102,85 +133,125 @@ class Build:
         # Built where a checkout is built, so that ccache knows what has not changed.
         self.source, self.binaries = directory, directory / "build" / "release"
         self.environment = dict(os.environ, CCACHE_BASEDIR=str(self.source))
+        self.seconds = {}  # see seconds_without
         self.source.mkdir(parents=True, exist_ok=True)
         copy_tree(self.source)
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        self.run(["cmake", "--preset", "release", "-DWSCVT_WARNINGS_AS_ERRORS=ON"] + launcher,
-                 600).check_returncode()
+        # One object a file: a fault then costs one file's compilation.
+        options = ["-DWSCVT_QUICK_BUILD=OFF", "-DWSCVT_WARNINGS_AS_ERRORS=ON"]
+        if (ROOT / "build" / "meshlab-source").is_dir():
+            options.append("-DMESHLAB_SOURCE_DIR=%s" % (ROOT / "build" / "meshlab-source"))
+        configured = self.run(["cmake", "--preset", "release"] + options + launcher, 600)
+        if configured.returncode:
+            sys.exit(configured.stdout)
 
     def run(self, command, seconds):
         return subprocess.run(command, env=self.environment, cwd=self.source, timeout=seconds,
                               text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
-    def make(self, target):
-        return self.run(["cmake", "--build", str(self.binaries), "--target", target], 3600)
+    def make(self, targets):
+        return self.run(["cmake", "--build", str(self.binaries), "--target"] + targets, 3600)
 
-    def test(self, target, names, seconds):
-        """Whether the tests pass, how many ran, and the first that failed."""
-        command = [str(self.binaries / "tests" / target), "--gtest_filter=" + names]
+    def test(self, tests, seconds):
+        """Whether the tests pass, and the first that failed."""
         try:
-            done = self.run(command, seconds)
+            done = self.run(tests.command(self.binaries), seconds)
         except subprocess.TimeoutExpired:
-            return False, 0, "does not end"
-        ran = re.search(r"\[=+\] (\d+) tests? from .* ran", done.stdout)
-        failed = re.search(r"\[  FAILED  \] ([\w./]+)", done.stdout)
-        what = failed.group(1) if failed else "crash" if done.returncode else ""
-        return done.returncode == 0, int(ran.group(1)) if ran else 0, what
+            return False, "a run that does not end"
+        failed = (re.search(r"\[  FAILED  \] ([\w./]+)", done.stdout) or
+                  re.search(r"FAILED .*::(\w+)", done.stdout) or
+                  re.search(r"Test +#\d+: (\S+) .*\*\*\*", done.stdout))
+        none = re.search(r"^\[=+\] 0 tests from .* ran", done.stdout, re.MULTILINE)
+        what = failed.group(1) if failed else "a crash" if done.returncode else ""
+        return (False, "no such test") if none else (done.returncode == 0, what)
+
+    def seconds_without(self, tests):
+        """How long the tests take without any fault; a sentence where they do not pass then."""
+        key = tests.program, tests.names
+        if key not in self.seconds:
+            made = self.make(tests.targets)
+            if made.returncode:
+                sys.exit(made.stdout + "\nThe sources do not build without any fault.")
+            start = time.monotonic()
+            passed, what = self.test(tests, 1200)
+            self.seconds[key] = (time.monotonic() - start if passed else
+                                 "without any fault %s %s: %s" % (tests.program, tests.names, what))
+        return self.seconds[key]
 
 
-def try_faults(build, faults):
-    """Yields each fault, what came of it, and whether that is as it should be."""
-    target = faults[0].target
-    made = build.make(target)
-    if made.returncode:
-        sys.exit(made.stdout + "\nThe library does not build without any fault.")
-    seconds = {}
-    for names in sorted({fault.names for fault in faults}):
-        start = time.monotonic()
-        passed, ran, what = build.test(target, names, 1200)
-        seconds[names] = time.monotonic() - start
-        if not passed or not ran:
-            sys.exit("Without any fault: %s %s: %s" % (target, names, what or "no such test"))
-    for fault in faults:
-        path, _ = fault.place(build.source)
-        text = path.read_text()
-        path.write_text(text.replace(fault.find, fault.replace))
-        try:
-            made = build.make(target)
+def try_fault(build, fault):
+    """What came of a fault, and whether that is as it should be."""
+    path, _ = fault.place(build.source)
+    for tests, _ in fault.all_tests():
+        seconds = build.seconds_without(tests)
+        if isinstance(seconds, str):
+            return seconds, False
+    text = path.read_text()
+    path.write_text(text.replace(fault.find, fault.replace))
+    verdict = "SURVIVES"
+    try:
+        for tests, killed in fault.all_tests():
+            made = build.make(tests.targets)
             if made.returncode:
                 error = re.search(r"error: .*", made.stdout)
-                yield fault, "does not compile: " + (error.group(0) if error else ""), False
-                continue
-            passed, _, what = build.test(target, fault.names, 60 + 10 * seconds[fault.names])
-        finally:
-            path.write_text(text)
-        verdict = "SURVIVES" if passed else "killed by " + what
-        if fault.survives is not None:
-            verdict += " (expected to survive: %s)" % fault.survives
-        yield fault, verdict, passed == (fault.survives is not None)
+                return "does not compile: " + (error.group(0) if error else ""), False
+            passed, what = build.test(tests, 60 + 10 * build.seconds_without(tests))
+            if not passed:
+                verdict = killed + what
+                break
+    finally:
+        path.write_text(text)
+    if fault.survives is not None:
+        verdict += " (expected to survive: %s)" % fault.survives
+    return verdict, verdict.startswith("SURVIVES") == (fault.survives is not None)
 
 
 def write_table(verdicts):
-    """Puts (fault, verdict) into the table of README.md, in the order of faults.txt."""
+    """Puts (fault, verdict) into the table of README.md, in the order of faults.txt, and counts."""
     path = HERE / "README.md"
-    head, mark, old = path.read_text().partition("| room | fault | what came of it |\n|---|---|---|\n")
+    head, mark, old = path.read_text().partition(TABLE)
+    text = head.partition(SUMMARY)[0]
     rows = {}
     for line in old.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) == 3:
-            rows[cells[0], cells[1]] = cells[2]
-    rows.update({(fault.room, fault.title): verdict for fault, verdict in verdicts})
+        if len(cells) == 4:
+            rows[cells[0], cells[1]] = cells[2:]
+    today = datetime.date.today().isoformat()
+    rows.update({(fault.room, fault.title): [today, verdict] for fault, verdict in verdicts})
     faults = read_faults(HERE / "faults.txt")
-    path.write_text(head + mark + "".join(
-        "| %s | %s | %s |\n" % (fault.room, fault.title,
-                                rows.get((fault.room, fault.title), "not tried"))
-        for fault in faults))
+    counts = {}
+    lines = ""
+    for fault in faults:
+        tried, verdict = rows.get((fault.room, fault.title), ["-", "not tried"])
+        kind = ("tried" if tried == "-" else
+                "elsewhere" if verdict.startswith("killed elsewhere") else
+                "own" if verdict.startswith("killed") else
+                "equivalent" if fault.survives is not None else "surviving")
+        for folder in (fault.room, "all"):
+            count = counts.setdefault(
+                folder, dict.fromkeys(("tried", "own", "elsewhere", "equivalent", "surviving"), 0))
+            if tried != "-":
+                count["tried"] += 1
+                count[kind] += 1
+        lines += "| %s | %s | %s | %s |\n" % (fault.room, fault.title, tried, verdict)
+    total = counts.pop("all")
+    summary = "".join("| %s | %s |\n" % (folder, " | ".join(str(n) for n in count.values()))
+                      for folder, count in sorted(counts.items()) + [("all", total)])
+    path.write_text(text + SUMMARY + summary + "\n" + TABLE + lines)
+
+
+def changed_since(commit):
+    """Files that differ from a commit, also those that are not committed."""
+    listed = subprocess.run(["git", "diff", "--name-only", commit], cwd=ROOT, check=True,
+                            capture_output=True, text=True).stdout.splitlines()
+    return set(listed)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--changed", metavar="COMMIT")
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "faults")
     parser.add_argument("--jobs", type=int, default=1)
@@ -190,20 +261,25 @@ def main():
     faults = [fault for fault in read_faults(HERE / "faults.txt")
               if not arguments.words or any(word in " ".join((fault.room, fault.title, fault.file))
                                             for word in arguments.words)]
+    changed = changed_since(arguments.changed) if arguments.changed else None
     lost = 0
+    kept = []
     for fault in faults:
         path, why = fault.place(ROOT)
         if path is None:
             lost += 1
             print("faults.txt:%d: [%s] %s: %s" % (fault.line, fault.room, fault.title, why))
+        elif changed is None or str(path.relative_to(ROOT)) in changed:
+            kept.append(fault)
     if arguments.check or lost:
         print("%d of %d faults find their place" % (len(faults) - lost, len(faults)))
         return 1 if lost else 0
 
+    faults = kept
     # Test program by test program, so that each is built by one worker only.
     groups = {}
     for fault in faults:
-        groups.setdefault(fault.target, []).append(fault)
+        groups.setdefault(Tests(fault.tests).program, []).append(fault)
     waiting = queue.Queue()
     for group in groups.values():
         waiting.put(group)
@@ -217,7 +293,8 @@ def main():
                 group = waiting.get_nowait()
             except queue.Empty:
                 return
-            for fault, verdict, good in try_faults(build, group):
+            for fault in group:
+                verdict, good = try_fault(build, fault)
                 with one_at_a_time:
                     verdicts.append((fault, verdict, good))
                     if arguments.table:  # at once: a run may be ended before its end

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -16,6 +17,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/report/json.h"
 #include "wscvt/report/mass_table.h"
 
 namespace wscvt {
@@ -309,6 +311,20 @@ TEST(Report, TablesHoldDistancesAndQualityOfBoth) {
   result.quality.edge_length.standard_deviation = 0.75;
   result.original_quality.valence_six_share = 0.5;
   result.quality.valence_six_share = 0.875;
+  result.original_quality.edge_variation = 0.0625;
+  result.quality.edge_variation = 0.125;
+  result.original_quality.edge_ratio = {1.25, 0.25, 1.0, 5.5};
+  result.quality.edge_ratio = {1.125, 0.375, 1.0, 6.5};
+  result.original_quality.smallest_angle = 8.0;
+  result.quality.smallest_angle = 9.0;
+  result.original_quality.mean_smallest_angle = 30.0;
+  result.quality.mean_smallest_angle = 31.0;
+  EXPECT_EQ(cells_of(result, "edge length, deviation / mean"), (Cells{"0.0625", "0.125"}));
+  EXPECT_EQ(cells_of(result, "edge ratio of the triangles, mean"), (Cells{"1.25", "1.125"}));
+  EXPECT_EQ(cells_of(result, "edge ratio of the triangles, deviation"), (Cells{"0.25", "0.375"}));
+  EXPECT_EQ(cells_of(result, "edge ratio of the triangles, largest"), (Cells{"5.5", "6.5"}));
+  EXPECT_EQ(cells_of(result, "smallest angle, degrees"), (Cells{"8", "9"}));
+  EXPECT_EQ(cells_of(result, "smallest angle of the triangles, mean"), (Cells{"30", "31"}));
   EXPECT_EQ(cells_of(result, "edge length, mean"), (Cells{"1.5", "3"}));
   EXPECT_EQ(cells_of(result, "edge length, deviation"), (Cells{"0.5", "0.75"}));
   EXPECT_EQ(cells_of(result, "vertices with six neighbours, %"), (Cells{"50", "87.5"}));
@@ -423,6 +439,159 @@ std::vector<RemeshResult> examples() {
   formula.fit = HarmonicFitReport();
   formula.relaxation.history.clear();
   return {example(), full, formula};
+}
+
+/// Numbers that are all different, one after the other.
+class Distinct {
+ public:
+  template <class Number>
+  void fill(Number& number) {
+    number = static_cast<Number>(next_++);
+  }
+
+ private:
+  int next_ = 11;
+};
+
+TEST(Report, EveryNumberStandsUnderItsOwnName) {
+  RemeshResult result = example();
+  // In the order of the report, so that a number in another's place shows.
+  MeshCheckReport& input = result.input;
+  Distinct number;
+  std::vector<std::pair<std::string, std::function<double()>>> expected;
+  const auto set = [&](const std::string& name, auto& field) {
+    number.fill(field);
+    expected.emplace_back(name, [&field] { return static_cast<double>(field); });
+  };
+  set("/input/vertices", input.input_vertices);
+  set("/input/faces", input.input_faces);
+  set("/input/lost_faces", input.lost_faces);
+  set("/input/welded_vertices", input.welded_vertices);
+  set("/input/weld_tolerance", input.weld_tolerance);
+  set("/input/unreferenced_vertices", input.unreferenced_vertices);
+  set("/input/degenerate_faces", input.degenerate_faces);
+  set("/input/sliver_faces", input.sliver_faces);
+  set("/input/duplicate_faces", input.duplicate_faces);
+  set("/input/duplicate_area_share", input.duplicate_area_share);
+  set("/input/folded_faces", input.folded_faces);
+  set("/input/folded_area_share", input.folded_area_share);
+  set("/input/non_manifold_edges", input.non_manifold_edges);
+  set("/input/flap_faces", input.flap_faces);
+  set("/input/flap_area_share", input.flap_area_share);
+  set("/input/filled_holes", input.filled_holes);
+  set("/input/filling_faces", input.filling_faces);
+  set("/input/filled_area_share", input.filled_area_share);
+  set("/input/reoriented_faces", input.reoriented_faces);
+  set("/input/split_vertices", input.split_vertices);
+  set("/input/components", input.components);
+  set("/input/inner_components", input.inner_components);
+  set("/input/inner_volume_share", input.inner_volume_share);
+  set("/input/dropped_faces", input.dropped_faces);
+  set("/input/dropped_volume_share", input.dropped_volume_share);
+  set("/input/used_vertices", input.vertices);
+  set("/input/used_faces", input.faces);
+  set("/input/genus", input.genus);
+  set("/input/centroid/x", input.centroid.x());
+  set("/input/centroid/y", input.centroid.y());
+  set("/input/centroid/z", input.centroid.z());
+  set("/input/equivalent_radius", input.equivalent_radius);
+  set("/centre/x", result.centre.x());
+  set("/centre/y", result.centre.y());
+  set("/centre/z", result.centre.z());
+  set("/folded_share", result.folded_share);
+  set("/steep_share", result.steep_share);
+  set("/handles/volume_change", result.handles.volume_change);
+  set("/fit/requested_degree", result.fit.requested_degree);
+  set("/fit/degree", result.fit.degree);
+  set("/fit/rays", result.fit.rays);
+  set("/fit/residual", result.fit.residual);
+  set("/fit/chord_error", result.fit.chord_error);
+  set("/fit/smallest_radius", result.fit.smallest_radius);
+  for (auto [name, quality] : {std::pair("/quality/original", &result.original_quality),
+                               std::pair("/quality/remesh", &result.quality)}) {
+    const std::string of = name;
+    set(of + "/edge_length/mean", quality->edge_length.mean);
+    set(of + "/edge_length/standard_deviation", quality->edge_length.standard_deviation);
+    set(of + "/edge_length/minimum", quality->edge_length.minimum);
+    set(of + "/edge_length/maximum", quality->edge_length.maximum);
+    set(of + "/edge_variation", quality->edge_variation);
+    set(of + "/edge_ratio/mean", quality->edge_ratio.mean);
+    set(of + "/edge_ratio/standard_deviation", quality->edge_ratio.standard_deviation);
+    set(of + "/edge_ratio/minimum", quality->edge_ratio.minimum);
+    set(of + "/edge_ratio/maximum", quality->edge_ratio.maximum);
+    set(of + "/smallest_angle_degrees", quality->smallest_angle);
+    set(of + "/mean_smallest_angle_degrees", quality->mean_smallest_angle);
+    set(of + "/valence_six_share", quality->valence_six_share);
+  }
+  set("/misfit/root_mean_square", result.misfit);
+  result.distances.emplace();
+  set("/distances/from_remesh/maximum", result.distances->to_reference.maximum);
+  set("/distances/from_remesh/root_mean_square", result.distances->to_reference.root_mean_square);
+  set("/distances/from_remesh/mean", result.distances->to_reference.mean);
+  set("/distances/from_original/maximum", result.distances->from_reference.maximum);
+  set("/distances/from_original/root_mean_square",
+      result.distances->from_reference.root_mean_square);
+  set("/distances/from_original/mean", result.distances->from_reference.mean);
+  set("/distances/largest", result.distances->largest);
+  set("/distances/root_mean_square", result.distances->root_mean_square);
+  result.search.emplace();
+  set("/search/node_count", result.search->node_count);
+  result.search->trials = {{300, 1.5}, {642, 0.5}};
+  result.relaxation.history = {{0.5, 0.25, 7}, {0.125, 0.0625, 3}};
+  set("/relaxation/iterations", result.relaxation.iterations);
+  set("/relaxation/rebuilds", result.relaxation.rebuilds);
+  set("/relaxation/weight_scale", result.relaxation.weight_scale);
+  result.refinement.history = {{0.75, 1, 2, 3}, {0.375, 4, 5, 6}};
+  set("/refinement/start_distance", result.refinement.start_distance);
+
+  const auto json = nlohmann::json::parse(report_json(result));
+  for (const auto& [name, value] : expected) {
+    EXPECT_EQ(json.at(nlohmann::json::json_pointer(name)).get<double>(), value()) << name;
+  }
+  const auto at = [&](const std::string& name) {
+    return json.at(nlohmann::json::json_pointer(name));
+  };
+  EXPECT_NEAR(at("/fit/residual_percent_of_equivalent_radius").get<double>(),
+              100.0 * result.fit.residual / input.equivalent_radius, 1e-12);
+  EXPECT_NEAR(at("/misfit/percent_of_equivalent_radius").get<double>(),
+              100.0 * result.misfit / input.equivalent_radius, 1e-12);
+  EXPECT_EQ(at("/result/vertices"), result.mesh.points.size());
+  EXPECT_EQ(at("/result/faces"), result.mesh.triangles.size());
+  // The last of a history, and each list of its own numbers.
+  EXPECT_EQ(at("/relaxation/displacement"), 0.125);
+  EXPECT_EQ(at("/relaxation/area_spread"), 0.0625);
+  EXPECT_EQ(at("/relaxation/history/displacement"), nlohmann::json({0.5, 0.125}));
+  EXPECT_EQ(at("/relaxation/history/area_spread"), nlohmann::json({0.25, 0.0625}));
+  EXPECT_EQ(at("/relaxation/history/flips"), nlohmann::json({7, 3}));
+  EXPECT_EQ(at("/refinement/rounds"), 2);
+  EXPECT_EQ(at("/refinement/distance"), 0.375);
+  EXPECT_EQ(at("/refinement/history/distance"), nlohmann::json({0.75, 0.375}));
+  EXPECT_EQ(at("/refinement/history/moves"), nlohmann::json({1, 4}));
+  EXPECT_EQ(at("/refinement/history/flips"), nlohmann::json({2, 5}));
+  EXPECT_EQ(at("/refinement/history/relocations"), nlohmann::json({3, 6}));
+  EXPECT_EQ(at("/search/trials/1/node_count"), 642);
+  EXPECT_EQ(at("/search/trials/1/error_percent"), 0.5);
+  // The mass of each body, its tensor without symmetry between the axes.
+  for (const auto& [name, body] : {std::pair(std::string("/mass/original"), &result.original),
+                                   std::pair(std::string("/mass/remesh"), &result.remesh)}) {
+    EXPECT_EQ(at(name + "/volume"), body->volume);
+    EXPECT_EQ(at(name + "/inertia_tensor/yz").get<double>(), body->inertia_tensor(1, 2));
+  }
+}
+
+TEST(Report, MassHoldsEveryNumberOfTheTensorAndTheAxes) {
+  MassProperties mass;
+  mass.volume = 10.0;
+  mass.centroid = Vector3(1, 2, 3);
+  mass.inertia_tensor << 11, 12, 13, 12, 22, 23, 13, 23, 33;
+  mass.principal_moments = Vector3(4, 5, 6);
+  mass.principal_axes = Eigen::Quaterniond(0.1, 0.2, 0.3, 0.4);
+  const auto json = nlohmann::json::parse(json_of(mass).dump());
+  EXPECT_EQ(json, nlohmann::json::parse(R"({"volume": 10.0,
+      "centroid": {"x": 1.0, "y": 2.0, "z": 3.0},
+      "inertia_tensor": {"xx": 11.0, "yy": 22.0, "zz": 33.0, "xy": 12.0, "xz": 13.0, "yz": 23.0},
+      "principal_moments": {"least": 4.0, "middle": 5.0, "greatest": 6.0},
+      "principal_axes": {"w": 0.1, "x": 0.2, "y": 0.3, "z": 0.4}})"));
 }
 
 TEST(Report, CsvIsTheJsonWithoutItsLists) {

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -95,6 +97,69 @@ TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
   EXPECT_NE(summary_html(summary).find("Broken."), std::string::npos);
   EXPECT_EQ(summary_lines(summary).front(),
             "6 grains: 5 remeshed, 1 of them with warnings, 1 failed");
+}
+
+TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
+  RemeshResult result;
+  result.input.equivalent_radius = 2.0;
+  result.original.volume = 3.0;
+  result.original.area = 5.0;
+  result.original.aspect_ratio = 0.25;
+  result.original.sphericity = 0.875;
+  result.original.inertia_semi_axes = Vector3(1.0, 1.25, 4.0);
+  result.remesh = result.original;
+  result.remesh.volume = 3.3;
+  result.remesh.area = 6.0;
+  result.remesh.sphericity = 0.4375;
+  result.misfit = 0.03;
+  result.original_quality.edge_ratio.mean = 9.0;
+  result.original_quality.smallest_angle = 9.5;
+  result.quality.edge_ratio = {1.5, 2.5, 3.5, 4.5};
+  result.quality.smallest_angle = 33.0;
+  result.quality.mean_smallest_angle = 44.0;
+  write(sample_header(false) + sample_row("a", result, {}));
+  const auto all =
+      nlohmann::ordered_json::parse(summary_json(summarise_table(path_))).at("distributions");
+  const std::map<std::string, double> expected = {
+      {"equivalent_radius", 2.0},  {"volume", 3.0},
+      {"aspect_ratio", 0.25},      {"elongation", 0.3125},
+      {"flatness", 0.8},           {"sphericity", 0.875},
+      {"volume_error", 10.0},      {"area_error", 20.0},
+      {"sphericity_error", -50.0}, {"misfit", 1.5},
+      {"edge_ratio", 1.5},         {"smallest_angle", 33.0}};
+  for (const auto& [key, value] : expected) {
+    EXPECT_NEAR(all.at(key).at("median").get<double>(), value, 1e-12) << key;
+  }
+  // And each of its numbers in its own place: 0, 1, ..., 9 and 100.
+  std::string table = sample_header(false);
+  for (const double radius : {100.0, 9.0, 1.0, 8.0, 2.0, 7.0, 3.0, 6.0, 4.0, 5.0, 0.5}) {
+    table += sample_row("a", grain_of(radius), {});
+  }
+  write(table);
+  const SampleSummary summary = summarise_table(path_);
+  const auto radius = nlohmann::ordered_json::parse(summary_json(summary))
+                          .at("distributions")
+                          .at("equivalent_radius");
+  EXPECT_EQ(radius.at("minimum"), 0.5);
+  EXPECT_EQ(radius.at("percent_10"), 1.0);
+  EXPECT_EQ(radius.at("median"), 5.0);
+  EXPECT_EQ(radius.at("percent_90"), 9.0);
+  EXPECT_EQ(radius.at("maximum"), 100.0);
+  bool found = false;
+  for (const std::string& line : summary_lines(summary)) {
+    if (line.rfind("equivalent radius", 0) != 0) continue;
+    std::istringstream cells(line.substr(line.find("length") + 6));
+    double mean = 0.0;
+    double deviation = 0.0;
+    std::vector<double> rest;
+    cells >> mean >> deviation;
+    for (double cell = 0.0; cells >> cell;) rest.push_back(cell);
+    EXPECT_EQ(rest, (std::vector<double>{0.5, 1.0, 5.0, 9.0, 100.0})) << line;
+    EXPECT_NEAR(mean, 145.5 / 11.0, 0.01);
+    EXPECT_GT(deviation, mean);
+    found = true;
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {

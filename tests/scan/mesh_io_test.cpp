@@ -66,6 +66,28 @@ TEST_F(MeshIo, WritesAndReadsBackEveryFormat) {
   }
 }
 
+TEST_F(MeshIo, ReadsFilesOfManyBuffersWhereverTheirLinesEnd) {
+  // Buffers are of 256 KiB. A first line of 0 to 69 characters more moves all that follow, so that
+  // some line ends at each place about a buffer's end.
+  const IndexedMesh mesh = test::lumpy(5);
+  write_mesh(mesh, path("a.obj"));
+  std::ostringstream content;
+  content << std::ifstream(path("a.obj"), std::ios::binary).rdbuf();
+  ASSERT_GT(content.str().size(), std::size_t{2} << 18);
+  for (std::size_t more = 0; more < 70; ++more) {
+    const IndexedMesh back =
+        read_mesh(file("b.obj", "#" + std::string(more, 'x') + "\n" + content.str()));
+    ASSERT_EQ(back.points, mesh.points) << more;
+    ASSERT_EQ(back.triangles, mesh.triangles) << more;
+  }
+  for (const char* name : {"a.ply", "a.off"}) {
+    write_mesh(mesh, path(name));
+    const IndexedMesh back = read_mesh(path(name));
+    EXPECT_EQ(back.points, mesh.points) << name;
+    EXPECT_EQ(back.triangles, mesh.triangles) << name;
+  }
+}
+
 TEST_F(MeshIo, WritesPlyInSinglePrecisionWhenTold) {
   const IndexedMesh mesh = test::lumpy(2);
   write_mesh(mesh, path("a.ply"), PlyCoordinates::Float);

@@ -75,6 +75,20 @@ TEST(OffReader, ReadsItsForms) {
   }
 }
 
+TEST(OffReader, ItsLastLineNeedsNoEndHoweverShortItIs) {
+  // The shortest vertices, and no face.
+  for (const std::string end : {"", "\n", "\r\n"}) {
+    const IndexedMesh mesh = read_content(read_off, "OFF\n3 0 0\n0 1 2\n3 4 5\n6 7 8" + end);
+    EXPECT_EQ(mesh.points, (std::vector<Vector3>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}));
+  }
+  // The shortest faces behind one.
+  for (const std::string end : {"", "\n"}) {
+    const IndexedMesh mesh =
+        read_content(read_off, "OFF\n3 3 0\n0 1 2\n3 4 5\n6 7 8\n3 0 1 2\n0\n0" + end);
+    EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  }
+}
+
 TEST(OffReader, SaysWhatIsWrong) {
   const std::string four = "OFF\n4 1 0\n0 0 0\n0 0 1\n0 1 0\n1 0 0\n";
   expect_refusal(read_off, "", "\"OFF\"");

@@ -66,6 +66,40 @@ TEST(Weld, FindsWhatABruteSearchFinds) {
   }
 }
 
+TEST(Weld, BoxHoldsEveryCornerOfEveryFaceAndNothingElse) {
+  // One of the corners of one face alone is the farthest, in turn along each axis and either way:
+  // the first and the last face, faces at the ends of the blocks, and each of the three corners. A
+  // point that no face has is farther still.
+  IndexedMesh mesh;
+  constexpr std::size_t faces = 40000;  // three blocks
+  for (std::size_t f = 0; f < faces; ++f) {
+    const auto first = static_cast<std::int32_t>(mesh.points.size());
+    for (int k = 0; k < 3; ++k) mesh.points.emplace_back(0.25 * k, 1.0 - 0.5 * k, 0.125 * k);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  mesh.points.emplace_back(1e9, -1e9, 1e9);
+  for (const std::size_t face :
+       {std::size_t{0}, std::size_t{16383}, std::size_t{16384}, faces - 1}) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        for (const double place : {-7.5, 8.5}) {
+          Vector3& point = mesh.points[3 * face + corner];
+          const Vector3 kept = point;
+          point[axis] = place;
+          const Box box = box_of_faces(mesh, Execution(2));
+          EXPECT_EQ(place < 0.0 ? box.low[axis] : box.high[axis], place) << face << " " << corner;
+          for (Eigen::Index other = 0; other < 3; ++other) {
+            if (other == axis) continue;
+            EXPECT_GE(box.low[other], 0.0);
+            EXPECT_LE(box.high[other], 1.0);
+          }
+          point = kept;
+        }
+      }
+    }
+  }
+}
+
 TEST(Weld, LeavesPointsOutsideOfTheBoxAlone) {
   const std::vector<Vector3> points = {
       {0, 0, 0}, {1e300, 0, 0}, {1e300, 0, 0}, {1, 1, 1}, {0, 0, 0}};
