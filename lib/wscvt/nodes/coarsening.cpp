@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/coarsening.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include "wscvt/nodes/delaunay_flips.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Merges below this many squares of the mean cell are cheap: a sweep of them halves the vertices.
+constexpr double cheap_merge = 0.8;
+/// A sweep that nears its end merges less eagerly, in squares of the cells wanted.
+constexpr double last_merge = 0.15;
+/// Beyond this degree a merge is dearer by `degree_price` a square of the degree above it.
+constexpr int high_degree = 7;
+constexpr double degree_price = 0.05;
+/// No merge makes more edges at a vertex.
+constexpr int most_degree = 12;
+/// By how much of a cell the area that stands against the surface may grow with a merge.
+constexpr double turned_allowance = 1e-3;
+/// Faces with an edge whose square is above this share of a cell keep their angles.
+constexpr double large_face = 0.1;
+/// Square of the sine of 2 degrees: the smallest angle of a large face.
+constexpr double least_squared_sine = 0.0012;
+/// The heap is made anew, with flips before, whenever this share of the vertices is left.
+constexpr double heap_share = 0.85;
+
+}  // namespace
+
+Coarsening::Coarsening(EditMesh scan, const std::vector<double>& density)
+    : mesh_(std::move(scan)), alive_(static_cast<int>(mesh_.points.size())) {
+  const std::size_t count = mesh_.points.size();
+  areas_.assign(count, 0.0);
+  vectors_.assign(count, Vector3::Zero());
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const Vector3 third = mesh_.normal(t) / 6.0;
+    const double length = third.norm();
+    area_ += 3.0 * length;
+    for (const std::int32_t v : mesh_.triangles[t]) {
+      areas_[v] += length;
+      vectors_[v] += third;
+    }
+  }
+  masses_ = areas_;
+  for (std::size_t v = 0; v < density.size(); ++v) masses_[v] *= density[v] * density[v];
+  into_.assign(count, -1);
+  free_.assign(mesh_.triangles.size(), 0);
+  marks_.assign(count, 0);
+}
+
+Vector3 Coarsening::merged(std::int32_t v, std::int32_t w) const {
+  return (masses_[v] * mesh_.points[v] + masses_[w] * mesh_.points[w]) /
+         (masses_[v] + masses_[w] + 1e-300);
+}
+
+double Coarsening::cost(std::int32_t v, std::int32_t w) const {
+  const double ward = masses_[v] * masses_[w] / (masses_[v] + masses_[w] + 1e-300) *
+                      (mesh_.points[v] - mesh_.points[w]).squaredNorm();
+  const int above = mesh_.degrees[v] + mesh_.degrees[w] - 4 - high_degree;
+  return above > 0 ? ward * (1.0 + degree_price * above * above) : ward;
+}
+
+bool Coarsening::common_neighbours_allow(std::int32_t v, std::int32_t w) {
+  ++mark_;
+  mesh_.around(v, [&](std::int32_t h) { marks_[mesh_.target(h)] = mark_; });
+  int common = 0;
+  bool three = false;
+  mesh_.around(w, [&](std::int32_t h) {
+    const std::int32_t y = mesh_.target(h);
+    if (marks_[y] != mark_) return;
+    ++common;
+    three = three || mesh_.degrees[y] <= 3;
+  });
+  return common == 2 && !three;
+}
+
+namespace {
+
+/// Adds a face with corners p, a, b to the shape of a fan.
+template <class FanShape>
+void add_face(FanShape& shape, const Vector3& a, const Vector3& b, const Vector3& vectors,
+              double large) {
+  const Vector3 normal = a.cross(b);
+  const double squared_normal = normal.squaredNorm();
+  const double along = normal.dot(vectors);
+  const double squared_vectors = vectors.squaredNorm();
+  constexpr double least = least_agreement * least_agreement;
+  if (along < 0.0 || along * along < least * squared_normal * squared_vectors) {
+    shape.turned += least_agreement * std::sqrt(squared_normal);
+    if (squared_vectors > 0.0) shape.turned -= along / std::sqrt(squared_vectors);
+  }
+  const double l0 = a.squaredNorm();
+  const double l1 = b.squaredNorm();
+  const double l2 = (a - b).squaredNorm();
+  if (std::max({l0, l1, l2}) > large) {
+    shape.least_squared_sine = std::min(shape.least_squared_sine,
+                                        squared_normal * std::min({l0, l1, l2}) / (l0 * l1 * l2));
+  }
+}
+
+}  // namespace
+
+Coarsening::FanShape Coarsening::shape_of(std::int32_t v, std::int32_t w, double large) const {
+  FanShape shape;
+  for (const auto& [i, j] : {std::pair(v, w), std::pair(w, v)}) {
+    mesh_.around(i, [&, i = i, j = j](std::int32_t h) {
+      const std::int32_t a = mesh_.target(h);
+      const std::int32_t b = mesh_.apex(h);
+      if (i == w && (a == j || b == j)) return;  // seen about the first already
+      add_face(shape, mesh_.points[a] - mesh_.points[i], mesh_.points[b] - mesh_.points[i],
+               vectors_[a] + vectors_[b] + vectors_[i], large);
+    });
+  }
+  return shape;
+}
+
+Coarsening::FanShape Coarsening::shape_merged(std::int32_t v, std::int32_t w, double large) const {
+  const Vector3 point = merged(v, w);
+  const Vector3 vector = vectors_[v] + vectors_[w];
+  FanShape shape;
+  for (const auto& [i, j] : {std::pair(v, w), std::pair(w, v)}) {
+    mesh_.around(i, [&, j = j](std::int32_t h) {
+      const std::int32_t a = mesh_.target(h);
+      const std::int32_t b = mesh_.apex(h);
+      if (a == j || b == j) return;
+      add_face(shape, mesh_.points[a] - point, mesh_.points[b] - point,
+               vectors_[a] + vectors_[b] + vector, large);
+    });
+  }
+  return shape;
+}
+
+bool Coarsening::possible(std::int32_t v, std::int32_t w) {
+  // Degrees add up less the two ends and the two common neighbours' double edges.
+  if (alive_ <= 4) return false;
+  if (!ignores_shapes_ && mesh_.degrees[v] + mesh_.degrees[w] - 4 > most_degree) return false;
+  if (!common_neighbours_allow(v, w)) return false;
+  if (ignores_shapes_) return true;
+  const double mass = masses_[v] + masses_[w];
+  const double area = areas_[v] + areas_[w];
+  const double density = mass > 0.0 && area > 0.0 ? std::sqrt(mass / area) : 1.0;
+  const double cell = area_ / alive_ / density;
+  const FanShape after = shape_merged(v, w, large_face * cell);
+  if (after.turned <= turned_allowance * cell && after.least_squared_sine >= least_squared_sine) {
+    return true;
+  }
+  const FanShape before = shape_of(v, w, large_face * cell);
+  return after.turned <= before.turned + turned_allowance * cell &&
+         after.least_squared_sine >=
+             std::min(before.least_squared_sine, least_squared_sine) - 1e-12;
+}
+
+void Coarsening::merge(std::int32_t v, std::int32_t w) {
+  mesh_.points[w] = merged(v, w);
+  areas_[w] += areas_[v];
+  masses_[w] += masses_[v];
+  vectors_[w] += vectors_[v];
+  std::int32_t edge = mesh_.first[v];
+  while (mesh_.target(edge) != w) edge = mesh_.opposite[previous_half_edge(edge)];
+  for (const std::int32_t t : mesh_.collapse(edge)) free_[t] = 1;
+  into_[v] = w;
+  --alive_;
+}
+
+void Coarsening::merge_cheapest_of(std::int32_t v, double limit) {
+  constexpr int most = 64;
+  std::array<std::int32_t, most> candidates{};
+  std::array<double, most> costs{};
+  int count = 0;
+  mesh_.around(v, [&](std::int32_t h) {
+    const std::int32_t w = mesh_.target(h);
+    const double price = cost(v, w);
+    if (price >= limit || count == most) return;
+    candidates[count] = w;
+    costs[count++] = price;
+  });
+  while (count > 0) {
+    const auto best = std::min_element(costs.begin(), costs.begin() + count) - costs.begin();
+    if (possible(v, candidates[best])) {
+      merge(v, candidates[best]);
+      return;
+    }
+    --count;
+    candidates[best] = candidates[count];
+    costs[best] = costs[count];
+  }
+}
+
+int Coarsening::sweep(int least) {
+  const int before = alive_;
+  const double cell = area_ / alive_;
+  const double wanted = area_ / std::max(least, 1);
+  const double limit = std::min(cheap_merge * cell * cell, last_merge * wanted * wanted);
+  const auto count = static_cast<std::int32_t>(mesh_.points.size());
+  for (std::int32_t v = 0; v < count && alive_ > least; ++v) {
+    if (into_[v] < 0) merge_cheapest_of(v, limit);
+  }
+  compact(Execution(1));
+  flip_to_delaunay(mesh_, vectors_);
+  return before - alive_;
+}
+
+/// Merges in the order of their costs; those that changed since are passed over.
+class Coarsening::Queue {
+ public:
+  explicit Queue(Coarsening& owner) : owner_(owner), times_(owner.mesh_.points.size(), 0) {
+    for (std::size_t v = 0; v < times_.size(); ++v) push(static_cast<std::int32_t>(v));
+  }
+
+  /// Enters the cheapest merge that is possible at a vertex, in place of the one entered before.
+  void push(std::int32_t v) {
+    ++times_[v];
+    Merge best = {1e300, v, -1, times_[v]};
+    owner_.mesh_.around(v, [&](std::int32_t h) {
+      const std::int32_t w = owner_.mesh_.target(h);
+      const double price = owner_.cost(v, w);
+      if (price >= best.cost || !owner_.possible(v, w)) return;
+      best.cost = price;
+      best.w = w;
+    });
+    if (best.w >= 0) queue_.push(best);
+  }
+
+  /// Makes the cheapest merge; false when there is none.
+  bool merge_one() {
+    while (!queue_.empty()) {
+      const Merge next = queue_.top();
+      queue_.pop();
+      if (owner_.into_[next.v] >= 0 || next.time != times_[next.v]) continue;
+      if (owner_.into_[next.w] >= 0 || !owner_.possible(next.v, next.w)) {
+        push(next.v);
+        continue;
+      }
+      owner_.merge(next.v, next.w);
+      push(next.w);
+      std::vector<std::int32_t> ring;
+      owner_.mesh_.around(next.w, [&](std::int32_t h) { ring.push_back(owner_.mesh_.target(h)); });
+      for (const std::int32_t y : ring) push(y);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Later {
+    bool operator()(const Merge& a, const Merge& b) const {
+      return a.cost > b.cost || (a.cost == b.cost && a.v > b.v);
+    }
+  };
+  Coarsening& owner_;
+  std::vector<std::int32_t> times_;
+  std::priority_queue<Merge, std::vector<Merge>, Later> queue_;
+};
+
+bool Coarsening::reduce(int count, const Execution& execution) {
+  const int start = alive_;
+  for (int before = -1; alive_ > count && alive_ != before;) {
+    execution.report(static_cast<double>(start - alive_) / (start - count), "Coarsening the scan");
+    before = alive_;
+    const int stop = std::max(count, static_cast<int>(alive_ * heap_share));
+    Queue queue(*this);
+    while (alive_ > stop && queue.merge_one()) {
+    }
+    compact(execution);
+    flip_to_delaunay(mesh_, vectors_);
+  }
+  return alive_ <= count;
+}
+
+void Coarsening::compact(const Execution& execution) {
+  const std::size_t count = mesh_.points.size();
+  std::vector<std::int32_t> map(count, -1);
+  std::int32_t next = 0;
+  for (std::size_t v = 0; v < count; ++v) {
+    if (into_[v] >= 0) continue;
+    mesh_.points[next] = mesh_.points[v];
+    areas_[next] = areas_[v];
+    masses_[next] = masses_[v];
+    vectors_[next] = vectors_[v];
+    map[v] = next++;
+  }
+  for (std::size_t v = 0; v < count; ++v) {
+    std::int32_t end = static_cast<std::int32_t>(v);
+    while (into_[end] >= 0) end = into_[end];
+    if (into_[v] >= 0) {
+      into_[v] = end;
+      map[v] = map[end];
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (free_[t] != 0) continue;
+    const Triangle& old = mesh_.triangles[t];
+    mesh_.triangles[kept++] = {map[old[0]], map[old[1]], map[old[2]]};
+  }
+  mesh_.points.resize(next);
+  areas_.resize(next);
+  masses_.resize(next);
+  vectors_.resize(next);
+  mesh_.triangles.resize(kept);
+  into_.assign(next, -1);
+  free_.assign(kept, 0);
+  marks_.assign(next, 0);
+  mark_ = 0;
+  mesh_.link(execution);
+  maps_.push_back(std::move(map));
+}
+
+std::int32_t Coarsening::cluster_of(std::int32_t vertex) const {
+  for (const std::vector<std::int32_t>& map : maps_) vertex = map[vertex];
+  return vertex;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/nodes/edit_mesh.h"
+
+namespace wscvt {
+
+/// A closed surface coarsened on its own triangles by merging vertices: Ward's clusters (Ward 1963,
+/// J. Am. Stat. Assoc. 58, 236). A vertex stands for a cluster of the scan's vertices, is their
+/// centroid, and the next merge is the one that adds least to the sum of their squared distances
+/// from it; that of points spread over a surface comes near a centroidal Voronoi tessellation.
+///
+/// Masses are areas, or areas times the square of a wanted density of nodes: the cells of an
+/// optimal quantizer in the plane are then as dense as wanted (Gersho 1979, IEEE Trans. Inf. Theory
+/// 25, 373).
+///
+/// Never merges across a handle or from sheet to sheet, so that the genus stays. Copyable: a search
+/// for a number of nodes goes on from one.
+class Coarsening {
+ public:
+  /// `density`: of nodes wanted at each vertex, mean over the surface 1; empty for the same
+  /// everywhere.
+  Coarsening(EditMesh scan, const std::vector<double>& density);
+
+  const EditMesh& mesh() const { return mesh_; }
+  std::size_t size() const { return static_cast<std::size_t>(alive_); }
+  /// Area, mass and vector area of what each vertex stands for.
+  const std::vector<double>& areas() const { return areas_; }
+  const std::vector<double>& masses() const { return masses_; }
+  const std::vector<Vector3>& vectors() const { return vectors_; }
+
+  /// Merges whatever is cheap, which about halves the vertices, but leaves `least` of them; then
+  /// flips to Delaunay. Returns how many were merged.
+  int sweep(int least);
+  /// Merges the cheapest first until `count` vertices are left. Returns whether it came there.
+  bool reduce(int count, const Execution& execution);
+  /// Merges from now on ask no more of shapes than that the surface stays a manifold: the last
+  /// resort for few nodes.
+  void ignore_shapes() { ignores_shapes_ = true; }
+  /// Which vertex now stands for that of the mesh as it was when this was made, or since `forget`.
+  std::int32_t cluster_of(std::int32_t vertex) const;
+  /// Counts vertices from those of now on.
+  void forget() { maps_.clear(); }
+
+ private:
+  struct Merge {
+    double cost;
+    std::int32_t v;
+    std::int32_t w;
+    std::int32_t time;
+  };
+  class Queue;
+
+  Vector3 merged(std::int32_t v, std::int32_t w) const;
+  double cost(std::int32_t v, std::int32_t w) const;
+  bool possible(std::int32_t v, std::int32_t w);
+  bool common_neighbours_allow(std::int32_t v, std::int32_t w);
+  struct FanShape {
+    double turned = 0.0;  ///< area that stands against its vectors
+    double least_squared_sine = 1.0;
+  };
+  FanShape shape_of(std::int32_t v, std::int32_t w, double large) const;
+  FanShape shape_merged(std::int32_t v, std::int32_t w, double large) const;
+  void merge(std::int32_t v, std::int32_t w);
+  void merge_cheapest_of(std::int32_t v, double limit);
+  void compact(const Execution& execution);
+
+  EditMesh mesh_;
+  int alive_ = 0;
+  bool ignores_shapes_ = false;
+  double area_ = 0.0;
+  std::vector<double> areas_;
+  std::vector<double> masses_;
+  std::vector<Vector3> vectors_;
+  std::vector<std::int32_t> into_;  ///< what a merged vertex went into; -1 for the others
+  std::vector<char> free_;          ///< triangles that a merge left
+  std::vector<std::int32_t> marks_;
+  std::int32_t mark_ = 0;
+  std::vector<std::vector<std::int32_t>> maps_;  ///< of each compaction: old vertex to new
+};
+
+}  // namespace wscvt

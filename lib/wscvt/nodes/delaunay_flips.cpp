@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/delaunay_flips.h"
+
+#include <algorithm>
+
+namespace wscvt {
+
+namespace {
+
+/// Edges bent to less than this cosine may not be bent much further by a flip: 73 degrees.
+constexpr double sharp_bend = 0.3;
+/// By how much of a cosine a flip may sharpen a bend that is sharp already.
+constexpr double bend_margin = 0.1;
+/// Faces of less agreement stand as walls.
+constexpr double wall_agreement = 0.5;
+/// Smallest angle of a face that closes a notch: 15 degrees.
+constexpr double wall_sharpness = 0.966;
+
+/// Two triangles abc and bad about the edge ab, of unit normals, and those that a flip makes.
+struct FlipShape {
+  double agreement_before;
+  double agreement_after;
+  double bend_before;
+  double bend_after;
+};
+
+bool keeps_shape(const FlipShape& s) {
+  if (s.agreement_before <= least_agreement) return s.agreement_after >= s.agreement_before;
+  if (s.agreement_after < least_agreement) return false;
+  if (s.bend_before < sharp_bend && s.bend_after < s.bend_before + bend_margin) return false;
+  return s.bend_after >= sharp_bend || s.bend_after >= s.bend_before - bend_margin;
+}
+
+bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t h) {
+  const std::int32_t g = mesh.opposite[h];
+  const std::int32_t a = mesh.origin(h);
+  const std::int32_t b = mesh.origin(g);
+  const std::int32_t c = mesh.apex(h);
+  const std::int32_t d = mesh.apex(g);
+  const Vector3& pc = mesh.points[c];
+  const Vector3& pd = mesh.points[d];
+  const Vector3 ca = mesh.points[a] - pc;
+  const Vector3 cb = mesh.points[b] - pc;
+  const Vector3 da = mesh.points[a] - pd;
+  const Vector3 db = mesh.points[b] - pd;
+  Vector3 m1 = ca.cross(cb);
+  Vector3 m2 = db.cross(da);
+  const double s1 = m1.norm();
+  const double s2 = m2.norm();
+  // The sine of the sum of the angles at c and d, times the edges' lengths.
+  const double sine = ca.dot(cb) * s2 + da.dot(db) * s1;
+  const bool delaunay = sine > -1e-6 * (s1 * s2 + 1e-300);
+  if (delaunay && m1.dot(m2) > sharp_bend * s1 * s2) return false;
+  if (mesh.degrees[a] <= 3 || mesh.degrees[b] <= 3 || c == d) return false;
+  Vector3 n1 = ca.cross(pd - pc);
+  Vector3 n2 = (pd - pc).cross(cb);
+  const double a1 = n1.norm();
+  const double a2 = n2.norm();
+  if (a1 < 1e-300 || a2 < 1e-300) return false;
+  m1 /= s1 + 1e-300;
+  m2 /= s2 + 1e-300;
+  n1 /= a1;
+  n2 /= a2;
+  const Vector3 ab = outward[a] + outward[b];
+  const Vector3 cd = outward[c] + outward[d];
+  const FlipShape shape = {std::min(cosine_to(m1, ab + outward[c]), cosine_to(m2, ab + outward[d])),
+                           std::min(cosine_to(n1, cd + outward[a]), cosine_to(n2, cd + outward[b])),
+                           m1.dot(m2), n1.dot(n2)};
+  if (delaunay) {
+    const Vector3 all = ab + cd;
+    const Vector3 rise = ca + da + cb + db;  // from the new edge to the old one, four times
+    const bool closes = shape.agreement_before <= wall_agreement && shape.agreement_after >= 0.5 &&
+                        -0.5 * rise.dot(all) >= 0.2 * all.norm() * 0.5 * rise.norm();
+    if (!closes) return false;
+    if (std::max(largest_corner_cosine(pc, mesh.points[a], pd),
+                 largest_corner_cosine(pc, pd, mesh.points[b])) > wall_sharpness) {
+      return false;
+    }
+  } else if (!keeps_shape(shape)) {
+    return false;
+  }
+  if (mesh.joined(c, d)) return false;
+  mesh.flip(h);
+  return true;
+}
+
+}  // namespace
+
+int flip_to_delaunay(EditMesh& mesh, const std::vector<Vector3>& outward) {
+  int flipped = 0;
+  const auto faces = static_cast<std::int32_t>(mesh.triangles.size());
+  for (std::int32_t t = 0; t < faces; ++t) {
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      if (static_cast<std::int32_t>(face_of(mesh.opposite[h])) < t) continue;
+      if (!try_flip(mesh, outward, h)) continue;
+      ++flipped;
+      break;  // the triangle's other edges are of the next pass
+    }
+  }
+  return flipped;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/evening.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "wscvt/nodes/delaunay_flips.h"
+#include "wscvt/nodes/smooth_step.h"
+#include "wscvt/nodes/triangle_place.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Share of the step before that is made again.
+constexpr double momentum = 0.95;
+/// No step is longer, in mean edges.
+constexpr double longest_evening_step = 0.3;
+/// How far nodes at a rim are pushed out, in mean edges.
+constexpr double rim_push = 0.5;
+/// Length of the sum of a star's area vectors over its area: below `rim_begins` the star bends over
+/// a rim, and is one wholly at `rim_begins - rim_width`.
+constexpr double rim_begins = 0.75;
+constexpr double rim_width = 0.3;
+/// A cell that seems smaller than this share of the mean counts as that: obtuse triangles take
+/// area away.
+constexpr double least_cell = 0.3;
+/// No barycentric weight of a circumcentre below this: farther out the cell would turn over.
+constexpr double least_circumcentre_weight = -0.5;
+/// A face may turn by a step to this cosine at most, 72 degrees, and no corner below 10 degrees.
+constexpr double most_turn = 0.3;
+constexpr double sharpest_corner = 0.985;
+constexpr std::size_t evened_block = 512;
+constexpr std::size_t cell_block = 1024;
+/// How often the normals of the surface are smoothed before faces are held against them.
+constexpr int normal_rounds = 3;
+
+/// The part of a Voronoi cell that lies in one triangle, at one corner.
+struct CellPart {
+  double mass = 0.0;  ///< area, or area times density squared
+  double area = 0.0;
+  Vector3 moment = Vector3::Zero();  ///< of the mass about the corner
+};
+
+/// Point of a triangle with barycentric weights, and what is interpolated there.
+struct WeightedPoint {
+  Vector3 position;
+  double density;  ///< of mass
+};
+
+Vector3 circumcentre_weights(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const std::array<double, 3> l = {(b - c).squaredNorm(), (c - a).squaredNorm(),
+                                   (a - b).squaredNorm()};
+  Vector3 w;
+  for (int k = 0; k < 3; ++k) w[k] = l[k] * (l[(k + 1) % 3] + l[(k + 2) % 3] - l[k]);
+  const double sum = w.sum();
+  if (!(sum > 1e-300)) return Vector3::Constant(1.0 / 3.0);
+  w = (w / sum).cwiseMax(least_circumcentre_weight);
+  return w / w.sum();
+}
+
+void add_part(CellPart& part, const Vector3& corner, double corner_density, const WeightedPoint& p,
+              const WeightedPoint& q, const Vector3& normal) {
+  const double area = 0.5 * (p.position - corner).cross(q.position - corner).dot(normal);
+  const double sum = corner_density + p.density + q.density;
+  part.area += area;
+  part.mass += area * sum / 3.0;
+  // The centroid of a linear density, about the corner.
+  part.moment +=
+      area / 12.0 *
+      ((sum + p.density) * (p.position - corner) + (sum + q.density) * (q.position - corner));
+}
+
+std::array<CellPart, 3> cell_parts(const std::array<Vector3, 3>& x,
+                                   const std::array<double, 3>& density, const Vector3& normal) {
+  const Vector3 w = circumcentre_weights(x[0], x[1], x[2]);
+  const WeightedPoint centre = {
+      w[0] * x[0] + w[1] * x[1] + w[2] * x[2],
+      std::max(w[0] * density[0] + w[1] * density[1] + w[2] * density[2], 0.0)};
+  std::array<CellPart, 3> parts;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const int previous = (k + 2) % 3;
+    const WeightedPoint p = {0.5 * (x[k] + x[next]), 0.5 * (density[k] + density[next])};
+    const WeightedPoint q = {0.5 * (x[k] + x[previous]), 0.5 * (density[k] + density[previous])};
+    add_part(parts[k], x[k], density[k], p, centre, normal);
+    add_part(parts[k], x[k], density[k], centre, q, normal);
+  }
+  return parts;
+}
+
+/// Outward vectors at the surface's vertices: mean normals, smoothed over their rings, so that one
+/// rough face says nothing.
+std::vector<Vector3> smoothed_vectors(const EditMesh& mesh, const Execution& execution) {
+  std::vector<Vector3> vectors(mesh.points.size(), Vector3::Zero());
+  std::vector<double> areas(mesh.points.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vector3 normal = mesh.normal(t);
+    const double length = normal.norm();
+    for (const std::int32_t v : mesh.triangles[t]) {
+      vectors[v] += normal;
+      areas[v] += length;
+    }
+  }
+  for (std::size_t v = 0; v < vectors.size(); ++v) vectors[v] /= areas[v] + 1e-300;
+  for (int round = 0; round < normal_rounds; ++round) {
+    const std::vector<Vector3> old = vectors;
+    execution.parallel_for(vectors.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        Vector3 sum = 2.0 * old[v];
+        mesh.around(static_cast<std::int32_t>(v),
+                    [&](std::int32_t h) { sum += old[mesh.target(h)]; });
+        vectors[v] = sum / (2.0 + mesh.degrees[v]);
+      }
+    });
+  }
+  return vectors;
+}
+
+class Evening {
+ public:
+  Evening(EditMesh& nodes, std::vector<std::int32_t>& places, const EveningSurface& surface,
+          const Execution& execution)
+      : nodes_(nodes),
+        places_(places),
+        surface_(surface),
+        execution_(execution),
+        surface_vectors_(smoothed_vectors(surface.mesh, execution)),
+        count_(nodes.points.size()),
+        previous_(nodes.points),
+        outward_(count_),
+        mass_density_(count_, 1.0),
+        steps_(count_),
+        pushes_(count_),
+        shares_(count_),
+        parts_(3 * nodes.triangles.size()),
+        normals_(nodes.triangles.size()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      nodes_.points[i] = put_on_surface(nodes_.points[i], places_[i]);
+    }
+    previous_ = nodes_.points;
+    read_surface();
+    edge_ = mean_edge_length(nodes_);
+  }
+
+  EveningReport run(int steps) {
+    EveningReport report;
+    for (int step = 0; step < steps; ++step) {
+      execution_.report(static_cast<double>(step) / steps, "Evening the nodes");
+      report.flips += flip_to_delaunay(nodes_, outward_);
+      plan(step > 0 ? momentum : 0.0);
+      move();
+      read_surface();
+      edge_ = mean_edge_length(nodes_);
+      ++report.steps;
+    }
+    constexpr int last_flips = 5;
+    for (int pass = 0; pass < last_flips; ++pass) {
+      const int flips = flip_to_delaunay(nodes_, outward_);
+      report.flips += flips;
+      if (flips == 0) break;
+    }
+    return report;
+  }
+
+ private:
+  Vector3 put_on_surface(const Vector3& point, std::int32_t& place) const {
+    const TrianglePlace nearest = walk_to_nearest(point, surface_.mesh, place);
+    const auto& [a, b, c] = surface_.mesh.triangles[place];
+    return nearest.point(surface_.mesh.points[a], surface_.mesh.points[b], surface_.mesh.points[c]);
+  }
+
+  /// Outward vectors and densities where the nodes are.
+  void read_surface() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const auto& [a, b, c] = surface_.mesh.triangles[places_[i]];
+      outward_[i] = surface_vectors_[a] + surface_vectors_[b] + surface_vectors_[c];
+      if (surface_.density.empty()) continue;
+      const Vector3 w = nearest_in_triangle(nodes_.points[i], surface_.mesh, places_[i]).weights;
+      const double density =
+          w[0] * surface_.density[a] + w[1] * surface_.density[b] + w[2] * surface_.density[c];
+      mass_density_[i] = density * density;
+    }
+  }
+
+  void measure_cells() {
+    execution_.parallel_for(normals_.size(), cell_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const Vector3 normal = nodes_.normal(t);
+        normals_[t] = normal;
+        const auto& [a, b, c] = nodes_.triangles[t];
+        const std::array<CellPart, 3> parts =
+            cell_parts({nodes_.points[a], nodes_.points[b], nodes_.points[c]},
+                       {mass_density_[a], mass_density_[b], mass_density_[c]},
+                       normal / (normal.norm() + 1e-300));
+        std::copy(parts.begin(), parts.end(), parts_.begin() + static_cast<std::ptrdiff_t>(3 * t));
+      }
+    });
+  }
+
+  /// The step and the push of every node.
+  void plan(double share_of_last) {
+    measure_cells();
+    double area = 0.0;
+    for (const CellPart& part : parts_) area += part.area;
+    const double mean = area / static_cast<double>(count_);
+    execution_.parallel_for(count_, evened_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) plan_node(i, mean, share_of_last);
+    });
+  }
+
+  void plan_node(std::size_t i, double mean, double share_of_last) {
+    CellPart cell;
+    Vector3 normal = Vector3::Zero();
+    double star = 0.0;
+    nodes_.around(static_cast<std::int32_t>(i), [&](std::int32_t h) {
+      cell.mass += parts_[h].mass;
+      cell.moment += parts_[h].moment;
+      normal += normals_[face_of(h)];
+      star += normals_[face_of(h)].norm();
+    });
+    const double flatness = normal.norm() / (star + 1e-300);
+    normal /= normal.norm() + 1e-300;
+    const double density = std::sqrt(mass_density_[i]);
+    // A cell of the wanted density has the mass mean * density.
+    Vector3 step = cell.moment / std::max(cell.mass, least_cell * mean * density) +
+                   share_of_last * (nodes_.points[i] - previous_[i]);
+    step -= normal.dot(step) * normal;
+    const double edge = edge_ / std::sqrt(std::max(density, 1e-3));
+    const double length = step.norm();
+    if (length > longest_evening_step * edge) step *= longest_evening_step * edge / length;
+    steps_[i] = step;
+    pushes_[i] = rim_push * edge * smooth_step((rim_begins - flatness) / rim_width) * normal;
+    shares_[i] = 1.0;
+  }
+
+  bool spoils(std::size_t t, const std::vector<Vector3>& old) const {
+    const auto& [a, b, c] = nodes_.triangles[t];
+    const Vector3 outward = outward_[a] + outward_[b] + outward_[c];
+    Vector3 normal = nodes_.normal(t);
+    normal /= normal.norm() + 1e-300;
+    const Vector3 old_normal = normals_[t] / (normals_[t].norm() + 1e-300);
+    const double before = cosine_to(old_normal, outward);
+    const double after = cosine_to(normal, outward);
+    if (after < least_agreement && after < before - 1e-9) return true;
+    if (before > least_agreement && normal.dot(old_normal) < most_turn) return true;
+    const double sharpness = nodes_.sharpness(t);
+    return sharpness > sharpest_corner && sharpness > largest_corner_cosine(old[a], old[b], old[c]);
+  }
+
+  /// Steps, halved and in the end given up at the nodes of faces that they would spoil.
+  void move() {
+    constexpr int most_tries = 6;
+    constexpr int halvings = 4;
+    const std::vector<Vector3> old = nodes_.points;
+    const std::vector<std::int32_t> old_places = places_;
+    const auto place = [&](std::size_t i) {
+      places_[i] = old_places[i];
+      nodes_.points[i] =
+          shares_[i] == 0.0
+              ? old[i]
+              : put_on_surface(old[i] + shares_[i] * (steps_[i] + pushes_[i]), places_[i]);
+    };
+    execution_.parallel_for(count_, evened_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) place(i);
+    });
+    std::vector<char> marked(count_);
+    for (int attempt = 0; attempt < most_tries; ++attempt) {
+      std::fill(marked.begin(), marked.end(), 0);
+      bool any = false;
+      for (std::size_t t = 0; t < normals_.size(); ++t) {
+        if (!spoils(t, old)) continue;
+        any = true;
+        for (const std::int32_t v : nodes_.triangles[t]) marked[v] = 1;
+      }
+      if (!any) break;
+      for (std::size_t i = 0; i < count_; ++i) {
+        if (marked[i] == 0) continue;
+        shares_[i] = attempt < halvings ? 0.5 * shares_[i] : 0.0;
+        place(i);
+      }
+    }
+    previous_ = old;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (shares_[i] < 1.0) previous_[i] = nodes_.points[i];  // no momentum into a wall
+    }
+  }
+
+  EditMesh& nodes_;
+  std::vector<std::int32_t>& places_;
+  const EveningSurface& surface_;
+  const Execution& execution_;
+  std::vector<Vector3> surface_vectors_;
+  std::size_t count_;
+  double edge_ = 0.0;
+  std::vector<Vector3> previous_;
+  std::vector<Vector3> outward_;
+  std::vector<double> mass_density_;  ///< square of the density of nodes wanted
+  std::vector<Vector3> steps_;
+  std::vector<Vector3> pushes_;
+  std::vector<double> shares_;
+  std::vector<CellPart> parts_;  ///< of half-edge h's origin in its triangle
+  std::vector<Vector3> normals_;
+};
+
+}  // namespace
+
+EveningReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places,
+                         const EveningSurface& surface, int steps, const Execution& execution) {
+  return Evening(nodes, places, surface, execution).run(steps);
+}
+
+std::vector<double> voronoi_areas(const EditMesh& nodes) {
+  std::vector<double> areas(nodes.points.size(), 0.0);
+  for (std::size_t t = 0; t < nodes.triangles.size(); ++t) {
+    const Vector3 normal = nodes.normal(t);
+    const auto& [a, b, c] = nodes.triangles[t];
+    const std::array<CellPart, 3> parts =
+        cell_parts({nodes.points[a], nodes.points[b], nodes.points[c]}, {1.0, 1.0, 1.0},
+                   normal / (normal.norm() + 1e-300));
+    for (int k = 0; k < 3; ++k) areas[nodes.triangles[t][k]] += parts[k].area;
+  }
+  return areas;
+}
+
+}  // namespace wscvt

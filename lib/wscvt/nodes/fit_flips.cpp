@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/fit_flips.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "wscvt/base/pi.h"
+
+namespace wscvt {
+
+namespace {
+
+/// What a flip's fall of squared distance is worth, in squared changes of lengths.
+constexpr double error_worth = 3.0;
+/// Price of small angles, in squared edges times the springs' stiffness, and how far above the
+/// least angle it begins, in degrees.
+constexpr double angle_price = 0.5;
+constexpr double angle_margin = 5.0;
+constexpr double angle_unit = 20.0;
+/// Where two triangles hold this many mean errors of one, angles down to the spike angle pass.
+constexpr double spike_errors = 7.0;
+constexpr double spike_angle = 3.0;
+/// Walls: triangles that look less than this along the scan, and their smallest angle once closed.
+constexpr double wall_cosine = 0.5;
+constexpr double wall_least_angle = 20.0;
+/// An edge is flat up to this cosine.
+constexpr double sharp_new_edge = -0.2;
+
+double cosine_of(double degrees) { return std::cos(degrees * pi / 180.0); }
+
+double cosine_between(const Vector3& a, const Vector3& b) {
+  return a.dot(b) / (a.norm() * b.norm() + 1e-300);
+}
+
+double square(double x) { return x * x; }
+
+/// The edge ab of the triangles abc (t) and bad (u), which is to become cd.
+struct FlipCandidate {
+  std::int32_t h;
+  std::int32_t g;
+  std::size_t t;
+  std::size_t u;
+  std::int32_t a, b, c, d;
+  Vector3 pa, pb, pc, pd;
+  double sharpness_before_t, sharpness_before_u;
+  double sharpness_t, sharpness_u;  ///< of cad and cdb
+  Vector3 normal_t, normal_u;       ///< unit, of the new triangles
+  Vector3 old_normal_t, old_normal_u;
+  bool closes_notch = false;
+  bool risky = false;
+  bool sharp = false;
+};
+
+class FitFlips {
+ public:
+  explicit FitFlips(FitState& state)
+      : state_(state),
+        mesh_(state.mesh),
+        about_(state.node_normals()),
+        mean_face_error_(state.mean_square * static_cast<double>(state.samples.size()) /
+                         static_cast<double>(state.mesh.triangles.size())),
+        spike_cosine_(cosine_of(spike_angle)),
+        wall_sharpness_(cosine_of(wall_least_angle)) {}
+
+  int run() {
+    int flipped = 0;
+    const auto faces = static_cast<std::int32_t>(mesh_.triangles.size());
+    for (std::int32_t t = 0; t < faces; ++t) {
+      for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        if (static_cast<std::int32_t>(face_of(mesh_.opposite[h])) < t) continue;
+        if (!try_flip(h)) continue;
+        ++flipped;
+        break;
+      }
+    }
+    return flipped;
+  }
+
+ private:
+  bool try_flip(std::int32_t h) {
+    FlipCandidate f;
+    if (!look_at(h, f)) return false;
+    double cost = cost_of(f);
+    if (f.closes_notch) cost = std::min(cost, 0.0);
+    const double before = squares(f.t) + squares(f.u);
+    if (f.risky && before < spike_errors * mean_face_error_) return false;
+    const double worth = error_worth * state_.share();
+    if (!f.closes_notch && worth * before - cost <= 0.0) return false;
+    if (mesh_.joined(f.c, f.d)) return false;
+    if (!deal_samples(f, f.closes_notch ? 1e300 : (worth * before - cost) / worth)) return false;
+    if (f.closes_notch ? after_ > before
+                       : worth * (before - after_) <= cost + 1e-9 * state_.edge * state_.edge) {
+      return false;
+    }
+    if (f.risky && before - after_ < spike_errors * mean_face_error_) return false;
+    if (!keeps_shape(f)) return false;
+    const std::vector<std::int32_t> both = {static_cast<std::int32_t>(f.t),
+                                            static_cast<std::int32_t>(f.u)};
+    if (state_.hash.meets(mesh_, {f.c, f.a, f.d}, {f.pc, f.pa, f.pd}, both) ||
+        state_.hash.meets(mesh_, {f.c, f.d, f.b}, {f.pc, f.pd, f.pb}, both)) {
+      return false;
+    }
+    flip(f);
+    return true;
+  }
+
+  /// Reads the four nodes and their shapes; false where no flip is possible or angles forbid it.
+  bool look_at(std::int32_t h, FlipCandidate& f) const {
+    f.h = h;
+    f.g = mesh_.opposite[h];
+    f.t = face_of(h);
+    f.u = face_of(f.g);
+    f.a = mesh_.origin(h);
+    f.b = mesh_.target(h);
+    f.c = mesh_.apex(h);
+    f.d = mesh_.apex(f.g);
+    if (mesh_.degrees[f.a] <= 4 || mesh_.degrees[f.b] <= 4 || f.c == f.d) return false;
+    f.pa = mesh_.points[f.a];
+    f.pb = mesh_.points[f.b];
+    f.pc = mesh_.points[f.c];
+    f.pd = mesh_.points[f.d];
+    f.sharpness_before_t = largest_corner_cosine(f.pc, f.pa, f.pb);
+    f.sharpness_before_u = largest_corner_cosine(f.pd, f.pb, f.pa);
+    f.sharpness_t = largest_corner_cosine(f.pc, f.pa, f.pd);
+    f.sharpness_u = largest_corner_cosine(f.pc, f.pd, f.pb);
+    f.closes_notch = closes_notch(f);
+    const double sharpest = std::max(f.sharpness_t, f.sharpness_u);
+    if (!f.closes_notch && sharpest > std::max({state_.round.sharpness_limit, f.sharpness_before_t,
+                                                f.sharpness_before_u})) {
+      if (state_.round.late || sharpest > spike_cosine_) return false;
+      f.risky = true;
+    }
+    f.normal_t = doubled_area_normal(f.pc, f.pa, f.pd);
+    f.normal_u = doubled_area_normal(f.pc, f.pd, f.pb);
+    const double area_t = f.normal_t.norm();
+    const double area_u = f.normal_u.norm();
+    if (area_t < 1e-300 || area_u < 1e-300) return false;
+    f.normal_t /= area_t;
+    f.normal_u /= area_u;
+    f.old_normal_t = state_.unit_normal(f.t);
+    f.old_normal_u = state_.unit_normal(f.u);
+    const Vector3 mean = f.old_normal_t + f.old_normal_u;
+    const double bend = f.normal_t.dot(f.normal_u);
+    f.sharp = f.normal_t.dot(mean) <= 0.0 || f.normal_u.dot(mean) <= 0.0 ||
+              (bend < sharp_new_edge && bend < f.old_normal_t.dot(f.old_normal_u));
+    return true;
+  }
+
+  /// Whether the triangles stand as walls in a notch that the new edge would close outwards.
+  bool closes_notch(const FlipCandidate& f) const {
+    const Vector3 ab = about_[f.a] + about_[f.b];
+    const Vector3 cd = about_[f.c] + about_[f.d];
+    const Vector3 rise = f.pc + f.pd - f.pa - f.pb;
+    const Vector3 all = ab + cd;
+    if (rise.dot(all) <= 0.2 * rise.norm() * all.norm()) return false;
+    if (std::max(f.sharpness_t, f.sharpness_u) >= wall_sharpness_) return false;
+    if (std::min(cosine_between(mesh_.normal(f.t), ab + about_[f.c]),
+                 cosine_between(mesh_.normal(f.u), ab + about_[f.d])) >= wall_cosine) {
+      return false;
+    }
+    return std::min(cosine_between(doubled_area_normal(f.pc, f.pa, f.pd), cd + about_[f.a]),
+                    cosine_between(doubled_area_normal(f.pc, f.pd, f.pb), cd + about_[f.b])) >=
+           wall_cosine;
+  }
+
+  double rest_length(const FlipCandidate& f) const {
+    if (state_.ring_edges.empty()) return state_.edge;
+    double ring = 0.0;
+    double spacing = 0.0;
+    for (const std::int32_t v : {f.a, f.b, f.c, f.d}) {
+      ring += 0.25 * state_.ring_edges[v];
+      spacing += 0.25 * state_.node_spacing(v);
+    }
+    return (1.0 - local_share) * state_.edge * spacing + local_share * ring;
+  }
+
+  double small_angle(double sharpness) const {
+    const double angle = std::acos(std::clamp(sharpness, -1.0, 1.0)) * 180.0 / pi;
+    return square(std::max(0.0, state_.round.least_angle + angle_margin - angle) / angle_unit);
+  }
+
+  /// What springs, degrees and angles lose by the flip.
+  double cost_of(const FlipCandidate& f) const {
+    const double rest = rest_length(f);
+    const auto off = [&](std::int32_t v, int change) {
+      return square(mesh_.degrees[v] + change - 6) - square(mesh_.degrees[v] - 6);
+    };
+    const double squared_edge = state_.edge * state_.edge;
+    double cost = state_.spring() *
+                  (square((f.pc - f.pd).norm() - rest) - square((f.pa - f.pb).norm() - rest));
+    cost += state_.round.valence * squared_edge *
+            (off(f.a, -1) + off(f.b, -1) + off(f.c, 1) + off(f.d, 1));
+    if (state_.round.price > 0.0) {
+      cost += state_.round.price *
+              (square(state_.excess(f.pc, f.pa, f.pd)) + square(state_.excess(f.pc, f.pd, f.pb)) -
+               square(state_.excess(f.pc, f.pa, f.pb)) - square(state_.excess(f.pd, f.pb, f.pa)));
+    }
+    if (!f.closes_notch && !f.risky) {
+      cost += angle_price * state_.spring() * squared_edge *
+              (small_angle(f.sharpness_t) + small_angle(f.sharpness_u) -
+               small_angle(f.sharpness_before_t) - small_angle(f.sharpness_before_u));
+    }
+    return cost;
+  }
+
+  double squares(std::size_t t) const {
+    double sum = 0.0;
+    for (const std::int32_t s : state_.of[t]) sum += state_.samples[s].place.squared_distance;
+    return sum;
+  }
+
+  /// Deals the samples to the new triangles; false as soon as their errors pass `most`.
+  bool deal_samples(const FlipCandidate& f, double most) {
+    after_ = 0.0;
+    of_t_.clear();
+    of_u_.clear();
+    normals_t_.setZero();
+    normals_u_.setZero();
+    for (const std::size_t from : {f.t, f.u}) {
+      for (const std::int32_t s : state_.of[from]) {
+        const FitSample& sample = state_.samples[s];
+        const double to_t = nearest_in_triangle(sample.point, f.pc, f.pa, f.pd).squared_distance;
+        const double to_u = nearest_in_triangle(sample.point, f.pc, f.pd, f.pb).squared_distance;
+        after_ += std::min(to_t, to_u);
+        if (after_ >= most) return false;
+        if (to_t <= to_u) {
+          of_t_.push_back(s);
+          normals_t_ += sample.normal;
+        } else {
+          of_u_.push_back(s);
+          normals_u_ += sample.normal;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool keeps_shape(const FlipCandidate& f) const {
+    constexpr std::size_t enough = 3;
+    const bool agree = of_t_.size() >= enough && of_u_.size() >= enough &&
+                       normals_t_.dot(f.normal_t) >= face_agreement * normals_t_.norm() &&
+                       normals_u_.dot(f.normal_u) >= face_agreement * normals_u_.norm();
+    if (agree) return true;
+    if (f.sharp && !f.closes_notch) return false;
+    const auto beyond = [&](std::int32_t h) {
+      return state_.unit_normal(face_of(mesh_.opposite[h]));
+    };
+    const Vector3 cb = beyond(next_half_edge(f.h));
+    const Vector3 ca = beyond(previous_half_edge(f.h));
+    const Vector3 ad = beyond(next_half_edge(f.g));
+    const Vector3 db = beyond(previous_half_edge(f.g));
+    const double after = std::min({f.normal_t.dot(f.normal_u), f.normal_t.dot(ca),
+                                   f.normal_t.dot(ad), f.normal_u.dot(cb), f.normal_u.dot(db)});
+    const double before =
+        std::min({f.old_normal_t.dot(f.old_normal_u), f.old_normal_t.dot(cb),
+                  f.old_normal_t.dot(ca), f.old_normal_u.dot(ad), f.old_normal_u.dot(db)});
+    return after >= folded || after >= before - 1e-9;
+  }
+
+  void flip(const FlipCandidate& f) {
+    mesh_.flip(f.h);  // t becomes cad, u becomes dbc
+    state_.of[f.t] = of_t_;
+    state_.of[f.u] = of_u_;
+    state_.sample_normals[f.t] = normals_t_;
+    state_.sample_normals[f.u] = normals_u_;
+    for (const std::size_t t : {f.t, f.u}) {
+      for (const std::int32_t s : state_.of[t]) {
+        state_.samples[s].face = static_cast<std::int32_t>(t);
+        state_.samples[s].place = nearest_in_triangle(state_.samples[s].point, mesh_, t);
+      }
+      state_.hash.enter(mesh_, static_cast<std::int32_t>(t));
+    }
+  }
+
+  FitState& state_;
+  EditMesh& mesh_;
+  std::vector<Vector3> about_;
+  double mean_face_error_;
+  double spike_cosine_;
+  double wall_sharpness_;
+  double after_ = 0.0;
+  std::vector<std::int32_t> of_t_;
+  std::vector<std::int32_t> of_u_;
+  Vector3 normals_t_ = Vector3::Zero();
+  Vector3 normals_u_ = Vector3::Zero();
+};
+
+}  // namespace
+
+int flip_for_fit(FitState& state) { return FitFlips(state).run(); }
+
+}  // namespace wscvt

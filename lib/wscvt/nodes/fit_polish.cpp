@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/fit_polish.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "wscvt/base/pi.h"
+#include "wscvt/nodes/fit_fan.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Samples beyond this many root mean squares are far off.
+constexpr double far_sample = 4.0;
+/// No step is longer, in the edges about a node.
+constexpr double longest_polish = 0.4;
+/// A step shorter than this share of an edge is none.
+constexpr double shortest_polish = 1e-4;
+/// A move must lower the energy by this share.
+constexpr double least_gain = 1e-6;
+constexpr double second_try = 0.3;
+/// The pull of a node to its ring's middle alone, which in the step of all nodes comes from its
+/// neighbours' rings as well.
+constexpr double lone_ring = 1.17;
+
+enum class Polish : char { No, Angles, Distance };
+
+std::vector<Polish> nodes_to_polish(const FitState& state) {
+  std::vector<Polish> nodes(state.mesh.points.size(), Polish::No);
+  for (std::size_t t = 0; t < state.mesh.triangles.size(); ++t) {
+    if (state.excess(t) <= 0.0) continue;
+    for (const std::int32_t v : state.mesh.triangles[t]) nodes[v] = Polish::Angles;
+  }
+  if (!state.round.late) return nodes;
+  for (const FitSample& sample : state.samples) {
+    if (sample.place.squared_distance <= far_sample * far_sample * state.mean_square) continue;
+    for (const std::int32_t v : state.mesh.triangles[sample.face]) nodes[v] = Polish::Distance;
+  }
+  return nodes;
+}
+
+bool fan_meets(const FitState& state, std::int32_t v, const NodeRing& ring, const FitFan& fan,
+               const Vector3& at) {
+  const std::size_t count = fan.ring.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::size_t next = (j + 1) % count;
+    if (state.hash.meets(state.mesh, {v, ring.nodes[j], ring.nodes[next]},
+                         {at, fan.ring[j], fan.ring[next]}, ring.triangles, v)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool folds_more(const FitState& state, const NodeRing& ring, const FitFan& fan, const Vector3& at) {
+  const double turn = sharpest_turn(state, at, fan.ring, ring.beyond, true);
+  return turn < folded &&
+         turn < sharpest_turn(state, fan.centre, fan.ring, ring.beyond, true) - 1e-9;
+}
+
+/// Finds a place where the fan costs less, by a step, or by going to the farthest sample.
+bool find_better(const FitState& state, FitFan& fan, Polish polish,
+                 const std::vector<Vector3>& about, Vector3& at) {
+  FanEquations equations;
+  const double before = fan_energy(state, fan, fan.centre, &equations);
+  const double most = before * (1.0 - least_gain);
+  const Vector3 step = equations.step(longest_polish * fan.rest);
+  if (step.norm() < shortest_polish * fan.rest && polish != Polish::Distance) return false;
+  for (const double part : {1.0, second_try}) {
+    at = fan.centre + part * step;
+    if (fan_energy(state, fan, at) < most) return true;
+  }
+  if (polish != Polish::Distance) return false;
+  double farthest = 0.0;
+  std::int32_t far = -1;
+  for (const std::int32_t s : fan.samples) {
+    if (state.samples[s].place.squared_distance <= farthest) continue;
+    farthest = state.samples[s].place.squared_distance;
+    far = s;
+  }
+  if (far < 0) return false;
+  for (const double part : {1.0, 0.5}) {
+    at = fan.centre + part * (state.samples[far].point - fan.centre);
+    if (fan_energy(state, fan, at) < most && fan_is_fine(state, fan, at, about)) return true;
+  }
+  return false;
+}
+
+bool polish_node(FitState& state, std::int32_t v, Polish polish,
+                 const std::vector<Vector3>& about) {
+  const NodeRing ring = ring_of(state.mesh, v);
+  FitFan fan = fan_of(state, v, ring);
+  fan.rest = state.ring_edge(v);
+  fan.spring = state.spring();
+  fan.pull = lone_ring * state.ring();
+  Vector3 at = fan.centre;
+  if (!find_better(state, fan, polish, about, at)) return false;
+  const double sharpness_before = fan_sharpness(fan, fan.centre);
+  const double sharpness_after = fan_sharpness(fan, at);
+  if (!fan_is_fine(state, fan, at, about)) {
+    if (fan_is_fine(state, fan, fan.centre, about) || sharpness_after > sharpness_before ||
+        folds_more(state, ring, fan, at)) {
+      return false;
+    }
+  }
+  if (state.round.late &&
+      sharpness_after > std::max(sharpness_before, state.round.sharpness_limit)) {
+    return false;
+  }
+  if (fan_meets(state, v, ring, fan, at)) return false;
+  state.mesh.points[v] = at;
+  state.deal(fan.samples, ring.triangles);
+  for (const std::int32_t t : ring.triangles) state.hash.enter(state.mesh, t);
+  return true;
+}
+
+/// The way that the angles of a fan want its node to go.
+Vector3 angle_step(const FitState& state, const FitFan& fan) {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Vector3 right = Vector3::Zero();
+  const std::size_t count = fan.ring.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    std::array<Vector3, 3> gradient;
+    const double excess =
+        state.excess(fan.centre, fan.ring[j], fan.ring[(j + 1) % count], &gradient);
+    if (excess <= 0.0) continue;
+    matrix += gradient[0] * gradient[0].transpose();
+    right -= excess * gradient[0];
+  }
+  matrix += (1e-6 * matrix.trace() + 1e-300) * Eigen::Matrix3d::Identity();
+  return matrix.ldlt().solve(right);
+}
+
+/// A node's move that mends angles.
+struct Mending {
+  double cost = 1e300;
+  std::int32_t v = -1;
+  Vector3 at = Vector3::Zero();
+};
+
+bool mending_allowed(const FitState& state, std::int32_t v, const NodeRing& ring, const FitFan& fan,
+                     const Vector3& at) {
+  const std::size_t count = fan.ring.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    const Vector3& x = fan.ring[j];
+    const Vector3& y = fan.ring[(j + 1) % count];
+    const Vector3 after = doubled_area_normal(at, x, y);
+    const Vector3 before = doubled_area_normal(fan.centre, x, y);
+    if (after.dot(before) < face_agreement * after.norm() * before.norm()) return false;
+  }
+  return !folds_more(state, ring, fan, at) && !fan_meets(state, v, ring, fan, at);
+}
+
+void look_for_mending(const FitState& state, std::int32_t v, double limit, Mending& best) {
+  const NodeRing ring = ring_of(state.mesh, v);
+  const FitFan fan = fan_of(state, v, ring);
+  const double before = fan_sharpness(fan, fan.centre);
+  if (before <= limit) return;
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& x : fan.ring) middle += x / static_cast<double>(fan.ring.size());
+  const Vector3 step = angle_step(state, fan);
+  const Vector3 way = middle - fan.centre;
+  constexpr double least_fall = 1e-4;   // of a cosine
+  constexpr double miss_price = 100.0;  // mean squares a sample for an angle that stays small
+  for (const Vector3& move : {Vector3(0.5 * step), step, Vector3(1.5 * step), Vector3(2.5 * step),
+                              Vector3(0.15 * way), Vector3(0.3 * way), Vector3(0.6 * way), way}) {
+    const Vector3 at = fan.centre + move;
+    const double after = fan_sharpness(fan, at);
+    if (!(after <= before - least_fall) || !mending_allowed(state, v, ring, fan, at)) continue;
+    double cost = 0.0;
+    for (const std::int32_t s : fan.samples) {
+      double nearest = 1e300;
+      for (std::size_t j = 0; j < fan.ring.size(); ++j) {
+        nearest = std::min(nearest, nearest_in_triangle(state.samples[s].point, at, fan.ring[j],
+                                                        fan.ring[(j + 1) % fan.ring.size()])
+                                        .squared_distance);
+      }
+      cost += nearest;
+    }
+    if (after > limit) {
+      cost += miss_price * state.mean_square * static_cast<double>(fan.samples.size()) *
+              (after - limit) / (1.0 - limit);
+    }
+    if (cost < best.cost) best = {cost, v, at};
+  }
+}
+
+}  // namespace
+
+int polish_nodes(FitState& state, int passes) {
+  const std::vector<Vector3> about = state.node_normals();
+  int done = 0;
+  for (int pass = 0; pass < passes; ++pass) {
+    const std::vector<Polish> nodes = nodes_to_polish(state);
+    int moved = 0;
+    for (std::size_t v = 0; v < nodes.size(); ++v) {
+      if (nodes[v] == Polish::No) continue;
+      if (polish_node(state, static_cast<std::int32_t>(v), nodes[v], about)) ++moved;
+    }
+    done += moved;
+    if (moved == 0) break;
+  }
+  return done;
+}
+
+int mend_angles(FitState& state, double least_angle) {
+  const double limit = std::cos(least_angle * pi / 180.0);
+  const double goal = state.round.goal_cosine;
+  state.round.goal_cosine = std::cos((least_angle + 0.2) * pi / 180.0);  // a little beyond
+  int moved = 0;
+  for (std::size_t t = 0; t < state.mesh.triangles.size(); ++t) {
+    if (state.mesh.sharpness(t) <= limit) continue;
+    Mending best;
+    for (const std::int32_t v : state.mesh.triangles[t]) look_for_mending(state, v, limit, best);
+    if (best.v < 0) continue;
+    const NodeRing ring = ring_of(state.mesh, best.v);
+    const std::vector<std::int32_t> samples = state.pool(ring.triangles);
+    state.mesh.points[best.v] = best.at;
+    state.deal(samples, ring.triangles);
+    for (const std::int32_t u : ring.triangles) state.hash.enter(state.mesh, u);
+    ++moved;
+  }
+  state.round.goal_cosine = goal;
+  return moved;
+}
+
+}  // namespace wscvt

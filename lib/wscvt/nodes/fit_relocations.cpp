@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/fit_relocations.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "wscvt/nodes/fit_fan.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Share of the nodes that may move in a round.
+constexpr double relocated_share = 0.06;
+/// A place has to gain this many times what the node costs to do without.
+constexpr double relocation_gain = 1.1;
+/// Springs count for less than in a step: they come to rest afterwards.
+constexpr double relocation_springs = 0.3;
+/// Candidates looked at closely for each node that may move.
+constexpr std::size_t candidates_a_move = 6;
+/// Spokes about a new node, in mean edges about it: there is one node more.
+constexpr double crowded_rest = 0.75;
+constexpr int most_relocated_degree = 9;
+/// Faces that a merge leaves look at least this much along the scan.
+constexpr double merged_agreement = 0.3;
+/// No edge is left turned further than this, 143 degrees.
+constexpr double most_folded = -0.8;
+
+struct Removal {
+  double cost = 1e300;
+  std::int32_t v = -1;
+  std::int32_t into = -1;
+
+  bool operator<(const Removal& other) const {
+    return cost < other.cost || (cost == other.cost && v < other.v);
+  }
+};
+
+/// A new node on the edge opposite to node `c` of triangle `t`.
+struct Insertion {
+  double gain;
+  std::int32_t t;
+  std::int32_t c;
+  Vector3 at = Vector3::Zero();
+
+  bool operator<(const Insertion& other) const {
+    if (gain != other.gain) return gain > other.gain;
+    return t < other.t || (t == other.t && c < other.c);
+  }
+};
+
+/// Two triangles about an edge ab.
+struct Quad {
+  std::int32_t h = -1;
+  std::int32_t a = -1, b = -1, c = -1, d = -1;
+  std::int32_t t = -1, u = -1;
+};
+
+class Relocations {
+ public:
+  explicit Relocations(FitState& state)
+      : state_(state),
+        mesh_(state.mesh),
+        most_(std::max<std::size_t>(
+            1,
+            static_cast<std::size_t>(relocated_share * static_cast<double>(mesh_.points.size())))),
+        spring_(relocation_springs * state.spring()),
+        about_(state.node_normals()),
+        face_errors_(mesh_.triangles.size()),
+        locked_(mesh_.points.size(), 0) {
+    for (std::size_t t = 0; t < face_errors_.size(); ++t) {
+      double errors = 0.0;
+      for (const std::int32_t s : state_.of[t]) {
+        errors += state_.error(state_.samples[s].place.squared_distance);
+      }
+      const double excess = state_.excess(t);
+      face_errors_[t] = state_.share() * errors + state_.round.price * excess * excess;
+    }
+  }
+
+  int run() {
+    removals_ = find_removals();
+    if (removals_.empty()) return 0;
+    int done = 0;
+    std::size_t first = 0;
+    for (const Insertion& insertion : find_insertions()) {
+      if (done >= static_cast<int>(most_)) break;
+      const Quad quad = quad_of(insertion.t, insertion.c);
+      if (quad.h < 0 || is_locked(quad)) continue;
+      while (first < removals_.size() && removals_[first].v < 0) ++first;
+      const std::size_t at = cheapest_away_from(quad, first);
+      if (at == removals_.size() ||
+          insertion.gain <= relocation_gain * std::max(removals_[at].cost, 0.0)) {
+        break;
+      }
+      const Removal removal = removals_[at];
+      if (!may_remove(removal)) {
+        removals_[at].v = -1;
+        continue;
+      }
+      if (!may_insert(insertion, quad)) continue;
+      removals_[at].v = -1;
+      relocate(removal, insertion, quad);
+      ++done;
+    }
+    return done;
+  }
+
+ private:
+  Quad quad_of(std::int32_t t, std::int32_t c) const {
+    const Triangle& corners = mesh_.triangles[t];
+    const auto k =
+        static_cast<std::int32_t>(std::find(corners.begin(), corners.end(), c) - corners.begin());
+    Quad quad;
+    if (k == 3) return quad;
+    quad.h = next_half_edge(3 * t + k);
+    quad.t = t;
+    quad.u = static_cast<std::int32_t>(face_of(mesh_.opposite[quad.h]));
+    quad.a = mesh_.origin(quad.h);
+    quad.b = mesh_.target(quad.h);
+    quad.c = c;
+    quad.d = mesh_.apex(mesh_.opposite[quad.h]);
+    return quad;
+  }
+
+  bool is_locked(const Quad& quad) const {
+    return locked_[quad.a] != 0 || locked_[quad.b] != 0 || locked_[quad.c] != 0 ||
+           locked_[quad.d] != 0;
+  }
+
+  double rest_between(std::int32_t v, std::int32_t w) const {
+    return 0.5 * (state_.ring_edge(v) + state_.ring_edge(w));
+  }
+  double spring_energy(std::int32_t v, std::int32_t w) const {
+    const double off = (mesh_.points[v] - mesh_.points[w]).norm() - rest_between(v, w);
+    return off * off;
+  }
+
+  std::vector<Removal> find_removals() const {
+    std::vector<std::pair<double, std::int32_t>> candidates;
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      const auto v = static_cast<std::int32_t>(i);
+      if (mesh_.degrees[v] < 4) continue;
+      double errors = 0.0;
+      mesh_.around(v, [&](std::int32_t h) { errors += face_errors_[face_of(h)]; });
+      const double edge = state_.ring_edge(v);
+      candidates.emplace_back(errors + 2.0 * spring_ * edge * edge, v);
+    }
+    const std::size_t kept = std::min(candidates.size(), candidates_a_move * most_ + 20);
+    std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(kept),
+                      candidates.end());
+    candidates.resize(kept);
+    std::vector<Removal> removals;
+    for (const auto& candidate : candidates) {
+      const Removal removal = cheapest_removal(candidate.second);
+      if (removal.into >= 0) removals.push_back(removal);
+    }
+    std::sort(removals.begin(), removals.end());
+    return removals;
+  }
+
+  Removal cheapest_removal(std::int32_t v) const {
+    const NodeRing ring = ring_of(mesh_, v);
+    const std::vector<std::int32_t> pool = state_.pool(ring.triangles);
+    Removal best;
+    best.v = v;
+    double before = 0.0;
+    for (const std::int32_t t : ring.triangles) before += face_errors_[t];
+    for (const std::int32_t y : ring.nodes) before += spring_ * spring_energy(v, y);
+    for (std::size_t i = 0; i < ring.nodes.size(); ++i) {
+      if (!may_merge(ring, i)) continue;
+      const double cost = cost_of_merge(ring, i, pool, before, best.cost);
+      if (cost >= best.cost) continue;
+      best.cost = cost;
+      best.into = ring.nodes[i];
+    }
+    return best;
+  }
+
+  /// Whether a node may go into the i-th of its ring, by degrees and common neighbours.
+  bool may_merge(const NodeRing& ring, std::size_t i) const {
+    const std::size_t count = ring.nodes.size();
+    const std::int32_t u = ring.nodes[i];
+    if (mesh_.degrees[ring.nodes[(i + 1) % count]] <= 4 ||
+        mesh_.degrees[ring.nodes[(i + count - 1) % count]] <= 4 ||
+        mesh_.degrees[u] + static_cast<int>(count) - 4 > most_relocated_degree) {
+      return false;
+    }
+    int common = 0;
+    mesh_.around(u, [&](std::int32_t h) {
+      if (std::find(ring.nodes.begin(), ring.nodes.end(), mesh_.target(h)) != ring.nodes.end()) {
+        ++common;
+      }
+    });
+    return common == 2;
+  }
+
+  /// What errors, angles and springs gain when the node of a ring goes into its i-th; 1e300 where
+  /// the shape forbids it or that is more than `most`.
+  double cost_of_merge(const NodeRing& ring, std::size_t i, const std::vector<std::int32_t>& pool,
+                       double before, double most) const {
+    constexpr double never = 1e300;
+    const std::size_t count = ring.nodes.size();
+    const std::size_t faces = count - 2;
+    const std::int32_t u = ring.nodes[i];
+    const Vector3& centre = mesh_.points[u];
+    const auto corner = [&](std::size_t j) { return ring.nodes[(i + 1 + j) % count]; };
+    double cost = -before;
+    std::vector<Vector3> normals(faces);
+    for (std::size_t j = 0; j < faces; ++j) {
+      const Vector3& x = mesh_.points[corner(j)];
+      const Vector3& y = mesh_.points[corner(j + 1)];
+      if (largest_corner_cosine(centre, x, y) > state_.round.early_sharpness) return never;
+      normals[j] = unit_normal_of(centre, x, y);
+      const Vector3 outward = about_[u] + about_[corner(j)] + about_[corner(j + 1)];
+      if (normals[j].dot(outward) < merged_agreement * outward.norm()) return never;
+      const double excess = state_.excess(centre, x, y);
+      cost += state_.round.price * excess * excess;
+      if (j > 0) cost += spring_ * spring_energy(u, corner(j));
+    }
+    std::vector<Vector3> sums(faces, Vector3::Zero());
+    std::vector<int> counts(faces, 0);
+    for (const std::int32_t s : pool) {
+      double nearest = 1e300;
+      std::size_t in = 0;
+      for (std::size_t j = 0; j < faces; ++j) {
+        const double squared =
+            nearest_in_triangle(state_.samples[s].point, centre, mesh_.points[corner(j)],
+                                mesh_.points[corner(j + 1)])
+                .squared_distance;
+        if (squared >= nearest) continue;
+        nearest = squared;
+        in = j;
+      }
+      cost += state_.share() * state_.error(nearest);
+      if (cost > most) return never;
+      sums[in] += state_.samples[s].normal;
+      ++counts[in];
+    }
+    for (std::size_t j = 0; j < faces; ++j) {
+      if (counts[j] >= 3 && normals[j].dot(sums[j]) < face_agreement * sums[j].norm()) return never;
+    }
+    return cost;
+  }
+
+  std::vector<Insertion> find_insertions() const {
+    std::vector<Insertion> insertions;
+    const double least = relocation_gain * std::max(removals_.front().cost, 0.0);
+    for (std::size_t h = 0; h < mesh_.opposite.size(); ++h) {
+      const std::size_t t = h / 3;
+      const std::size_t u = face_of(mesh_.opposite[h]);
+      if (u < t) continue;
+      const double errors = face_errors_[t] + face_errors_[u];
+      if (errors <= least) continue;
+      insertions.push_back(
+          {errors, static_cast<std::int32_t>(t), mesh_.apex(static_cast<std::int32_t>(h))});
+    }
+    const std::size_t kept = std::min(insertions.size(), candidates_a_move * most_);
+    std::partial_sort(insertions.begin(), insertions.begin() + static_cast<std::ptrdiff_t>(kept),
+                      insertions.end());
+    insertions.resize(kept);
+    for (Insertion& insertion : insertions) try_insertion(insertion);
+    std::sort(insertions.begin(), insertions.end());
+    while (!insertions.empty() && insertions.back().gain <= 0.0) insertions.pop_back();
+    return insertions;
+  }
+
+  /// Finds the place of a new node and what it gains.
+  void try_insertion(Insertion& insertion) const {
+    constexpr int steps = 3;
+    const Quad quad = quad_of(insertion.t, insertion.c);
+    FitFan fan;
+    fan.nodes = {quad.c, quad.a, quad.d, quad.b};
+    double edges = 0.0;
+    for (const std::int32_t v : fan.nodes) {
+      fan.ring.push_back(mesh_.points[v]);
+      edges += 0.25 * state_.ring_edge(v);
+    }
+    fan.samples = state_.pool({quad.t, quad.u});
+    fan.places.assign(fan.samples.size(), -1);
+    fan.rest = crowded_rest * edges;
+    fan.spring = spring_;
+    const double before =
+        face_errors_[quad.t] + face_errors_[quad.u] + spring_ * spring_energy(quad.a, quad.b);
+    Vector3 at = 0.5 * (mesh_.points[quad.a] + mesh_.points[quad.b]);
+    double best = 1e300;
+    double last = 1e300;
+    for (int step = 0; step <= steps; ++step) {
+      FanEquations equations;
+      const double energy = fan_energy(state_, fan, at, step < steps ? &equations : nullptr);
+      if (energy < best) {
+        best = energy;
+        insertion.at = at;
+      }
+      if (step == steps || energy > 1.5 * last) break;
+      last = energy;
+      at += equations.step(0.4 * fan.rest);
+    }
+    insertion.gain = fan_is_fine(state_, fan, insertion.at, about_) ? before - best : -1.0;
+  }
+
+  /// The first removal from `first` on whose node and ring leave a quad alone and are not locked.
+  std::size_t cheapest_away_from(const Quad& quad, std::size_t first) {
+    const auto in_quad = [&](std::int32_t v) {
+      return v == quad.a || v == quad.b || v == quad.c || v == quad.d;
+    };
+    for (std::size_t j = first; j < removals_.size(); ++j) {
+      const std::int32_t v = removals_[j].v;
+      if (v < 0) continue;
+      bool locked = locked_[v] != 0;
+      bool near = in_quad(v);
+      mesh_.around(v, [&](std::int32_t h) {
+        locked = locked || locked_[mesh_.target(h)] != 0;
+        near = near || in_quad(mesh_.target(h));
+      });
+      if (locked) {
+        removals_[j].v = -1;
+      } else if (!near) {
+        return j;
+      }
+    }
+    return removals_.size();
+  }
+
+  /// Whether what a removal leaves is not folded and meets no other triangle.
+  bool may_remove(const Removal& removal) const {
+    const NodeRing ring = ring_of(mesh_, removal.v);
+    const std::size_t count = ring.nodes.size();
+    const auto at = static_cast<std::size_t>(
+        std::find(ring.nodes.begin(), ring.nodes.end(), removal.into) - ring.nodes.begin());
+    const Vector3& centre = mesh_.points[removal.into];
+    std::vector<Vector3> open;
+    std::vector<std::int32_t> beyond;
+    for (std::size_t i = 1; i < count; ++i) {
+      open.push_back(mesh_.points[ring.nodes[(at + i) % count]]);
+      beyond.push_back(ring.beyond[(at + i) % count]);
+    }
+    const double turn =
+        std::min({sharpest_turn(state_, centre, open, beyond, false),
+                  unit_normal_of(centre, open[0], open[1]).dot(state_.unit_normal(ring.beyond[at])),
+                  unit_normal_of(centre, open[count - 3], open[count - 2])
+                      .dot(state_.unit_normal(ring.beyond[(at + count - 1) % count]))});
+    if (turn < most_folded) return false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t y = ring.nodes[i];
+      const std::int32_t z = ring.nodes[(i + 1) % count];
+      if (y == removal.into || z == removal.into) continue;
+      if (state_.hash.meets(mesh_, {removal.into, y, z}, {centre, mesh_.points[y], mesh_.points[z]},
+                            ring.triangles)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool may_insert(const Insertion& insertion, const Quad& quad) const {
+    const std::array<std::int32_t, 4> nodes = {quad.c, quad.a, quad.d, quad.b};
+    std::vector<Vector3> ring;
+    for (const std::int32_t v : nodes) ring.push_back(mesh_.points[v]);
+    const std::int32_t g = mesh_.opposite[quad.h];
+    const auto beyond = [&](std::int32_t h) {
+      return static_cast<std::int32_t>(face_of(mesh_.opposite[h]));
+    };
+    const double turn =
+        sharpest_turn(state_, insertion.at, ring,
+                      {beyond(previous_half_edge(quad.h)), beyond(next_half_edge(g)),
+                       beyond(previous_half_edge(g)), beyond(next_half_edge(quad.h))},
+                      true);
+    if (turn < most_folded) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t next = (i + 1) % 4;
+      if (state_.hash.meets(mesh_, {-1, nodes[i], nodes[next]}, {insertion.at, ring[i], ring[next]},
+                            {quad.t, quad.u})) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void relocate(const Removal& removal, const Insertion& insertion, const Quad& quad) {
+    const NodeRing ring = ring_of(mesh_, removal.v);
+    for (const std::int32_t y : ring.nodes) locked_[y] = 1;
+    for (const std::int32_t v : {removal.v, quad.a, quad.b, quad.c, quad.d}) locked_[v] = 1;
+    std::vector<std::int32_t> samples = state_.pool(ring.triangles);
+    for (const std::int32_t t : ring.triangles) {
+      state_.of[t].clear();
+      state_.sample_normals[t].setZero();
+    }
+    std::int32_t edge = mesh_.first[removal.v];
+    while (mesh_.target(edge) != removal.into) edge = mesh_.opposite[previous_half_edge(edge)];
+    const std::array<std::int32_t, 2> free = mesh_.collapse(edge);
+    std::vector<std::int32_t> kept;
+    for (const std::int32_t t : ring.triangles) {
+      if (t != free[0] && t != free[1]) kept.push_back(t);
+    }
+    state_.deal(samples, kept);
+    samples = state_.pool({quad.t, quad.u});
+    mesh_.points[removal.v] = insertion.at;
+    mesh_.put_on_edge(removal.v, quad.h, free);
+    state_.deal(samples, {quad.t, free[0], quad.u, free[1]});
+    for (const std::int32_t t : kept) state_.hash.enter(mesh_, t);
+    for (const std::int32_t t : {quad.t, free[0], quad.u, free[1]}) state_.hash.enter(mesh_, t);
+    if (!state_.ring_edges.empty()) {
+      state_.ring_edges[removal.v] = crowded_rest * rest_between(quad.a, quad.b);
+    }
+    if (!state_.spacing.empty()) {
+      state_.spacing[removal.v] = 0.5 * (state_.spacing[quad.a] + state_.spacing[quad.b]);
+    }
+  }
+
+  FitState& state_;
+  EditMesh& mesh_;
+  std::size_t most_;
+  double spring_;
+  std::vector<Vector3> about_;
+  std::vector<double> face_errors_;
+  std::vector<char> locked_;
+  std::vector<Removal> removals_;
+};
+
+}  // namespace
+
+int relocate_nodes(FitState& state) { return Relocations(state).run(); }
+
+}  // namespace wscvt

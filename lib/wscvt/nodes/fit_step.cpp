@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/fit_step.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "wscvt/nodes/smooth_step.h"
+
+namespace wscvt {
+
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+
+/// How strongly samples pull along their triangle where it ends, in a rim that they lie beyond.
+constexpr double rim_pull = 2.0;
+/// Second eigenvalue of a cell's mean normal times itself: from the first on the cell lies on a
+/// ridge, from the second on wholly.
+constexpr double ridge_begins = 0.15;
+constexpr double ridge_full = 0.3;
+/// Length of the sum of a star's area vectors over its area: below the first a rim begins, at the
+/// second the star is one wholly.
+constexpr double star_bends = 0.95;
+constexpr double star_is_rim = 0.65;
+/// A sample is a node's own from this weight of its corner on.
+constexpr double own_weight = 0.2;
+/// Weight of the distance of a node from the plane of its nearest sample.
+constexpr double own_plane = 0.05;
+/// A node farther than this from all its samples, in mean edges, is pulled to the nearest.
+constexpr double leash = 0.2;
+/// Weight that keeps a node at a rim from standing out beyond its outermost sample, and by how much
+/// it may, in mean edges.
+constexpr double support = 0.3;
+constexpr double support_room = 0.03;
+/// A triangle's longest edge over its shortest less one: the softest triangle spring.
+constexpr double softest_triangle = 0.1;
+constexpr int gradient_steps = 15;
+/// A residual this much smaller, squared, ends the steps.
+constexpr double gradient_end = 1e-4;
+/// The ring term's diagonal: 1 and a sixth, for a sixth each of six neighbours' sixths.
+constexpr double ring_diagonal = 1.17;
+constexpr std::size_t equation_block = 1024;
+constexpr std::size_t system_block = 512;
+
+/// What a triangle adds to the normal equations.
+struct FaceSystem {
+  std::array<Matrix3, 3> own;   ///< of each corner with itself
+  std::array<Matrix3, 3> pair;  ///< of corner k with corner k + 1
+  std::array<Vector3, 3> pull;
+
+  FaceSystem() {
+    own.fill(Matrix3::Zero());
+    pair.fill(Matrix3::Zero());
+    pull.fill(Vector3::Zero());
+  }
+  /// Adds the square of (residual + gradient . step), times a weight.
+  void add(double weight, double residual, const std::array<Vector3, 3>& gradient) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      own[k] += weight * gradient[k] * gradient[k].transpose();
+      pair[k] += weight * gradient[k] * gradient[following(k)].transpose();
+      pull[k] -= weight * residual * gradient[k];
+    }
+  }
+};
+
+/// What the equations know of a node beforehand.
+struct NodeShape {
+  Vector3 normal = Vector3::Zero();
+  double rim = 0.0;                 ///< how far the star bends over a rim, 0 to 1
+  Vector3 along = Vector3::Zero();  ///< the rim's direction, where there is one
+
+  /// The part of a vector that the ring term sees: along the surface, at a rim along it.
+  Vector3 tangential(const Vector3& v) const {
+    const Vector3 flat = v - normal.dot(v) * normal;
+    if (rim == 0.0) return flat;
+    return (1.0 - rim) * flat + rim * along.dot(v) * along;
+  }
+};
+
+class FitEquations {
+ public:
+  FitEquations(FitState& state, const Execution& execution)
+      : state_(state),
+        mesh_(state.mesh),
+        execution_(execution),
+        count_(state.mesh.points.size()),
+        shapes_(count_),
+        centres_(count_),
+        faces_(mesh_.triangles.size()),
+        diagonal_(count_),
+        right_(count_),
+        inverse_(count_) {
+    state_.edge = mean_edge_length(mesh_);
+    state_.ring_edges.assign(count_, 0.0);
+    list_neighbours();
+    for_nodes([&](std::size_t i) { look_at(i); });
+    execution_.parallel_for(faces_.size(), system_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        faces_[t] = FaceSystem();
+        add_samples(t);
+        add_angles(t);
+        add_triangle_springs(t);
+      }
+    });
+    for_nodes([&](std::size_t i) { gather(i); });
+    add_ring_forces();
+  }
+
+  std::vector<Vector3> solve() const {
+    std::vector<Vector3> step(count_, Vector3::Zero());
+    std::vector<Vector3> r = right_;
+    std::vector<Vector3> p(count_);
+    std::vector<Vector3> q(count_);
+    std::vector<Vector3> bent(count_);
+    double rz = sum_nodes([&](std::size_t i) {
+      p[i] = inverse_[i] * r[i];
+      return p[i].dot(r[i]);
+    });
+    const double end = gradient_end * rz;
+    for (int it = 0; it < gradient_steps && rz > end; ++it) {
+      for_nodes([&](std::size_t i) { multiply(i, p, q, bent); });
+      const double pq = sum_nodes([&](std::size_t i) {
+        q[i] += state_.ring() * ring_transposed(i, bent);
+        return p[i].dot(q[i]);
+      });
+      const double along = rz / pq;
+      const double next = sum_nodes([&](std::size_t i) {
+        step[i] += along * p[i];
+        r[i] -= along * q[i];
+        return r[i].dot(inverse_[i] * r[i]);
+      });
+      const double turn = next / rz;
+      rz = next;
+      for_nodes([&](std::size_t i) { p[i] = inverse_[i] * r[i] + turn * p[i]; });
+    }
+    return step;
+  }
+
+ private:
+  template <class Visit>
+  void for_nodes(const Visit& visit) const {
+    execution_.parallel_for(count_, equation_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(i);
+    });
+  }
+  template <class Value>
+  double sum_nodes(const Value& value) const {
+    return execution_.parallel_sum(count_, equation_block, 0.0,
+                                   [&](std::size_t begin, std::size_t end) {
+                                     double sum = 0.0;
+                                     for (std::size_t i = begin; i < end; ++i) sum += value(i);
+                                     return sum;
+                                   });
+  }
+
+  void list_neighbours() {
+    starts_.assign(count_ + 1, 0);
+    for (std::size_t i = 0; i < count_; ++i) starts_[i + 1] = starts_[i] + mesh_.degrees[i];
+    half_edges_.resize(starts_.back());
+    neighbours_.resize(starts_.back());
+    blocks_.resize(starts_.back());
+    for (std::size_t i = 0; i < count_; ++i) {
+      std::int32_t at = starts_[i];
+      mesh_.around(static_cast<std::int32_t>(i), [&](std::int32_t h) {
+        half_edges_[at] = h;
+        neighbours_[at++] = mesh_.target(h);
+      });
+    }
+  }
+
+  /// The shape of a node's star, the middle of its ring and its mean edge.
+  void look_at(std::size_t i) {
+    Vector3 sum = Vector3::Zero();
+    Matrix3 tensor = Matrix3::Zero();
+    double area = 0.0;
+    Vector3 centre = Vector3::Zero();
+    double edges = 0.0;
+    for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
+      const Vector3 normal = mesh_.normal(face_of(half_edges_[at]));
+      const double length = normal.norm();
+      sum += normal;
+      area += length;
+      if (length > 0.0) tensor += normal * normal.transpose() / length;
+      centre += mesh_.points[neighbours_[at]];
+      edges += (mesh_.points[neighbours_[at]] - mesh_.points[i]).norm();
+    }
+    const auto degree = static_cast<double>(mesh_.degrees[i]);
+    centres_[i] = centre / degree;
+    state_.ring_edges[i] = edges / degree;
+    NodeShape& shape = shapes_[i];
+    const double length = sum.norm();
+    shape.normal = length > 0.0 ? Vector3(sum / length) : Vector3::UnitZ();
+    shape.rim = smooth_step((star_bends - length / (area + 1e-300)) / (star_bends - star_is_rim));
+    if (shape.rim > 0.0) {
+      Eigen::SelfAdjointEigenSolver<Matrix3> solver;
+      solver.computeDirect(tensor);
+      shape.along = solver.eigenvectors().col(0);
+    }
+  }
+
+  /// Samples of a triangle: their distance along the mean of both normals, and at the triangle's
+  /// rim along it.
+  void add_samples(std::size_t t) {
+    if (state_.of[t].empty()) return;
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const Vector3& pa = mesh_.points[a];
+    const Vector3& pb = mesh_.points[b];
+    const Vector3& pc = mesh_.points[c];
+    const Vector3 normal = unit_normal_of(pa, pb, pc);
+    FaceSystem& face = faces_[t];
+    const double share = state_.share();
+    for (const std::int32_t s : state_.of[t]) {
+      const FitSample& sample = state_.samples[s];
+      const TrianglePlace& place = sample.place;
+      const Vector3 r = place.point(pa, pb, pc) - sample.point;
+      const double weight = share * state_.weight(place.squared_distance);
+      const double agreement = sample.normal.dot(normal);
+      const Vector3 u = agreement < 0.0 ? normal : Vector3((sample.normal + normal).normalized());
+      const double off = u.dot(r);
+      Matrix3 metric = weight * u * u.transpose();
+      Vector3 pull = weight * off * u;
+      if (place.region != 0) {
+        const Vector3 beyond = r - off * u;
+        const double squared = beyond.squaredNorm();
+        if (squared > 1e-20) {
+          metric += weight * rim_pull / squared * beyond * beyond.transpose();
+          pull += weight * rim_pull * beyond;
+        }
+      }
+      const Vector3& w = place.weights;
+      for (std::size_t k = 0; k < 3; ++k) {
+        face.own[k] += w[k] * w[k] * metric;
+        face.pair[k] += w[k] * w[following(k)] * metric;
+        face.pull[k] -= w[k] * pull;
+      }
+    }
+  }
+
+  /// The price of a sharp triangle.
+  void add_angles(std::size_t t) {
+    if (state_.round.price <= 0.0) return;
+    const auto& [a, b, c] = mesh_.triangles[t];
+    std::array<Vector3, 3> gradient;
+    const double excess =
+        state_.excess(mesh_.points[a], mesh_.points[b], mesh_.points[c], &gradient);
+    if (excess > 0.0) faces_[t].add(state_.round.price, excess, gradient);
+  }
+
+  /// Longest less shortest edge of a triangle.
+  void add_triangle_springs(std::size_t t) {
+    if (state_.dial.triangle_springs <= 0.0) return;
+    const Triangle& corners = mesh_.triangles[t];
+    std::array<Vector3, 3> edges;  // opposite to each corner
+    std::array<double, 3> lengths{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges[k] = mesh_.points[corners[preceding(k)]] - mesh_.points[corners[following(k)]];
+      lengths[k] = edges[k].norm() + 1e-300;
+      edges[k] /= lengths[k];
+    }
+    const auto longest = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) -
+                                                  lengths.begin());
+    const auto shortest = static_cast<std::size_t>(
+        std::min_element(lengths.begin(), lengths.end()) - lengths.begin());
+    if (longest == shortest) return;
+    const double weight = state_.dial.triangle_springs * state_.spring() /
+                          (lengths[longest] / lengths[shortest] - 1.0 + softest_triangle);
+    std::array<Vector3, 3> gradient;
+    gradient.fill(Vector3::Zero());
+    gradient[preceding(longest)] += edges[longest];
+    gradient[following(longest)] -= edges[longest];
+    gradient[preceding(shortest)] -= edges[shortest];
+    gradient[following(shortest)] += edges[shortest];
+    faces_[t].add(weight, lengths[longest] - lengths[shortest], gradient);
+  }
+
+  void gather(std::size_t i) {
+    Matrix3& own = diagonal_[i];
+    Vector3& pull = right_[i];
+    own = state_.dial.damping * Matrix3::Identity();
+    pull.setZero();
+    for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
+      const std::int32_t h = half_edges_[at];
+      const std::int32_t g = mesh_.opposite[h];
+      const FaceSystem& face = faces_[face_of(h)];
+      own += face.own[corner_of(h)];
+      pull += face.pull[corner_of(h)];
+      blocks_[at] = face.pair[corner_of(h)] + faces_[face_of(g)].pair[corner_of(g)].transpose();
+      add_spring(i, at);
+    }
+    add_cell(i);
+    const NodeShape& shape = shapes_[i];
+    inverse_[i] = (own + ring_diagonal * state_.ring() *
+                             (Matrix3::Identity() - shape.normal * shape.normal.transpose()))
+                      .inverse();
+  }
+
+  void add_spring(std::size_t i, std::int32_t at) {
+    const std::int32_t j = neighbours_[at];
+    const Vector3 edge = mesh_.points[i] - mesh_.points[j];
+    const double length = edge.norm();
+    if (length < 1e-300) return;
+    const Vector3 u = edge / length;
+    const double wanted =
+        0.5 * state_.edge *
+        (state_.node_spacing(static_cast<std::int32_t>(i)) + state_.node_spacing(j));
+    const double rest = (1.0 - local_share) * wanted +
+                        local_share * 0.5 * (state_.ring_edges[i] + state_.ring_edges[j]);
+    const double weight = state_.dial.plain_springs * state_.spring();
+    const Matrix3 along = weight * u * u.transpose();
+    diagonal_[i] += along;
+    blocks_[at] -= along;
+    right_[i] -= weight * (length - rest) * u;
+  }
+
+  /// What the samples of a node's cell say of the node itself.
+  void add_cell(std::size_t i) {
+    const NodeShape& shape = shapes_[i];
+    const Vector3& x = mesh_.points[i];
+    Matrix3 quadric = Matrix3::Zero();
+    Vector3 moment = Vector3::Zero();
+    int in_cell = 0;
+    const FitSample* nearest = nullptr;
+    double nearest_square = 1e300;
+    double height = -1e300;
+    for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
+      const auto k = static_cast<Eigen::Index>(corner_of(half_edges_[at]));
+      for (const std::int32_t s : state_.of[face_of(half_edges_[at])]) {
+        const FitSample& sample = state_.samples[s];
+        const double w = sample.place.weights[k];
+        if (w <= own_weight) continue;
+        if (w >= sample.place.weights.maxCoeff()) {
+          quadric += sample.normal * sample.normal.transpose();
+          moment += sample.normal.dot(x - sample.point) * sample.normal;
+          ++in_cell;
+        }
+        const double square = (x - sample.point).squaredNorm();
+        if (square < nearest_square) {
+          nearest_square = square;
+          nearest = &sample;
+        }
+        height = std::max(height, shape.normal.dot(sample.point));
+      }
+    }
+    add_ridge(i, quadric, moment, in_cell);
+    if (nearest == nullptr) return;
+    add_nearest(i, *nearest, std::sqrt(nearest_square));
+    const double above = shape.normal.dot(x) - height - support_room * state_.edge;
+    if (shape.rim > 0.0 && above > 0.0) {
+      diagonal_[i] += support * shape.rim * shape.normal * shape.normal.transpose();
+      right_[i] -= support * shape.rim * above * shape.normal;
+    }
+  }
+
+  void add_ridge(std::size_t i, const Matrix3& quadric, const Vector3& moment, int samples) {
+    constexpr int least_samples = 3;
+    if (samples < least_samples) return;
+    Eigen::SelfAdjointEigenSolver<Matrix3> solver;
+    solver.computeDirect(quadric / samples, Eigen::EigenvaluesOnly);
+    const double ridge =
+        smooth_step((solver.eigenvalues()[1] - ridge_begins) / (ridge_full - ridge_begins));
+    diagonal_[i] += state_.share() * ridge * quadric;
+    right_[i] -= state_.share() * ridge * moment;
+  }
+
+  void add_nearest(std::size_t i, const FitSample& nearest, double distance) {
+    const Vector3 from = mesh_.points[i] - nearest.point;
+    const double off = nearest.normal.dot(from);
+    const double weight = own_plane * state_.weight(off * off);
+    diagonal_[i] += weight * nearest.normal * nearest.normal.transpose();
+    right_[i] -= weight * off * nearest.normal;
+    if (distance <= leash * state_.edge) return;
+    const Vector3 u = from / distance;
+    diagonal_[i] += u * u.transpose();
+    right_[i] -= (distance - leash * state_.edge) * u;
+  }
+
+  void add_ring_forces() {
+    std::vector<Vector3> bent(count_);
+    for_nodes(
+        [&](std::size_t i) { bent[i] = shapes_[i].tangential(mesh_.points[i] - centres_[i]); });
+    for_nodes([&](std::size_t i) { right_[i] -= state_.ring() * ring_transposed(i, bent); });
+  }
+
+  /// The transpose of "a node less the mean of its ring".
+  Vector3 ring_transposed(std::size_t i, const std::vector<Vector3>& values) const {
+    Vector3 result = values[i];
+    for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
+      const std::int32_t j = neighbours_[at];
+      result -= values[j] / static_cast<double>(mesh_.degrees[j]);
+    }
+    return result;
+  }
+
+  void multiply(std::size_t i, const std::vector<Vector3>& p, std::vector<Vector3>& q,
+                std::vector<Vector3>& bent) const {
+    Vector3 product = diagonal_[i] * p[i];
+    Vector3 ring = Vector3::Zero();
+    for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
+      const Vector3& other = p[neighbours_[at]];
+      product += blocks_[at] * other;
+      ring += other;
+    }
+    q[i] = product;
+    bent[i] = shapes_[i].tangential(p[i] - ring / static_cast<double>(mesh_.degrees[i]));
+  }
+
+  FitState& state_;
+  const EditMesh& mesh_;
+  const Execution& execution_;
+  std::size_t count_;
+  std::vector<NodeShape> shapes_;
+  std::vector<Vector3> centres_;  ///< of each ring
+  std::vector<FaceSystem> faces_;
+  std::vector<std::int32_t> starts_;
+  std::vector<std::int32_t> half_edges_;
+  std::vector<std::int32_t> neighbours_;
+  std::vector<Matrix3> blocks_;
+  std::vector<Matrix3> diagonal_;
+  std::vector<Vector3> right_;
+  std::vector<Matrix3> inverse_;
+};
+
+}  // namespace
+
+std::vector<Vector3> fit_step(FitState& state, const Execution& execution) {
+  return FitEquations(state, execution).solve();
+}
+
+}  // namespace wscvt

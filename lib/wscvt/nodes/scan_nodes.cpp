@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/scan_nodes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/nodes/coarsening.h"
+#include "wscvt/nodes/evening.h"
+#include "wscvt/nodes/face_splitting.h"
+#include "wscvt/nodes/fit_samples.h"
+#include "wscvt/nodes/fit_state.h"
+#include "wscvt/nodes/node_density.h"
+#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/nodes/surface_fit.h"
+#include "wscvt/nodes/triangle_place.h"
+#include "wscvt/nodes/volume_offset.h"
+
+namespace wscvt {
+
+namespace {
+
+/// A scan with fewer vertices than this many a node is split first: nodes can only be as even as
+/// the vertices that they are clusters of.
+constexpr double least_vertices_a_node = 8.0;
+/// Edges longer than this many of those that even faces would have are split.
+constexpr double long_edge = 1.4;
+/// Above this many vertices a node the scan is coarsened by whole sweeps, which about halve it, to
+/// the surface that nodes are evened on.
+constexpr std::size_t most_proxy_vertices_a_node = 60;
+constexpr int evening_steps = 100;
+/// Below this many vertices a node the cheapest merge is looked for among all.
+constexpr int heap_vertices_a_node = 2;
+
+void check_scan_options(const ScanNodesOptions& options) {
+  if (!(options.edge_ratio >= least_edge_ratio && options.edge_ratio <= most_edge_ratio)) {
+    refuse("The wanted mean edge ratio is " + std::to_string(options.edge_ratio) +
+           "; give one from 1.08 to 1.7.");
+  }
+  if (!(std::abs(options.curvature_alpha) <= 3.0)) {
+    refuse("The strength alpha of the curvature weighting is " +
+           std::to_string(options.curvature_alpha) + "; give one from -3 to 3.");
+  }
+}
+
+std::size_t genus_of(const EditMesh& mesh) {
+  // V - E + F = 2 - 2 g, and E = 3 F / 2.
+  const auto euler = static_cast<std::int64_t>(mesh.points.size()) -
+                     static_cast<std::int64_t>(mesh.triangles.size() / 2);
+  return static_cast<std::size_t>((2 - euler) / 2);
+}
+
+}  // namespace
+
+struct ScanRemesher::Parts {
+  ScanNodesOptions options;
+  SampledScan scan;
+  Coarsening base;                          ///< of the scan, as far as any number of nodes wants it
+  std::vector<std::int32_t> base_clusters;  ///< its vertex for each of the scan; empty: the same
+  double volume = 0.0;
+  double area = 0.0;
+  std::size_t genus = 0;
+};
+
+namespace {
+
+/// Nodes on their way, with what they stand on.
+struct Placing {
+  SampledScan split;  ///< the scan with split faces, where it had to be
+  EveningSurface surface;
+  std::vector<std::int32_t> on_surface;  ///< vertex of the surface for each of the scan
+  EditMesh nodes;
+  std::vector<std::int32_t> clusters;  ///< node for each vertex of the surface
+};
+
+void sweep_to_proxy(Coarsening& coarsening, std::size_t nodes, const Execution& execution) {
+  while (coarsening.size() > most_proxy_vertices_a_node * nodes) {
+    execution.report(0.0, "Coarsening the scan");
+    if (coarsening.sweep(1) == 0) break;
+  }
+}
+
+/// Splits long edges; normals of the new vertices are the means of their edges' ends'.
+SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, double area, int nodes,
+                       EditMesh& split, const Execution& execution) {
+  split = scan;
+  const double cell = area / (least_vertices_a_node * nodes);
+  const double even_edge = std::sqrt(2.0 / std::sqrt(3.0) * cell);
+  for (const auto& [a, b] : split_long_edges(split, long_edge * even_edge, execution)) {
+    const Vector3 sum = normals[a] + normals[b];
+    const double length = sum.norm();
+    normals.push_back(length > 0.0 ? Vector3(sum / length) : sum);
+  }
+  return {{split.points, split.triangles}, std::move(normals)};
+}
+
+/// Coarsens to exactly `count` vertices.
+void coarsen(Coarsening& coarsening, int count, std::size_t genus, const Execution& execution) {
+  const auto size = [&] { return static_cast<int>(coarsening.size()); };
+  while (size() > heap_vertices_a_node * count) {
+    execution.report(0.0, "Coarsening the scan");
+    if (coarsening.sweep(heap_vertices_a_node * count) == 0) break;
+  }
+  if (coarsening.reduce(count, execution)) return;
+  coarsening.ignore_shapes();
+  if (coarsening.reduce(count, execution)) return;
+  refuse("A body with " + std::to_string(genus) + " handles cannot be remeshed with " +
+         std::to_string(count) + " nodes. " + std::to_string(size()) +
+         " were enough. Ask for that many or more.");
+}
+
+/// A triangle of the surface for each node: about that vertex of its cluster that is nearest.
+std::vector<std::int32_t> places_on(const EditMesh& surface, const EditMesh& nodes,
+                                    const std::vector<std::int32_t>& clusters) {
+  std::vector<std::int32_t> places(nodes.points.size(), 0);
+  std::vector<double> nearest(nodes.points.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < clusters.size(); ++v) {
+    const std::int32_t node = clusters[v];
+    const double squared = (surface.points[v] - nodes.points[node]).squaredNorm();
+    if (squared >= nearest[node]) continue;
+    nearest[node] = squared;
+    places[node] = static_cast<std::int32_t>(face_of(surface.first[v]));
+  }
+  return places;
+}
+
+}  // namespace
+
+ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& options,
+                           int most_nodes, const Execution& execution) {
+  check_scan_options(options);
+  execution.report(0.0, "Coarsening the scan");
+  std::vector<Vector3> normals = vertex_normals(normalized_scan.points, normalized_scan.triangles);
+  EditMesh mesh(normalized_scan.points, normalized_scan.triangles, execution);
+  const MeshSums sums =
+      mesh_sums(normalized_scan.points, normalized_scan.triangles, Vector3::Zero(), execution);
+  const std::size_t genus = genus_of(mesh);
+  parts_ = std::make_unique<Parts>(Parts{options,
+                                         {std::move(normalized_scan), std::move(normals)},
+                                         Coarsening(std::move(mesh), {}),
+                                         {},
+                                         sums.volume(),
+                                         sums.area(),
+                                         genus});
+  const std::size_t vertices = parts_->base.size();
+  sweep_to_proxy(parts_->base, static_cast<std::size_t>(std::max(most_nodes, 4)), execution);
+  if (parts_->base.size() == vertices) return;
+  parts_->base_clusters.resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    parts_->base_clusters[v] = parts_->base.cluster_of(static_cast<std::int32_t>(v));
+  }
+  parts_->base.forget();
+}
+
+ScanRemesher::ScanRemesher(ScanRemesher&&) noexcept = default;
+ScanRemesher& ScanRemesher::operator=(ScanRemesher&&) noexcept = default;
+ScanRemesher::~ScanRemesher() = default;
+
+namespace {
+
+/// Coarsens to the surface that nodes are evened on, then to the nodes.
+template <class Parts>
+Placing coarsen_to_nodes(const Parts& parts, int node_count, const Execution& execution) {
+  Placing placing;
+  Coarsening coarsening = parts.base;
+  const bool is_coarse =
+      static_cast<double>(parts.scan.mesh.points.size()) < least_vertices_a_node * node_count;
+  if (is_coarse) {
+    EditMesh split;
+    placing.split =
+        split_scan(parts.base.mesh(), parts.scan.normals, parts.area, node_count, split, execution);
+    coarsening = Coarsening(std::move(split), {});
+  }
+  sweep_to_proxy(coarsening, static_cast<std::size_t>(node_count), execution);
+  const std::size_t vertices =
+      is_coarse ? placing.split.mesh.points.size() : parts.scan.mesh.points.size();
+  placing.on_surface.resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto start = static_cast<std::int32_t>(v);
+    placing.on_surface[v] = coarsening.cluster_of(
+        is_coarse || parts.base_clusters.empty() ? start : parts.base_clusters[v]);
+  }
+  coarsening.forget();
+  placing.surface.mesh = coarsening.mesh();
+  placing.surface.density =
+      node_densities({placing.surface.mesh.points, placing.surface.mesh.triangles},
+                     parts.options.weighting, parts.options.curvature_alpha, node_count, execution);
+  if (!placing.surface.density.empty()) {
+    coarsening = Coarsening(placing.surface.mesh, placing.surface.density);
+  }
+  coarsen(coarsening, node_count, parts.genus, execution);
+  placing.nodes = coarsening.mesh();
+  placing.clusters.resize(placing.surface.mesh.points.size());
+  for (std::size_t v = 0; v < placing.clusters.size(); ++v) {
+    placing.clusters[v] = coarsening.cluster_of(static_cast<std::int32_t>(v));
+  }
+  return placing;
+}
+
+/// Samples of the scan at the triangles of the nodes that stand for their vertices.
+template <class Parts>
+std::vector<FitSample> samples_at_nodes(const Parts& parts, const Placing& placing,
+                                        const FitDial& dial) {
+  const SampledScan& scan = placing.split.mesh.points.empty() ? parts.scan : placing.split;
+  const std::size_t nodes = placing.nodes.points.size();
+  std::vector<FitSample> samples =
+      draw_fit_samples(scan, nodes * static_cast<std::size_t>(dial.samples_a_node),
+                       parts.area / static_cast<double>(nodes));
+  for (FitSample& sample : samples) {
+    const std::int32_t vertex = placing.on_surface[sample.face];
+    if (!placing.surface.density.empty()) {
+      sample.spacing = 1.0 / std::sqrt(placing.surface.density[vertex]);
+    }
+    sample.face = static_cast<std::int32_t>(face_of(placing.nodes.first[placing.clusters[vertex]]));
+  }
+  return samples;
+}
+
+}  // namespace
+
+ScanNodes ScanRemesher::place(int node_count, const Execution& execution) const {
+  const Parts& parts = *parts_;
+  if (node_count < 4) {
+    refuse("The number of nodes is " + std::to_string(node_count) + "; give 4 or more.");
+  }
+  ScanNodes result;
+  ScanNodesReport& report = result.report;
+  Placing placing = coarsen_to_nodes(parts, node_count, execution.part(0.0, 0.2));
+  report.scan_vertices = parts.scan.mesh.points.size();
+  if (!placing.split.mesh.points.empty()) {
+    report.split_vertices = placing.split.mesh.points.size() - report.scan_vertices;
+  }
+  report.proxy_vertices = placing.surface.mesh.points.size();
+  report.genus = parts.genus;
+
+  const FitDial dial = fit_dial(parts.options.edge_ratio);
+  std::vector<FitSample> samples;
+  if (parts.options.fitted) {
+    samples = samples_at_nodes(parts, placing, dial);
+    execution.parallel_for(samples.size(), 2048, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        samples[s].place = walk_to_nearest(samples[s].point, placing.nodes, samples[s].face);
+      }
+    });
+  }
+  std::vector<std::int32_t> places =
+      places_on(placing.surface.mesh, placing.nodes, placing.clusters);
+  const EveningReport evening =
+      even_nodes(placing.nodes, places, placing.surface, evening_steps, execution.part(0.2, 0.4));
+  report.evening_steps = evening.steps;
+  report.evening_flips = evening.flips;
+  EditMesh nodes = std::move(placing.nodes);
+  if (parts.options.fitted) {
+    FitState state(std::move(nodes), std::move(samples), dial);
+    state.place_samples(execution);
+    std::stable_sort(state.samples.begin(), state.samples.end(),
+                     [](const FitSample& a, const FitSample& b) { return a.face < b.face; });
+    const SurfaceFitReport fit = fit_to_samples(state, execution.part(0.4, 0.95));
+    report.fit_rounds = fit.rounds;
+    report.fit_flips = fit.flips;
+    report.relocations = fit.relocations;
+    report.polished = fit.polished;
+    nodes = std::move(state.mesh);
+    report.volume_offset = offset_to_volume(nodes.points, nodes.triangles, parts.volume);
+    report.rms_distance = fit.rms;
+  }
+  report.mean_edge_ratio = mean_edge_ratio(nodes);
+  result.cell_areas = voronoi_areas(nodes);
+  result.mesh = {std::move(nodes.points), std::move(nodes.triangles)};
+  report.self_intersections = self_intersections(result.mesh, execution.part(0.95, 1.0)).size();
+  return result;
+}
+
+}  // namespace wscvt

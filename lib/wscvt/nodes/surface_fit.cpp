@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/surface_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wscvt/base/pi.h"
+#include "wscvt/nodes/fit_flips.h"
+#include "wscvt/nodes/fit_guards.h"
+#include "wscvt/nodes/fit_polish.h"
+#include "wscvt/nodes/fit_relocations.h"
+#include "wscvt/nodes/fit_step.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Evenness of the last of the leading rounds, and how far it may be stiffened beyond 1.
+constexpr double leading_share = 0.2;
+constexpr double least_evenness = 1e-6;
+constexpr double most_evenness = 2.0;
+/// How strongly the evenness answers to a mean ratio that is off the wanted one.
+constexpr double steering = 0.5;
+/// Degrees: no angle of the result is smaller.
+constexpr double smallest_angle = 30.0;
+/// Angles pay from this much above it on, early and late.
+constexpr double early_margin = 1.0;
+constexpr double late_margin = 0.5;
+constexpr double mending_margin = 0.3;
+/// Price of a triangle of no angle in the last rounds, in mean errors of a triangle; 1 in the
+/// first.
+constexpr double last_price = 200.0;
+/// By how much the price grows with each late round.
+constexpr double late_growth = 2.0;
+constexpr double valence_price = 0.01;
+/// Nodes are relocated from this round on, and not in the last.
+constexpr int first_relocation = 2;
+constexpr int rounds_without_relocation = 8;
+
+double cosine_of_degrees(double degrees) { return std::cos(degrees * pi / 180.0); }
+
+class SurfaceFit {
+ public:
+  SurfaceFit(FitState& state, const Execution& execution)
+      : state_(state), dial_(state.dial), execution_(execution), evenness_(dial_.start_evenness) {}
+
+  SurfaceFitReport run() {
+    for (int round = 0; round < dial_.rounds; ++round) {
+      execution_.report(static_cast<double>(round) / dial_.rounds, "Fitting the nodes");
+      begin_round(round);
+      play_round(round);
+      ++report_.rounds;
+    }
+    mend();
+    report_.rms = std::sqrt(state_.mean_square);
+    return report_;
+  }
+
+ private:
+  /// Evenness is weak first, so that nodes find ridges, then full; then it is led so that the mean
+  /// ratio, which falls by `ratio_slope` as the evenness grows e times, ends at the wanted one.
+  double lead(int round) {
+    double part = round / dial_.lead_rounds;
+    if (dial_.heats > 1 && part < 1.0) part = std::fmod(part * dial_.heats, 1.0);
+    const double rise =
+        (std::log(leading_share) - std::log(dial_.start_evenness)) * std::max(0.0, 1.0 - part);
+    if (round >= dial_.first_steering) {
+      const double off = (mean_edge_ratio(state_.mesh) - dial_.ratio) / dial_.ratio_slope;
+      evenness_ =
+          std::clamp(evenness_ * std::exp(steering * (off + rise)), least_evenness, most_evenness);
+    }
+    return evenness_ * std::exp(rise);
+  }
+
+  void begin_round(int round) {
+    FitRound& now = state_.round;
+    const int first_late = dial_.rounds - dial_.late_rounds;
+    now.late = round >= first_late;
+    now.evenness = lead(round);
+    now.valence = valence_price * std::min(1.0, now.evenness);
+    now.least_angle = dial_.least_angle;
+    now.early_sharpness = cosine_of_degrees(dial_.early_angle);
+    now.sharpness_limit = now.late ? cosine_of_degrees(dial_.least_angle) : now.early_sharpness;
+    now.goal_cosine = cosine_of_degrees(smallest_angle + (now.late ? late_margin : early_margin));
+    const double part = std::min(1.0, static_cast<double>(round) / std::max(1, first_late));
+    double price = std::pow(last_price, part);
+    if (now.late) price *= std::pow(late_growth, round - first_late);
+    now.price = price * state_.mean_square * static_cast<double>(state_.mesh.points.size()) /
+                static_cast<double>(state_.mesh.triangles.size());
+  }
+
+  void play_round(int round) {
+    state_.list_samples();
+    state_.read_spacing();
+    if (round >= first_relocation && round < dial_.rounds - rounds_without_relocation) {
+      report_.relocations += relocate_nodes(state_);
+    }
+    if (round > 0 && round < dial_.rounds - 1) report_.flips += flip_for_fit(state_);
+    move_nodes(state_, fit_step(state_, execution_));
+    state_.place_samples(execution_);
+    if (!dial_.polishes) return;
+    state_.list_samples();
+    report_.polished += polish_nodes(state_, 1);
+    state_.place_samples(execution_);
+  }
+
+  bool has_small_angles() const {
+    const double limit = cosine_of_degrees(smallest_angle);
+    for (std::size_t t = 0; t < state_.mesh.triangles.size(); ++t) {
+      if (state_.mesh.sharpness(t) > limit) return true;
+    }
+    return false;
+  }
+
+  /// Small angles that are left: dearer and dearer, and from the third pass on at any price.
+  void mend() {
+    constexpr int most_passes = 10;
+    constexpr int passes_of_polish = 3;
+    constexpr int first_forced = 2;
+    constexpr double growth = 4.0;
+    state_.round.late = true;
+    for (int pass = 0; pass < most_passes && has_small_angles(); ++pass) {
+      execution_.report(1.0, "Fitting the nodes");
+      state_.list_samples();
+      state_.edge = mean_edge_length(state_.mesh);
+      state_.build_hash();
+      state_.round.price = growth * std::max(state_.round.price, state_.mean_square);
+      state_.round.goal_cosine = cosine_of_degrees(smallest_angle + mending_margin);
+      report_.flips += flip_for_fit(state_);
+      if (pass < passes_of_polish) report_.polished += polish_nodes(state_, 3);
+      if (pass >= first_forced) {
+        state_.place_samples(execution_);
+        state_.list_samples();
+        mend_angles(state_, smallest_angle);
+      }
+      state_.place_samples(execution_);
+      ++report_.mending;
+    }
+  }
+
+  FitState& state_;
+  const FitDial dial_;
+  const Execution& execution_;
+  double evenness_;
+  SurfaceFitReport report_;
+};
+
+}  // namespace
+
+SurfaceFitReport fit_to_samples(FitState& state, const Execution& execution) {
+  return SurfaceFit(state, execution).run();
+}
+
+}  // namespace wscvt
