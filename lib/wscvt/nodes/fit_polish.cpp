@@ -19,7 +19,7 @@ constexpr double longest_polish = 0.4;
 /// A step shorter than this share of an edge is none.
 constexpr double shortest_polish = 1e-4;
 /// A move must lower the energy by this share.
-constexpr double least_gain = 1e-6;
+constexpr double least_energy_fall = 1e-6;
 constexpr double second_try = 0.3;
 /// The pull of a node to its ring's middle alone, which in the step of all nodes comes from its
 /// neighbours' rings as well.
@@ -65,7 +65,7 @@ bool find_better(const FitState& state, FitFan& fan, Polish polish,
                  const std::vector<Vector3>& about, Vector3& at) {
   FanEquations equations;
   const double before = fan_energy(state, fan, fan.centre, &equations);
-  const double most = before * (1.0 - least_gain);
+  const double most = before * (1.0 - least_energy_fall);
   const Vector3 step = equations.step(longest_polish * fan.rest);
   if (step.norm() < shortest_polish * fan.rest && polish != Polish::Distance) return false;
   for (const double part : {1.0, second_try}) {

@@ -11,7 +11,7 @@ namespace {
 
 /// Distances beyond this many mean squares weigh no more in what a sample costs.
 constexpr double farthest_error = 18.0;
-constexpr std::size_t sample_block = 2048;
+constexpr std::size_t placed_samples_block = 2048;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ double FitState::excess(std::size_t t) const {
 
 void FitState::place_samples(const Execution& execution) {
   const double sum = execution.parallel_sum(
-      samples.size(), sample_block, 0.0, [&](std::size_t begin, std::size_t end) {
+      samples.size(), placed_samples_block, 0.0, [&](std::size_t begin, std::size_t end) {
         double part = 0.0;
         for (std::size_t s = begin; s < end; ++s) {
           samples[s].place = walk_to_nearest(samples[s].point, mesh, samples[s].face);
