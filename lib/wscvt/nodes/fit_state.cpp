@@ -12,12 +12,57 @@ namespace {
 /// Distances beyond this many mean squares weigh no more in what a sample costs.
 constexpr double farthest_error = 18.0;
 constexpr std::size_t placed_samples_block = 2048;
+/// A triangle that looks away from a sample by more than 60 degrees counts as farther by up to
+/// three mean edges: its cosine short of that, times this many of them.
+constexpr double turned_distance = 2.0;
+
+/// The nearest triangle that looks as the sample does, from star to star of the nearest nodes.
+std::int32_t first_face(const EditMesh& mesh, const FitSample& sample, std::int32_t node,
+                        double edge) {
+  constexpr int most_stars = 100;
+  std::int32_t face = -1;
+  double best = 1e300;
+  for (int star = 0; star < most_stars; ++star) {
+    std::int32_t next = -1;
+    mesh.around(node, [&](std::int32_t h) {
+      const std::size_t t = face_of(h);
+      const auto& [a, b, c] = mesh.triangles[t];
+      const double cosine =
+          unit_normal_of(mesh.points[a], mesh.points[b], mesh.points[c]).dot(sample.normal);
+      const double turned = turned_distance * edge * std::max(0.0, face_agreement - cosine);
+      if (turned * turned >= best) return;
+      const TrianglePlace place = nearest_in_triangle(sample.point, mesh, t);
+      const double cost = place.squared_distance + turned * turned;
+      if (cost >= best) return;
+      best = cost;
+      face = static_cast<std::int32_t>(t);
+      Eigen::Index corner = 0;
+      place.weights.maxCoeff(&corner);
+      next = mesh.triangles[t][corner];
+    });
+    if (next < 0 || next == node) break;
+    node = next;
+  }
+  return face;
+}
 
 }  // namespace
 
-FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples, const FitDial& fit_dial)
+FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
+                   const std::vector<std::int32_t>& near, const FitDial& fit_dial,
+                   const Execution& execution)
     : mesh(std::move(start)), samples(std::move(scan_samples)), dial(fit_dial) {
   edge = mean_edge_length(mesh);
+  execution.parallel_for(samples.size(), placed_samples_block,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t s = begin; s < end; ++s) {
+                             samples[s].face = first_face(mesh, samples[s], near[s], edge);
+                           }
+                         });
+  place_samples(execution);
+  // Near in memory what is near in space.
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const FitSample& a, const FitSample& b) { return a.face < b.face; });
 }
 
 double FitState::weight(double squared_distance) const {

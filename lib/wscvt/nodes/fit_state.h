@@ -55,8 +55,12 @@ struct FitState {
   double mean_square = 0.0;                   ///< of the samples' distances
   TriangleHash hash;
 
-  /// The samples' `face` must be triangles near them.
-  FitState(EditMesh start, std::vector<FitSample> scan_samples, const FitDial& fit_dial);
+  /// `near`: a node near each sample, on its sheet of the surface. From there on each is placed on
+  /// the nearest triangle that looks as it does, or nearly so: a thin body has another sheet
+  /// behind.
+  FitState(EditMesh start, std::vector<FitSample> scan_samples,
+           const std::vector<std::int32_t>& near, const FitDial& fit_dial,
+           const Execution& execution);
 
   /// A node's samples, as a weight: sums over samples times this are sums over nodes.
   double share() const {

@@ -17,10 +17,10 @@
 #include "wscvt/nodes/face_splitting.h"
 #include "wscvt/nodes/fit_samples.h"
 #include "wscvt/nodes/fit_state.h"
+#include "wscvt/nodes/intersection_mending.h"
 #include "wscvt/nodes/node_density.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/nodes/surface_fit.h"
-#include "wscvt/nodes/triangle_place.h"
 #include "wscvt/nodes/volume_offset.h"
 
 namespace wscvt {
@@ -34,7 +34,7 @@ constexpr double least_vertices_a_node = 8.0;
 constexpr double long_edge = 1.4;
 /// Above this many vertices a node the scan is coarsened by whole sweeps, which about halve it, to
 /// the surface that nodes are evened on.
-constexpr std::size_t most_proxy_vertices_a_node = 60;
+constexpr std::size_t most_proxy_vertices_a_node = 30;
 constexpr int evening_steps = 100;
 /// Below this many vertices a node the cheapest merge is looked for among all.
 constexpr int heap_vertices_a_node = 2;
@@ -204,23 +204,51 @@ Placing coarsen_to_nodes(const Parts& parts, int node_count, const Execution& ex
   return placing;
 }
 
-/// Samples of the scan at the triangles of the nodes that stand for their vertices.
+/// Samples of the scan, with the nodes that stand for their vertices in `near`.
 template <class Parts>
-std::vector<FitSample> samples_at_nodes(const Parts& parts, const Placing& placing,
-                                        const FitDial& dial) {
+std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& placing,
+                                          const FitDial& dial, std::vector<std::int32_t>& near) {
   const SampledScan& scan = placing.split.mesh.points.empty() ? parts.scan : placing.split;
   const std::size_t nodes = placing.nodes.points.size();
   std::vector<FitSample> samples =
       draw_fit_samples(scan, nodes * static_cast<std::size_t>(dial.samples_a_node),
                        parts.area / static_cast<double>(nodes));
+  near.reserve(samples.size());
   for (FitSample& sample : samples) {
     const std::int32_t vertex = placing.on_surface[sample.face];
     if (!placing.surface.density.empty()) {
       sample.spacing = 1.0 / std::sqrt(placing.surface.density[vertex]);
     }
-    sample.face = static_cast<std::int32_t>(face_of(placing.nodes.first[placing.clusters[vertex]]));
+    near.push_back(placing.clusters[vertex]);
   }
   return samples;
+}
+
+/// Fits the nodes to the scan and gives them its volume; what meets then is parted, and the volume
+/// given again.
+template <class Parts>
+EditMesh fit(const Parts& parts, const Placing& placing, ScanNodesReport& report,
+             const Execution& execution) {
+  const FitDial dial = fit_dial(parts.options.edge_ratio);
+  std::vector<std::int32_t> near;
+  std::vector<FitSample> samples = samples_near_nodes(parts, placing, dial, near);
+  FitState state(placing.nodes, std::move(samples), near, dial, execution);
+  const SurfaceFitReport fitted = fit_to_samples(state, execution);
+  report.fit_rounds = fitted.rounds;
+  report.fit_flips = fitted.flips;
+  report.relocations = fitted.relocations;
+  report.polished = fitted.polished;
+  report.rms_distance = fitted.rms;
+  EditMesh nodes = std::move(state.mesh);
+  report.volume_offset = offset_to_volume(nodes.points, nodes.triangles, parts.volume);
+  constexpr int most_partings = 3;
+  for (int round = 0; round < most_partings; ++round) {
+    const PartingReport parted = part_triangles(nodes, execution);
+    report.mended_intersections += parted.before - parted.after;
+    if (parted.before == parted.after) break;
+    report.volume_offset += offset_to_volume(nodes.points, nodes.triangles, parts.volume);
+  }
+  return nodes;
 }
 
 }  // namespace
@@ -240,41 +268,24 @@ ScanNodes ScanRemesher::place(int node_count, const Execution& execution) const 
   report.proxy_vertices = placing.surface.mesh.points.size();
   report.genus = parts.genus;
 
-  const FitDial dial = fit_dial(parts.options.edge_ratio);
-  std::vector<FitSample> samples;
-  if (parts.options.fitted) {
-    samples = samples_at_nodes(parts, placing, dial);
-    execution.parallel_for(samples.size(), 2048, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s) {
-        samples[s].place = walk_to_nearest(samples[s].point, placing.nodes, samples[s].face);
-      }
-    });
-  }
   std::vector<std::int32_t> places =
       places_on(placing.surface.mesh, placing.nodes, placing.clusters);
   const EveningReport evening =
       even_nodes(placing.nodes, places, placing.surface, evening_steps, execution.part(0.2, 0.4));
   report.evening_steps = evening.steps;
   report.evening_flips = evening.flips;
-  EditMesh nodes = std::move(placing.nodes);
-  if (parts.options.fitted) {
-    FitState state(std::move(nodes), std::move(samples), dial);
-    state.place_samples(execution);
-    std::stable_sort(state.samples.begin(), state.samples.end(),
-                     [](const FitSample& a, const FitSample& b) { return a.face < b.face; });
-    const SurfaceFitReport fit = fit_to_samples(state, execution.part(0.4, 0.95));
-    report.fit_rounds = fit.rounds;
-    report.fit_flips = fit.flips;
-    report.relocations = fit.relocations;
-    report.polished = fit.polished;
-    nodes = std::move(state.mesh);
-    report.volume_offset = offset_to_volume(nodes.points, nodes.triangles, parts.volume);
-    report.rms_distance = fit.rms;
-  }
+  const PartingReport parted = part_triangles(placing.nodes, execution.part(0.4, 0.42));
+  report.mended_intersections = parted.before - parted.after;
+  EditMesh nodes = placing.nodes;
+  if (parts.options.fitted) nodes = fit(parts, placing, report, execution.part(0.42, 0.95));
   report.mean_edge_ratio = mean_edge_ratio(nodes);
   result.cell_areas = voronoi_areas(nodes);
   result.mesh = {std::move(nodes.points), std::move(nodes.triangles)};
   report.self_intersections = self_intersections(result.mesh, execution.part(0.95, 1.0)).size();
+  if (report.self_intersections > 0) {
+    report.scan_self_intersections =
+        self_intersections(parts.scan.mesh, execution.part(0.95, 1.0)).size();
+  }
   return result;
 }
 

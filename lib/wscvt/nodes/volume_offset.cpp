@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/nodes/volume_offset.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include "wscvt/base/triangle_geometry.h"
@@ -15,11 +16,12 @@ double mesh_volume(const std::vector<Vector3>& points, const std::vector<Triangl
 
 double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                         double volume) {
-  // Newton's method; each step squares what is missing.
-  constexpr int steps = 6;
+  // Newton's method; each step squares what is missing, of a large offset after some.
+  constexpr int most_steps = 30;
+  constexpr double rounding = 1e-15;
   double offset = 0.0;
   std::vector<Vector3> gradient(points.size());
-  for (int step = 0; step < steps; ++step) {
+  for (int step = 0; step < most_steps; ++step) {
     gradient.assign(points.size(), Vector3::Zero());
     for (const auto& [a, b, c] : triangles) {
       const Vector3 third = doubled_area_normal(points[a], points[b], points[c]) / 6.0;
@@ -30,7 +32,9 @@ double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle
     double slope = 0.0;
     for (const Vector3& g : gradient) slope += g.norm();
     if (!(slope > 0.0)) break;
-    const double distance = (volume - mesh_volume(points, triangles)) / slope;
+    const double missing = volume - mesh_volume(points, triangles);
+    if (std::abs(missing) <= rounding * std::abs(volume)) break;
+    const double distance = missing / slope;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double length = gradient[i].norm();
       if (length > 0.0) points[i] += distance / length * gradient[i];
