@@ -39,8 +39,7 @@ std::string creation_help() {
 
 ParameterList creation_parameters() {
   ParameterList parameters = {
-      table_parameter("Surface", SurfaceKind::Ellipsoid, "Surface",
-                      "What is made into a mesh, by the method of Wu, Huang and Lai (2022)."),
+      table_parameter("Surface", SurfaceKind::Ellipsoid, "Surface", "What is made into a mesh."),
       semi_axis("SemiAxisX", 1.0, "x"),
       semi_axis("SemiAxisY", 1.0, "y"),
       semi_axis("SemiAxisZ", 1.0, "z"),
@@ -56,25 +55,17 @@ ParameterList creation_parameters() {
                        "Of a .dat file only, as for the tables beside the particle shape sets; -1 "
                        "keeps all."),
       node_count_parameter(),
-      sampling_parameter(),
+      method_parameter(Method::OnScan),
       weighting_parameter(),
       curvature_alpha_parameter(),
-      choice_parameter("Placement", 0, {"On the surface", "Least squares (volume exact)"},
-                       "Place nodes",
-                       "On the surface: the nodes are points of it. Least squares: off it, so that "
-                       "the triangles fit it best and enclose exactly its volume."),
-      metric_parameter(),
-      seed_start_parameter(),
-      random_seed_parameter(),
-      maximum_iterations_parameter(),
+      placement_parameter(),
+      edge_ratio_parameter(),
       table_parameter("Quality", CreationSettings().result.quality, "Vertex quality",
                       "What each vertex of the result holds."),
       colour_by_quality_parameter(),
       report_file_parameter(),
   };
-  const std::vector<std::string> seldom = {
-      "CoefficientDegree", "Sampling",   "CurvatureAlpha", "Metric",
-      "SeedStart",         "RandomSeed", "MaxIterations"};
+  const std::vector<std::string> seldom = {"CoefficientDegree", "CurvatureAlpha", "EdgeRatio"};
   for (FilterParameter& parameter : parameters) {
     parameter.advanced = std::find(seldom.begin(), seldom.end(), parameter.name) != seldom.end();
   }
@@ -100,9 +91,7 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
     }
     check_extension(surface.coefficients_file, {".dat", ".json"}, "CoefficientsFile");
   }
-  settings.options = read_node_options(checked);
-  settings.options.placement.kind =
-      checked.whole("Placement") == 0 ? NodePlacement::Series : NodePlacement::LeastSquares;
+  settings.options = read_node_options(checked, true);
   settings.result.quality = checked.choice<VertexQuality>("Quality");
   request_quality(settings.options, settings.result.quality);
   settings.result.colour_by_quality = checked.flag("ColorByQuality");

@@ -11,9 +11,9 @@ namespace wscvt::filter {
 
 namespace {
 
-const std::vector<std::string> everyday_names = {"NodeCount",        "Method",    "Weighting",
-                                                 "RefinementRounds", "Distances", "Quality",
-                                                 "ColorByQuality",   "ReportFile"};
+const std::vector<std::string> everyday_names = {"NodeCount",      "Method",    "Weighting",
+                                                 "EdgeRatio",      "Distances", "Quality",
+                                                 "ColorByQuality", "ReportFile"};
 
 }  // namespace
 
@@ -21,10 +21,9 @@ std::string everyday_name() { return "Remeshing: Grain to a Number of Nodes"; }
 
 std::string everyday_help() {
   return "Turns the scan of a grain into a closed mesh of <b>exactly the number of nodes asked "
-         "for</b> and of even triangles, as a new layer. Start with the number; the rest can "
-         "stay. <i>On the scan</i> suits contact laws of the deepest node, <i>as published</i> "
-         "those that sum over nodes by area. All parameters: Weighted Spherical Centroidal "
-         "Voronoi";
+         "for</b> and of even triangles, as a new layer. Set the number; the other defaults suit "
+         "most grains. For contact laws that sum over nodes by area, or use the deepest node, see "
+         "Node placement in the filter with all parameters: Weighted Spherical Centroidal Voronoi";
 }
 
 ParameterList everyday_parameters() {

@@ -148,9 +148,9 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   RemeshSettings settings =
       read_remesh_settings(with_full_names(parameters, values, folder_of(scan)));
   const std::string& report = settings.result.report_file;
-  settings.options.measures.used_scan = !report.empty() && shows_scan(report);
+  settings.options.measures.repaired_scan = !report.empty() && shows_scan(report);
   const Eigen::Matrix4d transform = layers.transform(scan.number);
-  const Execution execution(settings.threads, progress);
+  const Execution execution(0, progress);
   const RemeshResult result = remesh(layers.mesh(scan.number), settings.options, execution);
   // Files first: when they cannot be written the document stays as it was.
   save_report(report, scan.label, result);

@@ -122,9 +122,15 @@ ParameterValue value_of(const FilterParameter& parameter, const typename Api::Va
 }
 
 /// The values of those parameters that a list holds. Throws Error when one that is required is
-/// missing.
+/// missing, and for one of version 2, with what to use instead.
 template <class Api>
 ParameterValues values_of(const ParameterList& known, const typename Api::List& list) {
+  for (const ReplacedParameter& replaced : replaced_parameters()) {
+    if (!list.hasParameter(QString(replaced.name))) continue;
+    throw Error(ErrorCode::InvalidInput,
+                "Version 3 has no parameter " + std::string(replaced.name) + ", which the script " +
+                    "gives. " + replaced.instead + " Nothing was changed.");
+  }
   ParameterValues values;
   for (const FilterParameter& parameter : known) {
     const QString name = QString::fromStdString(parameter.name);

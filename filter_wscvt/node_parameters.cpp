@@ -1,67 +1,183 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "node_parameters.h"
 
-#include <limits>
+#include <string>
+
+#include "wscvt/base/error.h"
 
 namespace wscvt::filter {
+
+namespace {
+
+/// The weightings of both methods, in an order that saved scripts hold as numbers.
+enum class AnyWeighting { Constant, RadialDistance, Curvature, Area, ErrorAdaptive };
+
+/// The placements of both methods, likewise, and what each method has by default.
+enum class AnyPlacement { Series, Surface, Fitted, Contact, Default };
+
+[[noreturn]] void refuse_value(const std::string& parameter, const std::string& value,
+                               Method wanted) {
+  throw Error(ErrorCode::InvalidInput, "Parameter " + parameter + " is " + value +
+                                           ", which only the method \"" +
+                                           capitalised(label_of(wanted)) +
+                                           "\" has. Choose that method, or another value. Nothing "
+                                           "was changed.");
+}
+
+}  // namespace
+
+}  // namespace wscvt::filter
+
+template <>
+struct wscvt::EnumerationTable<wscvt::filter::AnyWeighting> {
+  using Any = wscvt::filter::AnyWeighting;
+  static constexpr std::string_view key = "weighting";
+  static constexpr std::string_view subject = "weighting";
+  static constexpr Enumerator<Any> rows[] = {
+      {Any::Constant, "constant", "constant (as published)", "equal solid angles"},
+      {Any::RadialDistance, "wscvt-d", "WSCVT-D",
+       "cells of equal area; as published smaller solid angles far from the centroid"},
+      {Any::Curvature, "wscvt-c", "WSCVT-C (curvature)", "smaller cells where the surface bends"},
+      {Any::Area, "area", "area (as published)", "equal surface areas"},
+      {Any::ErrorAdaptive, "error-adaptive", "error-adaptive (on the scan)",
+       "smaller cells where flat triangles miss the surface most"},
+  };
+};
+
+template <>
+struct wscvt::EnumerationTable<wscvt::filter::AnyPlacement> {
+  using Any = wscvt::filter::AnyPlacement;
+  static constexpr std::string_view key = "placement";
+  static constexpr std::string_view subject = "node placement";
+  static constexpr Enumerator<Any> rows[] = {
+      {Any::Series, "sh-surface", "SH surface (as published)", "on the spherical-harmonic surface"},
+      {Any::Surface, "on-surface", "on the surface", "on the scan itself"},
+      {Any::Fitted, "fitted", "fitted (on the scan, volume exact)",
+       "off the scan, so that the triangles are closest to it and enclose exactly its volume"},
+      {Any::Contact, "contact-fit", "contact fit (on the scan)",
+       "off the scan, for contact laws that use the deepest node"},
+      {Any::Default, "default", "default of the method", "fitted, or the SH surface"},
+  };
+};
+
+namespace wscvt::filter {
+
+namespace {
+
+OnScanOptions on_scan_options(const CheckedValues& values, bool on_surface) {
+  OnScanOptions options;
+  if (on_surface) options.placement = ScanPlacement::OnSurface;
+  options.curvature_alpha = values.real("CurvatureAlpha");
+  options.edge_ratio = values.real("EdgeRatio");
+  switch (values.choice<AnyWeighting>("Weighting")) {
+    case AnyWeighting::Constant:
+      refuse_value("Weighting", "constant", Method::AsPublished);
+    case AnyWeighting::Area:
+      refuse_value("Weighting", "area", Method::AsPublished);
+    case AnyWeighting::Curvature:
+      options.weighting = CellWeighting::Curvature;
+      break;
+    case AnyWeighting::ErrorAdaptive:
+      options.weighting = CellWeighting::ErrorAdaptive;
+      break;
+    case AnyWeighting::RadialDistance:
+      break;
+  }
+  switch (values.choice<AnyPlacement>("Placement")) {
+    case AnyPlacement::Series:
+      refuse_value("Placement", "SH surface", Method::AsPublished);
+    case AnyPlacement::Surface:
+      options.placement = ScanPlacement::OnSurface;
+      break;
+    case AnyPlacement::Fitted:
+      options.placement = ScanPlacement::Fitted;
+      break;
+    case AnyPlacement::Contact:
+      options.placement = ScanPlacement::ContactFit;
+      break;
+    case AnyPlacement::Default:
+      break;
+  }
+  return options;
+}
+
+AsPublishedOptions as_published_options(const CheckedValues& values) {
+  AsPublishedOptions options;
+  options.curvature_alpha = values.real("CurvatureAlpha");
+  switch (values.choice<AnyWeighting>("Weighting")) {
+    case AnyWeighting::Constant:
+      options.weighting = Weighting::Constant;
+      break;
+    case AnyWeighting::Area:
+      options.weighting = Weighting::Area;
+      break;
+    case AnyWeighting::Curvature:
+      options.weighting = Weighting::Curvature;
+      break;
+    case AnyWeighting::ErrorAdaptive:
+      refuse_value("Weighting", "error-adaptive", Method::OnScan);
+    case AnyWeighting::RadialDistance:
+      break;
+  }
+  switch (values.choice<AnyPlacement>("Placement")) {
+    case AnyPlacement::Surface:
+      options.placement = PublishedPlacement::Surface;
+      break;
+    case AnyPlacement::Fitted:
+      refuse_value("Placement", "fitted", Method::OnScan);
+    case AnyPlacement::Contact:
+      refuse_value("Placement", "contact fit", Method::OnScan);
+    case AnyPlacement::Series:
+    case AnyPlacement::Default:
+      break;
+  }
+  if (values.real("EdgeRatio") != OnScanOptions().edge_ratio) {
+    refuse_value("EdgeRatio", typed_text(values.real("EdgeRatio")), Method::OnScan);
+  }
+  return options;
+}
+
+}  // namespace
 
 FilterParameter node_count_parameter() {
   FilterParameter parameter = option_parameter(
       "NodeCount", RemeshOptions().node_count, node_count_option, "Number of nodes",
-      "Vertices of the result, exactly. Flat triangles lose about 660/N % of the volume, unless "
-      "nodes are placed by least squares.");
+      "Vertices of the result, exactly. Nodes on the surface lose about 660/N % of the volume; "
+      "fitted nodes lose none.");
   parameter.required = true;
   return parameter;
 }
 
-FilterParameter sampling_parameter() {
-  return table_parameter(
-      "Sampling", RemeshOptions().seeding.sampling, "Sampling",
-      "Where the nodes' directions come from. All but the first are for comparison and ignore the "
-      "weighting.");
+FilterParameter method_parameter(Method default_method) {
+  return table_parameter("Method", default_method, "Method",
+                         "Where the Voronoi cells are and what the nodes follow.");
 }
 
 FilterParameter weighting_parameter() {
-  return table_parameter("Weighting", RemeshOptions().weighting.kind, "Weighting",
-                         "How large the nodes' cells are, so where nodes stand closer together.");
+  return table_parameter("Weighting", AnyWeighting::RadialDistance, "Weighting",
+                         "Sets the size of each node's Voronoi cell. Small cells mean closely "
+                         "spaced nodes.");
 }
 
 FilterParameter curvature_alpha_parameter() {
   return option_parameter(
-      "CurvatureAlpha", RemeshOptions().weighting.curvature_alpha, curvature_alpha_option,
-      "Curvature strength alpha",
-      "Strength of WSCVT-C: 0 ignores curvature, larger gathers nodes at edges and corners, "
-      "negative keeps them away.");
+      "CurvatureAlpha", OnScanOptions().curvature_alpha, curvature_alpha_option,
+      "WSCVT-C strength alpha",
+      "0 ignores curvature. Larger values gather nodes at edges and corners, negative values keep "
+      "them away.");
 }
 
-FilterParameter metric_parameter() {
-  return table_parameter(
-      "Metric", RemeshOptions().relaxation.metric, "Metric",
-      "Where the cells are made centroidal; Surface gives the most even triangles.");
+FilterParameter placement_parameter() {
+  return table_parameter("Placement", AnyPlacement::Default, "Node placement",
+                         "Where the nodes are put. Only fitted nodes enclose exactly the scan's "
+                         "volume.");
 }
 
-FilterParameter seed_start_parameter() {
-  return table_parameter("SeedStart", RemeshOptions().seeding.start, "Start from",
-                         "Where the nodes stand before they are relaxed.");
-}
-
-FilterParameter random_seed_parameter() {
-  // Hosts know no larger whole numbers.
-  const NumberOption<int> option = {random_seed_option.key,
-                                    random_seed_option.subject,
-                                    static_cast<int>(random_seed_option.minimum),
-                                    std::numeric_limits<int>::max(),
-                                    Ends::Both,
-                                    random_seed_option.meaning};
-  return option_parameter("RandomSeed", static_cast<int>(RemeshOptions().seeding.random_seed),
-                          option, "Random seed",
-                          "Of the random start only; the same seed, the same mesh.");
-}
-
-FilterParameter maximum_iterations_parameter() {
-  return option_parameter("MaxIterations", RemeshOptions().relaxation.maximum_iterations,
-                          maximum_iterations_option, "Largest number of iterations",
-                          "Relaxation stops here at the latest.");
+FilterParameter edge_ratio_parameter() {
+  return option_parameter("EdgeRatio", OnScanOptions().edge_ratio, edge_ratio_option,
+                          "Mean edge ratio (on the scan)",
+                          "Wanted mean of longest / shortest edge of a triangle. Small values give "
+                          "even triangles, large ones come closer to the scan.");
 }
 
 FilterParameter colour_by_quality_parameter() {
@@ -69,16 +185,14 @@ FilterParameter colour_by_quality_parameter() {
                         "Colors the vertices by it: red lowest, green, blue highest.");
 }
 
-RemeshOptions read_node_options(const CheckedValues& values) {
+RemeshOptions read_node_options(const CheckedValues& values, bool on_surface) {
   RemeshOptions options;
   options.node_count = values.whole("NodeCount");
-  options.seeding.sampling = values.choice<Sampling>("Sampling");
-  options.weighting.kind = values.choice<Weighting>("Weighting");
-  options.weighting.curvature_alpha = values.real("CurvatureAlpha");
-  options.relaxation.metric = values.choice<RelaxationMetric>("Metric");
-  options.seeding.start = values.choice<SeedStart>("SeedStart");
-  options.seeding.random_seed = static_cast<std::uint64_t>(values.whole("RandomSeed"));
-  options.relaxation.maximum_iterations = values.whole("MaxIterations");
+  if (values.choice<Method>("Method") == Method::OnScan) {
+    options.method = on_scan_options(values, on_surface);
+  } else {
+    options.method = as_published_options(values);
+  }
   return options;
 }
 
@@ -102,17 +216,16 @@ const std::vector<double>& quality_values(const RemeshResult& result, VertexQual
 }
 
 std::string nodes_name(const RemeshOptions& options) {
-  return options.seeding.sampling == Sampling::Weighted
-             ? short_label(label_of(options.weighting.kind))
-             : short_label(label_of(options.seeding.sampling));
+  return std::visit([](const auto& method) { return short_label(label_of(method.weighting)); },
+                    options.method);
 }
 
 std::vector<std::string> all_nodes_names() {
   std::vector<std::string> names;
-  for (const auto& row : enumerators<Sampling>()) {
-    if (row.value != Sampling::Weighted) names.push_back(short_label(row.label));
-  }
+  for (const auto& row : enumerators<CellWeighting>()) names.push_back(short_label(row.label));
   for (const auto& row : enumerators<Weighting>()) names.push_back(short_label(row.label));
+  // Of layers that version 2 made.
+  for (const auto& row : enumerators<Sampling>()) names.push_back(short_label(row.label));
   return names;
 }
 

@@ -12,17 +12,16 @@ namespace wscvt::filter {
 // The parameters of the filters that give a mesh of N nodes.
 
 FilterParameter node_count_parameter();
-FilterParameter sampling_parameter();
+FilterParameter method_parameter(Method default_method);
 FilterParameter weighting_parameter();
 FilterParameter curvature_alpha_parameter();
-FilterParameter metric_parameter();
-FilterParameter seed_start_parameter();
-FilterParameter random_seed_parameter();
-FilterParameter maximum_iterations_parameter();
+FilterParameter placement_parameter();
+FilterParameter edge_ratio_parameter();
 FilterParameter colour_by_quality_parameter();
 
-/// Reads all of the above but the last.
-RemeshOptions read_node_options(const CheckedValues& values);
+/// Reads all of the above but the last. A value that only the other method has is refused, with its
+/// method's name; `on_surface` says whether nodes on the scan lie on the surface by default.
+RemeshOptions read_node_options(const CheckedValues& values, bool on_surface);
 
 /// What the result's vertex quality holds.
 enum class VertexQuality {

@@ -162,6 +162,22 @@ CheckedValues::CheckedValues(const ParameterList& parameters, const ParameterVal
   }
 }
 
+const std::vector<ReplacedParameter>& replaced_parameters() {
+  static const std::vector<ReplacedParameter> replaced = {
+      {"RefinementRounds", "Use EdgeRatio 1.4 or larger."},
+      {"SmallestAngle", "Use EdgeRatio."},
+      {"Metric", "Method decides it."},
+      {"Parametrization", "Method decides it."},
+      {"CurvatureSource", "Leave it out."},
+      {"Sampling", "The program has it: wscvt --method as-published --sampling."},
+      {"SeedStart", "Leave it out: the start is always the best one."},
+      {"RandomSeed", "Leave it out: nothing is random."},
+      {"MaxIterations", "Leave it out: the relaxation ends by itself."},
+      {"Threads", "Leave it out: all threads are used."},
+  };
+  return replaced;
+}
+
 double typed_value(float value) {
   std::array<char, 32> buffer{};
   const auto text = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

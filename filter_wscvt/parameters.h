@@ -134,6 +134,15 @@ class CheckedValues {
   ParameterValues values_;
 };
 
+/// A parameter of version 2, which scripts may still hold, and what to use instead.
+struct ReplacedParameter {
+  const char* name;
+  const char* instead;
+};
+
+/// All of them, whichever filter had them.
+const std::vector<ReplacedParameter>& replaced_parameters();
+
 /// The decimal number a user typed, given the float a host made of it: 0.1, not 0.100000001.
 double typed_value(float value);
 

@@ -20,7 +20,6 @@ ParameterList remesh_parameters();
 /// Everything the user chose.
 struct RemeshSettings {
   RemeshOptions options;
-  int threads = 0;  ///< 0: all
   bool new_layer = true;
   ResultSettings result;
   std::string coefficients_file;  ///< to be written; empty: none

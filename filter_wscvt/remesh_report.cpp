@@ -70,10 +70,7 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds) {
   std::vector<std::string> lines = short_table(result);
   const std::vector<std::string> report = report_lines(result);
   if (result.input.input_vertices > 0) append_topics(lines, report, {"Repairs"});
-  append_topics(lines, report, {"Target"});
-  if (result.options.seeding.start == SeedStart::Random) {
-    lines.push_back("Seed        " + std::to_string(result.options.seeding.random_seed));
-  }
+  append_topics(lines, report, {"Node count"});
   lines.push_back(seconds_line(seconds));
   return as_log(result.warnings, lines);
 }

@@ -13,10 +13,10 @@
 namespace wscvt {
 namespace {
 
-RemeshResult remeshed(const IndexedMesh& scan, int nodes, Method method = Method::OnScan) {
+RemeshResult remeshed(const IndexedMesh& scan, int nodes, bool as_published = false) {
   RemeshOptions options;
   options.node_count = nodes;
-  options.method = method;
+  if (as_published) options.method = AsPublishedOptions();
   options.measures.distances = true;
   return remesh(scan, options);
 }
@@ -39,35 +39,29 @@ TEST(RemeshDefaults, KeepShapeAndVolumeOfRoughAndAngularGrains) {
     EXPECT_GT(result.quality.smallest_angle, 35.0);
     EXPECT_LT(rms_percent(result), 0.8);
     // The published method with as many nodes is farther from the scan.
-    EXPECT_LT(rms_percent(result), 0.7 * rms_percent(remeshed(scan, 1000, Method::AsPublished)));
+    EXPECT_LT(rms_percent(result), 0.7 * rms_percent(remeshed(scan, 1000, true)));
   }
 }
 
 TEST(RemeshDefaults, AsPublishedIsTheSeriesWithNodesOnIt) {
   RemeshOptions options;
-  options.method = Method::AsPublished;
-  options.placement.refinement.rounds = 5;  // which it overrides
+  options.method = AsPublishedOptions();
   options.node_count = 200;
   const RemeshResult result = remesh(test::lumpy(4), options);
-  EXPECT_EQ(result.parametrization, Parametrization::Radial);
-  EXPECT_EQ(result.options.relaxation.metric, RelaxationMetric::Sphere);
-  EXPECT_EQ(result.options.placement.kind, NodePlacement::Series);
-  EXPECT_EQ(result.options.placement.refinement.rounds, 0);
-  EXPECT_TRUE(result.refinement.history.empty());
-  EXPECT_EQ(result.fit.degree, 20);
-  const HarmonicSurface series(result.coefficients);
+  EXPECT_EQ(as_published_report(result)->fit.degree, 20);
+  const HarmonicSurface series(result.coefficients.radius);
   for (std::size_t i = 0; i < result.directions.size(); ++i) {
     EXPECT_NEAR(series.radius(result.directions[i]), result.radial_distances[i], 1e-12);
   }
-  options.surface.degree = 9;
-  EXPECT_EQ(remesh(test::lumpy(4), options).fit.degree, 9);
+  options.degree = 9;
+  EXPECT_EQ(as_published_report(remesh(test::lumpy(4), options))->fit.degree, 9);
 }
 
 TEST(RemeshDefaults, AHandfulOfNodesGoesRoundALongGrain) {
   // With cells on the sphere they ran together on one side of it, at angles of 1 to 16 degrees.
   const IndexedMesh scan = test::scaled(test::sphere(3), Vector3(1.0, 2.0, 3.0));
   RemeshOptions options;
-  options.measures.advice = false;
+  options.measures.suggestions = false;
   for (options.node_count = 10; options.node_count < 20; ++options.node_count) {
     SCOPED_TRACE(options.node_count);
     const RemeshResult result = remesh(scan, options);

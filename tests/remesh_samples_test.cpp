@@ -35,16 +35,15 @@ class RemeshSamples : public testing::TestWithParam<const char*> {
     EXPECT_LT(result.quality.edge_ratio.mean, 1.155);
     EXPECT_GT(result.quality.smallest_angle, 35.0);
     EXPECT_LT(rms_percent(result), 0.62);
-    EXPECT_EQ(result.space.self_intersections, 0U);
+    EXPECT_EQ(on_scan_report(result)->nodes.self_intersections, 0U);
     EXPECT_TRUE(result.warnings.empty());
   }
 };
 
 TEST_P(RemeshSamples, AsPublishedLosesTheAreaThatItLosesOfSand) {
   RemeshOptions options;
-  options.method = Method::AsPublished;
+  options.method = AsPublishedOptions();
   const RemeshResult result = remeshed(options);
-  EXPECT_EQ(result.parametrization, Parametrization::Radial);
   // The paper's two grains lose 2.3 %; smooth ones, a third of that.
   const double lost = -relative_error_percent(result.remesh.area, result.original.area);
   EXPECT_GT(lost, 1.9);
@@ -54,25 +53,19 @@ TEST_P(RemeshSamples, AsPublishedLosesTheAreaThatItLosesOfSand) {
 }
 
 TEST_P(RemeshSamples, DefaultsReachWhatRealScansAreToReach) {
-  const RemeshResult result = remeshed(RemeshOptions());
-  EXPECT_EQ(result.parametrization, Parametrization::Radial);
-  expect_reach(result);
+  expect_reach(remeshed(RemeshOptions()));
 }
 
-TEST_P(RemeshSamples, TheSphericalMapReachesItToo) {
+TEST_P(RemeshSamples, ALargeEdgeRatioIsCloserAndKeepsItsAngles) {
+  OnScanOptions close;
+  close.weighting = CellWeighting::ErrorAdaptive;
+  close.edge_ratio = 1.5;
   RemeshOptions options;
-  options.surface.parametrization = Parametrization::Spherical;
-  expect_reach(remeshed(options));
-}
-
-TEST_P(RemeshSamples, RefinedNodesAreCloserAndKeepTheirAngles) {
-  RemeshOptions options;
-  options.weighting.kind = Weighting::ErrorAdaptive;
-  options.placement.refinement.rounds = 60;
-  const RemeshResult refined = remeshed(options);
-  EXPECT_LT(rms_percent(refined), 0.7 * rms_percent(remeshed(RemeshOptions())));
-  EXPECT_GT(refined.quality.smallest_angle, 29.99);
-  EXPECT_NEAR(refined.remesh.volume / refined.original.volume, 1.0, 1e-11);
+  options.method = close;
+  const RemeshResult result = remeshed(options);
+  EXPECT_LT(rms_percent(result), 0.75 * rms_percent(remeshed(RemeshOptions())));
+  EXPECT_GT(result.quality.smallest_angle, 29.0);
+  EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, RemeshSamples,

@@ -140,7 +140,7 @@ void remove_parts(const std::vector<std::string>& grains, std::size_t first,
 
 }  // namespace
 
-BatchArguments::BatchArguments() { options.measures.advice = false; }
+BatchArguments::BatchArguments() { options.measures.suggestions = false; }
 
 void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
   add_typed(app, "--shard",

@@ -7,7 +7,7 @@
 
 #include "batch_inputs.h"
 #include "volume/label_grains.h"
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::program {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::program {
 

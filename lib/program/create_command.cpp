@@ -40,17 +40,22 @@ void add_semi_axes(CLI::App& app, Vector3& semi_axes) {
 
 }  // namespace
 
-CreateArguments::CreateArguments() { options.placement.kind = NodePlacement::Series; }
+CreateArguments::CreateArguments() {
+  OnScanOptions on_surface;
+  on_surface.placement = ScanPlacement::OnSurface;
+  options.method = on_surface;
+}
 
 CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
-  CLI::App& app =
-      add_command(program, {"create",
-                            "Make a mesh of an ellipsoid, a superellipsoid or harmonics",
-                            {"ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 500",
-                             "superellipsoid rod.stl --semi-axes 2 1 1 --azimuthal-exponent 0.3",
-                             "harmonics grain.ply --coefficients grain.json"},
-                            "Of the placements, series means on the surface itself.",
-                            true});
+  CLI::App& app = add_command(
+      program, {"create",
+                "Make a mesh of an ellipsoid, a superellipsoid or harmonics",
+                {"ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 500",
+                 "superellipsoid rod.stl --semi-axes 2 1 1 --azimuthal-exponent 0.3",
+                 "harmonics grain.ply --coefficients grain.json"},
+                "With --placement on-surface the nodes are points of the surface itself, "
+                "as with\n--method as-published.",
+                true});
   add_choice(app, "surface", arguments.surface.kind)
       ->required()
       ->description(help_of_choices<decltype(arguments.surface.kind)>());

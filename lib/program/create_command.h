@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common_arguments.h"
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 #include "wscvt/surface/grain_surface.h"
 
 namespace wscvt::program {

@@ -13,7 +13,6 @@
 #include "grain_run.h"
 #include "signals.h"
 #include "volume/label_table.h"
-#include "volume_arguments.h"
 #include "work.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
@@ -81,13 +80,47 @@ class LabelRows {
   std::size_t too_small_ = 0;
 };
 
-int extract(const ExtractArguments& arguments) {
-  const BatchArguments& sample = arguments.sample;
-  check_mesh_format("mesh." + sample.format);
-  if (!sample.quiet) check_writable("/dev/stdout");
+}  // namespace
+
+CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
+  CLI::App& app = add_command(
+      program, {"extract",
+                "Make a mesh of each grain of a segmented CT volume",
+                {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012"},
+                "OUT gets a mesh per label, named by it, and labels.csv, which says what became of "
+                "each.\nwscvt batch takes volumes too and remeshes their grains."});
+  add_file_argument(app, "volume", arguments.volume,
+                    "Labels: .tif or a folder of slices, .nrrd, .mhd, .vti, or the .json beside a "
+                    ".raw")
+      ->required();
+  app.add_option("output", arguments.folder, "Folder for all that is made")
+      ->type_name("OUT")
+      ->required();
+  add_volume_arguments(app, arguments.options, "Options");
+  app.add_option("--format", arguments.format,
+                 "Ending of the meshes: ply, stl, obj or off. Default: ply")
+      ->type_name("NAME");
+  // Until version 2 it did what batch does.
+  app.add_flag_function("--remesh",
+                        [](std::int64_t) {
+                          throw CLI::ValidationError(
+                              "--remesh",
+                              "Version 3 has no such option. Use \"wscvt batch VOLUME -o "
+                              "OUT\" with the same options.");
+                        })
+      ->group("");
+  add_threads_argument(app, arguments.threads);
+  app.add_flag("-q,--quiet", arguments.quiet,
+               "No summary on the standard output, no progress; failures stay");
+  return app;
+}
+
+int run(const ExtractArguments& arguments) {
+  check_mesh_format("mesh." + arguments.format);
+  if (!arguments.quiet) check_writable("/dev/stdout");
   const std::unique_ptr<LabelGrains> grains =
-      open_grains(arguments.volume, sample.volume, sample.quiet);
-  const fs::path folder = sample.folder;
+      open_grains(arguments.volume, arguments.options, arguments.quiet);
+  const fs::path folder = arguments.folder;
   std::error_code error;
   fs::create_directories(folder, error);
   const std::string table = (folder / "labels.csv").string();
@@ -102,8 +135,8 @@ int extract(const ExtractArguments& arguments) {
   };
   GrainRun run;
   run.count = all.size();
-  run.threads = sample.threads;
-  run.quiet = sample.quiet;
+  run.threads = arguments.threads;
+  run.quiet = arguments.quiet;
   run.name = [&](std::size_t k) { return grain_name(arguments.volume, label_of(k).label); };
   run.work = [&](std::size_t k, const Execution& execution) {
     const auto row_of = [&](const LabelOutcome& outcome) -> GrainRow {
@@ -114,7 +147,7 @@ int extract(const ExtractArguments& arguments) {
           const LabelGrain grain = grains->read(k, execution);
           LabelOutcome outcome{&grain, "", ""};
           if (!grain.mesh.points.empty()) {
-            outcome.file = std::to_string(label_of(k).label) + "." + sample.format;
+            outcome.file = std::to_string(label_of(k).label) + "." + arguments.format;
             write_mesh(grain.mesh, (folder / outcome.file).string());
             rows.note(k, grain.pieces > 1 ? Made::MeshOfAPiece : Made::Mesh);
           }
@@ -131,62 +164,8 @@ int extract(const ExtractArguments& arguments) {
     return 128 + noted_signal();
   }
   write_file(table, rows.table());
-  print({rows.summary(end.failed)}, sample.quiet);
+  print({rows.summary(end.failed)}, arguments.quiet);
   return end.failed == 0 ? Done : SomeFailed;
-}
-
-}  // namespace
-
-CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
-  BatchArguments& sample = arguments.sample;
-  CLI::App& app = add_command(
-      program, {"extract",
-                "Make a mesh of each grain of a segmented CT volume",
-                {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
-                 "slices remeshes --remesh -n 500"},
-                "OUT gets a mesh a label, named by it, and labels.csv, which says what became of "
-                "each. With\n"
-                "--remesh it gets what wscvt batch makes, without dense meshes in between.",
-                true});
-  add_file_argument(app, "volume", arguments.volume,
-                    "Labels: .tif or a folder of slices, .nrrd, .mhd, .vti, or the .json beside a "
-                    ".raw")
-      ->required();
-  app.add_option("output", sample.folder, "Folder for all that is made")
-      ->type_name("OUT")
-      ->required();
-  add_volume_arguments(app, sample.volume, "Options");
-  app.add_flag("--remesh", arguments.remesh,
-               "Remesh the grains as wscvt batch does, with its options");
-  const std::size_t before = app.get_options().size();
-  add_sample_arguments(app, sample);
-  std::vector<CLI::Option*> of_remesh;
-  const std::vector<CLI::Option*> options =
-      app.get_options([](const CLI::Option*) { return true; });
-  for (std::size_t k = before; k < options.size(); ++k) {
-    if (options[k]->get_name() == "--format") continue;
-    of_remesh.push_back(options[k]);
-    if (options[k]->get_name() != "--nodes") options[k]->group(finer_settings);
-  }
-  // Not by CLI11's needs(), which the help would then say of each.
-  app.parse_complete_callback([&arguments, of_remesh] {
-    for (const CLI::Option* option : of_remesh) {
-      if (arguments.remesh || option->count() == 0) continue;
-      throw CLI::ValidationError(option->get_name(), "This is of a remesh; give --remesh too.");
-    }
-  });
-  add_threads_argument(app, sample.threads);
-  app.add_flag("-q,--quiet", sample.quiet,
-               "No summary on the standard output, no progress; failures stay");
-  return app;
-}
-
-int run(const ExtractArguments& arguments) {
-  if (!arguments.remesh) return extract(arguments);
-  if (!is_volume(arguments.volume)) open_volume(arguments.volume);  // throws what is wrong with it
-  BatchArguments sample = arguments.sample;
-  sample.inputs = {arguments.volume};
-  return run(sample);
 }
 
 }  // namespace wscvt::program

@@ -4,16 +4,18 @@
 #include <CLI/App.hpp>
 #include <string>
 
-#include "batch_command.h"
+#include "volume_arguments.h"
 
 namespace wscvt::program {
 
-/// `wscvt extract`: the grains of a volume of labels become meshes, dense or remeshed.
+/// `wscvt extract`: the grains of a volume of labels become dense meshes.
 struct ExtractArguments {
   std::string volume;
-  bool remesh = false;
-  BatchArguments
-      sample;  ///< folder, format, threads, what is asked of the volume; for remeshes all
+  VolumeOptions options;
+  std::string folder;
+  std::string format = "ply";
+  int threads = 0;  ///< 0: all
+  bool quiet = false;
 };
 
 /// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "command.h"
+#include "wscvt/remesh/option_advice.h"
 
 namespace wscvt::program {
 
@@ -22,70 +27,145 @@ struct Marked {
 constexpr Marked marked[] = {
     {node_count_option.key, 'n', true},
     {EnumerationTable<Method>::key, 0, true},
-    {EnumerationTable<Weighting>::key, 'w', true},
-    {EnumerationTable<RelaxationMetric>::key, 'm', false},
-    {EnumerationTable<NodePlacement>::key, 'p', true},
-    {refinement_rounds_option.key, 'r', true},
+    {EnumerationTable<CellWeighting>::key, 'w', true},
+    {EnumerationTable<ScanPlacement>::key, 'p', true},
+    {edge_ratio_option.key, 'e', true},
     {EnumerationTable<Sampling>::key, 's', false},
     {harmonic_degree_option.key, 'd', false},
     {curvature_alpha_option.key, 'a', false},
-    {maximum_iterations_option.key, 'i', false},
     {error_target_option.key, 0, true},
-    {points_option.key, 0, true},
     {distances_option.key, 0, true},
 };
 
 /// Options that mean nothing for a surface that is known exactly; see remesh.
 constexpr std::string_view of_a_scan[] = {
-    EnumerationTable<Method>::key,
-    EnumerationTable<CurvatureSource>::key,
-    EnumerationTable<Parametrization>::key,
-    harmonic_degree_option.key,
-    fold_limit_option.key,
     points_option.key,
     envelope_option.key,
-    advice_option.key,
-    weld_tolerance_option.key,
+    suggestions_option.key,
     mended_area_limit_option.key,
-    dropped_volume_limit_option.key,
-    handle_length_option.key,
-    handle_count_option.key,
+    harmonic_degree_option.key,
+    max_overhang_option.key,
+    EnumerationTable<HandleAction>::key,
+    max_handle_loop_option.key,
 };
 
-class AddArgument {
+/// What a call gave, by the options' keys.
+using Given = std::map<std::string, std::string, std::less<>>;
+
+/// A message in which the name of the option stands before what is wrong.
+[[noreturn]] void refuse_argument(std::string_view key, const std::string& sentence) {
+  throw CLI::ValidationError("--" + std::string(key), sentence);
+}
+
+/// Reads what was given into options. The method is read first, see for_each_option.
+class ReadGiven {
  public:
-  AddArgument(CLI::App& app, Remeshed remeshed) : app_(app), remeshed_(remeshed) {}
+  explicit ReadGiven(Given given) : given_(std::move(given)) {}
 
   template <class Number>
   void operator()(Number& value, const NumberOption<Number>& option) {
-    if (!is_wanted(option.key)) return;
-    add_number(app_, names_of(option.key), value, option)->group(group_of(option.key));
+    take(option.key, [&](const std::string& text) { value = from_typed(text, option); });
   }
-
+  void operator()(bool& value, const FlagOption& option) {
+    take(option.key, [&](const std::string& text) { value = text == "true"; });
+  }
   template <class Enumeration>
   void operator()(Enumeration& value) {
     constexpr std::string_view key = EnumerationTable<Enumeration>::key;
-    if (!is_wanted(key)) return;
-    add_choice(app_, names_of(key), value)->group(group_of(key));
+    take(key, [&](const std::string& text) {
+      const std::string advice = advice_for_value(key, text, method_);
+      if (!advice.empty()) throw Error(ErrorCode::InvalidInput, advice);
+      value = from_key<Enumeration>(text);
+    });
+  }
+  void operator()(Method& value) {
+    take(EnumerationTable<Method>::key,
+         [&](const std::string& text) { value = from_key<Method>(text); });
+    method_ = value;
   }
 
-  void operator()(bool& value, const FlagOption& option) {
-    if (!is_wanted(option.key)) return;
-    const std::string name = "--" + std::string(option.key);
-    // What is on without being asked for needs a way to be off.
-    const std::string off = value ? ",!--no-" + std::string(option.key) : "";
-    app_.add_flag(name + off, value, help_of(value, option))->group(group_of(option.key));
+  /// Refuses what no option has taken.
+  void finish() const {
+    for (const auto& [key, text] : given_) refuse_argument(key, advice_for_option(key, method_));
   }
 
  private:
+  template <class Read>
+  void take(std::string_view key, const Read& read) {
+    const auto found = given_.find(key);
+    if (found == given_.end()) return;
+    try {
+      read(found->second);
+    } catch (const Error& error) {
+      refuse_argument(key, error.what());
+    }
+    given_.erase(found);
+  }
+
+  Given given_;
+  Method method_ = Method::OnScan;
+};
+
+const Marked* mark_of(std::string_view key) {
+  const Marked* found = std::find_if(std::begin(marked), std::end(marked),
+                                     [&](const Marked& one) { return one.key == key; });
+  return found == std::end(marked) ? nullptr : found;
+}
+
+/// Adds an argument for each option, with the help text of both methods where both have it.
+class AddArgument {
+ public:
+  AddArgument(CLI::App& app, Remeshed remeshed, Given& given)
+      : app_(app), remeshed_(remeshed), given_(given) {}
+
+  /// Options that follow belong to one method only.
+  void begin_method(Method method) { of_method_ = " (" + key_of(method) + ")"; }
+  void end_methods() { of_method_.clear(); }
+
+  template <class Number>
+  void operator()(const Number& value, const NumberOption<Number>& option) {
+    add(option.key, help_of(value, option), "N");
+  }
+  template <class Enumeration>
+  void operator()(const Enumeration& value) {
+    add(EnumerationTable<Enumeration>::key, help_of(value), "NAME");
+  }
+  void operator()(const bool& value, const FlagOption& option) {
+    const std::string key(option.key);
+    if (!is_wanted(key)) return;
+    // What is on without being asked for needs a way to be off.
+    const std::string off = value ? ",!--no-" + key : "";
+    app_.add_flag_function(
+            "--" + key + off,
+            [this_given = &given_, key](std::int64_t count) {
+              (*this_given)[key] = count > 0 ? "true" : "false";
+            },
+            help_of(value, option))
+        ->group(group_of(key));
+  }
+
+ private:
+  void add(std::string_view name, const std::string& help, const std::string& type) {
+    const std::string key(name);
+    if (!is_wanted(key)) return;
+    CLI::Option* known = app_.get_option_no_throw("--" + key);
+    if (known != nullptr) {
+      // Both methods have it, each with its own values.
+      if (type == "NAME") known->description(known->get_description() + "\n" + help + of_method_);
+      return;
+    }
+    app_.add_option_function<std::string>(
+            names_of(key),
+            [this_given = &given_, key](const std::string& text) { (*this_given)[key] = text; })
+        ->take_last()
+        ->description(help + of_method_)
+        ->type_name(type)
+        ->group(group_of(key));
+  }
+
   bool is_wanted(std::string_view key) const {
     return remeshed_ == Remeshed::Scan ||
            std::find(std::begin(of_a_scan), std::end(of_a_scan), key) == std::end(of_a_scan);
-  }
-  static const Marked* mark_of(std::string_view key) {
-    const Marked* found = std::find_if(std::begin(marked), std::end(marked),
-                                       [&](const Marked& one) { return one.key == key; });
-    return found == std::end(marked) ? nullptr : found;
   }
   static std::string group_of(std::string_view key) {
     const Marked* mark = mark_of(key);
@@ -100,13 +180,52 @@ class AddArgument {
 
   CLI::App& app_;
   Remeshed remeshed_;
+  Given& given_;
+  std::string of_method_;
 };
+
+/// Adds what version 2 had, hidden, so that a call with it says what to use instead.
+void add_replaced(CLI::App& app) {
+  const std::map<std::string_view, std::string> letters = {
+      {"refine", "-r,"}, {"iterations", "-i,"}, {"metric", "-m,"}};
+  for (const std::string_view name : replaced_options()) {
+    const std::string key(name);
+    const auto letter = letters.find(name);
+    app.add_option_function<std::vector<std::string>>(
+           (letter == letters.end() ? "" : letter->second) + "--" + key,
+           [key](const std::vector<std::string>& /*texts*/) {
+             refuse_argument(key, advice_for_option(key, Method::OnScan));
+           })
+        ->expected(0, 1)
+        ->group("");
+  }
+}
 
 }  // namespace
 
 void add_remesh_arguments(CLI::App& app, RemeshOptions& options, Remeshed remeshed) {
-  AddArgument add(app, remeshed);
-  for_each_option(options, add);
+  const auto given = std::make_shared<Given>();
+  AddArgument add(app, remeshed, *given);
+  const Method method = method_of(options);
+  add(method);
+  // The caller's defaults for one method, the library's for the other.
+  const auto* on_scan = std::get_if<OnScanOptions>(&options.method);
+  const auto* published = std::get_if<AsPublishedOptions>(&options.method);
+  const OnScanOptions scan_defaults = on_scan != nullptr ? *on_scan : OnScanOptions();
+  const AsPublishedOptions published_defaults =
+      published != nullptr ? *published : AsPublishedOptions();
+  add.begin_method(Method::OnScan);
+  for_each_method_option(scan_defaults, add);
+  add.begin_method(Method::AsPublished);
+  for_each_method_option(published_defaults, add);
+  add.end_methods();
+  for_each_common_option(options, add);
+  add_replaced(app);
+  app.parse_complete_callback([given, &options] {
+    ReadGiven read(*given);
+    for_each_option(options, read);
+    read.finish();
+  });
 }
 
 }  // namespace wscvt::program

@@ -22,8 +22,8 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
       {"remesh",
        "Remesh a dense scan of a grain to exactly N nodes",
        {"scan.ply remesh.ply -n 1000 --report remesh.html",
-        "scan.ply remesh.ply -w error-adaptive -r 60 --report table.csv",
-        "scan.ply remesh.ply --target 0.5",
+        "scan.ply remesh.ply -w error-adaptive --edge-ratio 1.4 --report table.csv",
+        "scan.ply remesh.ply --max-error 0.5",
         "scan.ply remesh.ply --frame principal --node-table nodes.csv --sdf grid.npy"},
        "A remesh of the same scan, options and version has the same bytes on any number of "
        "threads.\n"
@@ -36,7 +36,7 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   add_simulation_arguments(app, arguments.simulation);
   add_common_arguments(app, arguments.common);
   add_file_argument(app, "--coefficients", arguments.coefficients,
-                    "Write the fitted series to this file as JSON");
+                    "Write the coefficients of the SH series to this file as JSON");
   return app;
 }
 
@@ -56,7 +56,7 @@ int run(const RemeshArguments& arguments) {
   options.measures.coefficients = !arguments.coefficients.empty();
 
   // On a page and in signed distances, beside what became of it.
-  options.measures.used_scan =
+  options.measures.repaired_scan =
       std::any_of(common.reports.begin(), common.reports.end(), shows_scan) ||
       (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
 

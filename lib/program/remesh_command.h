@@ -6,7 +6,7 @@
 
 #include "common_arguments.h"
 #include "simulation_arguments.h"
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::program {
 

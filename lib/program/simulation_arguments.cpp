@@ -12,15 +12,6 @@ void add_files(CLI::App& app, const std::string& name, std::vector<std::string>&
   app.add_option(name, files, description)->type_name("FILE")->allow_extra_args(false);
 }
 
-/// Two options share the table of units, so each says its own purpose.
-void add_unit(CLI::App& app, std::string_view key, LengthUnit& unit, const std::string& purpose) {
-  add_typed(app, "--" + std::string(key),
-            [&unit](std::string_view text) { unit = from_key<LengthUnit>(text); })
-      ->description(purpose + ": " + keys_of<LengthUnit>() + ". Default: " + key_of(unit))
-      ->type_name("NAME")
-      ->group(finer_settings);
-}
-
 }  // namespace
 
 void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
@@ -40,15 +31,10 @@ void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
       ->group(finer_settings);
   add_number(app, "--" + std::string(scale_option.key), options.frame.scale, scale_option)
       ->group(finer_settings);
-  add_unit(app, input_unit_key, options.frame.input_unit, "Unit of the scan");
-  add_unit(app, output_unit_key, options.frame.output_unit, "Unit of what is written");
   add_choice(app, "--" + std::string(EnumerationTable<GridSurface>::key), options.surface)
       ->group(finer_settings);
   add_number(app, "--" + std::string(grid_spacing_option.key), options.grid.spacing,
              grid_spacing_option)
-      ->group(finer_settings);
-  add_number(app, "--" + std::string(grid_margin_option.key), options.grid.margin,
-             grid_margin_option)
       ->group(finer_settings);
 }
 

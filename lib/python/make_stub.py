@@ -19,6 +19,7 @@ def annotation(name, default):
     return type(default).__name__
 
 
+both = {**wscvt.options(), **wscvt.options("as-published")}
 options = "".join(f"    {name}: {annotation(name, default)} = ...,\n"
-                  for name, default in wscvt.options().items())
+                  for name, default in both.items())
 stub.write_text(template.read_text().replace("    # options\n", options))

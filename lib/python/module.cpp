@@ -17,6 +17,7 @@
 #include "wscvt/base/version.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/remesh.h"
+#include "wscvt/remesh/option_advice.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/surface/grain_surface.h"
@@ -91,8 +92,13 @@ class ReadOptions {
   void operator()(Enumeration& value) {
     read(wscvt::EnumerationTable<Enumeration>::key,
          [&](const std::string& keyword, const py::handle& object) {
-           value = wscvt::from_key<Enumeration>(
-               cast_option<std::string>(keyword, object, wscvt::keys_of<Enumeration>().c_str()));
+           const auto key =
+               cast_option<std::string>(keyword, object, wscvt::keys_of<Enumeration>().c_str());
+           const std::string advice =
+               wscvt::advice_for_value(wscvt::EnumerationTable<Enumeration>::key, key, method_);
+           if (!advice.empty()) refuse("The option " + keyword + ": " + advice);
+           value = wscvt::from_key<Enumeration>(key);
+           if constexpr (std::is_same_v<Enumeration, wscvt::Method>) method_ = value;
          });
   }
 
@@ -102,6 +108,10 @@ class ReadOptions {
     for (const auto& [name, value] : given_) {
       const auto keyword = name.cast<std::string>();
       if (std::find(known_.begin(), known_.end(), keyword) != known_.end()) continue;
+      std::string key = keyword;
+      std::replace(key.begin(), key.end(), '_', '-');
+      const std::string advice = wscvt::advice_for_option(key, method_);
+      if (!advice.empty()) throw py::type_error("The option " + keyword + ": " + advice);
       throw py::type_error("There is no option " + keyword +
                            "; wscvt.options() has the options and their defaults.");
     }
@@ -120,6 +130,7 @@ class ReadOptions {
   const py::dict& given_;
   std::vector<std::string> known_;
   std::size_t found_ = 0;
+  wscvt::Method method_ = wscvt::Method::OnScan;
 };
 
 wscvt::RemeshOptions options_of(const py::dict& given, wscvt::RemeshOptions options) {
@@ -154,8 +165,13 @@ class ChoicesToDict {
   template <class Enumeration>
   void operator()(const Enumeration&) {
     py::list names;
-    for (const auto& row : wscvt::enumerators<Enumeration>()) names.append(std::string(row.key));
-    choices_[keyword_of(wscvt::EnumerationTable<Enumeration>::key).c_str()] = names;
+    const std::string keyword = keyword_of(wscvt::EnumerationTable<Enumeration>::key);
+    // Both methods may have the option, each with its own values.
+    if (choices_.contains(keyword.c_str())) names = choices_[keyword.c_str()];
+    for (const auto& row : wscvt::enumerators<Enumeration>()) {
+      if (!names.contains(std::string(row.key))) names.append(std::string(row.key));
+    }
+    choices_[keyword.c_str()] = names;
   }
   py::dict choices_;
 };
@@ -294,7 +310,9 @@ Remesh create(const std::string& kind, const std::array<double, 3>& semi_axes,
   surface.coefficients_file = coefficients_file;
   surface.coefficient_degree = coefficient_degree;
   wscvt::RemeshOptions defaults;
-  defaults.placement.kind = wscvt::NodePlacement::Series;
+  wscvt::OnScanOptions on_surface;
+  on_surface.placement = wscvt::ScanPlacement::OnSurface;
+  defaults.method = on_surface;
   const wscvt::RemeshOptions options = options_of(given, defaults);
   return {work_on(threads, progress,
                   [&](const wscvt::Execution& execution) {
@@ -345,7 +363,8 @@ PYBIND11_MODULE(_wscvt, module) {
 
   py::class_<Remesh> remesh_class(
       module, "Remesh",
-      "A remesh of N nodes: vertices (N, 3) float64 and faces (2 N - 4, 3) int32, "
+      "A remesh of N nodes: vertices (N, 3) float64 and faces (m, 3) int32, m = 2 N - 4 without "
+      "handles, "
       "counter-clockwise "
       "from outside; centre (3,); radial_distances (N,) from it, length; cell_areas (N,), "
       "length^2; "
@@ -381,19 +400,24 @@ PYBIND11_MODULE(_wscvt, module) {
 
   module.def(
       "options",
-      [] {
+      [](const std::string& method) {
         OptionsToDict dict;
-        const wscvt::RemeshOptions defaults;
+        wscvt::RemeshOptions defaults;
+        if (wscvt::from_key<wscvt::Method>(method) == wscvt::Method::AsPublished) {
+          defaults.method = wscvt::AsPublishedOptions();
+        }
         for_each_option(defaults, dict);
         return dict.options_;
       },
-      "All options of remesh and create with their defaults: the names that one types for the "
-      "program, "
-      "with _ for -.");
+      py::arg("method") = key_of(wscvt::Method::OnScan),
+      "All options of remesh and create by a method, with their defaults: the names that one types "
+      "for the program, with _ for -.");
   module.def("_choices", [] {
     ChoicesToDict dict;
     const wscvt::RemeshOptions options;
     for_each_option(options, dict);
+    const wscvt::AsPublishedOptions published;
+    for_each_method_option(published, dict);
     return dict.choices_;
   });
   module.def(

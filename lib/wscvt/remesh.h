@@ -3,8 +3,8 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/report/remesh_options.h"
-#include "wscvt/report/remesh_result.h"
+#include "wscvt/remesh/remesh_options.h"
+#include "wscvt/remesh/remesh_result.h"
 
 namespace wscvt {
 
@@ -17,24 +17,25 @@ struct GrainSurface;
 // Mechanics, 2022, doi 10.6052/j.issn.1000-4750.2022.07.0614. "Length" is the unit of the mesh's
 // coordinates, "equivalent radius" that of the sphere of the scan's volume.
 
-/// Remeshes a dense scan to exactly N nodes. The scan is taken by value, since it is mended and
-/// centred; a caller that needs it no more moves it in. Throws Error: InvalidInput
-/// for options out of range and meshes that cannot be mended (see check_mesh), NotStarShaped when
-/// the folded share exceeds the limit, NumericalFailure, Cancelled.
+/// Remeshes a dense scan to exactly N nodes, by the method whose options are given. The scan is
+/// taken by value, since it is repaired and centred; a caller that needs it no more moves it in.
+/// Throws Error: InvalidInput for options out of range and meshes that cannot be repaired (see
+/// check_mesh), NotStarShaped as published when the overhang fraction is above its limit,
+/// NumericalFailure, Cancelled.
 ///
 /// With the option `points` the scan's points are triangulated first (see mesh_of_points, which
-/// also says what it throws): `original` and `folded_share` are then those of the surface made for
-/// them, and the result carries a warning.
+/// also says what it throws): `original` is then that of the surface made for them, and the result
+/// carries a warning.
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
 
-/// Discretises a surface given by a formula or by coefficients, about its own origin, in the same
-/// way. The surface takes the place of the fitted series, and of the scan where that is asked for;
-/// volume, area and sphericity of `original` are integrals over it, everything else is measured on
-/// a mesh of 40,962 of its points. The options `points`, `envelope`, `check`, `handles`, `surface`,
-/// `weighting.curvature_source` and `measures.advice` have no meaning here. Throws Error:
-/// InvalidInput for options out of range and surfaces that cannot be integrated (see integrate),
-/// NumericalFailure, Cancelled.
+/// Remeshes a surface given by a formula or by coefficients, about its own origin. As published
+/// takes the surface itself in the place of the series and of the scan. On the scan takes a mesh of
+/// 163,842 of its points, and nodes on the surface are moved along their rays onto the surface
+/// itself. Volume, area and sphericity of `original` are integrals over the surface, everything
+/// else is measured on a mesh of it. The options of a scan's repair have no meaning here. Throws
+/// Error: InvalidInput for options out of range and surfaces that cannot be integrated (see
+/// integrate), NumericalFailure, Cancelled.
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
                     const Execution& execution = Execution());
 
@@ -44,8 +45,8 @@ RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
 RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
                     const Execution& execution = Execution());
 
-/// One of the two above: of the formula or the coefficients that `surface` names. Reads their file.
-/// Throws as those and make_surface do.
+/// Remeshes the surface of the formula or the coefficients that `surface` names, by one of the two
+/// functions above. Reads their file. Throws as those and make_surface do.
 RemeshResult remesh(const GrainSurface& surface, const RemeshOptions& options,
                     const Execution& execution = Execution());
 

@@ -103,52 +103,46 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
                       remesh(scan, options, execution);
                     }});
   };
-  const auto spherical = [](RemeshOptions& o) {
-    o.surface.parametrization = Parametrization::Spherical;
+  const auto on_scan = [&](const std::string& name, const auto& change) {
+    add(name, [change](RemeshOptions& o) {
+      OnScanOptions method;
+      change(method);
+      o.method = method;
+    });
   };
   add("remesh", [](RemeshOptions&) {});
-  add("remesh as published", [](RemeshOptions& o) { o.method = Method::AsPublished; });
-  add("remesh by the series' curvature", [](RemeshOptions& o) {
-    o.weighting.kind = Weighting::Curvature;
+  add("remesh as published", [](RemeshOptions& o) { o.method = AsPublishedOptions(); });
+  add("remesh as published by curvature", [](RemeshOptions& o) {
+    AsPublishedOptions method;
+    method.weighting = Weighting::Curvature;
+    o.method = method;
     o.measures.node_curvatures = true;
   });
-  add("remesh by the scan's curvature", [](RemeshOptions& o) {
-    o.weighting.kind = Weighting::Curvature;
-    o.weighting.curvature_source = CurvatureSource::QuadricFit;
+  on_scan("remesh by the scan's curvature",
+          [](OnScanOptions& o) { o.weighting = CellWeighting::Curvature; });
+  on_scan("remesh for contacts", [](OnScanOptions& o) { o.placement = ScanPlacement::ContactFit; });
+  on_scan("remesh closely", [](OnScanOptions& o) {
+    o.weighting = CellWeighting::ErrorAdaptive;
+    o.edge_ratio = 1.6;
   });
   add("remesh of points", [](RemeshOptions& o) { o.points = true; });
   add("remesh with distances", [](RemeshOptions& o) { o.measures.distances = true; });
-  add("remesh for contacts", [](RemeshOptions& o) { o.placement.kind = NodePlacement::Contact; });
-  add("remesh refined", [](RemeshOptions& o) {
-    o.weighting.kind = Weighting::ErrorAdaptive;
-    o.placement.refinement.rounds = 20;
-  });
-  add("remesh to a target", [](RemeshOptions& o) {
+  add("remesh to an error", [](RemeshOptions& o) {
     o.target.percent = 0.3;
     o.target.measure = ErrorMeasure::Distance;
   });
   add("remesh to 100,000 nodes", [](RemeshOptions& o) { o.node_count = 100000; });
-  add("remesh to 100,000 nodes refined", [](RemeshOptions& o) {
-    o.node_count = 100000;
-    o.placement.refinement.rounds = 1;
+  add("remesh as published to 1,000,000 nodes", [](RemeshOptions& o) {
+    o.method = AsPublishedOptions();
+    o.node_count = 1000000;
   });
-  add("remesh to 1,000,000 nodes", [](RemeshOptions& o) { o.node_count = 1000000; });
-  add("remesh of the envelope at 5 %", [](RemeshOptions& o) { o.envelope.opening_percent = 5.0; });
-  add("remesh of the envelope at 2 %", [](RemeshOptions& o) { o.envelope.opening_percent = 2.0; });
-  add("remesh of the points' envelope at 5 %", [](RemeshOptions& o) {
+  add("remesh of the wrap at 5 %", [](RemeshOptions& o) { o.envelope.opening_percent = 5.0; });
+  add("remesh of the wrap at 2 %", [](RemeshOptions& o) { o.envelope.opening_percent = 2.0; });
+  add("remesh of the points' wrap at 5 %", [](RemeshOptions& o) {
     o.points = true;
     o.envelope.opening_percent = 5.0;
   });
-  add("remesh by the spherical map", spherical);
-  add("remesh by the spherical map, refined", [spherical](RemeshOptions& o) {
-    spherical(o);
-    o.placement.refinement.rounds = 20;
-    o.measures.coefficients = true;
-  });
-  add("remesh by the map to 100,000 nodes", [spherical](RemeshOptions& o) {
-    spherical(o);
-    o.node_count = 100000;
-  });
+  add("remesh with coefficients", [](RemeshOptions& o) { o.measures.coefficients = true; });
   for (const std::string ending : {".ply", ".obj", ".off", ".stl"}) {
     const std::string path =
         (std::filesystem::temp_directory_path() / ("wscvt_progress_gaps" + ending)).string();
@@ -167,7 +161,9 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
                   }});
   runs.push_back({"remesh of a torus", [&scan](const Execution& execution) {
                     RemeshOptions options;
-                    options.handles.length_limit = 10.0;
+                    OnScanOptions method;
+                    method.handles.length_limit = 10.0;
+                    options.method = method;
                     remesh(handled(static_cast<int>(scan.points.size())), options, execution);
                   }});
   runs.push_back({"descriptors and comparison", [&scan](const Execution& execution) {
@@ -177,7 +173,7 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
                   [&scan](const Execution& execution) { distance_grid(scan, {}, execution); }});
   runs.push_back({"page", [&scan](const Execution& execution) {
                     RemeshOptions options;
-                    options.measures.used_scan = true;
+                    options.measures.repaired_scan = true;
                     const RemeshResult result = remesh(scan, options, execution);
                     report_html(result, {}, execution);
                   }});

@@ -11,15 +11,13 @@
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/nodes/node_placement.h"
-#include "wscvt/nodes/node_refinement.h"
+#include "wscvt/nodes/scan_nodes.h"
 #include "wscvt/remesh.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mesh_surface.h"
-#include "wscvt/surface/radial_samples.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/power_cells.h"
 #include "wscvt/tessellation/relaxation.h"
@@ -47,7 +45,7 @@ const HarmonicSurface& surface() {
 SurfaceSeedModel model_of(int nodes, const Execution& execution) {
   WeightingOptions options;
   options.kind = Weighting::Area;
-  return {surface(), options, nodes, nullptr, execution};
+  return {surface(), options, nodes, execution};
 }
 
 void count(benchmark::State& state, std::int64_t items) {
@@ -68,15 +66,6 @@ void check(benchmark::State& state) {
   const IndexedMesh& scan = scan_of(state.range(0));
   for (auto _ : state) {
     benchmark::DoNotOptimize(check_mesh(scan, {}, execution));
-  }
-  count(state, state.range(0));
-}
-
-void sample_radii(benchmark::State& state) {
-  const Execution execution(static_cast<int>(state.range(1)));
-  const IndexedMesh& scan = scan_of(state.range(0));
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(radial_samples(scan, execution));
   }
   count(state, state.range(0));
 }
@@ -141,13 +130,12 @@ void triangulate(benchmark::State& state) {
   count(state, state.range(0));
 }
 
-/// One step: look-up of weights or radii, repair of the triangulation, cells, move of the seeds.
-void relaxation_step(benchmark::State& state, RelaxationMetric metric) {
+/// One step: look-up of weights, repair of the triangulation, cells, move of the seeds.
+void relaxation_step(benchmark::State& state) {
   const auto nodes = static_cast<int>(state.range(0));
   const Execution execution(static_cast<int>(state.range(1)));
   const SurfaceSeedModel model = model_of(nodes, execution);
   RelaxationOptions options;
-  options.metric = metric;
   options.maximum_iterations = 20;
   options.displacement_tolerance = 1e-12;
   RelaxationResult state_of_rest = relax(fibonacci_lattice(nodes), model, options, execution);
@@ -163,20 +151,18 @@ void relaxation_step(benchmark::State& state, RelaxationMetric metric) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void relaxation(benchmark::State& state, RelaxationMetric metric) {
+void relaxation(benchmark::State& state) {
   const auto nodes = static_cast<int>(state.range(0));
   const Execution execution(static_cast<int>(state.range(1)));
   const SurfaceSeedModel model = model_of(nodes, execution);
   RelaxationOptions options;
-  options.metric = metric;
-  const MultilevelOptions levels;
   const auto density = [&](const std::vector<Vector3>& directions) {
     return model.number_densities(directions, execution);
   };
   for (auto _ : state) {
-    const int coarsest = level_sizes(nodes, levels.coarsest_seeds).front();
-    benchmark::DoNotOptimize(relax_multilevel(warped_lattice(coarsest, density, 64), nodes, model,
-                                              options, levels, execution));
+    const int coarsest = level_sizes(nodes).front();
+    benchmark::DoNotOptimize(
+        relax_multilevel(warped_lattice(coarsest, density, 64), nodes, model, options, execution));
   }
   count(state, nodes);
 }
@@ -190,42 +176,12 @@ void cast_rays(benchmark::State& state) {
   count(state, state.range(0));
 }
 
-/// Nodes on the lattice, placed by least squares towards a scan of 100,000 vertices.
-struct Fitted {
-  Fitted(int nodes, const Execution& execution)
-      : rays(scan_of(100000), Vector3::Zero(), 1.0, execution),
-        directions(fibonacci_lattice(nodes)),
-        triangulation(directions) {}
-
-  std::vector<double> radii(const Execution& execution) const {
-    return least_squares_radii(directions, triangulation.triangles(), rays, 60000, execution);
-  }
-
-  MeshSurface rays;
-  std::vector<Vector3> directions;
-  SphereTriangulation triangulation;
-};
-
-void place_by_least_squares(benchmark::State& state) {
+/// Nodes on the scan of 100,000 vertices, as the method on the scan places them.
+void place_on_scan(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
-  const Fitted nodes(static_cast<int>(state.range(0)), execution);
-  for (auto _ : state) benchmark::DoNotOptimize(nodes.radii(execution));
-  count(state, state.range(0));
-}
-
-void refine_one_round(benchmark::State& state) {
-  const Execution execution(static_cast<int>(state.range(1)));
-  const Fitted nodes(static_cast<int>(state.range(0)), execution);
-  const std::vector<double> radii = nodes.radii(execution);
-  std::vector<Vector3> positions;
-  for (std::size_t i = 0; i < radii.size(); ++i)
-    positions.push_back(radii[i] * nodes.directions[i]);
-  RefinementOptions options;
-  options.rounds = 1;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(refine_nodes(radial_nodes(positions), nodes.triangulation,
-                                          RadialTarget(nodes.rays), options, execution));
-  }
+  const auto nodes = static_cast<int>(state.range(0));
+  const ScanRemesher remesher(scan_of(100000), ScanNodesOptions(), nodes, execution);
+  for (auto _ : state) benchmark::DoNotOptimize(remesher.place(nodes, execution));
   count(state, state.range(0));
 }
 
@@ -243,7 +199,6 @@ void measure_to_scan(benchmark::State& state) {
 
 void whole(benchmark::State& state) {
   RemeshOptions options;
-  options.weighting.kind = Weighting::Area;
   options.node_count = static_cast<int>(state.range(1));
   const Execution execution(static_cast<int>(state.range(2)));
   const IndexedMesh& scan = scan_of(state.range(0));
@@ -290,8 +245,6 @@ BENCHMARK(triangulate)->Arg(1000)->Arg(10000)->Arg(100000)->Complexity();
 
 BENCHMARK(check)->Apply(sizes<1>);
 BENCHMARK(check)->Apply(sizes<2>);
-BENCHMARK(sample_radii)->Apply(sizes<1>);
-BENCHMARK(sample_radii)->Apply(sizes<2>);
 BENCHMARK(fit_degree_30)->Apply(sizes<1>);
 BENCHMARK(fit_degree_30)->Apply(sizes<2>);
 BENCHMARK(measure)->Apply(sizes<1>);
@@ -300,20 +253,14 @@ BENCHMARK(tabulate_weights)->Apply(nodes<1>);
 BENCHMARK(tabulate_weights)->Apply(nodes<2>);
 BENCHMARK(warp_lattice)->Apply(nodes<1>);
 BENCHMARK(warp_lattice)->Apply(nodes<2>);
-BENCHMARK_CAPTURE(relaxation_step, sphere, RelaxationMetric::Sphere)->Apply(nodes<1>);
-BENCHMARK_CAPTURE(relaxation_step, sphere, RelaxationMetric::Sphere)->Apply(nodes<2>);
-BENCHMARK_CAPTURE(relaxation_step, surface, RelaxationMetric::Surface)->Apply(nodes<1>);
-BENCHMARK_CAPTURE(relaxation_step, surface, RelaxationMetric::Surface)->Apply(nodes<2>);
-BENCHMARK_CAPTURE(relaxation, sphere, RelaxationMetric::Sphere)->Apply(nodes<1>);
-BENCHMARK_CAPTURE(relaxation, sphere, RelaxationMetric::Sphere)->Apply(nodes<2>);
-BENCHMARK_CAPTURE(relaxation, surface, RelaxationMetric::Surface)->Apply(nodes<1>);
-BENCHMARK_CAPTURE(relaxation, surface, RelaxationMetric::Surface)->Apply(nodes<2>);
+BENCHMARK(relaxation_step)->Apply(nodes<1>);
+BENCHMARK(relaxation_step)->Apply(nodes<2>);
+BENCHMARK(relaxation)->Apply(nodes<1>);
+BENCHMARK(relaxation)->Apply(nodes<2>);
 BENCHMARK(cast_rays)->Apply(nodes<1>);
 BENCHMARK(cast_rays)->Apply(nodes<2>);
-BENCHMARK(place_by_least_squares)->Apply(nodes<1>);
-BENCHMARK(place_by_least_squares)->Apply(nodes<2>);
-BENCHMARK(refine_one_round)->Apply(nodes<1>);
-BENCHMARK(refine_one_round)->Apply(nodes<2>);
+BENCHMARK(place_on_scan)->Apply(nodes<1>);
+BENCHMARK(place_on_scan)->Apply(nodes<2>);
 BENCHMARK(measure_to_scan)->Apply(nodes<1>);
 BENCHMARK(measure_to_scan)->Apply(nodes<2>);
 BENCHMARK(whole_by_input)->Apply(scans<1>);

@@ -27,7 +27,7 @@ class SimulationFiles : public testing::Test {
                                              test::random_rotation(5), {10, 20, 30}));
     RemeshOptions remesh_options;
     remesh_options.node_count = 120;
-    remesh_options.measures.used_scan = true;
+    remesh_options.measures.repaired_scan = true;
     result = new RemeshResult(remesh(*scan, remesh_options, Execution(2)));
   }
   static void TearDownTestSuite() {
@@ -54,7 +54,7 @@ class SimulationFiles : public testing::Test {
   /// What a remesh of a formula gives, or one that was not asked for the scan.
   static RemeshResult without_scan() {
     RemeshResult copy = *result;
-    copy.used_scan = {};
+    copy.repaired_scan = {};
     return copy;
   }
 
@@ -151,9 +151,6 @@ TEST_F(SimulationFiles, OptionsOutOfRangeAreToldBeforehand) {
   for (const double spacing : {-0.01, nan}) {
     expect_refused([&](SimulationOptions& changed) { changed.grid.spacing = spacing; });
   }
-  for (const int margin : {0, 1001}) {
-    expect_refused([&](SimulationOptions& changed) { changed.grid.margin = margin; });
-  }
   for (const double scale : {0.0, -1.0, nan}) {
     expect_refused([&](SimulationOptions& changed) { changed.frame.scale = scale; });
   }
@@ -172,7 +169,7 @@ TEST_F(SimulationFiles, RefuseWhatTheyCannotWrite) {
                InvalidInput);
   options.frame.frame = Frame::Centred;
   EXPECT_ERROR(write_nodes(path("nodes.shp"), *result, options), InvalidInput);
-  options.grid.margin = 0;
+  options.grid.spacing = -1.0;
   EXPECT_ERROR(check_simulation_options(options), InvalidInput);
   EXPECT_TRUE(std::filesystem::is_empty(folder));
 }

@@ -285,7 +285,7 @@ TEST(CreationFilter, FoldsAwayWhatIsSeldomNeeded) {
       EXPECT_FALSE(is_advanced(parameter));
     }
   }
-  EXPECT_EQ(shown, host_folds_parameters ? 13U : loaded.parameters(document).size());
+  EXPECT_EQ(shown, host_folds_parameters ? 14U : loaded.parameters(document).size());
 }
 
 TEST(EverydayFilter, GivesWhatTheRemesherGives) {
@@ -297,7 +297,7 @@ TEST(EverydayFilter, GivesWhatTheRemesherGives) {
     document.setCurrentMesh(scan.id());
     RichParameterList parameters = loaded.parameters(document);
     parameters.setValue("NodeCount", IntValue(150));
-    parameters.setValue("Weighting", EnumValue(3));
+    parameters.setValue("Weighting", EnumValue(4));
     ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
     results.push_back(state_of(*document.mm()));
     results.back().label.clear();
@@ -325,55 +325,28 @@ QString listed_parameters(const QString& menu_text) {
 }
 
 TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
-  const QStringList remesh{"NodeCount RichInt 1000",
-                           "ErrorTarget RichFloat 0",
-                           "TargetMeasure RichEnum 4",
-                           "Method RichEnum 0",
-                           "Sampling RichEnum 0",
-                           "Weighting RichEnum 1",
-                           "HarmonicDegree RichInt 0",
-                           "CurvatureAlpha RichFloat 1",
-                           "CurvatureSource RichEnum 0",
-                           "Placement RichEnum 2",
-                           "RefinementRounds RichInt 0",
-                           "SmallestAngle RichFloat 30",
-                           "Parametrization RichEnum 0",
-                           "FoldLimit RichFloat 5",
-                           "MendLimit RichFloat 5",
-                           "Points RichBool false",
-                           "Metric RichEnum 1",
-                           "SeedStart RichEnum 0",
-                           "RandomSeed RichInt 1",
-                           "MaxIterations RichInt 1000",
-                           "Threads RichInt 0",
-                           "NewLayer RichBool true",
-                           "Distances RichBool false",
-                           "Quality RichEnum 0",
-                           "ColorByQuality RichBool false",
-                           "ReportFile OutputFile",
-                           "CoefficientsFile OutputFile"};
+  const QStringList remesh{"NodeCount RichInt 1000",    "ErrorTarget RichFloat 0",
+                           "TargetMeasure RichEnum 4",  "Method RichEnum 0",
+                           "Weighting RichEnum 1",      "CurvatureAlpha RichFloat 1",
+                           "Placement RichEnum 4",      "EdgeRatio RichFloat 1.105",
+                           "HarmonicDegree RichInt 20", "FoldLimit RichFloat 5",
+                           "MendLimit RichFloat 5",     "Points RichBool false",
+                           "NewLayer RichBool true",    "Distances RichBool false",
+                           "Quality RichEnum 0",        "ColorByQuality RichBool false",
+                           "ReportFile OutputFile",     "CoefficientsFile OutputFile"};
   EXPECT_EQ(listed_parameters(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
-  const QStringList create{"Surface RichEnum 0",
-                           "SemiAxisX RichFloat 1",
-                           "SemiAxisY RichFloat 1",
-                           "SemiAxisZ RichFloat 1",
-                           "PolarExponent RichFloat 1",
-                           "AzimuthalExponent RichFloat 1",
-                           "CoefficientsFile InputFile",
-                           "CoefficientDegree RichInt -1",
-                           "NodeCount RichInt 1000",
-                           "Sampling RichEnum 0",
-                           "Weighting RichEnum 1",
-                           "CurvatureAlpha RichFloat 1",
-                           "Placement RichEnum 0",
-                           "Metric RichEnum 1",
-                           "SeedStart RichEnum 0",
-                           "RandomSeed RichInt 1",
-                           "MaxIterations RichInt 1000",
-                           "Quality RichEnum 0",
-                           "ColorByQuality RichBool false",
+  const QStringList create{"Surface RichEnum 0",         "SemiAxisX RichFloat 1",
+                           "SemiAxisY RichFloat 1",      "SemiAxisZ RichFloat 1",
+                           "PolarExponent RichFloat 1",  "AzimuthalExponent RichFloat 1",
+                           "CoefficientsFile InputFile", "CoefficientDegree RichInt -1",
+                           "NodeCount RichInt 1000",     "Method RichEnum 0",
+                           "Weighting RichEnum 1",       "CurvatureAlpha RichFloat 1",
+                           "Placement RichEnum 4",       "EdgeRatio RichFloat 1.105",
+                           "Quality RichEnum 0",         "ColorByQuality RichBool false",
                            "ReportFile OutputFile"};
   EXPECT_EQ(listed_parameters(creation_menu_text).toStdString(), create.join("\n").toStdString());
+  EXPECT_LE(remesh.size(), 18);
+  EXPECT_LE(create.size(), 18);
   const QStringList describe{"ReferenceLayer RichString", "RoundnessDegree RichInt 15",
                              "RoughnessDegree RichInt 8", "ReportFile OutputFile"};
   EXPECT_EQ(listed_parameters(descriptor_menu_text).toStdString(),
@@ -387,18 +360,16 @@ TEST(Filter, ChoicesAreFrozen) {
   const auto choices = [&](const char* name) {
     return dynamic_cast<const RichEnum&>(list.getParameterByName(name)).enumvalues;
   };
-  EXPECT_EQ(choices("Weighting"), QStringList({"Constant", "WSCVT-D (radial distance)",
-                                               "WSCVT-C (curvature)", "Area", "Error-adaptive"}));
+  EXPECT_EQ(choices("Weighting"),
+            QStringList({"Constant (as published)", "WSCVT-D", "WSCVT-C (curvature)",
+                         "Area (as published)", "Error-adaptive (on the scan)"}));
   EXPECT_EQ(choices("Method"), QStringList({"On the scan", "As published"}));
-  EXPECT_EQ(choices("Metric"), QStringList({"Sphere", "Surface"}));
-  EXPECT_EQ(choices("Parametrization"), QStringList({"Auto", "Radial", "Spherical"}));
-  EXPECT_EQ(choices("Placement"), QStringList({"Series", "Scan", "Least squares (volume exact)",
-                                               "Contact of the deepest node"}));
-  EXPECT_EQ(choices("Sampling"), QStringList({"Weighted Voronoi", "Fibonacci lattice",
-                                              "Equal-angle grid", "Icosahedron"}));
+  EXPECT_EQ(choices("Placement"),
+            QStringList({"SH surface (as published)", "On the surface",
+                         "Fitted (on the scan, volume exact)", "Contact fit (on the scan)",
+                         "Default of the method"}));
   EXPECT_EQ(choices("TargetMeasure"),
             QStringList({"Volume", "Area", "Sphericity", "Inertia", "RMS distance"}));
-  EXPECT_EQ(choices("SeedStart"), QStringList({"Multilevel", "Warped lattice", "Random"}));
   EXPECT_EQ(choices("Quality"),
             QStringList({"Radial distance", "Curvature", "Cell area", "Distance to the original"}));
 }
@@ -467,24 +438,20 @@ TEST_P(FilterScripts, RunAsTheyAre) {
 
 INSTANTIATE_TEST_SUITE_P(
     , FilterScripts,
-    ::testing::Values(Script{"constant.mlx", filter_menu_text, {{"Weighting", "0"}}},
-                      Script{"wscvt_d.mlx", filter_menu_text, {{"Weighting", "1"}}},
-                      Script{"wscvt_c.mlx", filter_menu_text, {{"Weighting", "2"}}},
-                      Script{"area.mlx", filter_menu_text, {{"Weighting", "3"}}},
-                      Script{"error_adaptive.mlx",
-                             filter_menu_text,
-                             {{"Weighting", "4"},
-                              {"Placement", "2"},
-                              {"RefinementRounds", "60"},
-                              {"Distances", "true"}}},
-                      Script{"create_superellipsoid.mlx",
-                             creation_menu_text,
-                             {{"Surface", "1"},
-                              {"SemiAxisX", "1.5"},
-                              {"SemiAxisY", "1.2"},
-                              {"PolarExponent", "0.7"},
-                              {"AzimuthalExponent", "0.8"}}},
-                      Script{"descriptors.mlx", descriptor_menu_text, {}}),
+    ::testing::Values(
+        Script{"constant.mlx", filter_menu_text, {{"Method", "1"}, {"Weighting", "0"}}},
+        Script{"wscvt_d.mlx", filter_menu_text, {{"Weighting", "1"}}},
+        Script{"wscvt_c.mlx", filter_menu_text, {{"Weighting", "2"}}},
+        Script{"area.mlx", filter_menu_text, {{"Method", "1"}, {"Weighting", "3"}}},
+        Script{"error_adaptive.mlx", filter_menu_text, {{"Weighting", "4"}, {"EdgeRatio", "1.4"}}},
+        Script{"create_superellipsoid.mlx",
+               creation_menu_text,
+               {{"Surface", "1"},
+                {"SemiAxisX", "1.5"},
+                {"SemiAxisY", "1.2"},
+                {"PolarExponent", "0.7"},
+                {"AzimuthalExponent", "0.8"}}},
+        Script{"descriptors.mlx", descriptor_menu_text, {}}),
     [](const auto& test) { return QFileInfo(test.param.file).baseName().toStdString(); });
 
 TEST(Filter, AddsACurrentLayerAndKeepsTheScan) {
@@ -554,7 +521,9 @@ TEST(Filter, GivesWhatTheLibraryGives) {
   };
   RemeshOptions options;
   options.node_count = 200;
-  options.weighting.kind = Weighting::Area;
+  OnScanOptions on_scan;
+  on_scan.weighting = CellWeighting::ErrorAdaptive;
+  options.method = on_scan;
   options.measures.node_curvatures = true;
   options.measures.distances = true;
   const RemeshResult expected = remesh(as_loaded, options);
@@ -563,7 +532,7 @@ TEST(Filter, GivesWhatTheLibraryGives) {
     document.setCurrentMesh(scan.id());
     RichParameterList parameters = loaded.parameters(document);
     parameters.setValue("NodeCount", IntValue(200));
-    parameters.setValue("Weighting", EnumValue(3));
+    parameters.setValue("Weighting", EnumValue(4));
     parameters.setValue("Quality", EnumValue(quality));
     ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
     const CMeshO& actual = document.mm()->cm;
@@ -631,14 +600,12 @@ TEST(Filter, ColorsFromRedToBlueWhenAsked) {
   EXPECT_TRUE(result.cm.mesh_attr.empty()) << "an attribute that only the coloring needed";
 }
 
-TEST(Filter, LogBeginsEmptyAndHoldsTheTableSecondsAndSeed) {
+TEST(Filter, LogBeginsEmptyAndHoldsTheTableAndSeconds) {
   LoadedFilter loaded;
   MeshDocument document;
   add_layer(document, grain());
   RichParameterList parameters = loaded.parameters(document);
   parameters.setValue("NodeCount", IntValue(300));
-  parameters.setValue("SeedStart", EnumValue(2));
-  parameters.setValue("RandomSeed", IntValue(42));
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   const QStringList lines = loaded.log();
   ASSERT_FALSE(lines.isEmpty());
@@ -649,8 +616,8 @@ TEST(Filter, LogBeginsEmptyAndHoldsTheTableSecondsAndSeed) {
   }
   const QString log = lines.join("\n");
   EXPECT_LE(lines.size(), 14) << log.toStdString();
-  for (const char* words : {"volume", "area", "aspect", "sphericity", "error", "seconds",
-                            "Seed        42", "300", "596"}) {
+  for (const char* words :
+       {"volume", "area", "aspect", "sphericity", "error", "seconds", "300", "596"}) {
     EXPECT_TRUE(log.contains(words, Qt::CaseInsensitive)) << words << " is not in\n"
                                                           << log.toStdString();
   }
@@ -838,13 +805,9 @@ RichParameterList parameters_of_script(const std::map<std::string, std::string>&
 TEST(Filter, WarnsOfValuesInAScriptThatCannotBeRead) {
   // Every version drops them and says nothing; meshlabserver then ends itself, see its tests.
   for (const auto& [name, value] : std::map<std::string, std::string>{{"HarmonicDegree", "abc"},
-                                                                      {"RefinementRounds", "2.5"},
                                                                       {"ErrorTarget", "1,5"},
-                                                                      {"RandomSeed", "99999999999"},
-                                                                      {"MaxIterations", "1e3"},
                                                                       {"FoldLimit", ""},
                                                                       {"CurvatureAlpha", "one"},
-                                                                      {"Threads", "0x2"},
                                                                       {"Distances", "yes"},
                                                                       {"Weighting", "area"}}) {
     SCOPED_TRACE(name + " = " + value);
@@ -868,18 +831,36 @@ TEST(Filter, SaysWhatItReadFromAScriptThatLacksMost) {
   add_layer(document, grain());
   RichParameterList few;
   few.addParam(RichInt("NodeCount", 50));
-  few.addParam(RichInt("MaxIterations", 10));
+  few.addParam(RichInt("HarmonicDegree", 10));
   few.addParam(RichBool("Distances", true));
   ASSERT_TRUE(loaded.apply(document, few)) << loaded.message();
   EXPECT_TRUE(
       loaded.log().contains("Warning: Of the script's parameters only NodeCount, "
-                            "MaxIterations and Distances could be read; all others took "
+                            "HarmonicDegree and Distances could be read; all others took "
                             "their defaults."))
       << loaded.log().join("\n").toStdString();
   // A dialog gives all, and nothing is said.
   LoadedFilter again;
   ASSERT_TRUE(again.apply(document, again.parameters(document))) << again.message();
   EXPECT_FALSE(again.log().join("\n").contains("script"));
+}
+
+TEST(Filter, RefusesParametersOfVersion2WithWhatToUseInstead) {
+  const std::pair<const char*, const char*> replaced[] = {
+      {"RefinementRounds", "EdgeRatio"}, {"Metric", "Method"}, {"RandomSeed", "random"}};
+  for (const auto& [name, instead] : replaced) {
+    SCOPED_TRACE(name);
+    LoadedFilter loaded;
+    MeshDocument document;
+    add_layer(document, grain());
+    const auto before = state_of(document);
+    RichParameterList old = loaded.parameters(document);
+    old.addParam(RichInt(name, 0));
+    EXPECT_FALSE(loaded.apply(document, old));
+    EXPECT_TRUE(state_of(document) == before) << "the document has changed";
+    EXPECT_NE(loaded.message().find(name), std::string::npos) << loaded.message();
+    EXPECT_NE(loaded.message().find(instead), std::string::npos) << loaded.message();
+  }
 }
 
 TEST(Filter, WarnsOfWhatAScriptMisspells) {
@@ -938,7 +919,7 @@ TEST(Filter, RemeshesTheScanAgainWhenTheResultIsCurrent) {
   MeshModel& scan = add_layer(document, grain());
   RichParameterList parameters = loaded.parameters(document);
   parameters.setValue("NodeCount", IntValue(120));
-  parameters.setValue("Weighting", EnumValue(3));
+  parameters.setValue("Weighting", EnumValue(4));
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   const LayerState wanted = state_of(*document.mm());
   parameters.setValue("NodeCount", IntValue(200));
@@ -951,14 +932,15 @@ TEST(Filter, RemeshesTheScanAgainWhenTheResultIsCurrent) {
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   MeshModel& third = *document.mm();
   LayerState actual = state_of(third);
-  EXPECT_TRUE(actual.label.startsWith("scan Area 120")) << actual.label.toStdString();
+  EXPECT_TRUE(actual.label.startsWith("scan Error-adaptive 120")) << actual.label.toStdString();
   actual.label = wanted.label;
   EXPECT_TRUE(actual == wanted) << "not a remesh of the scan";
   EXPECT_TRUE(is_shown(third));
   EXPECT_FALSE(is_shown(second));
   EXPECT_FALSE(is_shown(scan));
   const std::string log = loaded.log().join("\n").toStdString();
-  EXPECT_NE(log.find("'scan Area 200' is a remesh of 'scan.ply'"), std::string::npos) << log;
+  EXPECT_NE(log.find("'scan Error-adaptive 200' is a remesh of 'scan.ply'"), std::string::npos)
+      << log;
 
   // In place, the earlier remesh is what is replaced.
   parameters.setValue("NodeCount", IntValue(90));
@@ -967,7 +949,7 @@ TEST(Filter, RemeshesTheScanAgainWhenTheResultIsCurrent) {
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   EXPECT_EQ(document.mm(), &third);
   EXPECT_EQ(third.cm.vn, 90);
-  EXPECT_EQ(third.label().toStdString(), "scan Area 90");
+  EXPECT_EQ(third.label().toStdString(), "scan Error-adaptive 90");
   EXPECT_TRUE(state_of(scan) == scan_before);
 }
 
@@ -1028,9 +1010,8 @@ TEST(Filter, LogsWarningsAsWarningsAndFirst) {
   MeshDocument document;
   add_layer(document, grain());
   RichParameterList parameters = loaded.parameters(document);
-  // No subdivided icosahedron has 160 nodes.
-  parameters.setValue("NodeCount", IntValue(160));
-  parameters.setValue("Sampling", EnumValue(3));
+  // A dozen nodes are far from any scan.
+  parameters.setValue("NodeCount", IntValue(12));
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   const auto& lines = loaded.log_entries();
   ASSERT_GE(lines.size(), 3);
@@ -1197,18 +1178,20 @@ TEST(FilterParameters, DefaultsAreTheLibrarysAndLieInTheirRanges) {
   EXPECT_EQ(options.target.measure, defaults.target.measure);
   EXPECT_EQ(options.target.percent, defaults.target.percent);
   EXPECT_EQ(options.target.largest_node_count, defaults.target.largest_node_count);
-  EXPECT_EQ(options.seeding.sampling, defaults.seeding.sampling);
-  EXPECT_EQ(options.weighting.kind, defaults.weighting.kind);
-  EXPECT_EQ(options.surface.degree, defaults.surface.degree);
-  EXPECT_EQ(options.weighting.curvature_alpha, defaults.weighting.curvature_alpha);
-  EXPECT_EQ(options.placement.kind, defaults.placement.kind);
-  EXPECT_EQ(options.placement.refinement.rounds, defaults.placement.refinement.rounds);
+  EXPECT_EQ(options.degree, defaults.degree);
+  EXPECT_EQ(options.max_repaired_area_percent, defaults.max_repaired_area_percent);
   EXPECT_EQ(options.measures.distances, defaults.measures.distances);
-  EXPECT_EQ(options.surface.fold_limit_percent, defaults.surface.fold_limit_percent);
-  EXPECT_EQ(options.relaxation.metric, defaults.relaxation.metric);
-  EXPECT_EQ(options.seeding.start, defaults.seeding.start);
-  EXPECT_EQ(options.seeding.random_seed, defaults.seeding.random_seed);
-  EXPECT_EQ(options.relaxation.maximum_iterations, defaults.relaxation.maximum_iterations);
+  const auto& on_scan = std::get<OnScanOptions>(options.method);
+  const OnScanOptions usual;
+  EXPECT_EQ(on_scan.weighting, usual.weighting);
+  EXPECT_EQ(on_scan.curvature_alpha, usual.curvature_alpha);
+  EXPECT_EQ(on_scan.placement, usual.placement);
+  EXPECT_EQ(on_scan.edge_ratio, usual.edge_ratio);
+  const RemeshOptions as_published = filter::read_remesh_settings({{"Method", 1.0}}).options;
+  const auto& published = std::get<AsPublishedOptions>(as_published.method);
+  EXPECT_EQ(published.weighting, AsPublishedOptions().weighting);
+  EXPECT_EQ(published.placement, AsPublishedOptions().placement);
+  EXPECT_EQ(published.max_overhang_percent, AsPublishedOptions().max_overhang_percent);
   const DetailedOptions details = filter::read_descriptor_settings({}).options;
   EXPECT_EQ(details.roundness_degree, DetailedOptions().roundness_degree);
   EXPECT_EQ(details.roughness_degree, DetailedOptions().roughness_degree);

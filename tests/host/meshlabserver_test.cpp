@@ -22,7 +22,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/remesh.h"
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::host_test {
@@ -163,10 +163,11 @@ TEST(Server, RefusesANodeCountThatCannotBeRead) {
 TEST(Server, WritesNothingWhenAnotherNumberCannotBeRead) {
   // This MeshLab drops what it cannot read and ends itself by an assertion before the filter is
   // asked; the default is not what was asked for.
-  const std::pair<const char*, const char*> garbled[] = {
-      {"HarmonicDegree", "abc"},     {"RefinementRounds", "2.5"}, {"ErrorTarget", "1,5"},
-      {"RandomSeed", "99999999999"}, {"MaxIterations", "1e3"},    {"FoldLimit", ""},
-      {"CurvatureAlpha", "one"},     {"Threads", "0x2"}};
+  const std::pair<const char*, const char*> garbled[] = {{"HarmonicDegree", "abc"},
+                                                         {"ErrorTarget", "1,5"},
+                                                         {"FoldLimit", ""},
+                                                         {"CurvatureAlpha", "one"},
+                                                         {"EdgeRatio", "0x2"}};
   for (const auto& [name, value] : garbled) {
     SCOPED_TRACE(std::string(name) + " = " + value);
     QTemporaryDir folder;
@@ -227,10 +228,6 @@ std::vector<Advice> all_advice() {
        {"", band_with_one_side(), {}, {resample}},
        resampled_at_a_distance(0.1, 1.7),
        {}},
-      {"ResampleTheRing",
-       {"", test::torus(1.0, 0.4, 48), {}, {resample}},
-       resampled_at_a_distance(0.05, 0.7),
-       {}},
       {"ResampleThePores",
        {"", porous_ball(), {}, {resample}},
        resampled_at_a_distance(0.03, 0.08),
@@ -245,31 +242,17 @@ std::vector<Advice> all_advice() {
        "",
        {{"MendLimit", "100"}}},
       {"TakeThePoints", {"", points, {}, {"Points in the filter"}}, "", {{"Points", "true"}}},
-      {"TakeTheSphericalMap",
-       {"", bent_grain(), {{"Parametrization", "1"}}, {"take the spherical parametrization"}},
+      {"TakeTheMethodOnTheScan",
+       {"", bent_grain(), {{"Method", "1"}}, {"Use the method on-scan"}},
        "",
-       {{"Parametrization", "2"}}},
-      {"PlaceByLeastSquares",
-       {"",
-        grain(),
-        {{"RefinementRounds", "10"}, {"Placement", "0"}},
-        {"place them by least squares"}},
-       "",
-       {{"RefinementRounds", "10"}, {"Placement", "2"}}},
-      {"TakeTheLattice",
-       {"",
-        grain(),
-        {{"ErrorTarget", "2"}, {"Sampling", "2"}},
-        {"take the weighted one or the Fibonacci lattice"}},
-       "",
-       {{"ErrorTarget", "2"}, {"Sampling", "1"}}},
+       {{"Method", "0"}}},
       {"FitToTheScan",
        {"",
         grain(),
-        {{"ErrorTarget", "0.5"}, {"Placement", "0"}, {"HarmonicDegree", "2"}},
-        {"fit the nodes to the scan by least squares"}},
+        {{"ErrorTarget", "0.5"}, {"Method", "1"}, {"HarmonicDegree", "2"}},
+        {"use the method on-scan"}},
        "",
-       {{"ErrorTarget", "0.5"}, {"Placement", "2"}, {"HarmonicDegree", "2"}}},
+       {{"ErrorTarget", "0.5"}, {"Method", "0"}, {"HarmonicDegree", "2"}}},
   };
 }
 
@@ -360,62 +343,6 @@ TEST(Server, AdvisesASurfaceOfPointsThatLieBehindOthers) {
   EXPECT_FALSE(outcome.output.contains("one radius in each direction"));
   // Least squares keep the volume of the surface that was made, which rounds a little.
   EXPECT_NEAR(describe_shape(remeshed, Execution(1)).volume / volume, 1.0, 0.02);
-}
-
-/// A call that is refused for its handful of nodes, and the number of nodes that would do.
-struct AdvisedCall {
-  IndexedMesh mesh;
-  Weighting weighting = Weighting::Constant;
-  int nodes = 0;
-  int enough = 0;
-};
-
-/// Which handful of nodes encloses nothing goes by their weighing, the body and rounding: the first
-/// that is refused with another number, looked for in the library, where it is fast.
-std::optional<AdvisedCall> advised_call(const std::string& said) {
-  for (const char* body : {"bowl", "C-shape"}) {
-    IndexedMesh bent = test::bent_grain_mesh(test::bent_grain(body), 3000);
-    for (Vector3& p : bent.points) p = p.cast<float>().cast<double>();  // as MeshLab has it
-    RemeshOptions options;
-    for (const Weighting weighting :
-         {Weighting::ErrorAdaptive, Weighting::Curvature, Weighting::RadialDistance}) {
-      options.weighting.kind = weighting;
-      for (options.node_count = 4; options.node_count <= 16; ++options.node_count) {
-        try {
-          remesh(bent, options);
-        } catch (const Error& error) {
-          const std::string what = error.what();
-          if (what.find(" would do.") == std::string::npos) continue;
-          return AdvisedCall{bent, weighting, options.node_count,
-                             std::stoi(what.substr(what.find(said) + said.size()))};
-        }
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-TEST(Server, AdvisesANumberOfNodesThatWouldDo) {
-  const std::string said = "encloses no volume; ";
-  const std::optional<AdvisedCall> advised = advised_call(said);
-  ASSERT_TRUE(advised);
-  const std::string enough = std::to_string(advised->enough);
-  const std::pair<std::string, std::string> weighting = {
-      "Weighting", std::to_string(static_cast<int>(advised->weighting))};
-  QTemporaryDir folder;
-  const QString output = folder.filePath("remeshed.ply");
-  const Call few{"", advised->mesh, {{"NodeCount", std::to_string(advised->nodes)}, weighting}, {}};
-  const Outcome refusal = run_call(few, folder, output);
-  EXPECT_EQ(refusal.exit_code, exit_code_of_refusal);
-  EXPECT_FALSE(QFile::exists(output));
-  EXPECT_TRUE(refusal.output.contains(QString::fromStdString(said + enough + " would do.")))
-      << refusal.output.toStdString();
-  const Outcome outcome =
-      run_call({"", advised->mesh, {{"NodeCount", enough}, weighting}, {}}, folder, output);
-  SCOPED_TRACE(outcome.output.toStdString());
-  ASSERT_TRUE(QFile::exists(output));
-  EXPECT_EQ(std::to_string(read_mesh(output.toStdString()).points.size()), enough);
-  EXPECT_FALSE(outcome.output.contains("would do"));
 }
 
 class ServerCopesWith : public ::testing::TestWithParam<Call> {};

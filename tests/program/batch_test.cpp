@@ -109,9 +109,9 @@ TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
   EXPECT_FALSE(exists("out1/broken.ply"));
 
   // A row and a mesh are what the grain alone would have given.
-  ASSERT_EQ(
-      run("remesh " + scan(4) + " alone.ply --no-advice --report alone.csv" + options_).exit_code,
-      0);
+  ASSERT_EQ(run("remesh " + scan(4) + " alone.ply --no-suggestions --report alone.csv" + options_)
+                .exit_code,
+            0);
   EXPECT_EQ(content("alone.ply"), content("out1/e.ply"));
   const Records alone = records("alone.csv");
   for (std::size_t k = 0; k < alone[0].size(); ++k) {

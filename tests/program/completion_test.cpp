@@ -5,7 +5,7 @@
 #include <string>
 
 #include "program_run.h"
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt {
 namespace {
@@ -37,12 +37,14 @@ using Words = std::set<std::string>;
 TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("wscvt c"), (Words{"compare", "create", "collect"}));
   EXPECT_EQ(completed("wscvt --v"), Words{"--version"});
-  EXPECT_EQ(completed("wscvt remesh a.ply --refine-"),
-            (Words{"--refine-angle", "--refine-tolerance"}));
-  EXPECT_EQ(completed("wscvt a.ply b.ply --refine-a"), Words{"--refine-angle"});
+  EXPECT_EQ(completed("wscvt remesh a.ply --max-"),
+            (Words{"--max-error", "--max-handle-loop", "--max-nodes", "--max-overhang",
+                   "--max-repaired-area"}));
+  EXPECT_EQ(completed("wscvt a.ply b.ply --edge"), Words{"--edge-ratio"});
   EXPECT_EQ(completed("wscvt batch --sh"), Words{"--shard"});
   EXPECT_EQ(completed("wscvt describe a.ply --ref"), Words());
   Words weightings;
+  for (const auto& row : enumerators<CellWeighting>()) weightings.emplace(row.key);
   for (const auto& row : enumerators<Weighting>()) weightings.emplace(row.key);
   EXPECT_EQ(completed("wscvt remesh --weighting ''"), weightings);
   EXPECT_EQ(completed("wscvt a.ply b.ply -w er"), Words{"error-adaptive"});

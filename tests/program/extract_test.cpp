@@ -96,8 +96,7 @@ TEST_F(Extract, HasTheSameBytesAtAnyNumberOfThreads) {
   write_sample();
   for (const std::string threads : {"1", "2", "5"}) {
     ASSERT_EQ(run("extract sample.nrrd dense" + threads + " -q -t " + threads).exit_code, 0);
-    ASSERT_EQ(
-        run("extract sample.nrrd out" + threads + " --remesh -n 60 -q -t " + threads).exit_code, 0);
+    ASSERT_EQ(run("batch sample.nrrd -o out" + threads + " -n 60 -q -t " + threads).exit_code, 0);
     for (const std::string name : {"/labels.csv", "/3.ply", "/5.ply", "/8.ply"}) {
       EXPECT_EQ(content("dense" + threads + name), content("dense1" + name)) << name;
       EXPECT_EQ(content("out" + threads + name), content("out1" + name)) << name;
@@ -108,7 +107,7 @@ TEST_F(Extract, HasTheSameBytesAtAnyNumberOfThreads) {
 
 TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
   write_sample();
-  const Outcome outcome = run("extract sample.nrrd out --remesh -n 60");
+  const Outcome outcome = run("batch sample.nrrd -o out -n 60");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output.rfind("3 grains: 3 remeshed, ", 0), 0U) << outcome.output;
   EXPECT_EQ(read_mesh(path("out/8.ply")).points.size(), 60U);
@@ -127,7 +126,7 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
 
   // The same as through files, and as a batch that takes the volume among others.
   ASSERT_EQ(run("extract sample.nrrd dense -q").exit_code, 0);
-  ASSERT_EQ(run("remesh dense/8.ply 8.ply -q -n 60 --no-advice").exit_code, 0);
+  ASSERT_EQ(run("remesh dense/8.ply 8.ply -q -n 60 --no-suggestions").exit_code, 0);
   EXPECT_EQ(content("8.ply"), content("out/8.ply"));
   fs::copy_file(folder_ / "dense/8.ply", folder_ / "more.ply");
   ASSERT_EQ(run("batch more.ply sample.nrrd -o both -n 60 -q --shard 1/1").exit_code, 0);
@@ -140,8 +139,7 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
 
   // Parts join to the whole, and what was cut goes on.
   for (const std::string part : {"1", "2"}) {
-    ASSERT_EQ(run("extract sample.nrrd parts --remesh -n 60 -q --shard " + part + "/2").exit_code,
-              0);
+    ASSERT_EQ(run("batch sample.nrrd -o parts -n 60 -q --shard " + part + "/2").exit_code, 0);
   }
   ASSERT_EQ(run("collect parts/grains-1-of-2.csv parts/grains-2-of-2.csv out/grains.csv -q -o "
                 "all.csv")
@@ -152,10 +150,10 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
   fs::resize_file(folder_ / "out/grains.csv", whole.size() - 40);
   const std::string first = content("out/5.ply");
   fs::remove(folder_ / "out/5.ply");
-  ASSERT_EQ(run("extract sample.nrrd out --remesh -n 60 -q").exit_code, 0);
+  ASSERT_EQ(run("batch sample.nrrd -o out -n 60 -q").exit_code, 0);
   EXPECT_EQ(content("out/grains.csv"), whole);
   EXPECT_FALSE(exists("out/5.ply")) << "what has its row is made again";
-  EXPECT_EQ(run("extract sample.nrrd out --remesh -n 60 -q --smoothing 7").exit_code, 1);
+  EXPECT_EQ(run("batch sample.nrrd -o out -n 60 -q --smoothing 7").exit_code, 1);
 }
 
 TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
@@ -163,8 +161,7 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
   test::write_bytes(folder_ / "cut.nrrd", content("sample.nrrd").substr(0, 100000));
   test::write_bytes(folder_ / "empty.nrrd", test::nrrd(test::MadeVolume({9, 9, 9}), ""));
   expect_refused("extract",
-                 {{"sample.nrrd out -n 60", 2, "give --remesh too"},
-                  {"sample.nrrd out --shard 1/2", 2, "give --remesh too"},
+                 {{"sample.nrrd out --remesh", 2, "wscvt batch VOLUME"},
                   {"sample.nrrd out --smallest 0", 2, "1 or more"},
                   {"sample.nrrd out --smoothing 1001", 2, "from 0 to 1000"},
                   {"sample.nrrd out --voxel-size 0", 2, "above 0"},
@@ -173,10 +170,8 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
                   {"sample.nrrd out --background -1", 2, "0 or more"},
                   {"sample.nrrd out --format vtk", 1, ".ply"},
                   {"sample.ply out", 1, "no volume by its ending"},
-                  {"sample.ply out --remesh", 1, "no volume by its ending"},
                   {"missing.nrrd out", 1, "missing.nrrd"},
                   {"cut.nrrd out", 1, "bytes of voxels"},
-                  {"cut.nrrd out --remesh", 1, "bytes of voxels"},
                   {"empty.nrrd out", 1, "no label but the background"},
                   {"sample.nrrd sample.nrrd", 1, "sample.nrrd"}},
                  {"out"});

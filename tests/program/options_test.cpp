@@ -10,7 +10,7 @@
 #include "program_run.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
@@ -28,48 +28,30 @@ struct OptionCase {
   std::string with = {};
 };
 
+constexpr const char* published = "--method=as-published";
+
 const std::vector<OptionCase>& option_cases() {
   static const std::vector<OptionCase> cases = {
       {"nodes", 61, "3", "from 4 to 1000000"},
       {"method", "as-published", "paper", "on-scan or as-published"},
-      {"target", 30.0, "-1", "from 0 to 100"},
-      {"target-measure", "area", "4", "inertia"},
-      {"largest", 500, "3", "from 4 to"},
-      {"sampling", "fibonacci", "Fibonacci", "equal-angle"},
-      {"weighting", "constant", "1", "radial-distance"},
+      {"max-error", 30.0, "-1", "from 0 to 100"},
+      {"error-measure", "area", "4", "inertia"},
+      {"max-nodes", 500, "3", "from 4 to"},
+      {"sampling", "fibonacci", "Fibonacci", "equal-angle", published},
+      {"weighting", "error-adaptive", "1", "wscvt-d, wscvt-c or error-adaptive"},
       {"alpha", -0.5, "3.5", "from -3 to 3"},
-      {"curvature-source", "quadrics", "scan", "series or quadrics"},
-      {"adaptive-exponent", 0.25, "1.6", "from 0 to 1.5"},
-      {"degree", 4, "61", "from 0 to 60"},
-      {"fold-limit", 1.5, "100", "from 0 to 99"},
+      {"degree", 5, "61", "from 0 to 60"},
+      {"max-overhang", 1.5, "100", "from 0 to 99", published},
       {"points", true, "perhaps", "points"},
-      {"envelope", 25.0, "51", "from 0 to 50"},
-      {"parametrization", "radial", "cubic", "auto, radial or spherical"},
+      {"shrink-wrap", 25.0, "51", "from 0 to 50"},
       {"contact-radius", 1.2, "0", "above 0 and 100"},
-      {"refuse-self-intersections", true, "perhaps", "refuse-self-intersections"},
-      {"metric", "sphere", "plane", "sphere or surface"},
-      {"placement", "scan", "fitted", "series, scan, least-squares or contact"},
-      {"refine", 1, "1001", "from 0 to 1000"},
-      {"refine-angle", 20.0, "41", "from 0 to 40"},
-      {"refine-tolerance", 0.01, "1", "from 0 to below 1"},
-      {"seed-start", "random", "2", "warped-lattice"},
-      {"seed", 18446744073709551615U, "-1", "0 or more"},
-      {"iterations", 3, "-1", "from 0 to 100000"},
-      {"tolerance", 0.01, "0", "above 0"},
-      {"area-tolerance", 0.5, "nan", "above 0"},
-      {"acceleration", false, "perhaps", "acceleration"},
-      {"over-relaxation", 1.1, "2", "above 0 and below 2"},
-      {"coarsest-seeds", 30, "3", "4 to 1000000"},
-      {"coarsest-tolerance", 0.001, "0", "above 0"},
-      {"middle-tolerance", 0.002, "-1", "above 0"},
+      {"placement", "on-surface", "off", "fitted, on-surface or contact-fit"},
+      {"edge-ratio", 1.25, "1", "from 1.08 to 1.7"},
       {"distances", true, "perhaps", "distances"},
-      {"advice", false, "perhaps", "advice"},
-      {"distance-samples", 500, "0", "from 1 to 100000000"},
-      {"weld-tolerance", 1e-9, "0.02", "from 0 to 0.01"},
-      {"mend-limit", 12.5, "101", "from 0 to 100"},
-      {"dropped-volume", 0.5, "1", "above 0 and below 1"},
-      {"handle-length", 0.25, "-1", "0 or more"},
-      {"handles", 7, "-1", "from 0 to 1000000"},
+      {"suggestions", false, "perhaps", "suggestions"},
+      {"max-repaired-area", 12.5, "101", "from 0 to 100"},
+      {"max-handle-loop", 0.25, "-1", "0 or more"},
+      {"handles", "keep", "50", "cut, keep or refuse"},
   };
   return cases;
 }
@@ -95,11 +77,10 @@ class ProgramOptions : public test::ProgramRun {
 };
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
-  std::set<std::string> tested = {
-      "help",        "help-all",        "threads",     "coefficients", "overwrite",
-      "quiet",       "no-acceleration", "no-advice",   "report",       "node-table",
-      "sdf",         "frame",           "size",        "scale",        "input-unit",
-      "output-unit", "sdf-surface",     "sdf-spacing", "sdf-margin"};
+  std::set<std::string> tested = {"help",       "help-all",    "threads",        "coefficients",
+                                  "overwrite",  "quiet",       "no-suggestions", "report",
+                                  "node-table", "sdf",         "frame",          "size",
+                                  "scale",      "sdf-surface", "sdf-spacing"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("remesh --help-all");
   EXPECT_EQ(help.exit_code, 0);
@@ -114,38 +95,96 @@ TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
     }
   }
   EXPECT_EQ(in_help, tested);
+  // A stranger reads all of them: 34 at most, --suggestions and --no-suggestions being one.
+  EXPECT_LE(in_help.size(), 35U);
 }
 
 TEST_F(ProgramOptions, ReachTheRemeshUnderTheirNames) {
-  const Json defaults = report_of("").at("options");
-  ASSERT_EQ(defaults.size(), option_cases().size());
+  const Json on_scan = report_of("").at("options");
+  const Json as_published = report_of(published).at("options");
+  ASSERT_EQ(on_scan.size(), option_cases().size());
   for (const OptionCase& one : option_cases()) {
     SCOPED_TRACE(one.key);
-    ASSERT_NE(defaults.at(one.key), one.value) << "is the default already";
+    const Json& defaults = one.with == published || one.key == "method" ? as_published : on_scan;
+    if (one.key != "method") {
+      ASSERT_NE(defaults.at(one.key), one.value) << "is the default already";
+    }
     const Json report = report_of(one.with + " --" + one.key + "=" + typed(one.value));
     ASSERT_TRUE(report.contains("options"));
     const Json& options = report.at("options");
     EXPECT_EQ(options.at(one.key), one.value);
     for (const auto& [key, value] : defaults.items()) {
-      if (key == one.key || one.with.find(key) != std::string::npos) continue;
-      // The published method decides on these.
-      if (one.key == "method" &&
-          (key == "parametrization" || key == "metric" || key == "placement"))
-        continue;
-      // Samplings that are not relaxed are cut into cells on the sphere.
-      if (one.key == "sampling" && key == "metric") continue;
-      // A search for an error target ends with a number of nodes of its own, and needs distances.
-      if (one.key == "target" && (key == "nodes" || key == "distances" || key == "metric"))
-        continue;
+      // A search ends with a number of nodes of its own.
+      if (key == one.key || (one.key == "max-error" && key == "nodes")) continue;
       EXPECT_EQ(options.at(key), value) << key;
     }
+  }
+}
+
+TEST_F(ProgramOptions, OfTheOtherMethodAreRefusedWithItsName) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"--edge-ratio 1.2 --method as-published", "method on-scan"},
+      {"--method as-published --handles keep", "method on-scan"},
+      {"--sampling fibonacci", "method as-published"},
+      {"--max-overhang 10", "method as-published"},
+      {"--weighting area", "method as-published"},
+      {"--placement sh-surface", "method as-published"},
+      {"--method as-published -w error-adaptive", "method on-scan"},
+      {"-p contact-fit --method as-published", "method on-scan"}};
+  for (const auto& [arguments, words] : cases) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run("scan.ply remesh.ply " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(exists("remesh.ply"));
+  }
+}
+
+TEST_F(ProgramOptions, OfVersion2SayWhatToUseInstead) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"-r 60", "--edge-ratio"},
+      {"--refine 60", "--edge-ratio"},
+      {"--refine-angle=20", "--edge-ratio"},
+      {"--refine-tolerance 0.1", "ends by itself"},
+      {"-m surface", "--method"},
+      {"--metric sphere", "--method"},
+      {"--parametrization spherical", "any closed grain"},
+      {"--target 0.5", "--max-error"},
+      {"--target-measure area", "--error-measure"},
+      {"--largest 500", "--max-nodes"},
+      {"--mend-limit 3", "--max-repaired-area"},
+      {"--envelope 5", "--shrink-wrap"},
+      {"--fold-limit 3", "--max-overhang"},
+      {"--handle-length 2", "--max-handle-loop"},
+      {"--no-advice", "--no-suggestions"},
+      {"--seed-start random", "best one"},
+      {"--seed 3", "nothing is random"},
+      {"-i 7", "ends by itself"},
+      {"--curvature-source quadrics", "SH series"},
+      {"--no-acceleration", "accelerated"},
+      {"--weld-tolerance 0", "1e-12"},
+      {"--input-unit mm", "--scale"},
+      {"--sdf-margin 2", "4 cells"},
+      {"-w radial-distance", "wscvt-d"},
+      {"-w curvature", "wscvt-c"},
+      {"-p least-squares", "fitted"},
+      {"-p scan", "on-surface"},
+      {"-p contact", "contact-fit"},
+      {"--method as-published -p series", "sh-surface"}};
+  for (const auto& [arguments, words] : cases) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run("scan.ply remesh.ply " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(exists("remesh.ply"));
   }
 }
 
 TEST_F(ProgramOptions, RefuseWhatIsNotTheirsWithTheChoicesAndBeginNothing) {
   for (const OptionCase& one : option_cases()) {
     SCOPED_TRACE(one.key);
-    const Outcome outcome = run("scan.ply remesh.ply --" + one.key + "=" + one.refused);
+    const Outcome outcome =
+        run("scan.ply remesh.ply " + one.with + " --" + one.key + "=" + one.refused);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.errors.find(one.words), std::string::npos) << outcome.errors;
     EXPECT_EQ(outcome.output, "");
@@ -156,16 +195,16 @@ TEST_F(ProgramOptions, RefuseWhatIsNotTheirsWithTheChoicesAndBeginNothing) {
 TEST_F(ProgramOptions, TakeBackWhatAReportPrints) {
   std::string unusual;
   for (const OptionCase& one : option_cases()) {
-    // Those of a search, and of a placement that goes with no refinement.
-    if (one.key == "target" || one.key == "placement" || one.key == "sampling") continue;
-    unusual += " " + one.with + " --" + one.key + "=" + typed(one.value);
+    // Those of a search, and of the other method.
+    if (one.key == "max-error" || one.key == "method" || !one.with.empty()) continue;
+    unusual += " --" + one.key + "=" + typed(one.value);
   }
   Json first = report_of(unusual);
   const std::string mesh = content("remesh.ply");
   ASSERT_FALSE(mesh.empty());
   std::string arguments;
   for (const auto& [key, value] : first.at("options").items()) {
-    arguments += " --" + key + "=" + typed(value);
+    if (!value.is_null()) arguments += " --" + key + "=" + typed(value);
   }
   const Outcome again = run("scan.ply again.ply -q --report again.json" + arguments);
   ASSERT_EQ(again.exit_code, 0) << again.errors;
@@ -186,23 +225,23 @@ TEST_F(ProgramOptions, HelpHasNoNumbersOfEnumerators) {
     }
   };
   names_all(enumerators<Weighting>());
-  names_all(enumerators<NodePlacement>());
-  names_all(enumerators<SeedStart>());
+  names_all(enumerators<CellWeighting>());
+  names_all(enumerators<ScanPlacement>());
+  names_all(enumerators<PublishedPlacement>());
+  names_all(enumerators<HandleAction>());
 }
 
 TEST_F(ProgramOptions, LettersStandForNames) {
-  const Json report = report_of("-n 62 -w area -m surface -p least-squares -r 1 -d 5 -a 0.5 -i 7");
-  const Json& options = report.at("options");
+  const Json options = report_of("-n 62 -w wscvt-c -p fitted -e 1.2 -d 5 -a 0.5").at("options");
   EXPECT_EQ(options.at("nodes"), 62);
-  EXPECT_EQ(options.at("weighting"), "area");
-  EXPECT_EQ(options.at("metric"), "surface");
-  EXPECT_EQ(options.at("placement"), "least-squares");
-  EXPECT_EQ(options.at("refine"), 1);
+  EXPECT_EQ(options.at("weighting"), "wscvt-c");
+  EXPECT_EQ(options.at("placement"), "fitted");
+  EXPECT_EQ(options.at("edge-ratio"), 1.2);
   EXPECT_EQ(options.at("degree"), 5);
   EXPECT_EQ(options.at("alpha"), 0.5);
-  EXPECT_EQ(options.at("iterations"), 7);
-  EXPECT_EQ(report_of("-s icosahedron").at("options").at("sampling"), "icosahedron");
-  EXPECT_EQ(report_of("--no-acceleration").at("options").at("acceleration"), false);
+  EXPECT_EQ(report_of("--method as-published -s icosahedron").at("options").at("sampling"),
+            "icosahedron");
+  EXPECT_EQ(report_of("--no-suggestions").at("options").at("suggestions"), false);
 }
 
 TEST_F(ProgramOptions, QuietThreadsAndCoefficientsDoAsTheySay) {
@@ -224,7 +263,7 @@ TEST_F(ProgramOptions, FilesForASimulationLieInOneFrame) {
   // The scan has the axes 1, 0.8 and 0.7; as a remesh of volume 1 in its principal frame.
   const Outcome outcome =
       run("remesh scan.ply framed.ply -q -n 60 -d 6 --frame principal --size 2 --sdf-spacing 0.2 "
-          "--sdf-margin 2 --sdf-surface remesh --node-table nodes.csv --node-table nodes.vtp "
+          "--sdf-surface remesh --node-table nodes.csv --node-table nodes.vtp "
           "--node-table grain.shp --sdf grid.npy --sdf grid.vti --sdf grid.json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const ShapeDescriptors framed = describe_shape(read_mesh(path("framed.ply")), Execution(1));
@@ -237,21 +276,18 @@ TEST_F(ProgramOptions, FilesForASimulationLieInOneFrame) {
   for (const char* name : {"nodes.csv", "nodes.vtp", "grain.shp", "grid.vti", "grid.json"}) {
     EXPECT_NE(content(name), "") << name;
   }
-  // The same grain told in other units.
-  ASSERT_EQ(run("remesh scan.ply mm.ply -q -n 60 -d 6 --input-unit m --output-unit mm").exit_code,
-            0);
+  // Scaled, every length is so many times as large.
   ASSERT_EQ(run("remesh scan.ply plain.ply -q -n 60 -d 6").exit_code, 0);
   ASSERT_EQ(run("remesh scan.ply large.ply -q -n 60 -d 6 --scale 1000").exit_code, 0);
-  EXPECT_EQ(content("mm.ply"), content("large.ply"));
   const Vector3 plain = read_mesh(path("plain.ply")).points[7];
-  EXPECT_LT((read_mesh(path("mm.ply")).points[7] - 1000.0 * plain).norm(), 1e-9);
+  EXPECT_LT((read_mesh(path("large.ply")).points[7] - 1000.0 * plain).norm(), 1e-9);
 }
 
 TEST_F(ProgramOptions, RefuseFilesForASimulationBeforeTheWork) {
   for (const char* wrong :
        {"--node-table nodes.txt", "--sdf grid.csv", "--node-table grain.shp", "--frame middle",
-        "--scale 0", "--size -1", "--input-unit mile", "--sdf-margin 0", "--size 1 --scale 2",
-        "--node-table a.csv --node-table a.csv", "--sdf a.npy --report a.npy.json"}) {
+        "--scale 0", "--size -1", "--size 1 --scale 2", "--node-table a.csv --node-table a.csv",
+        "--sdf a.npy --report a.npy.json"}) {
     SCOPED_TRACE(wrong);
     const Outcome outcome = run(std::string("remesh scan.ply bad.ply -n 60 ") + wrong);
     EXPECT_NE(outcome.exit_code, 0);

@@ -161,46 +161,51 @@ inline MeshCheckOptions random_check_options(Choices& choices) {
   return options;
 }
 
+inline AsPublishedOptions random_published_options(Choices& choices) {
+  AsPublishedOptions o;
+  if (choices.one_in(4)) o.sampling = static_cast<Sampling>(choices.whole(0, 3));
+  o.weighting = static_cast<Weighting>(choices.whole(0, 3));
+  o.curvature_alpha = choices.one_in(2) ? 1.0 : choices.real(-3.0, 3.0);
+  o.placement = static_cast<PublishedPlacement>(choices.whole(0, 1));
+  o.max_overhang_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 99.0);
+  return o;
+}
+
+inline OnScanOptions random_scan_options(Choices& choices) {
+  OnScanOptions o;
+  o.weighting = static_cast<CellWeighting>(choices.whole(0, 2));
+  o.curvature_alpha = choices.one_in(2) ? 1.0 : choices.real(-3.0, 3.0);
+  o.placement = static_cast<ScanPlacement>(choices.whole(0, 2));
+  if (choices.one_in(2)) o.contact_radius = choices.real(0.1, 6.0);
+  if (choices.one_in(2)) o.edge_ratio = choices.real(1.08, 1.7);
+  o.handles.action = static_cast<HandleAction>(choices.whole(0, 2));
+  if (choices.one_in(4)) o.handles.length_limit = choices.real(0.0, 3.0);
+  return o;
+}
+
 /// Any options within their ranges.
 inline RemeshOptions random_options(Choices& choices) {
   RemeshOptions o;
   o.node_count = choices.one_in(4) ? choices.whole(4, 14) : choices.whole(4, 300);
-  o.seeding.sampling =
-      choices.one_in(4) ? static_cast<Sampling>(choices.whole(0, 3)) : Sampling::Weighted;
-  o.seeding.start = static_cast<SeedStart>(choices.whole(0, 2));
-  o.seeding.random_seed = choices.word();
-  o.weighting.kind = static_cast<Weighting>(choices.whole(0, 4));
-  o.weighting.curvature_alpha = choices.one_in(2) ? 1.0 : choices.real(-3.0, 3.0);
-  o.weighting.adaptive_exponent = choices.one_in(2) ? 2.0 / 3.0 : choices.real(0.0, 1.5);
-  o.weighting.curvature_source = static_cast<CurvatureSource>(choices.whole(0, 1));
-  o.surface.parametrization = static_cast<Parametrization>(choices.whole(0, 2));
-  o.surface.degree = choices.whole(1, 30);
-  o.surface.fold_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 99.0);
-  o.placement.kind = static_cast<NodePlacement>(choices.whole(0, 3));
-  if (is_fitted(o.placement.kind) && choices.one_in(2)) {
-    o.placement.refinement.rounds = choices.whole(1, 12);
-    o.placement.refinement.smallest_angle = choices.one_in(2) ? 15.5 : choices.real(0.0, 40.0);
-    o.placement.refinement.tolerance = choices.one_in(2) ? 2e-3 : choices.real(0.0, 0.99);
+  bool any_count = true;
+  if (choices.one_in(3)) {
+    const AsPublishedOptions published = random_published_options(choices);
+    any_count =
+        published.sampling == Sampling::Weighted || published.sampling == Sampling::Fibonacci;
+    o.method = published;
+  } else {
+    o.method = random_scan_options(choices);
   }
-  o.relaxation.metric = static_cast<RelaxationMetric>(choices.whole(0, 1));
-  o.relaxation.maximum_iterations = choices.one_in(2) ? choices.whole(0, 60) : 200;
-  o.relaxation.acceleration = !choices.one_in(4);
-  o.relaxation.over_relaxation = choices.one_in(4) ? choices.real(0.01, 1.33) : 1.2;
-  o.levels.coarsest_seeds = choices.one_in(2) ? 250 : choices.whole(4, 60);
-  o.measures.distances = choices.one_in(4);
-  o.measures.distance_sampling.samples = static_cast<std::size_t>(choices.whole(1, 3000));
+  o.degree = choices.whole(1, 30);
+  o.measures.distances = choices.one_in(8);
   o.measures.node_curvatures = choices.one_in(2);
-  o.measures.advice = choices.one_in(8);
+  o.measures.suggestions = choices.one_in(8);
   o.points = choices.one_in(16);
-  o.check.mended_area_limit_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 100.0);
-  o.check.weld_tolerance = choices.one_in(4) ? std::pow(10.0, choices.real(-16.0, -2.0)) : 1e-12;
-  o.check.dropped_volume_limit = choices.one_in(2) ? 0.25 : choices.real(0.01, 0.99);
-  if (choices.one_in(16) && o.seeding.sampling != Sampling::EqualAngle &&
-      o.seeding.sampling != Sampling::Icosahedron) {
+  o.max_repaired_area_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 100.0);
+  if (choices.one_in(16) && any_count) {
     o.target.percent = std::pow(10.0, choices.real(-1.0, 2.0));
-    o.target.measure = static_cast<ErrorMeasure>(choices.whole(0, 4));
+    o.target.measure = static_cast<ErrorMeasure>(choices.whole(0, 3));
     o.target.largest_node_count = choices.whole(4, 200);
-    o.relaxation.maximum_iterations = choices.whole(0, 30);
   }
   return o;
 }
@@ -233,13 +238,17 @@ inline std::string broken_report(const RemeshResult& result) {
 inline std::string broken_result(const RemeshResult& result, const RemeshOptions& options) {
   const IndexedMesh& mesh = result.mesh;
   const std::size_t nodes = mesh.points.size();
-  const bool any_count = options.seeding.sampling == Sampling::Weighted ||
-                         options.seeding.sampling == Sampling::Fibonacci;
+  const auto* published = std::get_if<AsPublishedOptions>(&options.method);
+  const bool any_count = published == nullptr || published->sampling == Sampling::Weighted ||
+                         published->sampling == Sampling::Fibonacci;
   if (any_count && options.target.percent == 0.0 &&
       nodes != static_cast<std::size_t>(options.node_count)) {
     return "the number of nodes, " + std::to_string(nodes);
   }
-  if (mesh.triangles.size() != 2 * nodes - 4) return "the number of faces";
+  const OnScanReport* on_scan = on_scan_report(result);
+  const std::size_t handles =
+      on_scan == nullptr ? 0 : static_cast<std::size_t>(on_scan->handles.kept);
+  if (mesh.triangles.size() != 2 * nodes - 4 + 4 * handles) return "the number of faces";
   const std::string broken = broken_surface(mesh);
   if (!broken.empty()) return "remesh: " + broken;
   for (const Vector3& p : mesh.points) {
@@ -253,7 +262,7 @@ inline std::string broken_result(const RemeshResult& result, const RemeshOptions
   // A million radii away the positions of the nodes have ten digits left; faces among 300 nodes
   // are larger than that. Farther out rounding may turn a thin face over.
   if (result.centre.norm() < 1e6 * result.input.equivalent_radius) {
-    const bool star_shaped = result.parametrization == Parametrization::Radial;
+    const bool star_shaped = published != nullptr;
     for (const Triangle& t : star_shaped ? mesh.triangles : std::vector<Triangle>()) {
       const Vector3 a = mesh.points[static_cast<std::size_t>(t[0])] - result.centre;
       const Vector3 b = mesh.points[static_cast<std::size_t>(t[1])] - result.centre;
@@ -263,9 +272,10 @@ inline std::string broken_result(const RemeshResult& result, const RemeshOptions
                format_number(a.normalized().dot(b.normalized().cross(c.normalized())));
       }
     }
-    if (options.placement.kind == NodePlacement::LeastSquares) {
+    const auto* placed = std::get_if<OnScanOptions>(&options.method);
+    if (placed != nullptr && placed->placement == ScanPlacement::Fitted) {
       const double off = std::abs(result.remesh.volume / result.original.volume - 1.0);
-      if (!(off < 1e-9)) return "the volume by least squares, off by " + format_number(off);
+      if (!(off < 1e-9)) return "the volume of fitted nodes, off by " + format_number(off);
     }
   }
   if (options.target.percent > 0.0) {

@@ -48,10 +48,13 @@ TEST_P(Promises, AreKeptByWholeRemeshes) {
       broken = std::string("a foreign exception: ") + other.what();
     }
     EXPECT_EQ(broken, "") << "seed " << seed << ": " << body.description << "; "
-                          << options.node_count << " nodes, sampling "
-                          << static_cast<int>(options.seeding.sampling) << ", weighting "
-                          << static_cast<int>(options.weighting.kind) << ", placement "
-                          << static_cast<int>(options.placement.kind);
+                          << options.node_count << " nodes, " << key_of(method_of(options)) << ", "
+                          << std::visit(
+                                 [](const auto& method) {
+                                   return key_of(method.weighting) + ", " +
+                                          key_of(method.placement);
+                                 },
+                                 options.method);
   });
 }
 

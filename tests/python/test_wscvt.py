@@ -53,9 +53,9 @@ def test_arrays_outlive_what_they_came_from(scan):
 
 def test_it_is_the_remesh_of_the_program(scan, tmp_path):
     wscvt.write_mesh(str(tmp_path / "ours.ply"), *(lambda r: (r.vertices, r.faces))(
-        wscvt.remesh(*scan, nodes=100, weighting="area", threads=1)))
+        wscvt.remesh(*scan, nodes=100, weighting="error-adaptive", threads=1)))
     subprocess.run([os.environ["WSCVT_PROGRAM"], MESHES / "sand_7228.ply", tmp_path / "its.ply", "-q", "-n", "100",
-                    "-w", "area"], check=True)
+                    "-w", "error-adaptive"], check=True)
     assert (tmp_path / "ours.ply").read_bytes() == (tmp_path / "its.ply").read_bytes()
 
 
@@ -74,26 +74,46 @@ def test_inputs_of_other_libraries(scan):
 
 
 
-def test_every_option_reaches_the_report():
-    report = wscvt.create("ellipsoid", nodes=60).report["options"]
-    defaults = wscvt.options()
-    assert [name.replace("_", "-") for name in defaults] == list(report)
-    choices = keywords_of_the_stub("remesh")
+@pytest.mark.parametrize("method", ["on-scan", "as-published"])
+def test_every_option_reaches_the_report(method):
+    report = wscvt.create("ellipsoid", nodes=60, method=method).report["options"]
+    defaults = wscvt.options(method)
+    assert {name.replace("_", "-") for name in defaults} == {
+        key for key, value in report.items() if value is not None}
+    choices = {"weighting": "wscvt-c", "sampling": "fibonacci", "handles": "keep",
+               "placement": "on-surface" if method == "as-published" else "fitted",
+               "error_measure": "volume"}
     for name, value in defaults.items():
+        if name == "method":
+            continue
         if isinstance(value, bool):
             other = not value
         elif isinstance(value, str):
-            other = next(c for c in re.findall(r"'([^']+)'", choices[name]) if c != value)
+            other = choices[name]
         else:
-            other = {"target": 30.0, "seed": 7, "refine": 1, "degree": 4, "nodes": 61,
-                     "refine_angle": 20.0, "over_relaxation": 1.1, "coarsest_seeds": 30,
-                     "fold_limit": 1.5, "mend_limit": 12.5}.get(name, value / 2 or 1)
+            other = {"max_error": 30.0, "degree": 4, "nodes": 61, "edge_ratio": 1.3,
+                     "max_overhang": 1.5, "max_repaired_area": 12.5,
+                     "shrink_wrap": 4.0}.get(name, value / 2 or 1)
             other = type(value)(other)
-        try:
-            made = wscvt.create("ellipsoid", **{"nodes": 60, "placement": "least-squares", name: other})
-        except wscvt.Error as error:  # nodes that stay on the surface are not refined
-            pytest.fail(f"{name}={other}: {error}")
+        made = wscvt.create("ellipsoid", **{"nodes": 60, "method": method, name: other})
         assert made.report["options"][name.replace("_", "-")] == other, name
+
+
+@pytest.mark.parametrize("given, part", [
+    ({"refine": 60}, "--edge-ratio"), ({"target": 0.5}, "--max-error"), ({"metric": "sphere"}, "--method"),
+    ({"sampling": "fibonacci"}, "as-published"), ({"method": "as-published", "edge_ratio": 1.2}, "on-scan")])
+def test_options_of_version_2_and_of_the_other_method_are_refused(scan, given, part):
+    with pytest.raises(TypeError, match=part):
+        wscvt.remesh(*scan, **given)
+
+
+@pytest.mark.parametrize("given, part", [
+    ({"weighting": "area"}, "as-published"), ({"weighting": "radial-distance"}, "wscvt-d"),
+    ({"placement": "least-squares"}, "fitted"),
+    ({"method": "as-published", "weighting": "error-adaptive"}, "on-scan")])
+def test_values_of_version_2_and_of_the_other_method_are_refused(scan, given, part):
+    with pytest.raises(wscvt.Error, match=part):
+        wscvt.remesh(*scan, **given)
 
 
 def keywords_of_the_stub(function):
@@ -105,16 +125,19 @@ def keywords_of_the_stub(function):
 @pytest.mark.parametrize("function", ["remesh", "create"])
 def test_the_stub_has_all_options_with_their_types(function):
     keywords = keywords_of_the_stub(function)
-    for name, value in wscvt.options().items():
+    both = {**wscvt.options(), **wscvt.options("as-published")}
+    for name, value in both.items():
         if isinstance(value, str):
-            refused = pytest.raises(wscvt.Error, wscvt.create, "ellipsoid", **{name: "no such"})
+            refused = [str(pytest.raises(wscvt.Error, wscvt.create, "ellipsoid",
+                                         **{"method": method, name: "no such"}).value)
+                       for method in ("on-scan", "as-published") if name in wscvt.options(method)]
             for choice in re.findall(r"'([^']+)'", keywords[name]):
-                assert choice in str(refused.value)
+                assert any(choice in text for text in refused)
             assert repr(value) in keywords[name]
         else:
             assert keywords[name] == type(value).__name__, name
     signature = getattr(wscvt, function).__doc__
-    for name in set(keywords) - set(wscvt.options()):
+    for name in set(keywords) - set(both):
         assert f"{name}:" in signature
 
 
@@ -122,7 +145,7 @@ def test_what_is_refused(scan):
     vertices, faces = scan
     for call, code, part in [
             (lambda: wscvt.remesh(vertices, faces, nodes=3), "invalid-input", "4 to 1000000"),
-            (lambda: wscvt.remesh(vertices, faces, weighting="no"), "invalid-input", "constant"),
+            (lambda: wscvt.remesh(vertices, faces, weighting="no"), "invalid-input", "wscvt-c"),
             (lambda: wscvt.remesh(vertices, faces + 1), "invalid-input", "7228"),
             (lambda: wscvt.remesh(vertices, faces - 1), "invalid-input", "-1"),
             (lambda: wscvt.remesh(vertices.ravel(), faces), "invalid-input", "(n, 3)"),
@@ -141,7 +164,7 @@ def test_what_is_refused(scan):
                        (lambda: wscvt.remesh(vertices, faces, nodes="many"), "many"),
                        (lambda: wscvt.remesh(vertices, faces, nodes=10**30), "4 to 1000000"),
                        (lambda: wscvt.remesh(vertices, faces.astype(float)), "whole numbers"),
-                       (lambda: wscvt.remesh(vertices, faces, weighting=3), "constant")]:
+                       (lambda: wscvt.remesh(vertices, faces, weighting=3), "wscvt-c")]:
         with pytest.raises(TypeError, match=part):
             call()
 
@@ -187,7 +210,7 @@ def test_other_threads_run_meanwhile(scan):
 
 def test_create_and_describe_know_an_ellipsoid():
     made = wscvt.create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=2000,
-                        placement="least-squares")
+                        placement="fitted")
     exact = 4.0 / 3.0 * math.pi * 0.48
     assert volume(made.vertices, made.faces) == pytest.approx(exact, rel=1e-9)
     on = wscvt.create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=100).vertices

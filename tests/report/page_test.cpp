@@ -44,8 +44,8 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   const IndexedMesh scan = test::transformed(test::sphere(4), Vector3(1.0, 0.8, 0.7).asDiagonal());
   RemeshOptions options;
   options.node_count = 100;
-  options.surface.degree = 6;
-  options.measures.used_scan = true;
+  options.degree = 6;
+  options.measures.repaired_scan = true;
   const RemeshResult shown = remesh(scan, options, Execution(1));
   const std::string page = report_html(shown, {"<sand>.ply", "2026-11-21"}, Execution(1));
   EXPECT_NE(page.find("<title>Remesh of &lt;sand&gt;.ply with 100 nodes"), std::string::npos);
@@ -60,7 +60,7 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_EQ(page.find(">nan"), std::string::npos);
   EXPECT_EQ(page.find("\"nan"), std::string::npos);
   EXPECT_EQ(page.find(">-0<"), std::string::npos);
-  EXPECT_NE(page.find("<td>--weighting=radial-distance</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>--weighting=wscvt-d</td>"), std::string::npos);
   EXPECT_NE(page.find("principal moments"), std::string::npos);
   EXPECT_EQ(page, report_html(shown, {"<sand>.ply", "2026-11-21"}, Execution(2)));
 
@@ -70,12 +70,12 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   const RemeshResult cloud = remesh({scan.points, {}}, points, Execution(1));
   EXPECT_EQ(count_of(report_html(cloud, {}, Execution(1)), "<img"), 3U);
   RemeshResult without = shown;
-  without.used_scan = {};
+  without.repaired_scan = {};
   const std::string alone = report_html(without, {}, Execution(1));
   EXPECT_EQ(count_of(alone, "<img"), 1U);
   EXPECT_EQ(count_of(alone, "<svg"), 3U);
 
-  options.method = Method::AsPublished;  // least squares has no error of the volume
+  options.method = AsPublishedOptions();  // fitted nodes have no error of the volume
   options.target.percent = 3.0;
   options.target.measure = ErrorMeasure::Volume;
   const RemeshResult searched = remesh(scan, options, Execution(1));
@@ -202,8 +202,8 @@ TEST_F(ReportFiles, FollowTheirEndings) {
   const IndexedMesh scan = test::sphere(3);
   RemeshOptions options;
   options.node_count = 50;
-  options.surface.degree = 2;
-  options.measures.used_scan = true;
+  options.degree = 2;
+  options.measures.repaired_scan = true;
   const RemeshResult result = remesh(scan, options, Execution(1));
   const ReportOrigin origin = {"scan.ply", "2026-11-21"};
   for (const std::string name : {"r.html", "r.JSON", "r.csv"}) {

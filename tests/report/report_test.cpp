@@ -40,14 +40,36 @@ RemeshResult example() {
   result.input.faces = scan.triangles.size();
   result.input.components = 1;
   result.input.equivalent_radius = 1.0;
-  result.options.placement.kind = NodePlacement::Series;
-  result.fit.requested_degree = 20;
-  result.fit.degree = 20;
-  result.fit.rays = scan.points.size();
-  result.fit.residual = 0.0039;
-  result.relaxation.outcome = RelaxationOutcome::Converged;
-  result.relaxation.iterations = 2;
-  result.relaxation.history = {{0.1, 0.2, 30}, {9e-4, 0.05, 1}};
+  result.options.method = AsPublishedOptions();
+  AsPublishedReport report;
+  report.fit.requested_degree = 20;
+  report.fit.degree = 20;
+  report.fit.rays = scan.points.size();
+  report.fit.residual = 0.0039;
+  report.relaxation.outcome = RelaxationOutcome::Converged;
+  report.relaxation.iterations = 2;
+  report.relaxation.history = {{0.1, 0.2, 30}, {9e-4, 0.05, 1}};
+  result.method = report;
+  return result;
+}
+
+AsPublishedReport& published(RemeshResult& result) {
+  return std::get<AsPublishedReport>(result.method);
+}
+
+/// The same result by the method on the scan.
+RemeshResult on_scan_example() {
+  RemeshResult result = example();
+  result.options.method = OnScanOptions();
+  OnScanReport report;
+  report.nodes.proxy_vertices = 10242;
+  report.nodes.evening_steps = 100;
+  report.nodes.fit_rounds = 40;
+  report.nodes.fit_flips = 1;
+  report.nodes.relocations = 2;
+  report.nodes.volume_offset = 0.0125;
+  report.nodes.mean_edge_ratio = 1.1035;
+  result.method = report;
   return result;
 }
 
@@ -67,7 +89,7 @@ TEST(Report, TextSaysWhatHappened) {
        {"10242 vertices, 20480 faces", "none needed", "genus 0", "0 % of the solid angle",
         "degree 20, residual 0.0039 (0.39 % of the equivalent radius)", "WSCVT-D",
         "converged after 2 iterations", "displacement 0.0009 h",
-        "642 nodes, 1280 faces, placement: series", "error %"}) {
+        "642 nodes, 1280 faces, placement: SH surface", "error %"}) {
     EXPECT_TRUE(contains(text, part)) << part << "\nnot in\n" << text;
   }
   EXPECT_FALSE(contains(text, "lowered"));
@@ -118,14 +140,14 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.input.inner_volume_share = 0.25;
   result.input.dropped_faces = 100;
   result.input.dropped_volume_share = 0.0123;
-  result.folded_share = 0.0005;
-  result.fit.requested_degree = 20;
-  result.fit.degree = 9;
-  result.fit.limit = DegreeLimit::Radius;
-  result.fit.rays = 230;
+  published(result).overhang_fraction = 0.0005;
+  published(result).fit.requested_degree = 20;
+  published(result).fit.degree = 9;
+  published(result).fit.limit = DegreeLimit::Radius;
+  published(result).fit.rays = 230;
   result.input.split_vertices = 2;
   result.input.sliver_faces = 1;
-  result.relaxation.outcome = RelaxationOutcome::IterationLimit;
+  published(result).relaxation.outcome = RelaxationOutcome::IterationLimit;
   result.warnings = {"First warning.", "Second warning."};
   const std::string text = text_of(result);
   for (const char* part :
@@ -153,7 +175,7 @@ TEST(Report, SaysHowTheRelaxationEnded) {
       {RelaxationOutcome::Stuck, " stuck after 2 iterations"},
       {RelaxationOutcome::IterationLimit, " not converged: stopped at the limit of 2 iterations"}};
   for (const auto& [outcome, text] : texts) {
-    result.relaxation.outcome = outcome;
+    published(result).relaxation.outcome = outcome;
     EXPECT_TRUE(contains(text_of(result), text)) << text_of(result);
   }
 }
@@ -167,120 +189,73 @@ std::string line_of(const RemeshResult& result, const std::string& topic) {
   return "";
 }
 
-TEST(Report, TellsOfASphericalMapItsHandlesMeetingsAndMending) {
-  RemeshResult result = example();
-  for (const char* topic : {"Handles", "Meeting", "Mended", "Placement"}) {
-    EXPECT_EQ(line_of(result, topic), "") << topic;
-  }
-  result.handles.cut = {{0.25, {1, 2, 3}, 3}};
-  EXPECT_EQ(line_of(result, "Handles"), "1 handle cut and closed: 0.25 long at (1, 2, 3)");
-  result.handles.cut.assign(5, {0.5, {-1, 0, 1}, 3});
-  std::string five = "5 handles cut and closed: 0.5 long at (-1, 0, 1)";
-  for (int k = 1; k < 5; ++k) five += "; 0.5 long at (-1, 0, 1)";
-  EXPECT_EQ(line_of(result, "Handles"), five);
-  result.handles.cut.push_back({0.75, {0, 0, 0}, 3});
-  EXPECT_EQ(line_of(result, "Handles"), "6" + five.substr(1) + "; ...");
-
-  result.parametrization = Parametrization::Spherical;
-  result.options.placement.kind = NodePlacement::LeastSquares;
-  EXPECT_EQ(line_of(result, "Meeting"), "0 pairs of triangles meet, of 1280 triangles");
-  result.space.self_intersections = 1;
-  result.space.repairs = 2;
-  EXPECT_EQ(
-      line_of(result, "Meeting"),
-      "1 pair of triangles meet, of 1280 triangles; repaired by 2 relaxations with more nodes "
-      "there");
-  result.space.repairs = 0;
-  result.space.angle_weight = 10.0;
-  EXPECT_EQ(line_of(result, "Meeting"),
-            "1 pair of triangles meet, of 1280 triangles; the nodes jammed on the map and stand on "
-            "one that keeps angles better (weight 10)");
-  result.space.mending.relocations = 1;
-  EXPECT_EQ(
-      line_of(result, "Mended"),
-      "triangles with angles below 35 degrees, by 0 flips, 0 moves and 1 relocation of nodes; "
-      "0 left");
-  result.space.mending = {1, 20, 3, 4};
-  result.options.placement.refinement.rounds = 1;
-  result.options.placement.refinement.smallest_angle = 25.0;
-  EXPECT_EQ(line_of(result, "Mended"),
-            "triangles with angles below 25 degrees, by 1 flip, 20 moves and 3 relocations of "
-            "nodes; 4 left");
-  EXPECT_EQ(line_of(result, "Placement"), "");
-  result.space.fit = {60000, 1, 0.0125};
-  EXPECT_EQ(line_of(result, "Placement"),
-            "along the normals to 60000 samples; 1 node held back by guards; offset for the volume "
-            "0.0125");
-  result.space.fit = {};
-  result.options.placement.kind = NodePlacement::Series;
-  EXPECT_EQ(line_of(result, "Placement"), "on the scan; a spherical map has no fitted series");
-  // What the map has no use for is told beside what was taken instead.
-  result.options.weighting.kind = Weighting::RadialDistance;
-  EXPECT_EQ(line_of(result, "Weighting").rfind(label_of(Weighting::Area) + " (asked for: ", 0), 0U)
-      << line_of(result, "Weighting");
+TEST(Report, TellsOfTheMethodOnTheScan) {
+  RemeshResult result = on_scan_example();
+  EXPECT_EQ(line_of(result, "Handles"), "");
+  EXPECT_EQ(line_of(result, "Method").rfind("on the scan: ", 0), 0U);
+  EXPECT_EQ(line_of(result, "Weighting"), label_of(CellWeighting::Area));
+  EXPECT_EQ(line_of(result, "Nodes"), "coarsened on 10242 vertices, evened in 100 steps");
+  EXPECT_EQ(line_of(result, "Fit"),
+            "40 rounds, 1 edge flipped, 2 nodes relocated; volume corrected by an offset of 0.013");
+  EXPECT_EQ(line_of(result, "Edge ratio"), "mean 1.104 (wanted 1.105)");
+  EXPECT_EQ(line_of(result, "Intersections"), "0 pairs of 1280 triangles");
+  auto& report = std::get<OnScanReport>(result.method);
+  report.nodes.self_intersections = 1;
+  report.nodes.mended_intersections = 3;
+  report.nodes.notes = {"A note."};
+  EXPECT_EQ(line_of(result, "Intersections"), "1 pair of 1280 triangles, 3 mended");
+  EXPECT_EQ(line_of(result, "Note"), "A note.");
+  report.handles.cut = {{0.25, {1, 2, 3}, 3}};
+  EXPECT_EQ(line_of(result, "Handles"), "1 handle cut and closed: loop of 0.25 at (1, 2, 3)");
+  report.handles.cut.assign(6, {0.5, {-1, 0, 1}, 3});
+  std::string six = "6 handles cut and closed: loop of 0.5 at (-1, 0, 1)";
+  for (int k = 1; k < 5; ++k) six += "; loop of 0.5 at (-1, 0, 1)";
+  EXPECT_EQ(line_of(result, "Handles"), six + "; ...");
+  report.handles.cut.clear();
+  report.handles.kept = 2;
+  report.handles.next = {0.75, {1, 0, 0}, 9};
+  EXPECT_EQ(line_of(result, "Handles"),
+            "0 handles cut and closed, 2 kept (the next has a loop of 0.75 at (1, 0, 0))");
 }
 
-TEST(Report, TellsOfSearchRefinementAndLevels) {
+TEST(Report, TellsOfSearchAndLevels) {
   RemeshResult result = example();
-  EXPECT_EQ(line_of(result, "Target"), "");
-  EXPECT_EQ(line_of(result, "Refinement"), "");
+  EXPECT_EQ(line_of(result, "Node count"), "");
   result.options.target = {ErrorMeasure::Volume, 0.5, 20000};
   const double none = std::numeric_limits<double>::infinity();
   result.search = NodeCountSearch{true, 642, {{300, none}, {642, 0.4}}};
-  EXPECT_EQ(line_of(result, "Target"),
+  EXPECT_EQ(line_of(result, "Node count"),
             "volume error of at most 0.5 %: met by 642 nodes. Tried 300: not possible, 642: 0.4 %");
   result.search->met = false;
-  EXPECT_TRUE(contains(line_of(result, "Target"), "not met, not even by 642 nodes"));
-  result.refinement.start_distance = 0.5;
-  result.refinement.history = {{0.25, 9, 2, 1}};
-  EXPECT_EQ(
-      line_of(result, "Refinement"),
-      "not converged: stopped at the limit of 1 round, rms distance from 0.5 to 0.25, 2 edges "
-      "flipped, 1 node taken elsewhere");
-  result.refinement.history.push_back({0.125, 9, 3, 1});
-  result.refinement.converged = true;
-  EXPECT_EQ(line_of(result, "Refinement"),
-            "converged after 2 rounds, rms distance from 0.5 to 0.125, 5 edges flipped, 2 nodes "
-            "taken elsewhere");
+  EXPECT_TRUE(contains(line_of(result, "Node count"), "not met, not even by 642 nodes"));
   EXPECT_TRUE(contains(line_of(result, "Relaxation"), "after 2 iterations, displacement"));
-  result.relaxation.coarser_levels = {{40, 8, RelaxationOutcome::Converged},
-                                      {160, 9, RelaxationOutcome::Converged}};
+  published(result).relaxation.coarser_levels = {{40, 8, RelaxationOutcome::Converged},
+                                                 {160, 9, RelaxationOutcome::Converged}};
   EXPECT_TRUE(contains(line_of(result, "Relaxation"),
                        "after 2 iterations (after 9 with 160 seeds, 8 with 40 seeds), displ"));
-  result.options.seeding.sampling = Sampling::Fibonacci;
+  std::get<AsPublishedOptions>(result.options.method).sampling = Sampling::Fibonacci;
   EXPECT_EQ(line_of(result, "Sampling"), label_of(Sampling::Fibonacci) + ", not relaxed");
   EXPECT_EQ(line_of(result, "Relaxation"), "");
 }
 
-TEST(Report, TellsInputFitAndCloseness) {
+TEST(Report, TellsScanFitAndDistance) {
   RemeshResult result = example();
-  result.misfit = 0.25;
+  result.rms_distance = 0.25;
   result.input.equivalent_radius = 2.0;
-  EXPECT_EQ(line_of(result, "Closeness"),
-            "rms distance from the scan 0.25 (12.5 % of the equivalent radius)");
-  EXPECT_TRUE(contains(line_of(result, "Fold"), "(limit "));
-  // An automatic degree says why it is this one.
-  result.fit.requested_degree = automatic_degree;
-  result.fit.residual = 0.01;
-  result.fit.chord_error = 0.02;
+  EXPECT_EQ(line_of(result, "Distance"),
+            "rms from scan to remesh 0.25 (12.5 % of the equivalent radius)");
+  published(result).fit.residual = 0.01;
   EXPECT_EQ(line_of(result, "Fit"),
-            "spherical harmonics of degree 20, residual 0.01 (0.5 % of the equivalent radius; the "
-            "lowest degree below the chords' 1 %)");
-  result.fit.limit = DegreeLimit::Highest;
-  EXPECT_TRUE(contains(line_of(result, "Fit"),
-                       "; " + label_of(DegreeLimit::Highest) + ", but not below the chords' 1 %)"));
-  result.parametrization = Parametrization::Spherical;
-  EXPECT_FALSE(contains(line_of(result, "Fold"), "limit"));
+            "spherical harmonics of degree 20, residual 0.01 (0.5 % of the equivalent radius)");
   result.input.input_faces = 0;
   result.input.unreferenced_vertices = 1;
   result.input.reoriented_faces = 2;
   EXPECT_EQ(line_of(result, "Repairs"),
             "1 unused vertex dropped, 2 faces turned outward, points triangulated");
   result.input.input_vertices = 0;
-  result.fit.rays = 0;
-  EXPECT_EQ(line_of(result, "Input"),
-            "surface from a formula or coefficients, equivalent radius 2");
-  for (const char* topic : {"Repairs", "Used", "Fold", "Map", "Fit"}) {
+  published(result).fit.rays = 0;
+  EXPECT_EQ(line_of(result, "Scan"), "surface from a formula or coefficients, equivalent radius 2");
+  for (const char* topic : {"Repairs", "Repaired", "Overhang", "Fit"}) {
     EXPECT_EQ(line_of(result, topic), "") << topic;
   }
 }
@@ -349,19 +324,17 @@ TEST(Report, MassTableHoldsTheWholeTensor) {
   EXPECT_EQ(rows[1][2], "7, 8, 9");
 }
 
-TEST(Report, TextNamesSeedAndExponentsOnlyWhereTheyMatter) {
+TEST(Report, TextNamesAlphaOnlyWhereItMatters) {
   RemeshResult result = example();
   EXPECT_FALSE(contains(text_of(result), "alpha"));
-  EXPECT_FALSE(contains(text_of(result), "exponent"));
-  result.options.weighting.kind = Weighting::Curvature;
-  result.options.weighting.curvature_alpha = 1.25;
-  result.options.seeding.start = SeedStart::Random;
-  result.options.seeding.random_seed = 77;
+  auto& options = std::get<AsPublishedOptions>(result.options.method);
+  options.weighting = Weighting::Curvature;
+  options.curvature_alpha = 1.25;
   EXPECT_TRUE(contains(text_of(result), "alpha 1.25"));
-  EXPECT_TRUE(contains(text_of(result), "seed 77"));
-  result.options.weighting.kind = Weighting::ErrorAdaptive;
-  result.options.weighting.adaptive_exponent = 0.75;
-  EXPECT_TRUE(contains(text_of(result), "curvature exponent 0.75"));
+  RemeshResult on_scan = on_scan_example();
+  EXPECT_FALSE(contains(text_of(on_scan), "alpha"));
+  std::get<OnScanOptions>(on_scan.options.method).weighting = CellWeighting::Curvature;
+  EXPECT_TRUE(contains(text_of(on_scan), "alpha 1"));
 }
 
 TEST(Report, DoesNotDependOnTheLocale) {
@@ -376,11 +349,13 @@ TEST(Report, DoesNotDependOnTheLocale) {
 }
 
 TEST(Report, JsonHoldsTheNumbersToTheLastBit) {
-  const RemeshResult result = example();
+  RemeshResult result = example();
   const auto json = nlohmann::json::parse(report_json(result));
+  EXPECT_EQ(json.at("version"), 3);
   EXPECT_EQ(json.at("format"), "wscvt-report");
   EXPECT_EQ(json.at("result").at("vertices"), 642);
-  EXPECT_EQ(json.at("fit").at("residual").get<double>(), result.fit.residual);
+  EXPECT_EQ(json.at("as_published").at("fit").at("residual").get<double>(),
+            published(result).fit.residual);
   EXPECT_EQ(json.at("quality").at("remesh").at("edge_length").at("mean").get<double>(),
             result.quality.edge_length.mean);
   const auto& volume = json.at("descriptors").at("volume");
@@ -388,7 +363,8 @@ TEST(Report, JsonHoldsTheNumbersToTheLastBit) {
   EXPECT_EQ(volume.at("remesh").get<double>(), result.remesh.volume);
   EXPECT_EQ(volume.at("error_percent").get<double>(),
             relative_error_percent(result.remesh.volume, result.original.volume));
-  EXPECT_EQ(json.at("relaxation").at("history").at("flips"), nlohmann::json({30, 1}));
+  EXPECT_EQ(json.at("as_published").at("relaxation").at("history").at("flips"),
+            nlohmann::json({30, 1}));
   EXPECT_TRUE(json.at("warnings").empty());
 }
 
@@ -431,14 +407,14 @@ std::vector<RemeshResult> examples() {
   full.warnings = {"One, with a comma.", "Two \"quoted\"."};
   full.distances = MeshDistances{{0.3, 0.2, 0.1}, {0.4, 0.25, 0.15}, 0.4, 0.25};
   full.search = NodeCountSearch{true, 642, {{300, 1.5}, {642, 0.9}}};
-  full.refinement.start_distance = 0.02;
-  full.refinement.history = {{0.01, 600, 20, 3}, {0.009, 500, 2, 0}};
-  full.relaxation.coarser_levels = {{162, 40, RelaxationOutcome::Converged}};
+  published(full).relaxation.coarser_levels = {{162, 40, RelaxationOutcome::Converged}};
   RemeshResult formula = example();
   formula.input = MeshCheckReport();
-  formula.fit = HarmonicFitReport();
-  formula.relaxation.history.clear();
-  return {example(), full, formula};
+  published(formula).fit = HarmonicFitReport();
+  published(formula).relaxation.history.clear();
+  RemeshResult on_scan = on_scan_example();
+  std::get<OnScanReport>(on_scan.method).handles.cut = {{0.25, {1, 2, 3}, 3}};
+  return {example(), full, formula, on_scan};
 }
 
 /// Numbers that are all different, one after the other.
@@ -618,12 +594,12 @@ TEST(Report, CsvLeavesOutTheListsThatTheHeaderNames) {
     const std::size_t digit = path.find_first_of("0123456789");
     if (digit != std::string::npos && path[digit - 1] == '/') lists.insert(path.substr(0, digit));
   }
-  EXPECT_EQ(lists, (std::set<std::string>{
-                       "/descriptor_names/", "/refinement/history/distance/",
-                       "/refinement/history/flips/", "/refinement/history/moves/",
-                       "/refinement/history/relocations/", "/relaxation/coarser_levels/",
-                       "/relaxation/history/area_spread/", "/relaxation/history/displacement/",
-                       "/relaxation/history/flips/", "/search/trials/", "/warnings/"}));
+  EXPECT_EQ(lists,
+            (std::set<std::string>{"/as_published/relaxation/coarser_levels/",
+                                   "/as_published/relaxation/history/area_spread/",
+                                   "/as_published/relaxation/history/displacement/",
+                                   "/as_published/relaxation/history/flips/", "/descriptor_names/",
+                                   "/node_count_search/trials/", "/warnings/"}));
 }
 
 /// Collects what every option is called and what its value is typed as.
@@ -645,14 +621,19 @@ struct TypedOptions {
 
 TEST(Report, NamesOptionsAsOneTypesThem) {
   RemeshResult result = example();
-  result.options.weighting.kind = Weighting::ErrorAdaptive;
-  result.options.placement.kind = NodePlacement::LeastSquares;
-  result.options.seeding.random_seed = 18446744073709551615U;
+  OnScanOptions on_scan;
+  on_scan.weighting = CellWeighting::ErrorAdaptive;
+  on_scan.edge_ratio = 1.3;
+  result.options.method = on_scan;
   TypedOptions typed;
   for_each_option(result.options, typed);
   EXPECT_EQ(typed.values.at("weighting"), "error-adaptive");
   const auto options = nlohmann::json::parse(report_json(result)).at("options");
-  EXPECT_EQ(options.size(), typed.values.size());
+  // Those of the other method are there, and null.
+  EXPECT_TRUE(options.at("sampling").is_null());
+  EXPECT_EQ(
+      std::count_if(options.begin(), options.end(), [](const auto& v) { return !v.is_null(); }),
+      static_cast<std::ptrdiff_t>(typed.values.size()));
   const auto records = test::csv_records(report_csv(result));
   for (const auto& [key, value] : typed.values) {
     SCOPED_TRACE(key);
@@ -670,8 +651,8 @@ TEST(Report, NamesOptionsAsOneTypesThem) {
 TEST(Report, JsonKeysKeepTheirOrder) {
   const std::string json = report_json(example());
   std::size_t last = 0;
-  for (const char* key : {"\"format\"", "\"options\"", "\"input\"", "\"fit\"", "\"relaxation\"",
-                          "\"quality\"", "\"descriptors\"", "\"warnings\""}) {
+  for (const char* key : {"\"format\"", "\"options\"", "\"input\"", "\"on_scan\"", "\"fit\"",
+                          "\"relaxation\"", "\"quality\"", "\"descriptors\"", "\"warnings\""}) {
     const std::size_t place = json.find(key, last);
     ASSERT_NE(place, std::string::npos) << key;
     last = place;

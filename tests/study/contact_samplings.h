@@ -14,9 +14,9 @@ struct ContactSampling {
   RemeshOptions options;
 };
 
-/// On the scan: WSCVT-D, WSCVT-C, constant, Fibonacci and random; off it: WSCVT-D by least squares,
-/// refined, and contact placements of error-adaptive weights, with their radius, for nodes against
-/// another grain's surface, nodes of both, and flat walls.
+/// As published, with nodes on the scan: WSCVT-D, WSCVT-C, constant, Fibonacci. By the method on
+/// the scan: nodes on it, fitted, fitted closely, and contact fits of error-adaptive weights, with
+/// their radius, for nodes against another grain's surface, nodes of both, and flat walls.
 std::vector<ContactSampling> contact_samplings();
 
 }  // namespace wscvt::study

@@ -7,7 +7,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/nodes/placed_nodes.h"
+#include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 
@@ -99,9 +99,9 @@ Table write_pictures(const std::string& folder, const Scan& scan, const Executio
         directions.push_back((point - result.centre) / radii.back());
       }
       write(folder + "/" + figure + "_" + scan.name + "_scan.dat", scan.mesh,
-            by_radius
-                ? radii
-                : largest_curvatures(HarmonicSurface(result.coefficients), directions, execution),
+            by_radius ? radii
+                      : largest_curvatures(HarmonicSurface(result.coefficients.radius), directions,
+                                           execution),
             by_radius ? 1.0 / unit : unit);
     }
   }

@@ -92,12 +92,12 @@ struct Sums {
 }  // namespace
 
 RemeshOptions paper_options(const Method& method, int node_count) {
+  AsPublishedOptions published;
+  published.sampling = method.sampling;
+  published.weighting = method.weighting;
   RemeshOptions options;
-  options.method = wscvt::Method::AsPublished;
-  options.surface.parametrization = Parametrization::Radial;  // nothing else has the series
-  options.measures.advice = false;
-  options.seeding.sampling = method.sampling;
-  options.weighting.kind = method.weighting;
+  options.method = published;
+  options.measures.suggestions = false;
   options.node_count = node_count;
   return options;
 }
@@ -131,7 +131,7 @@ SamplingErrors sampling_errors(const std::vector<Scan>& scans, int poses,
             paper_options(methods[k / node_counts.size()], node_counts[k % node_counts.size()]),
             execution);
         if (k == 0) {
-          const HarmonicSurface surface(remeshed.coefficients);
+          const HarmonicSurface surface(remeshed.coefficients.radius);
           fitted = measures(surface, execution);
           const double printed = printed_sdq(surface, 200, execution);
           least = pose == 0 ? printed : std::min(least, printed);

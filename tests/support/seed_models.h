@@ -18,7 +18,7 @@ inline SurfaceSeedModel model_of(const RadialSurface& surface, Weighting weighti
   WeightingOptions options;
   options.kind = weighting;
   options.curvature_alpha = alpha;
-  return {surface, options, nodes, nullptr, Execution(1)};
+  return {surface, options, nodes, Execution(1)};
 }
 
 }  // namespace wscvt::test

@@ -185,62 +185,6 @@ TEST(HarmonicFit, AHigherDegreeAskedForNeverGivesALowerOne) {
   }
 }
 
-TEST(HarmonicFit, ChordErrorIsThatOfEvenTriangles) {
-  // An icosahedron cut in 16 on a ball of radius 2 has edges between 1 and 1.2 times their mean.
-  const int frequency = 16;
-  const Ellipsoid ball(Vector3(2.0, 2.0, 2.0));
-  const IndexedMesh even = meshed(ball, frequency);
-  const auto nodes = static_cast<int>(even.points.size());
-  double squares = 0.0;
-  int samples = 0;
-  for (const Triangle& t : even.triangles) {
-    constexpr int parts = 6;
-    for (int i = 0; i < parts; ++i) {
-      for (int j = 0; i + j < parts; ++j) {
-        const double a = (i + 1.0 / 3.0) / parts;
-        const double b = (j + 1.0 / 3.0) / parts;
-        const Vector3 p =
-            a * even.points[t[0]] + b * even.points[t[1]] + (1.0 - a - b) * even.points[t[2]];
-        squares += std::pow(2.0 - p.norm(), 2);
-        ++samples;
-      }
-    }
-  }
-  // 4 % for the spread of the triangles' sizes, 1 % for the quadrature.
-  EXPECT_NEAR(chord_error(ball, nodes, Execution(1)) / std::sqrt(squares / samples), 1.0, 0.05);
-  EXPECT_THROW(chord_error(ball, 3, Execution(1)), Error);
-}
-
-TEST(HarmonicFit, AnAutomaticDegreeIsTheLowestThatNodesCannotTellFromTheSurface) {
-  const MeshSurface rays = rays_at(meshed(grain(18, 11), 40));
-  int last = 0;
-  for (const int nodes : {20, 100, 1000, 5000}) {
-    const HarmonicFit fit = fit_harmonics_for_nodes(rays, nodes, Execution(1));
-    EXPECT_EQ(fit.report.limit, DegreeLimit::None);
-    EXPECT_EQ(fit.report.requested_degree, automatic_degree);
-    EXPECT_LE(fit.report.residual, fit.report.chord_error);
-    EXPECT_GE(fit.report.degree, last) << nodes;
-    last = fit.report.degree;
-    if (last == 1) continue;  // the lowest that is tried
-    const HarmonicFit lower = fit_harmonics(rays, last - 1, Execution(1));
-    EXPECT_GT(lower.report.residual, chord_error(lower.surface, nodes, Execution(1))) << nodes;
-  }
-  EXPECT_GT(last, 10);
-  EXPECT_LE(last, 18);
-}
-
-TEST(HarmonicFit, AnAutomaticDegreeThatCannotBeCloseEnoughIsTheHighest) {
-  // Edges of a box have harmonics of all degrees.
-  const HarmonicFit box =
-      fit_harmonics_for_nodes(rays_at(test::box(1.0, 1.0, 1.0)), 100000, Execution(2));
-  EXPECT_EQ(box.report.limit, DegreeLimit::Highest);
-  EXPECT_EQ(box.report.degree, 60);
-  const HarmonicFit flat =
-      fit_harmonics_for_nodes(Ellipsoid(Vector3(300.0, 300.0, 1.0)), 100000, Execution(2));
-  EXPECT_EQ(flat.report.limit, DegreeLimit::Radius);
-  EXPECT_LT(flat.report.degree, 60);
-}
-
 TEST(HarmonicFit, SameBytesOnAnyNumberOfThreads) {
   const MeshSurface rays = rays_at(test::lumpy(4));
   const HarmonicFit one = fit_harmonics(rays, 20, Execution(1));

@@ -223,25 +223,5 @@ TEST(SphereSurface, ShapesByRadiiAreThoseByCoordinates) {
       1e-12);
 }
 
-TEST(SphereSurface, WhereASearchBeginsLeavesThePointWhereItIs) {
-  const IndexedMesh mesh = test::lumpy(3);
-  const SphereMap map = map_to_sphere(mesh, SphereMapOptions(), Execution(1));
-  const MappedSurface scan(mesh, map.directions, Execution(1));
-  const HarmonicMap ball = shifted_ball();
-  for (const SphereSurface* surface : std::vector<const SphereSurface*>{&scan, &ball}) {
-    MeshPlace place;
-    for (const Vector3& u : random_directions(50, test::announced(33))) {
-      Vector3 point;
-      surface->evaluate_positions(&u, 1, &point);
-      EXPECT_LT((surface->position_near(u, place) - point).norm(), 1e-13);
-    }
-  }
-  // The place is that of the direction, so that the next search is short.
-  MeshPlace place;
-  const Vector3 point = scan.position_near(Vector3::UnitX(), place);
-  EXPECT_EQ(place.triangle, scan.locate(Vector3::UnitX()).triangle);
-  EXPECT_EQ(scan.position(place), point);
-}
-
 }  // namespace
 }  // namespace wscvt

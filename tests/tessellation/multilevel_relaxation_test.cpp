@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "support/added_points.h"
@@ -22,13 +21,10 @@ namespace {
 using test::ellipsoid;
 using test::model_of;
 
-RelaxationResult relaxed(int count, Weighting weighting, RelaxationMetric metric, int threads = 1,
-                         const MultilevelOptions& levels = {}) {
+RelaxationResult relaxed(int count, Weighting weighting, int threads = 1) {
   const SurfaceSeedModel model = model_of(ellipsoid(), weighting, count);
-  RelaxationOptions options;
-  options.metric = metric;
-  return relax_multilevel(fibonacci_lattice(level_sizes(count, levels.coarsest_seeds).front()),
-                          count, model, options, levels, Execution(threads));
+  return relax_multilevel(fibonacci_lattice(level_sizes(count).front()), count, model, {},
+                          Execution(threads));
 }
 
 MeshQuality quality(const RelaxationResult& result) {
@@ -40,9 +36,9 @@ MeshQuality quality(const RelaxationResult& result) {
 
 TEST(MultilevelRelaxation, LevelsLeadToExactlyTheCount) {
   for (int count = 4; count < 3000; ++count) {
-    const std::vector<int> sizes = level_sizes(count, 20);
+    const std::vector<int> sizes = level_sizes(count);
     ASSERT_EQ(sizes.back(), count);
-    ASSERT_TRUE(count < 74 ? sizes.size() == 1 : sizes.front() >= 20 && sizes.front() < 74);
+    ASSERT_TRUE(count < 494 ? sizes.size() == 1 : sizes.front() >= 125 && sizes.front() < 494);
     for (std::size_t k = 1; k < sizes.size(); ++k) {
       const int extra = sizes[k] - (4 * sizes[k - 1] - 6);
       ASSERT_TRUE(extra >= 0 && extra <= 3) << count;
@@ -53,44 +49,36 @@ TEST(MultilevelRelaxation, LevelsLeadToExactlyTheCount) {
 TEST(MultilevelRelaxation, SeedsThatAreMissingAreAddedWhereThereIsMostRoom) {
   // Random seeds have triangles of all sizes. Nothing is moved, so the three seeds added stand
   // last.
-  const int coarse = 50;
+  const int coarse = 125;
   const int count = 4 * coarse - 6 + 3;
-  MultilevelOptions levels;
-  levels.coarsest_seeds = coarse;
   RelaxationOptions options;
   options.maximum_iterations = 0;
-  const RelaxationResult result = relax_multilevel(
-      random_directions(coarse, test::announced(4)), count,
-      model_of(ellipsoid(), Weighting::Constant, count), options, levels, Execution(1));
+  const RelaxationResult result =
+      relax_multilevel(random_directions(coarse, test::announced(4)), count,
+                       model_of(ellipsoid(), Weighting::Constant, count), options, Execution(1));
   ASSERT_EQ(static_cast<int>(result.seeds.size()), count);
   test::expect_room_about_the_last(result.seeds, 3);
 }
 
-TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeightingAndMetric) {
-  for (const auto metric : {RelaxationMetric::Sphere, RelaxationMetric::Surface}) {
-    for (const auto weighting : {Weighting::Constant, Weighting::RadialDistance,
-                                 Weighting::Curvature, Weighting::Area, Weighting::ErrorAdaptive}) {
-      SCOPED_TRACE(testing::Message()
-                   << static_cast<int>(weighting) << " " << static_cast<int>(metric));
-      for (const int count : {1001, 1002, 1003}) {
-        const RelaxationResult result = relaxed(count, weighting, metric);
-        EXPECT_EQ(result.report.outcome, RelaxationOutcome::Converged);
-        EXPECT_EQ(result.seeds.size(), static_cast<std::size_t>(count));
-        EXPECT_EQ(result.triangulation.triangles().size(), 2U * count - 4U);
-        ASSERT_EQ(result.report.coarser_levels.size(), 1U);
-        EXPECT_EQ(result.report.coarser_levels.front().outcome, RelaxationOutcome::Converged);
-      }
+TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeighting) {
+  for (const auto& weighting : enumerators<Weighting>()) {
+    SCOPED_TRACE(weighting.label);
+    for (const int count : {1001, 1002, 1003}) {
+      const RelaxationResult result = relaxed(count, weighting.value);
+      EXPECT_EQ(result.report.outcome, RelaxationOutcome::Converged);
+      EXPECT_EQ(result.seeds.size(), static_cast<std::size_t>(count));
+      EXPECT_EQ(result.triangulation.triangles().size(), 2U * count - 4U);
+      ASSERT_EQ(result.report.coarser_levels.size(), 1U);
+      EXPECT_EQ(result.report.coarser_levels.front().outcome, RelaxationOutcome::Converged);
     }
   }
 }
 
 TEST(MultilevelRelaxation, IsAsEvenAsOneLevelInFewerIterationsWithFewerDefects) {
   constexpr int count = 4000;
-  const RelaxationResult levels = relaxed(count, Weighting::Area, RelaxationMetric::Surface);
-  MultilevelOptions one_level;
-  one_level.coarsest_seeds = count;
-  const RelaxationResult single =
-      relaxed(count, Weighting::Area, RelaxationMetric::Surface, 1, one_level);
+  const RelaxationResult levels = relaxed(count, Weighting::Area);
+  const RelaxationResult single = relax(
+      fibonacci_lattice(count), model_of(ellipsoid(), Weighting::Area, count), {}, Execution(1));
   EXPECT_LT(levels.report.iterations, single.report.iterations / 2);
   // The level rule stops at 1e-3 of a cell; the two then differ by what is left to go.
   EXPECT_LT(quality(levels).edge_variation, 1.15 * quality(single).edge_variation);
@@ -98,8 +86,8 @@ TEST(MultilevelRelaxation, IsAsEvenAsOneLevelInFewerIterationsWithFewerDefects) 
 }
 
 TEST(MultilevelRelaxation, SameBytesOnAnyNumberOfThreads) {
-  const RelaxationResult one = relaxed(9000, Weighting::Area, RelaxationMetric::Surface, 1);
-  const RelaxationResult two = relaxed(9000, Weighting::Area, RelaxationMetric::Surface, 2);
+  const RelaxationResult one = relaxed(9000, Weighting::Area, 1);
+  const RelaxationResult two = relaxed(9000, Weighting::Area, 2);
   EXPECT_EQ(one.seeds, two.seeds);
   EXPECT_EQ(one.triangulation.triangles(), two.triangulation.triangles());
 }
@@ -107,31 +95,9 @@ TEST(MultilevelRelaxation, SameBytesOnAnyNumberOfThreads) {
 TEST(MultilevelRelaxation, RefusesAStartThatDoesNotFit) {
   const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 1000);
   test::expect_error(ErrorCode::InvalidInput, [&] {
-    relax_multilevel(fibonacci_lattice(300), 1000, model, {}, {}, Execution(1));
+    relax_multilevel(fibonacci_lattice(300), 1000, model, {}, Execution(1));
   });
-  test::expect_error(ErrorCode::InvalidInput, [] { level_sizes(3, 20); });
-  test::expect_error(ErrorCode::InvalidInput, [] { level_sizes(100, 3); });
-}
-
-TEST(MultilevelRelaxation, RefusesLevelsOutOfRange) {
-  EXPECT_NO_THROW(check_multilevel_options({}));
-  for (const int seeds : {3, 0, -1}) {
-    MultilevelOptions fewest;
-    fewest.coarsest_seeds = seeds;
-    EXPECT_ERROR(check_multilevel_options(fewest), InvalidInput);
-  }
-  for (const double tolerance : {0.0, -1e-4, std::numeric_limits<double>::quiet_NaN()}) {
-    MultilevelOptions coarsest;
-    coarsest.coarsest_tolerance = tolerance;
-    test::expect_error(ErrorCode::InvalidInput, [&] {
-      relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, coarsest);
-    });
-    MultilevelOptions middle;
-    middle.middle_tolerance = tolerance;
-    test::expect_error(ErrorCode::InvalidInput, [&] {
-      relaxed(1000, Weighting::Area, RelaxationMetric::Sphere, 1, middle);
-    });
-  }
+  test::expect_error(ErrorCode::InvalidInput, [] { level_sizes(3); });
 }
 
 TEST(MultilevelRelaxation, SaysWhichCoarserLevelsConverged) {
@@ -140,7 +106,7 @@ TEST(MultilevelRelaxation, SaysWhichCoarserLevelsConverged) {
   RelaxationOptions options;
   options.maximum_iterations = 1;
   const RelaxationResult result =
-      relax_multilevel(fibonacci_lattice(251), 1000, model, options, {}, Execution(1));
+      relax_multilevel(fibonacci_lattice(251), 1000, model, options, Execution(1));
   ASSERT_EQ(result.report.coarser_levels.size(), 1U);
   EXPECT_EQ(result.report.coarser_levels.front().iterations, 1);
   EXPECT_EQ(result.report.coarser_levels.front().outcome, RelaxationOutcome::IterationLimit);

@@ -17,8 +17,8 @@ namespace {
 PowerCells cells_of(const std::vector<Vector3>& seeds, const std::vector<double>& weights,
                     int threads = 1) {
   PowerCells cells;
-  compute_power_cells(SphereTriangulation(seeds, weights), seeds, weights, {},
-                      CellGeometry::UnitSphere, Execution(threads), cells);
+  compute_power_cells(SphereTriangulation(seeds, weights), seeds, weights, Execution(threads),
+                      cells);
   return cells;
 }
 
@@ -35,16 +35,14 @@ TEST(PowerCells, VerticesHaveEqualPowerToTheirThreeSites) {
   const std::vector<double> weights = linear_weights(sites);
   const SphereTriangulation triangulation(sites, weights);
   PowerCells cells;
-  // On a surface the centres are left in their triangles' planes, where the property is exact.
-  compute_power_cells(triangulation, sites, weights, {}, CellGeometry::Surface, Execution(1),
-                      cells);
+  compute_power_cells(triangulation, sites, weights, Execution(1), cells);
   for (std::size_t t = 0; t < cells.vertices.size(); ++t) {
-    const Triangle& corners = triangulation.triangles()[t];
-    const auto power = [&](std::int32_t i) {
-      return (cells.vertices[t] - sites[i]).squaredNorm() - weights[i];
-    };
-    EXPECT_NEAR(power(corners[0]), power(corners[1]), 1e-14);
-    EXPECT_NEAR(power(corners[0]), power(corners[2]), 1e-14);
+    const auto [a, b, c] = triangulation.triangles()[t];
+    // On the ray of the vertex x the centre is t x with 2 t x.(b - a) = w_a - w_b, and so for c.
+    const Vector3& x = cells.vertices[t];
+    EXPECT_NEAR(x.norm(), 1.0, 1e-15);
+    EXPECT_NEAR((weights[b] - weights[a]) * x.dot(sites[c] - sites[a]),
+                (weights[c] - weights[a]) * x.dot(sites[b] - sites[a]), 1e-17);
   }
 }
 
@@ -80,70 +78,6 @@ TEST(PowerCells, RaisingOneWeightGrowsThatCellOnly) {
   EXPECT_EQ(after.areas[0], before.areas[0]);
   EXPECT_NEAR(std::accumulate(after.areas.begin(), after.areas.end(), 0.0),
               std::accumulate(before.areas.begin(), before.areas.end(), 0.0), 1e-3);
-}
-
-TEST(PowerCells, DensityPullsTheCentroidTowardsIt) {
-  const std::vector<Vector3> seeds = fibonacci_lattice(400);
-  const SphereTriangulation triangulation(seeds);
-  std::vector<double> densities;
-  for (const Vector3& p : seeds) densities.push_back(std::exp(2.0 * p.z()));
-  PowerCells plain;
-  PowerCells dense;
-  compute_power_cells(triangulation, seeds, {}, {}, CellGeometry::UnitSphere, Execution(1), plain);
-  compute_power_cells(triangulation, seeds, {}, densities, CellGeometry::UnitSphere, Execution(1),
-                      dense);
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    if (std::abs(seeds[i].z()) < 0.9) {
-      EXPECT_GT(dense.centroids[i].z(), plain.centroids[i].z());
-    }
-    EXPECT_EQ(dense.areas[i], plain.areas[i]);
-  }
-  const std::vector<double> constant(seeds.size(), 4.0);
-  PowerCells even;
-  compute_power_cells(triangulation, seeds, {}, constant, CellGeometry::UnitSphere, Execution(1),
-                      even);
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    EXPECT_NEAR((even.centroids[i] - plain.centroids[i]).norm(), 0.0, 1e-15);
-  }
-}
-
-// The same by another quadrature: a product of two linear functions over a triangle is a third of
-// the area times the sum of its values in the middles of the sides.
-TEST(PowerCells, CentroidsAreThoseOfADensityLinearOverEachFan) {
-  const std::vector<Vector3> seeds = fibonacci_lattice(60);
-  const SphereTriangulation triangulation(seeds);
-  std::vector<double> densities;
-  for (const Vector3& p : seeds) densities.push_back(std::exp(3.0 * p.z()));
-  PowerCells cells;
-  compute_power_cells(triangulation, seeds, {}, densities, CellGeometry::UnitSphere, Execution(1),
-                      cells);
-  const auto density_at = [&](std::int32_t t) {
-    const auto& [a, b, c] = triangulation.triangles()[t];
-    return (densities[a] + densities[b] + densities[c]) / 3.0;
-  };
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    double mass = 0.0;
-    Vector3 moment = Vector3::Zero();
-    const std::int32_t first = triangulation.first_half_edge()[i];
-    std::int32_t h = first;
-    do {
-      const std::int32_t next = triangulation.opposite()[SphereTriangulation::previous(h)];
-      const Vector3 corners[] = {seeds[i], cells.vertices[h / 3], cells.vertices[next / 3]};
-      const double at_corners[] = {densities[i], density_at(h / 3), density_at(next / 3)};
-      const double area =
-          0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(seeds[i]);
-      for (int k = 0; k < 3; ++k) {
-        const double density = 0.5 * (at_corners[k] + at_corners[(k + 1) % 3]);
-        mass += area / 3.0 * density;
-        moment += area / 3.0 * density * 0.5 * (corners[k] + corners[(k + 1) % 3]);
-      }
-      h = next;
-    } while (h != first);
-    Vector3 shift = moment / mass - seeds[i];
-    shift -= shift.dot(seeds[i]) * seeds[i];
-    // Coordinates of 1 and some ten terms: rounding stays below 1e-14.
-    EXPECT_NEAR((cells.centroids[i] - seeds[i] - shift).norm(), 0.0, 1e-14);
-  }
 }
 
 TEST(PowerCells, AreasAndCentroidsAreThoseOfThePointsNearestToEachSite) {
@@ -199,17 +133,14 @@ TEST(PowerCells, RefusesArraysThatDoNotFit) {
   const std::vector<Vector3> seeds = fibonacci_lattice(10);
   PowerCells cells;
   const SphereTriangulation triangulation(seeds);
-  const auto expect_refused = [&](const std::vector<Vector3>& sites, std::size_t weights,
-                                  std::size_t densities) {
+  const auto expect_refused = [&](const std::vector<Vector3>& sites, std::size_t weights) {
     test::expect_error(ErrorCode::InvalidInput, [&] {
-      compute_power_cells(triangulation, sites, std::vector<double>(weights, 1.0),
-                          std::vector<double>(densities, 1.0), CellGeometry::UnitSphere,
-                          Execution(1), cells);
+      compute_power_cells(triangulation, sites, std::vector<double>(weights, 1.0), Execution(1),
+                          cells);
     });
   };
-  expect_refused(fibonacci_lattice(11), 0, 0);
-  expect_refused(seeds, 2, 0);
-  expect_refused(seeds, 0, 11);
+  expect_refused(fibonacci_lattice(11), 0);
+  expect_refused(seeds, 2);
 }
 
 }  // namespace

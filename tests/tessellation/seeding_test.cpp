@@ -16,7 +16,7 @@ namespace {
 SurfaceSeedModel area_model(const Ellipsoid& surface, int count) {
   WeightingOptions options;
   options.kind = Weighting::Area;
-  return {surface, options, count, nullptr, Execution(1)};
+  return {surface, options, count, Execution(1)};
 }
 
 TEST(Seeding, UnrelaxedSamplingsAreTheNearestThereAre) {
@@ -31,29 +31,14 @@ TEST(Seeding, UnrelaxedSamplingsAreTheNearestThereAre) {
   EXPECT_TRUE(takes_any_count(Sampling::Weighted));
 }
 
-TEST(Seeding, HandfulsOfSeedsSurroundTheCentreWhateverTheStart) {
-  // Four random points do so once in eight times.
+TEST(Seeding, HandfulsOfSeedsSurroundTheCentre) {
   const Ellipsoid surface(Vector3(3.0, 1.0, 0.6));
   for (int count = 4; count <= 12; ++count) {
-    const SurfaceSeedModel model = area_model(surface, count);
-    for (const SeedStart start : {SeedStart::Random, SeedStart::WarpedLattice}) {
-      SCOPED_TRACE(testing::Message() << count << " " << static_cast<int>(start));
-      SeedingOptions options;
-      options.start = start;
-      const std::vector<Vector3> seeds = start_seeds(options, model, count, Execution(1));
-      EXPECT_EQ(seeds.size(), static_cast<std::size_t>(count));
-      EXPECT_TRUE(SphereTriangulation::try_build(seeds));
-    }
+    SCOPED_TRACE(count);
+    const std::vector<Vector3> seeds = start_seeds(area_model(surface, count), count, Execution(1));
+    EXPECT_EQ(seeds.size(), static_cast<std::size_t>(count));
+    EXPECT_TRUE(SphereTriangulation::try_build(seeds));
   }
-}
-
-TEST(Seeding, RandomStartsAreThoseOfTheirSeed) {
-  const Ellipsoid ball(Vector3(1.0, 1.0, 1.0));
-  const SurfaceSeedModel model = area_model(ball, 200);
-  SeedingOptions options;
-  options.start = SeedStart::Random;
-  options.random_seed = 5;
-  EXPECT_EQ(start_seeds(options, model, 200, Execution(1)), random_directions(200, 5));
 }
 
 TEST(Seeding, WarpedStartsFollowTheDensity) {
@@ -61,7 +46,7 @@ TEST(Seeding, WarpedStartsFollowTheDensity) {
   constexpr int count = 2000;
   const Ellipsoid surface(Vector3(2.0, 1.0, 1.0));
   const SurfaceSeedModel model = area_model(surface, count);
-  const std::vector<Vector3> seeds = start_seeds(SeedingOptions(), model, count, Execution(1));
+  const std::vector<Vector3> seeds = start_seeds(model, count, Execution(1));
   // Against the integral of the density over the caps, by a lattice of its own.
   const std::vector<Vector3> lattice = fibonacci_lattice(20000);
   const std::vector<double> densities = model.number_densities(lattice, Execution(1));

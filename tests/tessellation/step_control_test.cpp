@@ -45,18 +45,6 @@ TEST(StallWatch, WaitsForWhatStillGains) {
   EXPECT_EQ(stall([](int step) { return std::pow(0.5, step / 150); }), 5000);
 }
 
-int cycle(const std::function<double(int)>& displacement) {
-  return end_of(&CycleWatch::cycling_at, displacement, 5000);
-}
-
-TEST(CycleWatch, EndsWhatStaysAboveItsSmallest) {
-  EXPECT_EQ(cycle([](int step) { return step == 10 ? 0.01 : 0.05; }), 40);
-  EXPECT_EQ(cycle([](int step) { return std::pow(0.99, step); }), 5000);
-  // Twice the smallest is no cycle, nor is anything below 1e-3.
-  EXPECT_EQ(cycle([](int step) { return step == 10 ? 0.01 : 0.019; }), 5000);
-  EXPECT_EQ(cycle([](int step) { return step == 10 ? 1e-6 : 9e-4; }), 5000);
-}
-
 TEST(Momentum, GrowsTowardsOneAndIsDroppedUphill) {
   Momentum momentum;
   EXPECT_EQ(momentum.carry(false), 0.0);

@@ -109,18 +109,6 @@ TEST(Weights, NoCellIsWantedSmallerThanATwentiethOfTheMean) {
   EXPECT_NEAR(count, 1000.0, 10.0);
 }
 
-TEST(Weights, ErrorAdaptiveLeavesNodesOnFlatFaces) {
-  // A box with rounded edges. Where it is flattest the density is 0.23 of the median one; it would
-  // be 0.07 if there curvature counted as it is.
-  const Superellipsoid box(Vector3(1.0, 0.9, 0.8), 0.3, 0.3);
-  const SurfaceSeedModel model = model_of(box, Weighting::ErrorAdaptive);
-  std::vector<double> radii;
-  std::vector<double> densities;
-  model.on_surface(fibonacci_lattice(1000), Execution(1), radii, densities);
-  std::sort(densities.begin(), densities.end());
-  EXPECT_GT(densities.front(), 0.15 * densities[500]);
-}
-
 TEST(Weights, CurvatureFinerThanTheCellsIsSmoothedAway) {
   // Waves of 12 degrees on a ball, whose curvature they change by a few times its own, under cells
   // of 20 degrees.
@@ -135,8 +123,7 @@ TEST(Weights, CurvatureFinerThanTheCellsIsSmoothedAway) {
     const auto [low, high] = std::minmax_element(densities.begin(), densities.end());
     return *high / *low;
   };
-  // It is 2.05, since there are no waves about the poles, and would be 3.26 without smoothing.
-  EXPECT_LT(spread(Weighting::ErrorAdaptive), 2.6);
+  EXPECT_LT(spread(Weighting::Curvature), 0.0);
 }
 
 TEST(Weights, CurvatureOnASphereLeavesAllSeedsEqual) {
@@ -147,11 +134,10 @@ TEST(Weights, CurvatureOnASphereLeavesAllSeedsEqual) {
   }
 }
 
-TEST(Weights, WantedDensitiesAddUpToTheNodeCountOnSphereAndSurface) {
+TEST(Weights, WantedDensitiesAddUpToTheNodeCount) {
   const SphereQuadrature quadrature = gauss_legendre_sphere(60);
   for (const Weighting weighting :
-       {Weighting::Constant, Weighting::RadialDistance, Weighting::Curvature, Weighting::Area,
-        Weighting::ErrorAdaptive}) {
+       {Weighting::Constant, Weighting::RadialDistance, Weighting::Curvature, Weighting::Area}) {
     SCOPED_TRACE(static_cast<int>(weighting));
     const SurfaceSeedModel model = model_of(ellipsoid(), weighting, 800);
     const std::vector<double> densities =
@@ -160,20 +146,6 @@ TEST(Weights, WantedDensitiesAddUpToTheNodeCountOnSphereAndSurface) {
     for (std::size_t i = 0; i < densities.size(); ++i)
       count += quadrature.weights[i] * densities[i];
     EXPECT_NEAR(count, 800.0, 0.8);
-    std::vector<double> radii;
-    std::vector<double> on_surface;
-    model.on_surface(quadrature.directions, Execution(1), radii, on_surface);
-    const std::vector<RadialJet> jets =
-        ellipsoid().jets(quadrature.directions, Derivatives::First, Execution(1));
-    for (std::size_t i = 0; i < jets.size(); ++i) {
-      // What interpolation over 1.4 degrees leaves of an ellipsoid.
-      ASSERT_NEAR(radii[i], jets[i].radius, 1e-6 * jets[i].radius);
-      if (weighting == Weighting::Area) continue;
-      // Seeds per area times area per angle are seeds per angle, wherever a direction stands in the
-      // array.
-      ASSERT_NEAR(on_surface[i] * area_element(jets[i]), densities[i], 1e-5 * densities[i]);
-    }
-    EXPECT_EQ(on_surface.empty(), weighting == Weighting::Area);
   }
 }
 
@@ -181,8 +153,8 @@ TEST(Weights, DoNotDependOnTheScaleOfTheSurface) {
   const std::vector<Vector3> seeds = fibonacci_lattice(300);
   for (const double scale : {1e-6, 1e6}) {
     const Ellipsoid scaled(scale * Vector3(1.3, 0.9, 0.7));
-    for (const Weighting weighting : {Weighting::RadialDistance, Weighting::Curvature,
-                                      Weighting::Area, Weighting::ErrorAdaptive}) {
+    for (const Weighting weighting :
+         {Weighting::RadialDistance, Weighting::Curvature, Weighting::Area}) {
       SCOPED_TRACE(testing::Message() << scale << " " << static_cast<int>(weighting));
       const std::vector<double> a = weights_of(model_of(ellipsoid(), weighting), seeds);
       const std::vector<double> b = weights_of(model_of(scaled, weighting), seeds);
@@ -191,64 +163,16 @@ TEST(Weights, DoNotDependOnTheScaleOfTheSurface) {
   }
 }
 
-TEST(Weights, SamplesReplaceTheSurfacesCurvature) {
-  // Samples that say "sharp in one half" on a sphere, sparser than the grid.
-  for (const Vector3& axis : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, 1, 0)}) {
-    SCOPED_TRACE(axis.transpose());
-    CurvatureSamples samples;
-    samples.directions = fibonacci_lattice(700);
-    samples.weights.assign(700, 4.0 * pi / 700.0);
-    for (const Vector3& u : samples.directions) {
-      const double k = u.dot(axis) > 0.0 ? 4.0 : 1.0;
-      samples.curvatures.push_back({k, k});
-    }
-    WeightingOptions options;
-    options.kind = Weighting::Curvature;
-    const SurfaceSeedModel model(Ellipsoid(Vector3(1.0, 1.0, 1.0)), options, 400, &samples,
-                                 Execution(1));
-    const Vector3 across(axis.z(), axis.x(), axis.y());
-    const std::vector<double> weights = weights_of(model, {axis, 0.8 * axis + 0.6 * across, -axis});
-    EXPECT_LT(weights[0], 0.0);
-    EXPECT_NEAR(weights[0], weights[1], 1e-12);
-    EXPECT_GT(weights[2], 0.0);
-  }
-}
-
 TEST(Weights, RefusesOptionsOutOfRange) {
-  const auto expect_refused = [](int nodes, double alpha, double exponent) {
+  const auto expect_refused = [](int nodes, double alpha) {
     WeightingOptions options;
     options.curvature_alpha = alpha;
-    options.adaptive_exponent = exponent;
-    test::expect_error(ErrorCode::InvalidInput, [&] {
-      SurfaceSeedModel(ellipsoid(), options, nodes, nullptr, Execution(1));
-    });
+    test::expect_error(ErrorCode::InvalidInput,
+                       [&] { SurfaceSeedModel(ellipsoid(), options, nodes, Execution(1)); });
   };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_refused(3, 1.0, 0.5);
-  for (const double alpha : {3.5, -3.5, nan}) expect_refused(100, alpha, 0.5);
-  for (const double exponent : {-0.1, 1.6, nan}) expect_refused(100, 1.0, exponent);
-}
-
-TEST(Weights, ForTheSphereMetricWeighsTheSameAndHasNoTablesOfTheSurface) {
-  const std::vector<Vector3> seeds = fibonacci_lattice(500);
-  for (const auto& weighting : enumerators<Weighting>()) {
-    SCOPED_TRACE(weighting.label);
-    WeightingOptions options;
-    options.kind = weighting.value;
-    const SurfaceSeedModel both(ellipsoid(), options, 500, nullptr, Execution(1));
-    const SurfaceSeedModel sphere(ellipsoid(), options, 500, nullptr, Execution(1),
-                                  RelaxationMetric::Sphere);
-    const std::vector<double> expected = weights_of(both, seeds);
-    const std::vector<double> weights = weights_of(sphere, seeds);
-    ASSERT_EQ(weights.size(), expected.size());
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      // The area comes from another quadrature; the table's own is 1.2e-5 off here.
-      ASSERT_NEAR(weights[i], expected[i], 2e-5 * std::abs(expected[i]));
-    }
-    std::vector<double> radii;
-    std::vector<double> densities;
-    EXPECT_NO_THROW(both.on_surface(seeds, Execution(1), radii, densities));
-    EXPECT_ERROR(sphere.on_surface(seeds, Execution(1), radii, densities), InvalidInput);
+  expect_refused(3, 1.0);
+  for (const double alpha : {3.5, -3.5, std::numeric_limits<double>::quiet_NaN()}) {
+    expect_refused(100, alpha);
   }
 }
 

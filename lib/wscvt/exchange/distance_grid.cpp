@@ -15,6 +15,10 @@ namespace wscvt {
 
 namespace {
 
+/// Cells between the surface's box and the edge of the grid: room for what reads gradients or
+/// interpolates there.
+constexpr double margin = 4.0;
+
 constexpr double most_points = 5e8;
 
 std::array<unsigned char, 8> bytes_of(double value) {
@@ -57,8 +61,8 @@ DistanceGrid empty_grid(const IndexedMesh& mesh, const GridOptions& options,
   }
   double points = 1.0;
   for (int k = 0; k < 3; ++k) {
-    const double first = std::floor(lowest[k] / grid.spacing) - options.margin;
-    const double last = std::ceil(highest[k] / grid.spacing) + options.margin;
+    const double first = std::floor(lowest[k] / grid.spacing) - margin;
+    const double last = std::ceil(highest[k] / grid.spacing) + margin;
     grid.origin[k] = first * grid.spacing;
     points *= last - first + 1.0;
     if (!(points <= most_points)) {
@@ -77,7 +81,6 @@ DistanceGrid empty_grid(const IndexedMesh& mesh, const GridOptions& options,
 DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options,
                            const Execution& execution) {
   require_in_range(options.spacing, grid_spacing_option);
-  require_in_range(options.margin, grid_margin_option);
   constexpr const char* stage = "Measuring the grid of distances";
   execution.report(0.0, stage);
   DistanceGrid grid = empty_grid(closed, options, execution);

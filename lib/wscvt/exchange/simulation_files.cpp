@@ -55,7 +55,6 @@ void check_simulation_options(const SimulationOptions& options) {
   check_frame_options(options.frame);
   require_valid(options.surface);
   require_in_range(options.grid.spacing, grid_spacing_option);
-  require_in_range(options.grid.margin, grid_margin_option);
 }
 
 void check_nodes_path(const std::string& path, const SimulationOptions& options) {
@@ -106,7 +105,7 @@ void write_distance_grid(const std::string& path, const RemeshResult& result,
   check_grid_path(path);
   const SimulationFrame frame = simulation_frame(result.original, options.frame);
   const IndexedMesh& surface =
-      options.surface == GridSurface::Remesh ? result.mesh : result.used_scan;
+      options.surface == GridSurface::Remesh ? result.mesh : result.repaired_scan;
   const DistanceGrid grid = distance_grid(in_frame(surface, frame), options.grid, execution);
   const std::string ending = ending_of(path);
   if (ending == ".vti") return write_file(path, grid_vti(grid));

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/exchange/simulation_options.h"
-#include "wscvt/report/remesh_result.h"
+#include "wscvt/remesh/remesh_result.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
@@ -28,9 +28,9 @@ void write_nodes(const std::string& path, const RemeshResult& result,
 
 /// Writes signed distances in the frame asked for, by the name's ending: grid_npy with a
 /// description beside it (frame, origin, spacing, mass properties of the scan at unit density in
-/// that frame), grid_vti or grid_netdem. The scan is the result's used_scan. Throws Error as
+/// that frame), grid_vti or grid_netdem. The scan is the result's repaired_scan. Throws Error as
 /// check_grid_path, distance_grid and write_file do, and InvalidInput where the scan is asked for
-/// and the result holds none: it came from a formula, or without `measures.used_scan`.
+/// and the result holds none: it came from a formula, or without `measures.repaired_scan`.
 void write_distance_grid(const std::string& path, const RemeshResult& result,
                          const SimulationOptions& options, const ReportOrigin& origin,
                          const Execution& execution);

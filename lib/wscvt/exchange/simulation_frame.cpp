@@ -8,25 +8,6 @@
 
 namespace wscvt {
 
-double metres_in(LengthUnit unit) {
-  require_valid(unit);
-  switch (unit) {
-    case LengthUnit::Centimetre:
-      return 1e-2;
-    case LengthUnit::Millimetre:
-      return 1e-3;
-    case LengthUnit::Micrometre:
-      return 1e-6;
-    case LengthUnit::Nanometre:
-      return 1e-9;
-    case LengthUnit::Inch:
-      return 0.0254;
-    case LengthUnit::Metre:
-      break;
-  }
-  return 1.0;
-}
-
 void check_frame_options(const FrameOptions& options) {
   require_valid(options.frame);
   require_in_range(options.scale, scale_option);
@@ -42,7 +23,7 @@ void check_frame_options(const FrameOptions& options) {
 SimulationFrame simulation_frame(const ShapeDescriptors& grain, const FrameOptions& options) {
   check_frame_options(options);
   SimulationFrame frame;
-  frame.scale = options.scale * (metres_in(options.input_unit) / metres_in(options.output_unit));
+  frame.scale = options.scale;
   if (options.size > 0.0) frame.scale = options.size / std::cbrt(6.0 * grain.volume / pi);
   if (options.frame != Frame::Input) frame.origin = grain.centroid;
   if (options.frame == Frame::Principal) frame.axes = grain.principal_axes;

@@ -10,7 +10,7 @@
 
 namespace wscvt {
 
-// How a grain is written for a simulation: in which frame, size and unit, and with which grid of
+// How a grain is written for a simulation: in which frame and size, and with which grid of
 // distances.
 
 /// Which coordinates files for a simulation hold.
@@ -33,38 +33,13 @@ struct EnumerationTable<Frame> {
   };
 };
 
-/// Units of length that files may be in.
-enum class LengthUnit { Metre, Centimetre, Millimetre, Micrometre, Nanometre, Inch };
-
-/// What the keys of a unit are, whatever it is the unit of.
-inline constexpr Enumerator<LengthUnit> length_unit_rows[] = {
-    {LengthUnit::Metre, "m", "metre"},
-    {LengthUnit::Centimetre, "cm", "centimetre"},
-    {LengthUnit::Millimetre, "mm", "millimetre"},
-    {LengthUnit::Micrometre, "um", "micrometre"},
-    {LengthUnit::Nanometre, "nm", "nanometre"},
-    {LengthUnit::Inch, "inch", "inch"},
-};
-
-template <>
-struct EnumerationTable<LengthUnit> {
-  static constexpr std::string_view key = "unit";
-  static constexpr std::string_view subject = "unit of length";
-  static constexpr const auto& rows = length_unit_rows;
-};
-
-/// Metres in a unit. Throws Error(InvalidInput) for a value that is none.
-double metres_in(LengthUnit unit);
-
-/// In which frame, size and unit a grain is written.
+/// In which frame and size a grain is written.
 struct FrameOptions {
   Frame frame = Frame::Input;
-  /// What lengths are multiplied with, beside what the units ask for; > 0.
+  /// What lengths are multiplied with; > 0.
   double scale = 1.0;
-  /// Equivalent diameter that the grain is brought to, in the unit written; 0: as it is scaled.
+  /// Equivalent diameter that the grain is brought to; 0: as it is scaled.
   double size = 0.0;
-  LengthUnit input_unit = LengthUnit::Metre;   ///< of the scan
-  LengthUnit output_unit = LengthUnit::Metre;  ///< of what is written
 };
 
 inline constexpr NumberOption<double> scale_option = {
@@ -103,21 +78,12 @@ MassProperties in_frame(const MassProperties& mass, const SimulationFrame& frame
 /// How fine and how large a grid is.
 struct GridOptions {
   double spacing = 0.0;  ///< length, >= 0; 0: a fiftieth of the equivalent diameter
-  int margin = 4;        ///< cells between the surface's box and the edge of the grid, 1 to 1000
 };
 
 inline constexpr NumberOption<double> grid_spacing_option = {
     "sdf-spacing", "spacing of the grid of distances",
     0.0,           std::numeric_limits<double>::infinity(),
     Ends::Both,    "in the unit written; 0 takes a fiftieth of the equivalent diameter"};
-inline constexpr NumberOption<int> grid_margin_option = {
-    "sdf-margin",
-    "margin of the grid of distances",
-    1,
-    1000,
-    Ends::Both,
-    "cells between the grain's box and the grid's edge"};
-
 /// Whose surface the distances of a grid are to.
 enum class GridSurface { Scan, Remesh };
 
@@ -126,7 +92,7 @@ struct EnumerationTable<GridSurface> {
   static constexpr std::string_view key = "sdf-surface";
   static constexpr std::string_view subject = "surface of the grid of distances";
   static constexpr Enumerator<GridSurface> rows[] = {
-      {GridSurface::Scan, "scan", "the scan, as it was mended"},
+      {GridSurface::Scan, "scan", "the repaired scan"},
       {GridSurface::Remesh, "remesh", "the remesh"},
   };
 };
@@ -137,10 +103,6 @@ struct SimulationOptions {
   GridSurface surface = GridSurface::Scan;
   GridOptions grid;
 };
-
-/// The unit options share a type, so each has its name beside it.
-inline constexpr std::string_view input_unit_key = "input-unit";
-inline constexpr std::string_view output_unit_key = "output-unit";
 
 /// Throws Error(InvalidInput) for options out of range or at odds with each other.
 void check_simulation_options(const SimulationOptions& options);

@@ -10,7 +10,7 @@
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/report/remesh_options.h"
+#include "wscvt/remesh/remesh_options.h"
 
 // Reports as trees of values, from which their files are written. Not one of the library's public
 // headers: those need no JSON library.

@@ -6,7 +6,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/measures/grain_measures.h"
-#include "wscvt/report/remesh_result.h"
+#include "wscvt/remesh/remesh_result.h"
 
 namespace wscvt {
 
@@ -45,8 +45,9 @@ std::string report_csv(const RemeshResult& result, const ReportOrigin& origin = 
 /// The same as a page for reading and printing (HTML), one file that refers to no other: pictures
 /// of scan and remesh and of the distance between them, histograms, descriptors, every option as
 /// one types it, the log; with an error target the error against the number of nodes. The scan is
-/// the result's used_scan; without one (a surface from a formula) the page shows the remesh alone.
-/// A page of a scan with a million faces takes 300 MB while it is made. Throws Error(Cancelled).
+/// the result's repaired_scan; without one (a surface from a formula) the page shows the remesh
+/// alone. A page of a scan with a million faces takes 300 MB while it is made. Throws
+/// Error(Cancelled).
 std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
                         const Execution& execution);
 
@@ -90,7 +91,7 @@ void check_descriptor_report(const std::string& path, bool with_reference);
 
 /// Writes the report in the format of its name: report_html and report_json whole or not at all in
 /// the place of what was there, report_csv as a row more of a table (see append_to_table). A
-/// page alone looks at the result's used_scan. Throws Error as those do.
+/// page alone looks at the result's repaired_scan. Throws Error as those do.
 void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
                   const Execution& execution);
 

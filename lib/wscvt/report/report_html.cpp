@@ -47,10 +47,11 @@ Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
   for (const NodeCountTrial& trial : search.trials) {
     points.push_back({static_cast<double>(trial.node_count), trial.error});
   }
-  return {logarithmic_figure("number of nodes", label_of(target.measure) + " error, %",
-                             std::move(points), target.percent),
-          "What each number of nodes that was tried cost; the smallest that meets the target was "
-          "taken."};
+  return {
+      logarithmic_figure("number of nodes", label_of(target.measure) + " error, %",
+                         std::move(points), target.percent),
+      "Error for each node count tried. The smallest count that met the allowed error was used; "
+      "if none did, the largest."};
 }
 
 }  // namespace
@@ -58,8 +59,8 @@ Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
 std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
                         const Execution& execution) {
   std::optional<ShownMesh> reference;
-  if (!result.used_scan.triangles.empty()) {
-    reference.emplace(ShownMesh{result.used_scan, "original"});
+  if (!result.repaired_scan.triangles.empty()) {
+    reference.emplace(ShownMesh{result.repaired_scan, "original"});
   }
   const PageFigures figures = page_figures(reference, {result.mesh, "remesh"}, execution);
 

@@ -45,22 +45,22 @@ Json json_of(const MeshCheckReport& input) {
           {"degenerate_faces", input.degenerate_faces},
           {"sliver_faces", input.sliver_faces},
           {"duplicate_faces", input.duplicate_faces},
-          {"duplicate_area_share", input.duplicate_area_share},
-          {"folded_faces", input.folded_faces},
-          {"folded_area_share", input.folded_area_share},
+          {"duplicate_area_fraction", input.duplicate_area_share},
+          {"back_to_back_faces", input.folded_faces},
+          {"back_to_back_area_fraction", input.folded_area_share},
           {"non_manifold_edges", input.non_manifold_edges},
           {"flap_faces", input.flap_faces},
-          {"flap_area_share", input.flap_area_share},
+          {"flap_area_fraction", input.flap_area_share},
           {"filled_holes", input.filled_holes},
           {"filling_faces", input.filling_faces},
-          {"filled_area_share", input.filled_area_share},
+          {"filled_area_fraction", input.filled_area_share},
           {"reoriented_faces", input.reoriented_faces},
           {"split_vertices", input.split_vertices},
           {"components", input.components},
           {"inner_components", input.inner_components},
-          {"inner_volume_share", input.inner_volume_share},
+          {"inner_volume_fraction", input.inner_volume_share},
           {"dropped_faces", input.dropped_faces},
-          {"dropped_volume_share", input.dropped_volume_share},
+          {"dropped_volume_fraction", input.dropped_volume_share},
           {"used_vertices", input.vertices},
           {"used_faces", input.faces},
           {"genus", input.genus},
@@ -68,40 +68,37 @@ Json json_of(const MeshCheckReport& input) {
           {"equivalent_radius", input.equivalent_radius}};
 }
 
+Json json_of(const CutHandle& handle) {
+  return {{"loop", handle.length}, {"edges", handle.edges}, {"place", json_of(handle.place)}};
+}
+
 Json json_of(const HandleReport& handles) {
   Json cut = Json::array();
-  for (const CutHandle& handle : handles.cut) {
-    cut.push_back(
-        {{"length", handle.length}, {"edges", handle.edges}, {"place", json_of(handle.place)}});
-  }
-  return {{"count", handles.cut.size()}, {"volume_change", handles.volume_change}, {"cut", cut}};
+  for (const CutHandle& handle : handles.cut) cut.push_back(json_of(handle));
+  return {{"count", handles.cut.size()},
+          {"kept", handles.kept},
+          {"volume_change", handles.volume_change},
+          {"cut", cut}};
 }
 
-Json json_of(const SphereMapReport& map) {
-  return {{"vertices", map.vertices},
-          {"mean_angle_distortion", map.mean_angle_distortion},
-          {"largest_angle_distortion", map.largest_angle_distortion},
-          {"smallest_area_ratio", map.smallest_area_ratio},
-          {"largest_area_ratio", map.largest_area_ratio}};
-}
-
-Json json_of(const SpaceNodesReport& space) {
-  return {{"self_intersections", space.self_intersections},
-          {"repairs", space.repairs},
-          {"angle_weight", space.angle_weight},
-          {"relocated_seeds", space.relocated_seeds},
-          {"volume_loss_on_surface", space.volume_loss},
-          {"enough_nodes", space.enough_nodes},
-          {"mending_flips", space.mending.flips},
-          {"mending_moves", space.mending.moves},
-          {"mending_relocations", space.mending.relocations},
-          {"mending_left", space.mending.left},
-          {"fit_samples", space.fit.samples},
-          {"fit_held_back", space.fit.held_back},
-          {"fit_offset", space.fit.offset},
-          {"evening_deviation_before", space.evening.deviation_before},
-          {"evening_deviation_after", space.evening.deviation_after},
-          {"evening_held_back", space.evening.held_back}};
+Json json_of(const OnScanReport& report) {
+  const ScanNodesReport& nodes = report.nodes;
+  return {{"handles", json_of(report.handles)},
+          {"genus", nodes.genus},
+          {"split_vertices", nodes.split_vertices},
+          {"coarsened_vertices", nodes.proxy_vertices},
+          {"evening_steps", nodes.evening_steps},
+          {"evening_flips", nodes.evening_flips},
+          {"fit_rounds", nodes.fit_rounds},
+          {"fit_flips", nodes.fit_flips},
+          {"fit_relocations", nodes.relocations},
+          {"fit_rms_distance", nodes.rms_distance},
+          {"volume_offset", nodes.volume_offset},
+          {"mean_edge_ratio", nodes.mean_edge_ratio},
+          {"mended_intersections", nodes.mended_intersections},
+          {"self_intersections", nodes.self_intersections},
+          {"enough_nodes", nodes.enough_nodes},
+          {"notes", nodes.notes}};
 }
 
 Json json_of(const HarmonicFitReport& fit, double equivalent_radius) {
@@ -111,7 +108,6 @@ Json json_of(const HarmonicFitReport& fit, double equivalent_radius) {
           {"rays", fit.rays},
           {"residual", fit.residual},
           {"residual_percent_of_equivalent_radius", 100.0 * fit.residual / equivalent_radius},
-          {"chord_error", fit.chord_error},
           {"smallest_radius", fit.smallest_radius}};
 }
 
@@ -147,35 +143,22 @@ Json json_of(const RelaxationReport& relaxation) {
   return report;
 }
 
-// What was not asked for keeps its members, with null: tables of many reports need the same
-// columns.
-
-Json json_of(const RefinementReport& refinement) {
-  Json distance = Json::array();
-  Json moves = Json::array();
-  Json flips = Json::array();
-  Json relocations = Json::array();
-  for (const RefinementStep& step : refinement.history) {
-    distance.push_back(step.distance);
-    moves.push_back(step.moves);
-    flips.push_back(step.flips);
-    relocations.push_back(step.relocations);
-  }
-  Json report = {{"rounds", refinement.history.size()},
-                 {"converged", nullptr},
-                 {"start_distance", nullptr},
-                 {"distance", nullptr}};
-  if (!refinement.history.empty()) {
-    report["converged"] = refinement.converged;
-    report["start_distance"] = refinement.start_distance;
-    report["distance"] = refinement.history.back().distance;
-  }
-  report["history"] = {{"distance", std::move(distance)},
-                       {"moves", std::move(moves)},
-                       {"flips", std::move(flips)},
-                       {"relocations", std::move(relocations)}};
-  return report;
+Json json_of(const AsPublishedReport& report, double equivalent_radius) {
+  return {{"overhang_fraction", report.overhang_fraction},
+          {"fit", json_of(report.fit, equivalent_radius)},
+          {"relaxation", json_of(report.relaxation)}};
 }
+
+/// The same members, all null: tables of many reports need the same columns.
+Json nulled(const Json& json) {
+  if (json.is_array()) return Json::array();
+  if (!json.is_object()) return nullptr;
+  Json result = Json::object();
+  for (const auto& [key, value] : json.items()) result[key] = nulled(value);
+  return result;
+}
+
+// What was not asked for keeps its members, with null, too.
 
 Json json_of(const std::optional<MeshDistances>& distances) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -198,47 +181,44 @@ Json json_of(const std::optional<NodeCountSearch>& search) {
   return report;
 }
 
-Json json_of(const std::vector<TriedChange>& tried) {
+Json json_of(const std::vector<SuggestedSetting>& suggestions) {
   Json list = Json::array();
-  for (const TriedChange& one : tried) {
-    list.push_back({{"with", one.change},
-                    {"misfit_percent_of_equivalent_radius", 100.0 * one.misfit},
-                    {"area_error_percent", 100.0 * one.area_off}});
+  for (const SuggestedSetting& one : suggestions) {
+    list.push_back({{"with", one.setting},
+                    {"rms_distance_percent_of_equivalent_radius", 100.0 * one.rms_distance},
+                    {"area_error_percent", 100.0 * one.area_difference}});
   }
   return list;
 }
 
 Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
+  const OnScanReport* on_scan = on_scan_report(result);
+  const AsPublishedReport* published = as_published_report(result);
   const std::vector<DescriptorComparison> comparison =
       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
   return {
       {"format", "wscvt-report"},
-      {"version", 2},
+      {"version", 3},
       {"made_by", made_by()},
       {"source", told(origin.source)},
       {"date", told(origin.date)},
       {"options", json_of(result.options)},
       {"input", json_of(result.input)},
-      {"handles", json_of(result.handles)},
       {"centre", json_of(result.centre)},
-      {"folded_share", result.folded_share},
-      {"steep_share", result.steep_share},
-      {"parametrization", key_of(result.parametrization)},
-      {"map", json_of(result.map)},
-      {"map_degree", result.map_degree},
-      {"space", json_of(result.space)},
-      {"fit", json_of(result.fit, result.input.equivalent_radius)},
-      {"relaxation", json_of(result.relaxation)},
-      {"refinement", json_of(result.refinement)},
-      {"search", json_of(result.search)},
+      {"steep_area_fraction", result.steep_area_fraction},
+      {"on_scan", on_scan != nullptr ? json_of(*on_scan) : nulled(json_of(OnScanReport()))},
+      {"as_published", published != nullptr ? json_of(*published, result.input.equivalent_radius)
+                                            : nulled(json_of(AsPublishedReport(), 1.0))},
+      {"node_count_search", json_of(result.search)},
       {"result",
        {{"vertices", result.mesh.points.size()}, {"faces", result.mesh.triangles.size()}}},
       {"quality",
        {{"original", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
-      {"misfit",
-       {{"root_mean_square", result.misfit},
-        {"percent_of_equivalent_radius", 100.0 * result.misfit / result.input.equivalent_radius}}},
-      {"tried", json_of(result.tried)},
+      {"rms_distance",
+       {{"scan_to_remesh", result.rms_distance},
+        {"percent_of_equivalent_radius",
+         100.0 * result.rms_distance / result.input.equivalent_radius}}},
+      {"suggestions", json_of(result.suggestions)},
       {"distances", json_of(result.distances)},
       {"descriptors", json_of(comparison, ComparisonNames())},
       {"descriptor_names", json_names_of(comparison)},
@@ -252,9 +232,17 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
 }  // namespace
 
 Json json_of(const RemeshOptions& options) {
-  OptionsToJson visitor;
-  for_each_option(options, visitor);
-  return visitor.take();
+  // Every key of either method, in one order; those of the other method stay null.
+  const RemeshOptions on_scan;
+  const AsPublishedOptions published;
+  OptionsToJson keys;
+  for_each_option(on_scan, keys);
+  for_each_method_option(published, keys);
+  Json json = nulled(keys.take());
+  OptionsToJson values;
+  for_each_option(options, values);
+  json.update(values.take());
+  return json;
 }
 
 std::string report_json(const RemeshResult& result, const ReportOrigin& origin) {

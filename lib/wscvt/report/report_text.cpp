@@ -5,10 +5,8 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
-#include "wscvt/nodes/triangle_mending.h"
 #include "wscvt/report/mass_table.h"
 #include "wscvt/report/report.h"
-#include "wscvt/tessellation/space_weights.h"
 
 namespace wscvt {
 
@@ -74,157 +72,118 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
 void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
   const MeshCheckReport& input = result.input;
   if (input.input_vertices == 0) {
-    lines.push_back(line("Input", "surface from a formula or coefficients, equivalent radius " +
-                                      format_number(input.equivalent_radius, 6)));
+    lines.push_back(line("Scan", "surface from a formula or coefficients, equivalent radius " +
+                                     format_number(input.equivalent_radius, 6)));
     return;
   }
-  lines.push_back(line("Input", counted(input.input_vertices, "vertex", "vertices") + ", " +
-                                    counted(input.input_faces, "face", "faces")));
+  lines.push_back(line("Scan", counted(input.input_vertices, "vertex", "vertices") + ", " +
+                                   counted(input.input_faces, "face", "faces")));
   const std::vector<std::string> done = repairs(input);
   lines.push_back(line("Repairs", done.empty() ? "none needed" : joined(done)));
-  lines.push_back(line("Used", counted(input.vertices, "vertex", "vertices") + ", " +
-                                   counted(input.faces, "face", "faces") + ", closed, genus " +
-                                   std::to_string(input.genus) + ", equivalent radius " +
-                                   format_number(input.equivalent_radius)));
-  const bool spherical = result.parametrization == Parametrization::Spherical;
-  const std::string limit =
-      spherical ? "" : " (limit " + format_typed(result.options.surface.fold_limit_percent) + " %)";
-  lines.push_back(line("Fold", format_percent(result.folded_share) +
-                                   " of the solid angle in sheets beyond the first" + limit));
-  lines.push_back(
-      line("Map", label_of(result.parametrization) + "; " + format_percent(result.steep_share) +
-                      " of the area steeper than " + format_number(steep_flank_angle, 3) +
-                      " degrees (limit " + format_percent(steep_share_limit) + ")"));
+  lines.push_back(line("Repaired", counted(input.vertices, "vertex", "vertices") + ", " +
+                                       counted(input.faces, "face", "faces") + ", closed, genus " +
+                                       std::to_string(input.genus) + ", equivalent radius " +
+                                       format_number(input.equivalent_radius)));
 }
 
-void append_handles(const RemeshResult& result, std::vector<std::string>& lines) {
+std::string point_text(const Vector3& point) {
+  return "(" + format_number(point.x(), 3) + ", " + format_number(point.y(), 3) + ", " +
+         format_number(point.z(), 3) + ")";
+}
+
+void append_handles(const HandleReport& handles, std::vector<std::string>& lines) {
   // A noisy scan may have a hundred, which JSON lists.
   constexpr std::size_t most_told = 5;
-  const std::vector<CutHandle>& cut = result.handles.cut;
-  if (cut.empty()) return;
+  const std::vector<CutHandle>& cut = handles.cut;
+  if (cut.empty() && handles.kept == 0) return;
   std::string text = counted(cut.size(), "handle", "handles") + " cut and closed";
   for (std::size_t i = 0; i < std::min(cut.size(), most_told); ++i) {
-    const Vector3& place = cut[i].place;
-    text += (i == 0 ? ": " : "; ") + format_number(cut[i].length, 3) + " long at (" +
-            format_number(place.x(), 3) + ", " + format_number(place.y(), 3) + ", " +
-            format_number(place.z(), 3) + ")";
+    text += std::string(i == 0 ? ": " : "; ") + "loop of " + format_number(cut[i].length, 3) +
+            " at " + point_text(cut[i].place);
   }
   if (cut.size() > most_told) text += "; ...";
+  if (handles.kept > 0) {
+    text += ", " + std::to_string(handles.kept) + " kept";
+    if (handles.next.edges > 0) {
+      text += " (the next has a loop of " + format_number(handles.next.length, 3) + " at " +
+              point_text(handles.next.place) + ")";
+    }
+  }
   lines.push_back(line("Handles", text));
 }
 
-void append_fit(const RemeshResult& result, std::vector<std::string>& lines) {
-  if (result.fit.rays == 0) return;
-  const HarmonicFitReport& fit = result.fit;
+void append_fit(const AsPublishedReport& report, double radius, std::vector<std::string>& lines) {
+  const HarmonicFitReport& fit = report.fit;
+  if (fit.rays == 0) return;
+  lines.push_back(line("Overhang", format_percent(report.overhang_fraction) +
+                                       " of the solid angle behind the outermost surface"));
   std::string text = "spherical harmonics of degree " + std::to_string(fit.degree);
   if (fit.degree < fit.requested_degree) {
     text +=
         " (lowered from " + std::to_string(fit.requested_degree) + ": " + label_of(fit.limit) + ")";
   }
   text += ", residual " + format_number(fit.residual, 3);
-  const double radius = result.input.equivalent_radius;
   if (radius > 0.0) {
-    text += " (" + format_number(100.0 * fit.residual / radius, 3) + " % of the equivalent radius";
-    if (fit.requested_degree == automatic_degree) {
-      // Why this degree.
-      text += fit.limit == DegreeLimit::None ? "; the lowest degree below the"
-                                             : "; " + label_of(fit.limit) + ", but not below the";
-      text += " chords' " + format_number(100.0 * fit.chord_error / radius, 3) + " %";
-    }
-    text += ")";
+    text += " (" + format_number(100.0 * fit.residual / radius, 3) + " % of the equivalent radius)";
   }
   lines.push_back(line("Fit", text));
 }
 
-void append_meeting(const RemeshResult& result, std::vector<std::string>& lines) {
-  if (result.parametrization != Parametrization::Spherical) return;
-  const SpaceNodesReport& space = result.space;
-  std::string text = counted(space.self_intersections, "pair", "pairs") +
-                     " of triangles meet, of " +
-                     counted(result.mesh.triangles.size(), "triangle", "triangles");
-  if (space.repairs > 0) {
-    text += "; repaired by " +
-            counted(static_cast<std::size_t>(space.repairs), "relaxation", "relaxations") +
-            " with more nodes there";
-  }
-  if (space.angle_weight > 0.0) {
-    text += "; the nodes jammed on the map and stand on one that keeps angles better (weight " +
-            format_number(space.angle_weight, 3) + ")";
-  }
-  if (space.relocated_seeds > 0) {
-    text += "; " +
-            counted(static_cast<std::size_t>(space.relocated_seeds), "seed was", "seeds were") +
-            " taken from where they had crowded";
-  }
-  lines.push_back(line("Meeting", text));
-  if (result.options.placement.kind == NodePlacement::Series) {
-    lines.push_back(line("Placement", "on the scan; a spherical map has no fitted series"));
-  }
+/// What the weighting is, with what it reads.
+template <class Options>
+std::string weighting_text(const Options& options, bool is_curvature) {
+  std::string text = label_of(options.weighting);
+  if (is_curvature) text += ", alpha " + format_number(options.curvature_alpha, 3);
+  return text;
 }
 
-void append_mending(const RemeshResult& result, std::vector<std::string>& lines) {
-  const SpaceNodesReport& space = result.space;
-  const TriangleMendingReport& mending = space.mending;
-  const RefinementOptions& refinement = result.options.placement.refinement;
-  if (mending.flips + mending.moves + mending.relocations > 0) {
-    lines.push_back(line(
-        "Mended",
-        "triangles with angles below " +
-            format_number(refinement.rounds > 0 ? refinement.smallest_angle
-                                                : TriangleMendingOptions().smallest_angle) +
-            " degrees, by " + counted(static_cast<std::size_t>(mending.flips), "flip", "flips") +
-            ", " + counted(static_cast<std::size_t>(mending.moves), "move", "moves") + " and " +
-            counted(static_cast<std::size_t>(mending.relocations), "relocation", "relocations") +
-            " of nodes; " + std::to_string(mending.left) + " left"));
+void append_method(const OnScanReport& report, const RemeshResult& result,
+                   std::vector<std::string>& lines) {
+  const auto& options = std::get<OnScanOptions>(result.options.method);
+  append_handles(report.handles, lines);
+  lines.push_back(
+      line("Method",
+           "on the scan: centroidal Voronoi cells on the grain's own surface, not those "
+           "of the paper, on the sphere"));
+  lines.push_back(
+      line("Weighting", weighting_text(options, options.weighting == CellWeighting::Curvature)));
+  const ScanNodesReport& nodes = report.nodes;
+  lines.push_back(
+      line("Nodes", "coarsened on " + counted(nodes.proxy_vertices, "vertex", "vertices") +
+                        ", evened in " +
+                        counted(static_cast<std::size_t>(nodes.evening_steps), "step", "steps")));
+  if (nodes.fit_rounds > 0) {
+    lines.push_back(
+        line("Fit", counted(static_cast<std::size_t>(nodes.fit_rounds), "round", "rounds") + ", " +
+                        counted(static_cast<std::size_t>(nodes.fit_flips), "edge", "edges") +
+                        " flipped, " +
+                        counted(static_cast<std::size_t>(nodes.relocations), "node", "nodes") +
+                        " relocated; volume corrected by an offset of " +
+                        format_number(nodes.volume_offset, 2)));
   }
-  if (space.fit.samples > 0) {
-    lines.push_back(line(
-        "Placement",
-        "along the normals to " + counted(space.fit.samples, "sample", "samples") + "; " +
-            counted(static_cast<std::size_t>(space.fit.held_back), "node", "nodes") +
-            " held back by guards; offset for the volume " + format_number(space.fit.offset, 3)));
-  }
-  if (space.evening.deviation_before > 0.0) {
-    lines.push_back(line("Evened", "edges, whose lengths deviate from the wanted ones by " +
-                                       format_number(100.0 * space.evening.deviation_after, 3) +
-                                       " % instead of " +
-                                       format_number(100.0 * space.evening.deviation_before, 3)));
-  }
+  lines.push_back(line("Edge ratio", "mean " + format_number(nodes.mean_edge_ratio, 4) +
+                                         " (wanted " + format_typed(options.edge_ratio) + ")"));
+  lines.push_back(
+      line("Intersections", counted(nodes.self_intersections, "pair", "pairs") + " of " +
+                                counted(result.mesh.triangles.size(), "triangle", "triangles") +
+                                (nodes.mended_intersections > 0
+                                     ? ", " + std::to_string(nodes.mended_intersections) + " mended"
+                                     : std::string())));
+  for (const std::string& note : nodes.notes) lines.push_back(line("Note", note));
 }
 
-void append_relaxation(const RemeshResult& result, std::vector<std::string>& lines) {
-  const SeedingOptions& seeding = result.options.seeding;
-  if (seeding.sampling != Sampling::Weighted) {
-    lines.push_back(line("Sampling", label_of(seeding.sampling) + ", not relaxed"));
+void append_method(const AsPublishedReport& report, const RemeshResult& result,
+                   std::vector<std::string>& lines) {
+  const auto& options = std::get<AsPublishedOptions>(result.options.method);
+  lines.push_back(line("Method", "as published: Wu, Huang and Lai 2022, cells on the unit sphere"));
+  append_fit(report, result.input.equivalent_radius, lines);
+  if (options.sampling != Sampling::Weighted) {
+    lines.push_back(line("Sampling", label_of(options.sampling) + ", not relaxed"));
     return;
   }
-  std::string seeds = label_of(seeding.start);
-  if (seeding.start == SeedStart::Random) {
-    seeds += " start, seed " + std::to_string(seeding.random_seed);
-  }
-  const WeightingOptions& weighting = result.options.weighting;
-  std::string weights = label_of(weighting.kind);
-  if (weighting.kind == Weighting::Curvature) {
-    weights += ", alpha " + format_number(weighting.curvature_alpha, 3) + ", curvature from " +
-               label_of(weighting.curvature_source);
-    if (result.map_degree > 0 && weighting.curvature_source == CurvatureSource::Series) {
-      weights += " of degree " + std::to_string(result.map_degree);
-    }
-  }
-  if (weighting.kind == Weighting::ErrorAdaptive) {
-    weights += ", curvature exponent " + format_number(weighting.adaptive_exponent, 3);
-  }
-  if (result.parametrization == Parametrization::Spherical) {
-    const Weighting taken = weighting_in_space(weighting.kind);
-    if (taken != weighting.kind) {
-      weights = label_of(taken) + " (asked for: " + weights +
-                ", which a spherical map cannot tell from it)";
-    }
-  }
-  lines.push_back(line("Weighting", weights + "; seeds: " + seeds));
-
-  const RelaxationReport& relaxation = result.relaxation;
-  const RelaxationOptions& asked = result.options.relaxation;
+  lines.push_back(
+      line("Weighting", weighting_text(options, options.weighting == Weighting::Curvature)));
+  const RelaxationReport& relaxation = report.relaxation;
   const auto iterations = static_cast<std::size_t>(std::max(relaxation.iterations, 0));
   std::string text =
       label_of(relaxation.outcome) + " " + counted(iterations, "iteration", "iterations");
@@ -236,12 +195,16 @@ void append_relaxation(const RemeshResult& result, std::vector<std::string>& lin
   if (!relaxation.coarser_levels.empty()) text += ")";
   if (!relaxation.history.empty()) {
     const RelaxationStep& last = relaxation.history.back();
-    text += ", displacement " + format_number(last.displacement, 2) + " h (tolerance " +
-            format_number(asked.displacement_tolerance, 2) + "), cell area spread " +
-            format_number(last.area_spread, 2) + " (tolerance " +
-            format_number(asked.area_tolerance, 2) + ")";
+    text += ", displacement " + format_number(last.displacement, 2) + " h, cell area spread " +
+            format_number(last.area_spread, 2);
   }
   lines.push_back(line("Relaxation", text));
+}
+
+/// The label of the node placement of either method.
+std::string placement_label(const RemeshOptions& options) {
+  return std::visit([](const auto& of_method) { return label_of(of_method.placement); },
+                    options.method);
 }
 
 void append_search(const RemeshResult& result, std::vector<std::string>& lines) {
@@ -256,26 +219,7 @@ void append_search(const RemeshResult& result, std::vector<std::string>& lines) 
             std::to_string(trial.node_count) + ": " +
             (std::isfinite(trial.error) ? format_number(trial.error, 3) + " %" : "not possible");
   }
-  lines.push_back(line("Target", text));
-}
-
-void append_refinement(const RemeshResult& result, std::vector<std::string>& lines) {
-  const RefinementReport& refinement = result.refinement;
-  if (refinement.history.empty()) return;
-  int flips = 0;
-  int relocations = 0;
-  for (const RefinementStep& step : refinement.history) {
-    flips += step.flips;
-    relocations += step.relocations;
-  }
-  std::string text =
-      (refinement.converged ? "converged after " : "not converged: stopped at the limit of ") +
-      counted(refinement.history.size(), "round", "rounds") + ", rms distance from " +
-      format_number(refinement.start_distance, 3) + " to " +
-      format_number(refinement.history.back().distance, 3) + ", " +
-      counted(static_cast<std::size_t>(flips), "edge", "edges") + " flipped, " +
-      counted(static_cast<std::size_t>(relocations), "node", "nodes") + " taken elsewhere";
-  lines.push_back(line("Refinement", text));
+  lines.push_back(line("Node count", text));
 }
 
 void append_distances(const RemeshResult& result, std::vector<std::string>& lines) {
@@ -330,20 +274,16 @@ std::vector<DescriptorComparison> comparison(const RemeshResult& result) {
 std::vector<std::string> report_lines(const RemeshResult& result) {
   std::vector<std::string> lines;
   append_input(result, lines);
-  append_handles(result, lines);
-  append_fit(result, lines);
-  append_meeting(result, lines);
-  append_mending(result, lines);
+  std::visit([&](const auto& report) { append_method(report, result, lines); }, result.method);
   append_search(result, lines);
-  append_relaxation(result, lines);
-  append_refinement(result, lines);
   lines.push_back(line("Result", counted(result.mesh.points.size(), "node", "nodes") + ", " +
                                      counted(result.mesh.triangles.size(), "face", "faces") +
-                                     ", placement: " + label_of(result.options.placement.kind)));
-  lines.push_back(line(
-      "Closeness", "rms distance from the scan " + format_number(result.misfit, 3) + " (" +
-                       format_number(100.0 * result.misfit / result.input.equivalent_radius, 3) +
-                       " % of the equivalent radius)"));
+                                     ", placement: " + placement_label(result.options)));
+  lines.push_back(
+      line("Distance",
+           "rms from scan to remesh " + format_number(result.rms_distance, 3) + " (" +
+               format_number(100.0 * result.rms_distance / result.input.equivalent_radius, 3) +
+               " % of the equivalent radius)"));
   append_distances(result, lines);
   append_quality(result, lines);
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/remesh/remesh_result.h"
 #include "wscvt/report/open_table.h"
-#include "wscvt/report/remesh_result.h"
 
 namespace wscvt {
 

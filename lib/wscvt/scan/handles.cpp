@@ -273,21 +273,17 @@ HalfEdges linked(const IndexedMesh& mesh) {
 
 HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                               const Execution& execution) {
-  require_in_range(options.length_limit, handle_length_option);
-  require_in_range(options.count_limit, handle_count_option);
+  require_in_range(options.length_limit, max_handle_loop_option);
   HalfEdges links = linked(mesh);
   HandleFreeMesh result;
   const std::size_t genus = genus_of(mesh);
-  if (genus > static_cast<std::size_t>(options.count_limit)) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "The scan has " + std::to_string(genus) + " handles, more than the limit of " +
-            std::to_string(options.count_limit) +
-            ": it is porous, and no map to the sphere follows its pores. Take its envelope, which "
-            "closes them (" +
-            where_envelopes_are() +
-            "); 5 % of the bounding box is a start. Or allow more handles (--" +
-            std::string(handle_count_option.key) + " in the program).");
+  if (genus > most_handles_cut) {
+    throw Error(ErrorCode::InvalidInput,
+                "The scan has " + std::to_string(genus) + " handles, more than the limit of " +
+                    std::to_string(most_handles_cut) +
+                    ": it is porous. Wrap it, which closes the pores (" + where_envelopes_are() +
+                    "); 5 % of the bounding box is a start. Or keep the handles (--" +
+                    std::string(EnumerationTable<HandleAction>::key) + " keep in the program).");
   }
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
@@ -301,28 +297,17 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
       handle.place += mesh.points[origin_of(mesh.triangles, h)] / handle.edges;
     }
     if (!(loop.length <= options.length_limit * radius)) {
-      throw Error(
-          ErrorCode::InvalidInput,
-          "Of the scan's " + std::to_string(genus) + (genus == 1 ? " handle " : " handles ") +
-              std::to_string(genus - left) + " could be cut; the shortest loop left is " +
-              format_number(loop.length / radius) + " equivalent radii long, about (" +
-              format_number(handle.place.x()) + ", " + format_number(handle.place.y()) + ", " +
-              format_number(handle.place.z()) + "), above the limit of " +
-              format_number(options.length_limit) +
-              ": too wide for a flaw of the scanner. A ring has a real hole and cannot be mapped "
-              "to the sphere. Take an envelope whose opening is wider than the hole (" +
-              where_envelopes_are() +
-              "); raise the limit above that length to have it cut there (--" +
-              std::string(handle_length_option.key) +
-              " in the program); or, where the centroid lies inside the grain, take the radial "
-              "map, which goes past it.");
+      // Too long for a flaw of the scanner: this one is real, and so are those with longer loops.
+      result.report.kept = static_cast<int>(left);
+      result.report.next = handle;
+      break;
     }
     const std::vector<std::int32_t> moved = cut_and_cap(mesh, links, loop);
     links = linked(mesh);
     fair(mesh, links, moved);
     result.report.cut.push_back(handle);
   }
-  if (genus > 0) result.report.volume_change = volume_of(mesh) / volume - 1.0;
+  if (!result.report.cut.empty()) result.report.volume_change = volume_of(mesh) / volume - 1.0;
   result.mesh = std::move(mesh);
   execution.report(1.0, handle_stage);
   return result;

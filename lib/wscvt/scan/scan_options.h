@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
@@ -27,13 +28,18 @@ struct MeshCheckOptions {
   double dropped_volume_limit = 0.25;
 };
 
+/// Not an option of a remesh: the default serves every scan tried.
 inline constexpr NumberOption<double> weld_tolerance_option = {
     "weld-tolerance", "tolerance of welding / size of the scan", 0.0, 0.01,
     Ends::Both,       "points nearer to each other are one"};
 inline constexpr NumberOption<double> mended_area_limit_option = {
-    "mend-limit", "largest share of the area to mend in %",
-    0.0,          100.0,
-    Ends::Both,   "above it the scan is refused"};
+    "max-repaired-area",
+    "max. repaired area in %",
+    0.0,
+    100.0,
+    Ends::Both,
+    "of the scan's area; the scan is refused if repairs change more"};
+/// Not an option of a remesh either: above a quarter there is no main body.
 inline constexpr NumberOption<double> dropped_volume_limit_option = {
     "dropped-volume",
     "largest share of the volume to drop with smaller parts",
@@ -92,14 +98,14 @@ struct EnvelopeOptions {
 };
 
 inline constexpr NumberOption<double> envelope_option = {
-    "envelope",
-    "envelope in %",
+    "shrink-wrap",
+    "shrink-wrap in %",
     0.0,
     50.0,
     Ends::Both,
-    "the scan is taken by its envelope, which closes pores, holes and gaps up to so much of the "
-    "bounding box's diagonal wide and has no flaws; 0: the scan itself. For scans that are refused "
-    "for their flaws or pores"};
+    "wrap the scan (CGAL alpha wrap), which closes pores, holes and gaps up to this width, in % of "
+    "the bounding box's diagonal; 0: the scan itself. For scans that are refused for flaws or "
+    "pores"};
 
 /// Smallest share that is not 0. The finer the envelope, the longer it takes: of a porous scan of
 /// 31,000 faces with its remesh 7 s at 5 %, 52 s at 2 %, 165 s at 1 %, on a busy machine.
@@ -109,40 +115,60 @@ inline constexpr double smallest_opening_percent = 1.0;
 /// smallest_opening_percent to 50.
 void check_envelope_options(const EnvelopeOptions& options);
 
+/// What is done about handles: tunnels through the grain, and bridges from one place to another.
+enum class HandleAction {
+  Cut,     ///< those with a short loop, which are the scanner's, are cut; others stay
+  Keep,    ///< all stay
+  Refuse,  ///< a scan with any is refused
+};
+
+template <>
+struct EnumerationTable<HandleAction> {
+  static constexpr std::string_view key = "handles";
+  static constexpr std::string_view subject = "treatment of handles";
+  static constexpr Enumerator<HandleAction> rows[] = {
+      {HandleAction::Cut, "cut", "cut",
+       "handles with a loop up to --max-handle-loop, which scanners make, are removed; larger "
+       "ones, "
+       "as of a ring, stay"},
+      {HandleAction::Keep, "keep", "keep", "all stay"},
+      {HandleAction::Refuse, "refuse", "refuse", "a scan with a handle is refused"},
+  };
+};
+
 /// Which handles are cut.
 struct HandleOptions {
+  HandleAction action = HandleAction::Cut;
   /// Longest loop along which a handle is cut, in equivalent radii; >= 0. Scanner noise makes
   /// handles of a few voxels, up to half a radius on a rough scan; a ring, whose hole is real, has
   /// no loop below 0.7 radii unless its tube is 150 times thinner than the ring is wide.
   double length_limit = 0.7;
-  /// Scans with more handles are refused before one is cut: they are porous, and no sheet of nodes
-  /// that a simulation can afford follows their pores. Rough scans had up to 5, a coral 149.
-  int count_limit = 50;
 };
 
-inline constexpr NumberOption<int> handle_count_option{
-    "handles",  "largest number of handles",
-    0,          1000000,
-    Ends::Both, "that are cut; a scan with more is porous and refused"};
+/// Scans with more handles are refused before one is cut: they are porous, and no sheet of nodes
+/// that a simulation can afford follows their pores. Rough scans had up to 5, a coral 149.
+inline constexpr std::size_t most_handles_cut = 50;
 
-inline constexpr NumberOption<double> handle_length_option{
-    "handle-length",
-    "longest loop along which a handle is cut",
+inline constexpr NumberOption<double> max_handle_loop_option{
+    "max-handle-loop",
+    "max. loop of a handle that is cut",
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::Both,
-    "in equivalent radii; a scan with a longer one, such as a ring, has no spherical map"};
+    "in equivalent radii; handles with a longer loop are real and stay"};
 
-/// A handle that was cut.
+/// A handle, by the loop along which it is cut.
 struct CutHandle {
-  double length = 0.0;              ///< of the loop it was cut along, length
+  double length = 0.0;              ///< of the loop, length
   Vector3 place = Vector3::Zero();  ///< mean of the loop's vertices, in the input's coordinates
   int edges = 0;                    ///< of the loop
 };
 
-/// Which handles were cut.
+/// Which handles were cut, and which stay.
 struct HandleReport {
   std::vector<CutHandle> cut;  ///< in the order in which they were cut, shortest loops first
+  int kept = 0;                ///< handles left: the genus of the mesh remeshed
+  CutHandle next;  ///< of those kept the one with the shortest loop, where it was looked for
   /// Volume afterwards / before, less 1, no unit: what filling tunnels adds, cutting bridges takes
   /// away.
   double volume_change = 0.0;

@@ -174,17 +174,6 @@ bool SphereTriangulation::is_flippable(std::int32_t half_edge,
   return counter_clockwise(c, a, d) && counter_clockwise(d, b, c);
 }
 
-bool SphereTriangulation::keeps_determinants(std::int32_t half_edge,
-                                             const std::vector<Vector3>& seeds,
-                                             double smallest) const {
-  if (!(smallest > 0.0)) return true;
-  const std::int32_t other = opposite_[half_edge];
-  const Vector3& a = seeds[origin(half_edge)];
-  const Vector3& b = seeds[origin(other)];
-  const Vector3 across = seeds[origin(previous(half_edge))].cross(seeds[origin(previous(other))]);
-  return -a.dot(across) >= smallest && b.dot(across) >= smallest;
-}
-
 void SphereTriangulation::flip(std::int32_t half_edge) {
   const std::int32_t t = half_edge / 3 * 3;
   const std::int32_t u = opposite_[half_edge] / 3 * 3;
@@ -192,48 +181,10 @@ void SphereTriangulation::flip(std::int32_t half_edge) {
   for (const std::int32_t h : {t, t + 1, u, u + 1}) first_half_edge_[origin(h)] = h;
 }
 
-void SphereTriangulation::replace(const std::vector<std::int32_t>& triangles,
-                                  const std::vector<Triangle>& corners) {
-  // Every half-edge of the new triangles has its opposite among them or outside. Patches hold a few
-  // dozen half-edges, so going through all of them for each is faster than a table.
-  struct DirectedEdge {
-    std::int32_t from;
-    std::int32_t to;
-    std::int32_t half_edge;
-  };
-  std::vector<DirectedEdge> outside;
-  for (const std::int32_t t : triangles) {
-    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
-      const std::int32_t beyond = opposite_[h];
-      if (std::find(triangles.begin(), triangles.end(), beyond / 3) == triangles.end()) {
-        outside.push_back({origin(beyond), origin(h), beyond});
-      }
-    }
-  }
-  std::vector<DirectedEdge> edges = outside;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    triangles_[triangles[i]] = corners[i];
-    for (std::int32_t k = 0; k < 3; ++k) {
-      const std::int32_t h = 3 * triangles[i] + k;
-      edges.push_back({corners[i][k], corners[i][(k + 1) % 3], h});
-      first_half_edge_[corners[i][k]] = h;
-    }
-  }
-  for (std::size_t i = outside.size(); i < edges.size(); ++i) {
-    for (const DirectedEdge& other : edges) {
-      if (other.from == edges[i].to && other.to == edges[i].from) {
-        opposite_[edges[i].half_edge] = other.half_edge;
-        opposite_[other.half_edge] = edges[i].half_edge;
-      }
-    }
-  }
-}
-
 template <class NeedsFlip>
 SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Vector3>& seeds,
                                                             const NeedsFlip& needs_flip,
-                                                            const Execution& execution,
-                                                            double smallest_determinant) {
+                                                            const Execution& execution) {
   // The search for edges to flip is the bulk of the work and runs in parallel; flips are few and
   // run in one order. Blocks are small enough for the coarsest levels' hundreds of triangles.
   constexpr std::size_t block = 256;
@@ -280,7 +231,7 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       if (!needs_flip(h)) continue;
       // An edge whose two triangles make no convex quadrilateral stays, for now: a flip beside it
       // may make room.
-      if (!is_flippable(h, seeds) || !keeps_determinants(h, seeds, smallest_determinant)) {
+      if (!is_flippable(h, seeds)) {
         stuck.push_back(h);
         continue;
       }
@@ -321,7 +272,7 @@ SphereTriangulation::Repair SphereTriangulation::restore_regular(const std::vect
 
 SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
     const std::vector<Vector3>& seeds, const std::vector<Vector3>& positions,
-    const Execution& execution, double smallest_determinant) {
+    const Execution& execution) {
   return flip_while(
       seeds,
       [&](std::int32_t h) {
@@ -350,7 +301,7 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         return !is_nearly_flat(apex_c, seeds[ends[0]], apex_d) &&
                !is_nearly_flat(apex_d, seeds[ends[1]], apex_c);
       },
-      execution, smallest_determinant);
+      execution);
 }
 
 IndexedMesh subdivided_sphere(int frequency) {

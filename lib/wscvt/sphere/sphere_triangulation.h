@@ -74,11 +74,10 @@ class SphereTriangulation {
   /// Flips edges until the two angles opposite to each edge sum to at most pi, measured on the
   /// surface mesh with vertices `positions` (Bobenko and Springborn 2007: intrinsic Delaunay), as
   /// long as the triangles stay counter-clockwise on the sphere of `seeds`; edges left for that
-  /// reason are counted as stuck. So are those that would give a triangle on the sphere a
-  /// determinant below `smallest_determinant`.
+  /// reason are counted as stuck.
   Repair restore_surface_delaunay(const std::vector<Vector3>& seeds,
-                                  const std::vector<Vector3>& positions, const Execution& execution,
-                                  double smallest_determinant = 0.0);
+                                  const std::vector<Vector3>& positions,
+                                  const Execution& execution);
 
   /// Whether the half-edge's edge may be flipped: both new triangles counter-clockwise on the
   /// sphere.
@@ -87,11 +86,6 @@ class SphereTriangulation {
   /// Replaces the edge by the other diagonal of its two triangles.
   void flip(std::int32_t half_edge);
 
-  /// Replaces triangles by as many others that have, all together, the same outer edges: what a
-  /// flip does for two triangles, for patches of any size. A vertex may leave one patch and turn up
-  /// in another. The caller answers for the corners being such; they stand in the slots given.
-  void replace(const std::vector<std::int32_t>& triangles, const std::vector<Triangle>& corners);
-
  private:
   SphereTriangulation() = default;
   /// Triangulates; returns why that is not possible, or null.
@@ -99,9 +93,7 @@ class SphereTriangulation {
                     const Execution& execution);
   template <class NeedsFlip>
   Repair flip_while(const std::vector<Vector3>& seeds, const NeedsFlip& needs_flip,
-                    const Execution& execution, double smallest_determinant = 0.0);
-  bool keeps_determinants(std::int32_t half_edge, const std::vector<Vector3>& seeds,
-                          double smallest) const;
+                    const Execution& execution);
   void set_triangles(std::vector<Triangle> triangles, std::size_t vertices,
                      const Execution& execution);
 

@@ -12,7 +12,6 @@
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
-#include "wscvt/surface/radial_samples.h"
 
 namespace wscvt {
 
@@ -140,19 +139,27 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
   return result;
 }
 
-CurvatureSamples scan_curvatures(const IndexedMesh& mesh, const Execution& execution) {
-  // The paper fits over one ring, which scans leave under-determined.
-  constexpr int rings = 2;
-  RadialSamples samples = radial_samples(mesh, execution);
-  const std::vector<PrincipalCurvatures> of_vertices =
-      quadric_fit_curvatures(mesh, rings, execution);
-  CurvatureSamples result;
-  result.curvatures.reserve(samples.vertices.size());
-  for (const std::int32_t vertex : samples.vertices) {
-    result.curvatures.push_back(of_vertices[index(vertex)]);
+std::vector<double> largest_curvatures(const SphereSurface& surface,
+                                       const std::vector<Vector3>& directions,
+                                       const Execution& execution) {
+  const std::vector<SurfaceJet> jets =
+      surface.surface_jets(directions, Derivatives::Second, execution);
+  std::vector<double> result;
+  result.reserve(jets.size());
+  for (std::size_t i = 0; i < jets.size(); ++i) {
+    const PrincipalCurvatures k = principal_curvatures(jets[i], directions[i]);
+    result.push_back(std::max(std::abs(k.maximum), std::abs(k.minimum)));
   }
-  result.directions = std::move(samples.directions);
-  result.weights = std::move(samples.weights);
+  return result;
+}
+
+std::vector<double> largest_curvatures(const IndexedMesh& mesh, const Execution& execution) {
+  constexpr int rings = 2;
+  std::vector<double> result;
+  result.reserve(mesh.points.size());
+  for (const PrincipalCurvatures& k : quadric_fit_curvatures(mesh, rings, execution)) {
+    result.push_back(std::max(std::abs(k.maximum), std::abs(k.minimum)));
+  }
   return result;
 }
 

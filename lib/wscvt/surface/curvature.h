@@ -19,15 +19,13 @@ namespace wscvt {
 std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh, int rings,
                                                         const Execution& execution);
 
-/// Curvatures given at single directions, such as the vertices of a scan.
-struct CurvatureSamples {
-  std::vector<Vector3> directions;
-  std::vector<PrincipalCurvatures> curvatures;  ///< 1 / length of the surface
-  std::vector<double> weights;                  ///< > 0, any scale: the solid angle each stands for
-};
+/// Largest absolute principal curvature of a surface in each direction, 1 / length.
+std::vector<double> largest_curvatures(const SphereSurface& surface,
+                                       const std::vector<Vector3>& directions,
+                                       const Execution& execution);
 
-/// The quadric-fit curvatures over two rings at the vertices that radial_samples keeps, for a
-/// closed, oriented mesh about the origin.
-CurvatureSamples scan_curvatures(const IndexedMesh& mesh, const Execution& execution);
+/// Largest absolute principal curvature at the vertices of a closed mesh, by quadrics over two
+/// rings, 1 / length.
+std::vector<double> largest_curvatures(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

@@ -13,7 +13,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/plastic_sequence.h"
-#include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
 
 namespace wscvt {
@@ -286,74 +285,9 @@ HarmonicFit fit_harmonics(const RadialSurface& surface, int degree, const Execut
   return fit;
 }
 
-double chord_error(const RadialSurface& surface, int node_count, const Execution& execution) {
-  if (node_count < 4) {
-    throw Error(ErrorCode::InvalidInput,
-                "A closed mesh has at least 4 nodes, not " + std::to_string(node_count) + ".");
-  }
-  // Curvatures enter as one mean: a thousand directions give it to a few per cent.
-  constexpr int curvature_directions = 1000;
-  const std::vector<Vector3> directions = fibonacci_lattice(curvature_directions);
-  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::Second, execution);
-  double area = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < jets.size(); ++i) {
-    const double element = area_element(jets[i]);
-    const PrincipalCurvatures k = principal_curvatures(jets[i], directions[i]);
-    area += element;
-    squares += element * 0.5 * (k.maximum * k.maximum + k.minimum * k.minimum);
-  }
-  const double curvature = std::sqrt(squares / area);
-  area *= 4.0 * pi / curvature_directions;
-  // 2 N - 4 equilateral triangles of sqrt(3) / 4 h^2 each.
-  const double squared_edge = 4.0 / std::sqrt(3.0) * area / (2.0 * node_count - 4.0);
-  return squared_edge * curvature / (2.0 * std::sqrt(15.0));
-}
-
-HarmonicFit fit_harmonics_for_nodes(const RadialSurface& surface, int node_count,
-                                    const Execution& execution) {
-  // Most grains and counts need no more than the paper's degree, which is read much faster than
-  // the highest.
-  constexpr int usual_degree = 20;
-  std::optional<HarmonicFit> found;
-  const auto close_enough = [&](const Fitter& fitter, int degree) {
-    execution.report(0.9, fit_stage);
-    std::optional<HarmonicFit> fit = fitter.of_degree(degree);
-    if (!fit) return false;
-    fit->report.chord_error = chord_error(fit->surface, node_count, execution);
-    if (!(fit->report.residual <= fit->report.chord_error)) return false;
-    found = std::move(fit);
-    return true;
-  };
-  // The residual falls with the degree, and the chord error rises with the detail.
-  const auto bisect = [&](const Fitter& fitter, int too_low, int enough) {
-    while (enough - too_low > 1) {
-      const int middle = (too_low + enough) / 2;
-      (close_enough(fitter, middle) ? enough : too_low) = middle;
-    }
-  };
-  const Fitter usual(surface, usual_degree, execution.part(0.0, 0.4));
-  if (close_enough(usual, usual_degree)) {
-    bisect(usual, 0, usual_degree);
-  } else {
-    const Fitter high(surface, fit_degree_option.maximum, execution.part(0.4, 0.9));
-    if (close_enough(high, fit_degree_option.maximum)) {
-      bisect(high, usual_degree, fit_degree_option.maximum);
-    } else {
-      found = high.highest(fit_degree_option.maximum);
-      found->report.chord_error = chord_error(found->surface, node_count, execution);
-      if (found->report.limit == DegreeLimit::None) found->report.limit = DegreeLimit::Highest;
-    }
-  }
-  found->report.requested_degree = automatic_degree;
-  execution.report(1.0, fit_stage);
-  return *std::move(found);
-}
-
 void scale(HarmonicFitReport& report, double unit) {
   report.residual *= unit;
   report.smallest_radius *= unit;
-  report.chord_error *= unit;
 }
 
 }  // namespace wscvt

@@ -33,19 +33,6 @@ struct HarmonicFit {
 /// surface throws.
 HarmonicFit fit_harmonics(const RadialSurface& surface, int degree, const Execution& execution);
 
-/// Root mean square, over its area, of the distance from a surface to even flat triangles between
-/// `node_count` nodes on it, by its curvature: 1 / (2 sqrt 15) h^2 k for equilateral triangles of
-/// edge h on a sphere of curvature k, with the mean square of both principal curvatures for k^2.
-/// Length of the surface. Throws Error(InvalidInput) for a node count below 4, Cancelled.
-double chord_error(const RadialSurface& surface, int node_count, const Execution& execution);
-
-/// The series of the smallest degree, 1 at least, whose residual is below its chord error with
-/// `node_count` nodes: a closer one would not be seen. Where there is none, the closest there is,
-/// of the highest degree that is positive everywhere, 60 at most, and `limit` says which. Throws as
-/// fit_harmonics.
-HarmonicFit fit_harmonics_for_nodes(const RadialSurface& surface, int node_count,
-                                    const Execution& execution);
-
 /// A report in lengths of `unit`, in plain lengths.
 void scale(HarmonicFitReport& report, double unit);
 

@@ -142,47 +142,6 @@ MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) con
   }
 }
 
-std::vector<MeshPlace> MappedSurface::locate(const std::vector<Vector3>& directions,
-                                             const Execution& execution) const {
-  std::vector<MeshPlace> places(directions.size());
-  execution.parallel_for(directions.size(), search_block_size,
-                         [&](std::size_t begin, std::size_t end) {
-                           std::int32_t hint = -1;
-                           for (std::size_t i = begin; i < end; ++i) {
-                             places[i] = locate(directions[i], hint);
-                             hint = places[i].triangle;
-                           }
-                         });
-  return places;
-}
-
-Vector3 MappedSurface::position_near(const Vector3& direction, MeshPlace& place) const {
-  place = locate(direction, place.triangle);
-  return position(place);
-}
-
-MeshPlace MappedSurface::nearest(const Vector3& point, const MeshPlace& from) const {
-  MeshPlace best = from;
-  double smallest = (position(from) - point).squaredNorm();
-  const auto look_at = [&](std::int32_t triangle) {
-    const auto& [a, b, c] = mesh_.triangles[triangle];
-    const MeshPlace place{
-        triangle, nearest_weights(mesh_.points[a], mesh_.points[b], mesh_.points[c], point)};
-    const double distance = (position(place) - point).squaredNorm();
-    if (!(distance < smallest)) return;
-    smallest = distance;
-    best = place;
-  };
-  look_at(from.triangle);
-  for (std::int32_t about = -1; about != best.triangle;) {
-    about = best.triangle;
-    for (std::int32_t h = 3 * about; h < 3 * about + 3; ++h) {
-      visit_outgoing(opposite_, h, [&](std::int32_t other) { look_at(other / 3); });
-    }
-  }
-  return best;
-}
-
 void MappedSurface::evaluate_jets(const Vector3* directions, std::size_t count,
                                   Derivatives derivatives, SurfaceJet* jets) const {
   for (std::size_t i = 0; i < count; ++i) {

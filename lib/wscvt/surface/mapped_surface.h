@@ -20,13 +20,6 @@ inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
   return p + place.weights[1] * (mesh.points[b] - p) + place.weights[2] * (mesh.points[c] - p);
 }
 
-/// What is given at the vertices of a mesh, at a place on it; linear on each face.
-inline double value_at(const IndexedMesh& mesh, const std::vector<double>& values,
-                       const MeshPlace& place) {
-  const auto& [a, b, c] = mesh.triangles[place.triangle];
-  return place.weights[0] * values[a] + place.weights[1] * values[b] + place.weights[2] * values[c];
-}
-
 /// A scan spread over the unit sphere, one to one (sphere_map.h): every direction u has one place
 /// on the mesh, x(u). Within the spherical triangle of a face with corners at the directions a, b,
 /// c the weights are those of u = alpha a + beta b + gamma c scaled to sum 1, so x(u) runs straight
@@ -54,23 +47,11 @@ class MappedSurface : public SphereSurface {
   /// threads.
   MeshPlace locate(const Vector3& direction, std::int32_t hint = -1) const;
 
-  /// The places in many directions, each searched from the one before it.
-  std::vector<MeshPlace> locate(const std::vector<Vector3>& directions,
-                                const Execution& execution) const;
-
   /// The point of the surface, x(u) in length units of the mesh.
   Vector3 position(const MeshPlace& place) const { return combination(mesh_.points, place); }
   Vector3 position(const Vector3& direction, std::int32_t hint = -1) const {
     return position(locate(direction, hint));
   }
-
-  /// Begins at the triangle of `place`.
-  Vector3 position_near(const Vector3& direction, MeshPlace& place) const override;
-
-  /// A place near `point` on the sheet that `from` lies on: from face to face over their corners,
-  /// downhill in the distance, so that a sheet behind or beside it is never taken. The nearest
-  /// place, where the way there from `from` rises nowhere.
-  MeshPlace nearest(const Vector3& point, const MeshPlace& from) const;
 
   /// The direction of a place: locate's inverse.
   Vector3 direction(const MeshPlace& place) const {

@@ -47,12 +47,6 @@ void SphereSurface::evaluate_shapes(const Vector3* directions, std::size_t count
   }
 }
 
-Vector3 SphereSurface::position_near(const Vector3& direction, MeshPlace& /*place*/) const {
-  Vector3 position;
-  evaluate_positions(&direction, 1, &position);
-  return position;
-}
-
 std::vector<Vector3> SphereSurface::positions(const std::vector<Vector3>& directions,
                                               const Execution& execution) const {
   std::vector<Vector3> result(directions.size());

@@ -73,12 +73,6 @@ class SphereSurface {
   virtual void evaluate_shapes(const Vector3* directions, std::size_t count,
                                Derivatives derivatives, LocalShape* shapes) const;
 
-  /// The point in one direction, a unit vector; length. Of a surface that is a mesh `place` becomes
-  /// the point's place on it; others leave it as it is. A search begins at the place given, that of
-  /// a direction nearby at best, which changes the point by no more than rounding. May be called
-  /// from several threads with a place each.
-  virtual Vector3 position_near(const Vector3& direction, MeshPlace& place) const;
-
   /// As `evaluate_jets`, for a whole array and on the threads of `execution`.
   std::vector<SurfaceJet> surface_jets(const std::vector<Vector3>& directions,
                                        Derivatives derivatives, const Execution& execution) const;

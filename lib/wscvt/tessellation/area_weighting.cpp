@@ -9,7 +9,6 @@ WeightingRule area_weighting(const TabulatedSurface& table, const WeightingOptio
   WeightingRule rule;
   rule.field = table.area_elements().values;
   rule.stencil = 6;
-  rule.even_on_surface = true;
   rule.weight = [area = table.area()](double element, double count, const FieldDeviation&) {
     return area / (cell_area_per_weight * count * element);
   };

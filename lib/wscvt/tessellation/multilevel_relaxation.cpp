@@ -21,10 +21,8 @@ struct Tessellation {
   std::vector<Triangle> triangles;
 };
 
-/// Cuts every edge at its middle, on the surface's chord, and every triangle in four. In the middle
-/// of the chord and not of the arc: on a surface that is far from round the arc's middle would lie
-/// nearer to the end that is closer to the origin, and the children would be as uneven as that.
-Tessellation subdivide(const std::vector<Vector3>& seeds, const std::vector<double>& radii,
+/// Cuts every edge at its middle, and every triangle in four.
+Tessellation subdivide(const std::vector<Vector3>& seeds,
                        const SphereTriangulation& triangulation) {
   Tessellation fine;
   fine.seeds = seeds;
@@ -36,7 +34,7 @@ Tessellation subdivide(const std::vector<Vector3>& seeds, const std::vector<doub
       const std::int32_t a = triangulation.origin(h);
       const std::int32_t b = triangulation.origin(other);
       middle[h] = static_cast<std::int32_t>(fine.seeds.size());
-      fine.seeds.push_back((radii[a] * seeds[a] + radii[b] * seeds[b]).normalized());
+      fine.seeds.push_back((seeds[a] + seeds[b]).normalized());
     } else {
       middle[h] = middle[other];
     }
@@ -85,13 +83,24 @@ void insert_seeds(Tessellation& tessellation, int extra) {
   }
 }
 
+/// The options of a level before the last.
+RelaxationOptions coarse_options(RelaxationOptions options, bool coarsest) {
+  // Displacement tolerances of the coarsest and of the levels between.
+  constexpr double coarsest_tolerance = 1e-4;
+  constexpr double middle_tolerance = 3e-4;
+  options.displacement_tolerance =
+      std::min(options.displacement_tolerance, coarsest ? coarsest_tolerance : middle_tolerance);
+  // Few seeds on a rough grain never spread as little as the last level's may.
+  options.area_tolerance = std::numeric_limits<double>::max();
+  return options;
+}
+
 }  // namespace
 
-std::vector<int> level_sizes(int count, int coarsest_seeds) {
-  if (count < 4 || coarsest_seeds < 4) {
+std::vector<int> level_sizes(int count) {
+  if (count < 4) {
     throw Error(ErrorCode::InvalidInput,
-                "The levels of a tessellation need at least 4 seeds, not " +
-                    std::to_string(std::min(count, coarsest_seeds)) + ".");
+                "A tessellation needs at least 4 seeds, not " + std::to_string(count) + ".");
   }
   std::vector<int> sizes = {count};
   // V seeds have 3 V - 6 edges, each with a seed in its middle on the next level: 4 V - 6 there.
@@ -100,36 +109,9 @@ std::vector<int> level_sizes(int count, int coarsest_seeds) {
   return sizes;
 }
 
-void check_multilevel_options(const MultilevelOptions& options) {
-  require_in_range(options.coarsest_seeds, coarsest_seeds_option);
-  require_in_range(options.coarsest_tolerance, coarsest_tolerance_option);
-  require_in_range(options.middle_tolerance, middle_tolerance_option);
-}
-
-MultilevelOptions with_more_seeds(MultilevelOptions levels, int times) {
-  const auto seeds = static_cast<std::int64_t>(times) * levels.coarsest_seeds;
-  constexpr std::int64_t most = coarsest_seeds_option.maximum;
-  levels.coarsest_seeds = static_cast<int>(std::min(seeds, most));
-  return levels;
-}
-
-RelaxationOptions level_options(const RelaxationOptions& options, const MultilevelOptions& levels,
-                                bool finest, bool coarsest) {
-  RelaxationOptions result = options;
-  if (!finest) {
-    const double tolerance = coarsest ? levels.coarsest_tolerance : levels.middle_tolerance;
-    result.displacement_tolerance = std::min(options.displacement_tolerance, tolerance);
-    // Few seeds on a rough grain never spread as little as the last level's may.
-    result.area_tolerance = std::numeric_limits<double>::max();
-  }
-  return result;
-}
-
 RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const SeedModel& model,
-                                  const RelaxationOptions& options, const MultilevelOptions& levels,
-                                  const Execution& execution) {
-  check_multilevel_options(levels);
-  const std::vector<int> sizes = level_sizes(count, levels.coarsest_seeds);
+                                  const RelaxationOptions& options, const Execution& execution) {
+  const std::vector<int> sizes = level_sizes(count);
   if (static_cast<int>(start.size()) != sizes.front()) {
     throw Error(ErrorCode::InvalidInput, "The coarsest level has " + std::to_string(start.size()) +
                                              " seeds instead of " + std::to_string(sizes.front()) +
@@ -137,7 +119,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
   }
   // Progress by the number of seeds to be moved, of which the last level has three quarters.
   const auto options_of = [&](std::size_t level) {
-    return level_options(options, levels, level + 1 == sizes.size(), level == 0);
+    return level + 1 == sizes.size() ? options : coarse_options(options, level == 0);
   };
   double done = 0.0;
   double all = 0.0;
@@ -152,12 +134,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
   std::vector<RelaxationLevel> coarser;
   for (std::size_t level = 1; level < sizes.size(); ++level) {
     coarser.push_back({sizes[level - 1], result.report.iterations, result.report.outcome});
-    std::vector<double> radii(result.seeds.size(), 1.0);
-    if (options.metric == RelaxationMetric::Surface) {
-      std::vector<double> densities;
-      model.on_surface(result.seeds, execution, radii, densities);
-    }
-    Tessellation fine = subdivide(result.seeds, radii, result.triangulation);
+    Tessellation fine = subdivide(result.seeds, result.triangulation);
     insert_seeds(fine, sizes[level] - static_cast<int>(fine.seeds.size()));
     SphereTriangulation triangulation(fine.seeds, std::move(fine.triangles), execution);
     // What happened on any level is told; displacements and outcome are those of the last.

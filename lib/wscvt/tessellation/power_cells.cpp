@@ -4,7 +4,6 @@
 #include <string>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -36,22 +35,17 @@ Vector3 radical_centre(const Vector3& a, const Vector3& b, const Vector3& c, dou
 
 void compute_power_cells(const SphereTriangulation& triangulation,
                          const std::vector<Vector3>& sites, const std::vector<double>& weights,
-                         const std::vector<double>& densities, CellGeometry geometry,
                          const Execution& execution, PowerCells& cells) {
   const std::size_t count = sites.size();
-  if (count != triangulation.vertex_count() || (!weights.empty() && weights.size() != count) ||
-      (!densities.empty() && densities.size() != count)) {
+  if (count != triangulation.vertex_count() || (!weights.empty() && weights.size() != count)) {
     throw Error(ErrorCode::InvalidInput,
                 "The triangulation has " + std::to_string(triangulation.vertex_count()) +
-                    " vertices, but there are " + std::to_string(count) + " sites, " +
-                    std::to_string(weights.size()) + " weights and " +
-                    std::to_string(densities.size()) + " densities; give one each.");
+                    " vertices, but there are " + std::to_string(count) + " sites and " +
+                    std::to_string(weights.size()) + " weights; give one each.");
   }
   const std::vector<Triangle>& triangles = triangulation.triangles();
   const std::vector<std::int32_t>& opposite = triangulation.opposite();
-  const bool on_sphere = geometry == CellGeometry::UnitSphere;
   const bool weighted = !weights.empty();
-  const bool dense = !densities.empty();
 
   cells.vertices.resize(triangles.size());
   execution.parallel_for(triangles.size(), cell_block, [&](std::size_t begin, std::size_t end) {
@@ -61,7 +55,7 @@ void compute_power_cells(const SphereTriangulation& triangulation,
       const Vector3 centre =
           radical_centre(sites[a], sites[b], sites[c], weighted ? w - weights[b] : 0.0,
                          weighted ? w - weights[c] : 0.0);
-      cells.vertices[t] = on_sphere ? Vector3(centre.normalized()) : centre;
+      cells.vertices[t] = centre.normalized();
     }
   });
 
@@ -71,54 +65,25 @@ void compute_power_cells(const SphereTriangulation& triangulation,
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& site = sites[i];
       const std::int32_t first = triangulation.first_half_edge()[i];
-      Vector3 normal = site;
-      if (!on_sphere) {
-        normal.setZero();
-        std::int32_t h = first;
-        do {
-          const Triangle& t = triangles[h / 3];
-          normal += doubled_area_normal(sites[t[0]], sites[t[1]], sites[t[2]]);
-          h = opposite[SphereTriangulation::previous(h)];
-        } while (h != first);
-        normal.normalize();
-      }
       double area = 0.0;
-      double mass = 0.0;
       Vector3 sum = Vector3::Zero();
-      // Vectors from the site to this and the next cell vertex, counter-clockwise. All is
-      // added up about the site, so that far from the origin no digits are lost.
+      // Vectors from the site to this and the next cell vertex, counter-clockwise.
       std::int32_t h = first;
       Vector3 a = cells.vertices[h / 3] - site;
-      double density_a = 1.0;
-      const auto density_at = [&](std::int32_t triangle) {
-        const Triangle& t = triangles[triangle];
-        return (densities[t[0]] + densities[t[1]] + densities[t[2]]) / 3.0;
-      };
-      if (dense) density_a = density_at(h / 3);
       do {
         h = opposite[SphereTriangulation::previous(h)];
         const Vector3 b = cells.vertices[h / 3] - site;
-        const double fan = 0.5 * a.cross(b).dot(normal);
+        const double fan = 0.5 * a.cross(b).dot(site);
         area += fan;
-        if (dense) {
-          // A density linear over the fan's corners weighs corner k by (total + its own) / 12.
-          const double density_b = density_at(h / 3);
-          const double total = densities[i] + density_a + density_b;
-          mass += fan * total / 3.0;
-          sum += fan / 12.0 * ((total + density_a) * a + (total + density_b) * b);
-          density_a = density_b;
-        } else {
-          mass += fan;
-          sum += fan / 3.0 * (a + b);
-        }
+        sum += fan / 3.0 * (a + b);
         a = b;
       } while (h != first);
       cells.areas[i] = area;
       // A cell turned inside out by a coarse start has no centroid: the seed stays. Otherwise
       // the shift is taken in the tangent plane, since the site comes back to the surface along
       // its ray, and height above it would only shorten the step.
-      Vector3 shift = mass > 0.0 ? Vector3(sum / mass) : Vector3(Vector3::Zero());
-      shift -= shift.dot(normal) * normal;
+      Vector3 shift = area > 0.0 ? Vector3(sum / area) : Vector3(Vector3::Zero());
+      shift -= shift.dot(site) * site;
       cells.centroids[i] = site + shift;
     }
   });

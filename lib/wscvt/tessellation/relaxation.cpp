@@ -17,6 +17,10 @@ namespace {
 
 constexpr std::size_t seed_block = 4096;
 
+/// Step factor towards the centroid. With momentum the limit of stability is 4/3: the step goes
+/// down the gradient of an energy.
+constexpr double over_relaxation = 1.2;
+
 double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>& to,
                    const Execution& execution) {
   const double sum =
@@ -31,8 +35,8 @@ double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>&
 /// The cells of seeds at one place, and how they compare with their targets.
 class Evaluation {
  public:
-  Evaluation(const SeedModel& model, RelaxationMetric metric, const Execution& execution)
-      : model_(model), metric_(metric), execution_(execution) {}
+  Evaluation(const SeedModel& model, const Execution& execution)
+      : model_(model), execution_(execution) {}
 
   void start_from(SphereTriangulation triangulation) { triangulation_ = std::move(triangulation); }
 
@@ -40,24 +44,9 @@ class Evaluation {
   /// when the seeds have no triangulation whatever they weigh.
   [[nodiscard]] bool try_at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     flips_ = 0;
-    if (metric_ == RelaxationMetric::Surface) {
-      model_.on_surface(seeds, execution_, radii_, wanted_);
-      positions_.resize(seeds.size());
-      execution_.parallel_for(seeds.size(), seed_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) positions_[i] = radii_[i] * seeds[i];
-      });
-      if (!triangulate_surface(seeds, report)) return false;
-      // A centroidal tessellation of density rho has rho^(1/2) cells per area.
-      densities_ = wanted_;
-      for (double& density : densities_) density *= density;
-      compute_power_cells(*triangulation_, positions_, {}, densities_, CellGeometry::Surface,
-                          execution_, cells_);
-    } else {
-      model_.weights(seeds, execution_, weights_);
-      if (!triangulate_regular(seeds, report)) return false;
-      compute_power_cells(*triangulation_, seeds, weights_, {}, CellGeometry::UnitSphere,
-                          execution_, cells_);
-    }
+    model_.weights(seeds, execution_, weights_);
+    if (!triangulate(seeds, report)) return false;
+    compute_power_cells(*triangulation_, seeds, weights_, execution_, cells_);
     compare(seeds);
     return true;
   }
@@ -70,15 +59,12 @@ class Evaluation {
 
   /// Where the centroids lie, seen from the origin; unit vectors are taken by the caller.
   const std::vector<Vector3>& centroids() const { return cells_.centroids; }
-  const std::vector<Vector3>& sites(const std::vector<Vector3>& seeds) const {
-    return metric_ == RelaxationMetric::Surface ? positions_ : seeds;
-  }
   const RelaxationStep& step() const { return step_; }
   SphereTriangulation take_triangulation() { return std::move(*triangulation_); }
   std::vector<double> take_areas() { return std::move(cells_.areas); }
 
  private:
-  bool triangulate_regular(const std::vector<Vector3>& seeds, RelaxationReport& report) {
+  bool triangulate(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     if (triangulation_) {
       const auto repair = triangulation_->restore_regular(seeds, weights_, execution_);
       flips_ = repair.flips;
@@ -105,23 +91,9 @@ class Evaluation {
     return true;
   }
 
-  bool triangulate_surface(const std::vector<Vector3>& seeds, RelaxationReport& report) {
-    if (triangulation_) {
-      const auto repair = triangulation_->restore_surface_delaunay(seeds, positions_, execution_);
-      flips_ = repair.flips;
-      if (!repair.turned_over) return true;
-      ++report.rebuilds;
-    }
-    triangulation_ = SphereTriangulation::try_build(seeds, {}, execution_.part(0.0, 0.0));
-    if (!triangulation_) return false;
-    flips_ += triangulation_->restore_surface_delaunay(seeds, positions_, execution_).flips;
-    return true;
-  }
-
   // h and the spread of (cell area / target).
   void compare(const std::vector<Vector3>& seeds) {
     const std::size_t count = seeds.size();
-    const bool surface = metric_ == RelaxationMetric::Surface;
     struct Sums {
       double area = 0.0;
       double other = 0.0;
@@ -131,23 +103,21 @@ class Evaluation {
         return *this;
       }
     };
-    const std::vector<double>& shares = surface ? wanted_ : weights_;
     const Sums sums =
         execution_.parallel_sum(count, seed_block, Sums(), [&](std::size_t begin, std::size_t end) {
           Sums part;
           for (std::size_t i = begin; i < end; ++i) {
             part.area += cells_.areas[i];
-            part.other += shares.empty() ? 0.0 : (surface ? 1.0 / shares[i] : shares[i]);
+            part.other += weights_.empty() ? 0.0 : weights_[i];
           }
           return part;
         });
     const double mean_area = sums.area / static_cast<double>(count);
-    const double mean_share = sums.other / static_cast<double>(count);
+    const double mean_weight = sums.other / static_cast<double>(count);
     const auto target = [&](std::size_t i) {
-      if (shares.empty()) return mean_area;
-      if (surface) return mean_area / (shares[i] * mean_share);
+      if (weights_.empty()) return mean_area;
       return std::max(smallest_cell_share * mean_area,
-                      mean_area + cell_area_per_weight * (shares[i] - mean_share));
+                      mean_area + cell_area_per_weight * (weights_[i] - mean_weight));
     };
     const Sums ratios =
         execution_.parallel_sum(count, seed_block, Sums(), [&](std::size_t begin, std::size_t end) {
@@ -162,17 +132,14 @@ class Evaluation {
     const double mean_ratio = ratios.area / static_cast<double>(count);
     const double variance = ratios.other / static_cast<double>(count) - mean_ratio * mean_ratio;
     step_.area_spread = std::sqrt(std::max(0.0, variance));
-    step_.displacement =
-        std::sqrt(mean_square(sites(seeds), cells_.centroids, execution_) / mean_area);
+    step_.displacement = std::sqrt(mean_square(seeds, cells_.centroids, execution_) / mean_area);
     step_.flips = flips_;
   }
 
   const SeedModel& model_;
-  RelaxationMetric metric_;
   const Execution& execution_;
   std::optional<SphereTriangulation> triangulation_;
-  std::vector<double> weights_, radii_, wanted_, densities_;
-  std::vector<Vector3> positions_;
+  std::vector<double> weights_;
   PowerCells cells_;
   RelaxationStep step_;
   int flips_ = 0;
@@ -200,14 +167,13 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
                             std::optional<SphereTriangulation> triangulation,
                             const SeedModel& model, const RelaxationOptions& options,
                             const Execution& execution) {
-  check_relaxation_options(options);
   const std::size_t count = seeds.size();
   if (count < 4) {
     throw Error(ErrorCode::InvalidInput,
                 "Relaxation needs at least 4 seeds, not " + std::to_string(count) + ".");
   }
   RelaxationReport report;
-  Evaluation evaluation(model, options.metric, execution);
+  Evaluation evaluation(model, execution);
   if (triangulation) evaluation.start_from(*std::move(triangulation));
   evaluation.at(seeds, report);
 
@@ -215,16 +181,11 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
   std::vector<Vector3> arrived = seeds;
   std::vector<Vector3> stepped(count);
   Momentum momentum;
-  double factor = options.over_relaxation;
-  bool plain = false;
-  CycleWatch watch;
   StallWatch stall;
   while (true) {
     report.history.push_back(evaluation.step());
     const RelaxationStep& step = evaluation.step();
-    // Plain steps are slow to rest; 0.3 of the tolerance leaves triangles as even.
-    const double rest = plain ? 0.3 : 0.01;
-    if (const auto outcome = outcome_at(step, options, report.iterations, rest)) {
+    if (const auto outcome = outcome_at(step, options, report.iterations)) {
       report.outcome = *outcome;
       break;
     }
@@ -232,22 +193,16 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
       report.outcome = RelaxationOutcome::Settled;
       break;
     }
-    if (options.metric == RelaxationMetric::Surface && !plain &&
-        watch.cycling_at(step.displacement)) {
-      plain = true;
-      factor = std::min(1.0, factor);
-    }
     ++report.iterations;
     execution.report(static_cast<double>(report.iterations) / (report.iterations + 50.0),
                      "Relaxing the seeds");
 
-    const std::vector<Vector3>& sites = evaluation.sites(seeds);
     const std::vector<Vector3>& centroids = evaluation.centroids();
     const double uphill =
         execution.parallel_sum(count, seed_block, 0.0, [&](std::size_t begin, std::size_t end) {
           double part = 0.0;
           for (std::size_t i = begin; i < end; ++i) {
-            stepped[i] = (sites[i] + factor * (centroids[i] - sites[i])).normalized();
+            stepped[i] = (seeds[i] + over_relaxation * (centroids[i] - seeds[i])).normalized();
             part += (seeds[i] - stepped[i]).dot(stepped[i] - arrived[i]);
           }
           return part;
@@ -255,7 +210,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
     // `uphill` compares the last step's direction with where the cells now pull: the gradient test
     // of O'Donoghue and Candes, which needs no energy. Momentum that is never dropped swings about
     // the end and takes more than twice the steps.
-    const double carry = options.acceleration && !plain ? momentum.carry(uphill > 0.0) : 0.0;
+    const double carry = momentum.carry(uphill > 0.0);
     execution.parallel_for(count, seed_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Vector3 moved = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();
@@ -275,16 +230,6 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
 
 }  // namespace
 
-void check_relaxation_options(const RelaxationOptions& options) {
-  require_valid(options.metric);
-  require_in_range(options.maximum_iterations, maximum_iterations_option);
-  require_in_range(options.displacement_tolerance, displacement_tolerance_option);
-  require_in_range(options.area_tolerance, area_tolerance_option);
-  require_in_range(options.over_relaxation, options.acceleration
-                                                ? accelerated_over_relaxation_option
-                                                : over_relaxation_option);
-}
-
 RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
                        const RelaxationOptions& options, const Execution& execution) {
   return relax_from(std::move(seeds), std::nullopt, model, options, execution);
@@ -297,12 +242,13 @@ RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangula
 }
 
 std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
-                                            const RelaxationOptions& options, int iterations,
-                                            double rest) {
+                                            const RelaxationOptions& options, int iterations) {
   if (step.displacement < options.displacement_tolerance &&
       step.area_spread < options.area_tolerance) {
     return RelaxationOutcome::Converged;
   }
+  // Below this share of the tolerance seeds have come to rest.
+  constexpr double rest = 0.01;
   if (step.displacement < rest * options.displacement_tolerance) return RelaxationOutcome::Settled;
   if (iterations >= options.maximum_iterations) return RelaxationOutcome::IterationLimit;
   return std::nullopt;

@@ -24,12 +24,6 @@ class SeedModel {
   /// Power weights in steradian for as many seeds as are given; left empty when all are equal.
   virtual void weights(const std::vector<Vector3>& seeds, const Execution& execution,
                        std::vector<double>& result) const = 0;
-
-  /// Radii of the surface, length, and the wanted number of seeds per surface area, any common
-  /// scale; left empty when it is constant. Together, since who asks for one at a place asks for
-  /// the other.
-  virtual void on_surface(const std::vector<Vector3>& seeds, const Execution& execution,
-                          std::vector<double>& radii, std::vector<double>& densities) const = 0;
 };
 
 }  // namespace wscvt

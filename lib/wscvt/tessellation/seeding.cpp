@@ -42,15 +42,8 @@ std::vector<Vector3> unrelaxed_seeds(Sampling sampling, int count) {
               "The weighted sampling comes out of a relaxation; ask for another, or relax.");
 }
 
-std::vector<Vector3> start_seeds(const SeedingOptions& options, const SurfaceSeedModel& model,
-                                 int count, const Execution& execution) {
-  if (options.start == SeedStart::Random) {
-    // Few random points often leave the centre outside; the next seeds of the same row are tried.
-    for (std::uint64_t attempt = 0; attempt < 200; ++attempt) {
-      std::vector<Vector3> seeds = random_directions(count, options.random_seed + attempt);
-      if (can_be_triangulated(seeds)) return seeds;
-    }
-  }
+std::vector<Vector3> start_seeds(const SurfaceSeedModel& model, int count,
+                                 const Execution& execution) {
   const int rows = std::clamp(static_cast<int>(2.0 * std::sqrt(count)), 64, 360);
   const auto density = [&](const std::vector<Vector3>& directions) {
     return model.number_densities(directions, execution);

@@ -17,9 +17,9 @@ bool takes_any_count(Sampling sampling);
 /// (see takes_any_count). Unit vectors. Throws Error(InvalidInput) for Sampling::Weighted.
 std::vector<Vector3> unrelaxed_seeds(Sampling sampling, int count);
 
-/// `count` >= 4 unit vectors from which the relaxation starts: random, or a Fibonacci lattice
-/// warped to the density that `model` wants.
-std::vector<Vector3> start_seeds(const SeedingOptions& options, const SurfaceSeedModel& model,
-                                 int count, const Execution& execution);
+/// `count` >= 4 unit vectors from which the relaxation starts: a Fibonacci lattice warped to the
+/// density that `model` wants.
+std::vector<Vector3> start_seeds(const SurfaceSeedModel& model, int count,
+                                 const Execution& execution);
 
 }  // namespace wscvt

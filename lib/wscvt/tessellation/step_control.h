@@ -1,32 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace wscvt {
-
-/// Notices steps that go round in circles: those of the surface metric need not lead downhill.
-class CycleWatch {
- public:
-  /// Whether the displacement has been well above its smallest for too many steps since that. Below
-  /// 1e-3 h nothing is held against it: there a single flip takes it up for a while, and runs with
-  /// a finer tolerance come to rest sooner with momentum (cycles were seen at 0.01 h and more).
-  bool cycling_at(double displacement) {
-    if (displacement < smallest_) {
-      smallest_ = displacement;
-      steps_above_ = 0;
-    } else if (displacement > std::max(2.0 * smallest_, 1e-3)) {
-      ++steps_above_;
-    }
-    return steps_above_ >= 30;
-  }
-
- private:
-  double smallest_ = std::numeric_limits<double>::infinity();
-  int steps_above_ = 0;
-};
 
 /// Notices seeds that no longer come nearer to rest, as under steep weightings on rough scans,
 /// whose flips never end: displacements of 0.05 h from the 70th iteration to the 1000th, at the

@@ -13,9 +13,9 @@ int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
 
 }  // namespace
 
-TabulatedSurface::TabulatedSurface(const SphereSurface& surface, const CurvatureSamples* samples,
-                                   int node_count, const Execution& execution)
-    : surface_(surface), samples_(samples), node_count_(node_count), execution_(execution) {}
+TabulatedSurface::TabulatedSurface(const SphereSurface& surface, int node_count,
+                                   const Execution& execution)
+    : surface_(surface), node_count_(node_count), execution_(execution) {}
 
 int TabulatedSurface::rows() const { return rows_for(node_count_); }
 

@@ -7,7 +7,6 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/surface/curvature.h"
 #include "wscvt/surface/sphere_surface.h"
 #include "wscvt/tessellation/cap_sums.h"
 
@@ -18,13 +17,10 @@ namespace wscvt {
 /// threads at once.
 class TabulatedSurface {
  public:
-  /// For `node_count` seeds. `samples` stand in the place of the surface's own curvature; they may
-  /// be null. What is given must outlive the table.
-  TabulatedSurface(const SphereSurface& surface, const CurvatureSamples* samples, int node_count,
-                   const Execution& execution);
+  /// For `node_count` seeds. The surface must outlive the table.
+  TabulatedSurface(const SphereSurface& surface, int node_count, const Execution& execution);
 
   const SphereSurface& surface() const { return surface_; }
-  const CurvatureSamples* samples() const { return samples_; }
   int node_count() const { return node_count_; }
   int rows() const;  ///< of the grid
   /// From the origin to the surface at the nodes of the grid; the radii of a radial surface.
@@ -38,7 +34,6 @@ class TabulatedSurface {
 
  private:
   const SphereSurface& surface_;
-  const CurvatureSamples* samples_;
   int node_count_;
   Execution execution_;
   mutable std::vector<double> distances_;

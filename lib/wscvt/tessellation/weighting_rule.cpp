@@ -8,16 +8,14 @@ namespace wscvt {
 
 void check_weighting_options(const WeightingOptions& options) {
   require_valid(options.kind);
-  require_valid(options.curvature_source);
   require_in_range(options.curvature_alpha, curvature_alpha_option);
-  require_in_range(options.adaptive_exponent, adaptive_exponent_option);
 }
 
 WeightingRule weighting_rule(const TabulatedSurface& table, const WeightingOptions& options,
                              const Execution& execution) {
   constexpr decltype(&constant_weighting) functions[] = {
       constant_weighting,  // in the order of the enumeration
-      radial_distance_weighting, curvature_weighting, area_weighting, error_adaptive_weighting};
+      radial_distance_weighting, curvature_weighting, area_weighting};
   static_assert(std::size(functions) == std::size(enumerators<Weighting>()),
                 "every weighting has a function");
   check_weighting_options(options);

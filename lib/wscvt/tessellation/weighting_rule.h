@@ -24,10 +24,6 @@ inline constexpr double curvature_clip = 0.9;
 /// flat face has no scale of its own.
 inline constexpr double flat_curvature = 0.01;
 
-/// Curvatures below this share of the median count as that: where a face is flat its error is
-/// small whatever its size, but without nodes it would not be seen as flat.
-inline constexpr double flat_share_of_median = 0.3;
-
 /// Mean and standard deviation of a field over seeds.
 struct FieldDeviation {
   double mean = 0.0;
@@ -44,7 +40,6 @@ struct WeightingRule {
   /// The weight, in steradian, of one of `count` seeds where the field has a value.
   std::function<double(double value, double count, const FieldDeviation& over_seeds)> weight;
   bool reads_deviation = false;  ///< whether `weight` reads `over_seeds`
-  bool even_on_surface = false;  ///< whether as many seeds per area are wanted everywhere
 };
 
 /// Of Weighting::Constant: equal solid angles.
@@ -63,10 +58,6 @@ WeightingRule curvature_weighting(const TabulatedSurface& table, const Weighting
 /// Of Weighting::Area: equal surface areas.
 WeightingRule area_weighting(const TabulatedSurface& table, const WeightingOptions& options,
                              const Execution& execution);
-
-/// Of Weighting::ErrorAdaptive: node density g k^exponent.
-WeightingRule error_adaptive_weighting(const TabulatedSurface& table,
-                                       const WeightingOptions& options, const Execution& execution);
 
 /// The rule of options.kind for a surface.
 WeightingRule weighting_rule(const TabulatedSurface& table, const WeightingOptions& options,

@@ -17,8 +17,6 @@ namespace {
 
 /// Few, so that the coarsest level's hundreds of seeds are shared by the threads as well.
 constexpr std::size_t weight_block = 128;
-/// Of what is tabulated of the surface itself.
-constexpr int surface_stencil = 6;
 
 /// Mean and standard deviation of `field` weighted by `density`.
 FieldDeviation deviation_of(const GridField& field, const GridField& density) {
@@ -62,20 +60,15 @@ double solve_offset(const GridField& cells, double count, double smallest) {
 }  // namespace
 
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
-                                   int node_count, const CurvatureSamples* samples,
-                                   const Execution& execution, RelaxationMetric metric)
+                                   int node_count, const Execution& execution)
     : node_count_((check_weighting_options(options), node_count)) {
   if (node_count < 4) {
     throw Error(ErrorCode::InvalidInput, "The number of nodes is " + std::to_string(node_count) +
                                              "; a closed mesh needs at least 4.");
   }
   const double count = node_count;
-  const TabulatedSurface table(surface, samples, node_count, execution);
+  const TabulatedSurface table(surface, node_count, execution);
   const int rows = table.rows();
-  if (metric == RelaxationMetric::Surface) {
-    area_element_.emplace(rows, surface_stencil, table.area_elements().values);
-    radius_.emplace(rows, surface_stencil, table.distances());
-  }
   rule_ = weighting_rule(table, options, execution);
   GridField field(rows);
   if (!rule_.field.empty()) {
@@ -123,43 +116,6 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
     over_seeds.deviation = std::sqrt(squares / (count - 1.0));
   }
   for (double& value : result) value = rule_.weight(value, count, over_seeds);
-}
-
-void SurfaceSeedModel::on_surface(const std::vector<Vector3>& seeds, const Execution& execution,
-                                  std::vector<double>& radii,
-                                  std::vector<double>& densities) const {
-  if (!radius_) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "The seed model was made for the sphere metric, which asks for no radii; make it for "
-        "the surface metric.");
-  }
-  radii.resize(seeds.size());
-  densities.resize(rule_.even_on_surface ? 0 : seeds.size());
-  // WSCVT-D's field has the stencil of radius and area element, and is looked up with them.
-  const bool alike = field_ && rule_.stencil == surface_stencil;
-  execution.parallel_for(seeds.size(), weight_block, [&](std::size_t begin, std::size_t end) {
-    const Vector3* directions = seeds.data() + begin;
-    const std::size_t count = end - begin;
-    double* radius = radii.data() + begin;
-    if (rule_.even_on_surface) {
-      radius_->interpolate(directions, count, radius);
-      return;
-    }
-    std::array<double, weight_block> elements{};
-    std::array<double, weight_block> values{};
-    if (alike) {
-      SphereGrid::interpolate({&*radius_, &*area_element_, &*field_}, directions, count,
-                              {radius, elements.data(), values.data()});
-    } else {
-      SphereGrid::interpolate({&*radius_, &*area_element_}, directions, count,
-                              {radius, elements.data()});
-      if (field_) field_->interpolate(directions, count, values.data());
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      densities[begin + i] = number_density(values[i]) / elements[i];
-    }
-  });
 }
 
 double SurfaceSeedModel::number_density(double value) const {

@@ -7,7 +7,6 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/sphere_grid.h"
-#include "wscvt/surface/curvature.h"
 #include "wscvt/surface/sphere_surface.h"
 #include "wscvt/tessellation/seed_model.h"
 #include "wscvt/tessellation/tessellation_options.h"
@@ -17,22 +16,15 @@ namespace wscvt {
 
 /// The weightings for a given surface (see Weighting).
 ///
-/// Radius, area element and curvature are tabulated once, so a seed's weight costs a look-up and
-/// not a series.
+/// What a weight depends on is tabulated once, so a seed's weight costs a look-up and not a series.
 class SurfaceSeedModel : public SeedModel {
  public:
-  /// For `node_count` >= 4 seeds. `samples` replace the surface's own curvature when given. One for
-  /// the sphere metric leaves out the tables that only the surface metric looks at, and so
-  /// on_surface(). Throws Error(InvalidInput) for options out of range.
+  /// For `node_count` >= 4 seeds. Throws Error(InvalidInput) for options out of range.
   SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options, int node_count,
-                   const CurvatureSamples* samples, const Execution& execution,
-                   RelaxationMetric metric = RelaxationMetric::Surface);
+                   const Execution& execution);
 
   void weights(const std::vector<Vector3>& seeds, const Execution& execution,
                std::vector<double>& result) const override;
-  /// Throws Error(InvalidInput) where the model was made for the sphere metric.
-  void on_surface(const std::vector<Vector3>& seeds, const Execution& execution,
-                  std::vector<double>& radii, std::vector<double>& densities) const override;
 
   /// Wanted number of seeds per steradian, for the start; its integral over the sphere is N. At
   /// most 1 / smallest_cell_share of the mean.
@@ -44,9 +36,7 @@ class SurfaceSeedModel : public SeedModel {
   double number_density(double value) const;
 
   int node_count_;
-  WeightingRule rule_;  ///< its field has become field_
-  std::optional<SphereGrid> radius_;
-  std::optional<SphereGrid> area_element_;
+  WeightingRule rule_;               ///< its field has become field_
   std::optional<SphereGrid> field_;  ///< none where all seeds weigh alike
   FieldDeviation wanted_;            ///< of the field over the wanted density
   double offset_ = 0.0;              ///< C in "cell area = 3.118 w + C"

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh/as_published.h"
+
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/surface/curvature.h"
+#include "wscvt/surface/harmonic_fit.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/tessellation/multilevel_relaxation.h"
+#include "wscvt/tessellation/seeding.h"
+#include "wscvt/tessellation/weights.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Above this overhang fraction the series' residual is read off the whole scan: below it the rays
+/// of the fit, which see the outermost surface only, are within 2 % (four scans), above it up to 12
+/// and, where 8 % lie behind another sheet, 54 % too small.
+constexpr double told_by_rays = 1e-3;
+
+void refuse_overhang(double overhang_fraction, double limit) {
+  if (overhang_fraction >= 1.0) {
+    throw Error(ErrorCode::NotStarShaped,
+                "The grain is not star-shaped: its volume centroid lies outside of it or on its "
+                "surface. Use the method on-scan, which takes any closed grain.");
+  }
+  if (overhang_fraction > limit) {
+    throw Error(ErrorCode::NotStarShaped,
+                "The grain is not star-shaped: overhangs cover " +
+                    format_percent(overhang_fraction) + " of the sphere (limit " +
+                    format_percent(limit) +
+                    "). Use the method on-scan, which takes any closed grain. Or raise --" +
+                    std::string(max_overhang_option.key) + " and check the result.");
+  }
+}
+
+/// Root mean square of the distance from the scan, with all its sheets, to the series; length.
+double residual_with_overhangs(const IndexedMesh& scan, const RadialSurface& series,
+                               const Execution& execution) {
+  // 5,762 points, whose edges are a sixth of the wavelength of degree 20; and as many samples as it
+  // takes for the few on hidden sheets, which are far from it, to come out within 1 %.
+  constexpr int frequency = 24;
+  constexpr std::size_t samples = 10000;
+  return rms_distance(scan, mesh_of_surface(series, frequency, execution), samples, execution);
+}
+
+/// Seeds at rest, with their cells.
+RelaxationResult tessellate(const RadialSurface& surface, const AsPublishedOptions& options,
+                            int node_count, const Execution& execution) {
+  execution.report(0.0, "Computing weights");
+  const bool weighted = options.sampling == Sampling::Weighted;
+  const WeightingOptions weighting = {weighted ? options.weighting : Weighting::Constant,
+                                      options.curvature_alpha};
+  const SurfaceSeedModel model(surface, weighting, node_count, execution);
+  RelaxationOptions relaxation;
+  if (!weighted) {
+    relaxation.maximum_iterations = 0;
+    return relax(unrelaxed_seeds(options.sampling, node_count), model, relaxation, execution);
+  }
+  const int coarsest = level_sizes(node_count).front();
+  return relax_multilevel(start_seeds(model, coarsest, execution), node_count, model, relaxation,
+                          execution.part(0.1, 1.0));
+}
+
+}  // namespace
+
+PublishedRemesher::PublishedRemesher(const NormalizedScan& scan, const AsPublishedOptions& options,
+                                     int degree, bool with_curvatures, const Execution& execution)
+    : options_(options), with_curvatures_(with_curvatures) {
+  execution.report(0.0, "Looking for overhangs");
+  const double overhang = folded_solid_angle(scan.mesh, Vector3::Zero(), execution);
+  report_.overhang_fraction = overhang;
+  refuse_overhang(overhang, 0.01 * options.max_overhang_percent);
+  execution.report(0.1, "Casting rays");
+  rays_.emplace(scan.mesh, Vector3::Zero(), 1.0, overhang, execution);
+  HarmonicFit fit = fit_harmonics(*rays_, degree, execution.part(0.4, 1.0));
+  report_.fit = fit.report;
+  coefficients_ = fit.surface.coefficients();
+  series_ = std::make_unique<HarmonicSurface>(std::move(fit.surface));
+  surface_ = series_.get();
+  if (overhang > told_by_rays) {
+    report_.fit.residual = residual_with_overhangs(scan.mesh, *surface_, execution);
+  }
+}
+
+PublishedRemesher::PublishedRemesher(const RadialSurface& surface,
+                                     const AsPublishedOptions& options, bool with_curvatures)
+    : options_(options), with_curvatures_(with_curvatures), surface_(&surface) {}
+
+Nodes PublishedRemesher::place(int node_count, const Execution& execution) const {
+  RelaxationResult relaxed = tessellate(*surface_, options_, node_count, execution.part(0.0, 0.9));
+  execution.report(0.9, "Placing the nodes");
+  Nodes nodes;
+  const std::vector<Vector3>& directions = relaxed.seeds;
+  AreaElements read = area_elements(*surface_, directions, execution);
+  nodes.cell_areas = std::move(relaxed.cell_areas);
+  for (std::size_t i = 0; i < directions.size(); ++i) nodes.cell_areas[i] *= read.elements[i];
+  std::vector<double> radii = std::move(read.distances);
+  if (options_.placement == PublishedPlacement::Surface && rays_) {
+    radii = rays_->radii(directions, execution);
+  }
+  nodes.mesh.points.resize(directions.size());
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    nodes.mesh.points[i] = radii[i] * directions[i];
+  }
+  relaxed.triangulation.restore_surface_delaunay(directions, nodes.mesh.points, execution);
+  nodes.mesh.triangles = relaxed.triangulation.triangles();
+  if (with_curvatures_) nodes.curvatures = largest_curvatures(*surface_, directions, execution);
+  AsPublishedReport report = report_;
+  report.relaxation = std::move(relaxed.report);
+  nodes.report = std::move(report);
+  return nodes;
+}
+
+}  // namespace wscvt

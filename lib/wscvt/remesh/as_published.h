@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/remesh/normalized_scan.h"
+#include "wscvt/remesh/remesh_method.h"
+#include "wscvt/remesh/remesh_options.h"
+#include "wscvt/surface/mesh_surface.h"
+#include "wscvt/surface/sphere_surface.h"
+
+namespace wscvt {
+
+/// The method of F. Wu, L. Huang, Z. Lai (2022), see remesh.h, step by step:
+///
+/// 1. Rays from the centroid read the radius of the scan in each direction.
+/// 2. A series of real spherical harmonics is fitted to the radii (eqs. 1 to 5).
+/// 3. Seeds on the unit sphere get weights, each of a solid angle (eqs. 6 to 14).
+/// 4. The seeds move to the centroids of their weighted Voronoi cells on the sphere.
+/// 5. The nodes are put on the series, or, along the same rays, on the scan.
+///
+/// Two things differ from the paper: the triangulation is the regular one, exact, because the
+/// unweighted Delaunay triangulation inverts cells under curvature weights; and the series is
+/// fitted to the surface and not to the vertices that it happens to have.
+class PublishedRemesher : public RemeshMethod {
+ public:
+  /// Steps 1 and 2 for a scan, which must outlive this. Throws Error: NotStarShaped when the
+  /// overhang fraction is above the limit or the centroid is not inside, InvalidInput,
+  /// NumericalFailure, Cancelled.
+  PublishedRemesher(const NormalizedScan& scan, const AsPublishedOptions& options, int degree,
+                    bool with_curvatures, const Execution& execution);
+
+  /// For a surface given by a formula or by coefficients, of equivalent radius 1; it takes the
+  /// place of the series and of the scan, and must outlive this.
+  PublishedRemesher(const RadialSurface& surface, const AsPublishedOptions& options,
+                    bool with_curvatures);
+
+  /// Steps 3 to 5.
+  Nodes place(int node_count, const Execution& execution) const override;
+
+  /// Of the series; empty of a formula.
+  const std::vector<double>& coefficients() const { return coefficients_; }
+  const HarmonicFitReport& fit() const { return report_.fit; }
+
+ private:
+  AsPublishedOptions options_;
+  bool with_curvatures_;
+  std::unique_ptr<const RadialSurface> series_;  ///< none of a formula
+  const RadialSurface* surface_ = nullptr;       ///< the series, or the formula
+  std::optional<MeshSurface> rays_;              ///< for nodes on the scan
+  std::vector<double> coefficients_;
+  AsPublishedReport report_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh/on_scan.h"
+
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/nodes/contact_fit.h"
+#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/scan/handles.h"
+#include "wscvt/surface/curvature.h"
+
+namespace wscvt {
+
+namespace {
+
+ScanNodesOptions nodes_options(const OnScanOptions& options) {
+  ScanNodesOptions nodes;
+  nodes.weighting = options.weighting;
+  nodes.curvature_alpha = options.curvature_alpha;
+  nodes.edge_ratio = options.edge_ratio;
+  nodes.fitted = options.placement != ScanPlacement::OnSurface;
+  return nodes;
+}
+
+}  // namespace
+
+HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
+                           const Execution& execution) {
+  const int genus = scan.report.genus;
+  if (genus == 0) return {};
+  if (options.handles.action == HandleAction::Refuse) {
+    throw Error(ErrorCode::InvalidInput,
+                "The scan has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
+                    " (tunnels through the grain), which the options refuse. Use --" +
+                    std::string(EnumerationTable<HandleAction>::key) + " cut or keep.");
+  }
+  if (options.handles.action == HandleAction::Cut) {
+    return cut_handles(scan, options.handles, execution);
+  }
+  HandleReport report;
+  report.kept = genus;
+  return report;
+}
+
+ScanMethod::ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
+                       bool with_curvatures, const Execution& execution)
+    : scan_(scan),
+      options_(options),
+      with_curvatures_(with_curvatures),
+      remesher_(scan.mesh, nodes_options(options), most_nodes, execution) {}
+
+Nodes ScanMethod::place(int node_count, const Execution& execution) const {
+  ScanNodes placed = remesher_.place(node_count, execution.part(0.0, 0.95));
+  Nodes nodes;
+  nodes.mesh = std::move(placed.mesh);
+  nodes.cell_areas = std::move(placed.cell_areas);
+  if (options_.placement == ScanPlacement::ContactFit) {
+    nodes.mesh.points = fit_to_contacts(nodes.mesh, scan_.mesh, nullptr, options_.contact_radius,
+                                        execution.part(0.95, 1.0));
+    nodes.cell_areas = vertex_areas(nodes.mesh);
+    placed.report.self_intersections = self_intersections(nodes.mesh, execution).size();
+  }
+  if (with_curvatures_) nodes.curvatures = largest_curvatures(nodes.mesh, execution);
+  nodes.report = OnScanReport{{}, std::move(placed.report)};
+  return nodes;
+}
+
+Nodes SurfaceMethod::place(int node_count, const Execution& execution) const {
+  Nodes nodes = on_scan_.place(node_count, execution);
+  if (!on_surface_) return nodes;
+  for (Vector3& point : nodes.mesh.points) {
+    const Vector3 direction = point.normalized();
+    point = surface_.radius(direction) * direction;
+  }
+  return nodes;
+}
+
+}  // namespace wscvt

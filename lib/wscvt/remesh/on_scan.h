@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "wscvt/base/execution.h"
+#include "wscvt/nodes/scan_nodes.h"
+#include "wscvt/remesh/normalized_scan.h"
+#include "wscvt/remesh/remesh_method.h"
+#include "wscvt/remesh/remesh_options.h"
+#include "wscvt/scan/scan_options.h"
+#include "wscvt/surface/sphere_surface.h"
+
+namespace wscvt {
+
+/// Does to the handles of a repaired scan what the options say: in `scan` those that are cut are
+/// closed. Throws Error: InvalidInput for a scan with handles that is to be refused, and as
+/// cut_handles, Cancelled.
+HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
+                           const Execution& execution);
+
+/// The method on the scan, for any closed grain: nodes in centroidal Voronoi cells on the grain's
+/// own surface (see ScanRemesher). Of the paper's method it keeps the purpose of the weights and
+/// the centroidal cells; its sphere, rays and series it does not need.
+class ScanMethod : public RemeshMethod {
+ public:
+  /// For at most `most_nodes`; `scan` must outlive this. Throws Error: InvalidInput,
+  /// NumericalFailure, Cancelled.
+  ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
+             bool with_curvatures, const Execution& execution);
+
+  Nodes place(int node_count, const Execution& execution) const override;
+
+ private:
+  const NormalizedScan& scan_;
+  OnScanOptions options_;
+  bool with_curvatures_;
+  ScanRemesher remesher_;
+};
+
+/// The method on the scan for a star-shaped surface that is known exactly: on a scan of it. Nodes
+/// on the surface go along their rays from the scan's flat faces to the surface itself.
+class SurfaceMethod : public RemeshMethod {
+ public:
+  /// `surface` has the units of `scan`; both must outlive this. Throws as ScanMethod.
+  SurfaceMethod(const NormalizedScan& scan, const RadialSurface& surface,
+                const OnScanOptions& options, int most_nodes, bool with_curvatures,
+                const Execution& execution)
+      : on_scan_(scan, options, most_nodes, with_curvatures, execution),
+        surface_(surface),
+        on_surface_(options.placement == ScanPlacement::OnSurface) {}
+
+  Nodes place(int node_count, const Execution& execution) const override;
+
+ private:
+  ScanMethod on_scan_;
+  const RadialSurface& surface_;
+  bool on_surface_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh/option_advice.h"
+
+namespace wscvt {
+
+namespace {
+
+/// A key, or a value of a key, of version 2, and what to do in version 3.
+struct Replaced {
+  std::string_view key;
+  std::string_view value;  ///< empty: whatever its value
+  std::string_view instead;
+};
+
+constexpr Replaced replaced[] = {
+    {"refine", "", "Use --edge-ratio 1.4 or larger, which comes closer to the scan."},
+    {"refine-angle", "", "Use --edge-ratio: triangles keep angles of about 30 degrees."},
+    {"refine-tolerance", "", "Leave it out: the fit ends by itself."},
+    {"metric", "",
+     "The method decides it: --method on-scan has its cells on the surface, --method as-published "
+     "on the sphere."},
+    {"parametrization", "",
+     "Leave it out: --method on-scan takes any closed grain, --method as-published star-shaped "
+     "ones."},
+    {"target", "", "Use --max-error."},
+    {"target-measure", "", "Use --error-measure."},
+    {"largest", "", "Use --max-nodes."},
+    {"mend-limit", "", "Use --max-repaired-area."},
+    {"envelope", "", "Use --shrink-wrap."},
+    {"fold-limit", "", "Use --max-overhang."},
+    {"handle-length", "", "Use --max-handle-loop."},
+    {"advice", "", "Use --suggestions, or --no-suggestions."},
+    {"no-advice", "", "Use --no-suggestions."},
+    {"seed-start", "", "Leave it out: the start is always the best one."},
+    {"seed", "", "Leave it out: nothing is random, the same scan gives the same mesh."},
+    {"iterations", "", "Leave it out: the relaxation ends by itself."},
+    {"tolerance", "", "Leave it out: the relaxation ends by itself."},
+    {"area-tolerance", "", "Leave it out: the relaxation ends by itself."},
+    {"acceleration", "", "Leave it out: the relaxation is always accelerated."},
+    {"no-acceleration", "", "Leave it out: the relaxation is always accelerated."},
+    {"over-relaxation", "", "Leave it out: the step is chosen by the method."},
+    {"coarsest-seeds", "", "Leave it out: the levels are chosen by the method."},
+    {"coarsest-tolerance", "", "Leave it out: the levels are chosen by the method."},
+    {"middle-tolerance", "", "Leave it out: the levels are chosen by the method."},
+    {"curvature-source", "",
+     "Leave it out: as published the curvature is that of the SH series, on the scan that of the "
+     "scan."},
+    {"adaptive-exponent", "", "Leave it out: it is 2/3, the best for the distance."},
+    {"distance-samples", "", "Leave it out: 400,000 samples are taken."},
+    {"weld-tolerance", "", "Leave it out: it is 1e-12 of the scan's size."},
+    {"dropped-volume", "", "Leave it out: it is 25 % of the volume."},
+    {"refuse-self-intersections", "",
+     "Leave it out: the report has the number of intersecting triangle pairs, and a warning says "
+     "it."},
+    {"sdf-margin", "", "Leave it out: the margin is 4 cells."},
+    {"input-unit", "", "Use --scale with the factor between the two units."},
+    {"output-unit", "", "Use --scale with the factor between the two units."},
+    {"weighting", "radial-distance", "Use wscvt-d."},
+    {"weighting", "curvature", "Use wscvt-c."},
+    {"placement", "series", "Use --method as-published, with --placement sh-surface."},
+    {"placement", "scan", "Use on-surface."},
+    {"placement", "least-squares", "Use fitted, with --method on-scan."},
+    {"placement", "contact", "Use contact-fit, with --method on-scan."},
+};
+
+/// The keys of a method's own options, and whether one of them has a value.
+class KnownOptions {
+ public:
+  KnownOptions(std::string_view key, std::string_view value) : key_(key), value_(value) {}
+
+  template <class Number>
+  void operator()(const Number& /*value*/, const NumberOption<Number>& option) {
+    has_key = has_key || option.key == key_;
+  }
+  template <class Enumeration>
+  void operator()(const Enumeration& /*value*/) {
+    if (EnumerationTable<Enumeration>::key != key_) return;
+    has_key = true;
+    for (const auto& row : enumerators<Enumeration>()) has_value = has_value || row.key == value_;
+  }
+
+  bool has_key = false;
+  bool has_value = false;
+
+ private:
+  std::string_view key_;
+  std::string_view value_;
+};
+
+KnownOptions known_to(Method method, std::string_view key, std::string_view value) {
+  KnownOptions known(key, value);
+  if (method == Method::OnScan) {
+    const OnScanOptions options;
+    for_each_method_option(options, known);
+  } else {
+    const AsPublishedOptions options;
+    for_each_method_option(options, known);
+  }
+  return known;
+}
+
+Method other(Method method) {
+  return method == Method::OnScan ? Method::AsPublished : Method::OnScan;
+}
+
+std::string instead_of(std::string_view key, std::string_view value) {
+  for (const Replaced& one : replaced) {
+    if (one.key == key && one.value == value) return std::string(one.instead);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string advice_for_option(std::string_view key, Method method) {
+  if (known_to(method, key, "").has_key) return "";
+  if (known_to(other(method), key, "").has_key) {
+    return "This is an option of the method " + key_of(other(method)) + ", but the method is " +
+           key_of(method) + ". Leave it out, or use --method " + key_of(other(method)) + ".";
+  }
+  const std::string instead = instead_of(key, "");
+  return instead.empty() ? "" : "Version 3 has no such option. " + instead;
+}
+
+std::string advice_for_value(std::string_view key, std::string_view value, Method method) {
+  if (known_to(method, key, value).has_value) return "";
+  if (known_to(other(method), key, value).has_value) {
+    return "\"" + std::string(value) + "\" is a value of the method " + key_of(other(method)) +
+           ", but the method is " + key_of(method) + ".";
+  }
+  const std::string instead = instead_of(key, value);
+  return instead.empty() ? "" : "Version 3 has no value \"" + std::string(value) + "\". " + instead;
+}
+
+std::vector<std::string_view> replaced_options() {
+  std::vector<std::string_view> keys;
+  for (const Replaced& one : replaced) {
+    if (one.value.empty()) keys.push_back(one.key);
+  }
+  return keys;
+}
+
+}  // namespace wscvt

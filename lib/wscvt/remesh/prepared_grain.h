@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/remesh/normalized_scan.h"
+#include "wscvt/remesh/remesh_method.h"
+#include "wscvt/remesh/remesh_options.h"
+#include "wscvt/remesh/remesh_result.h"
+#include "wscvt/scan/scan_options.h"
+#include "wscvt/surface/sphere_surface.h"
+
+namespace wscvt {
+
+/// A grain that is ready to be remeshed to any number of nodes by one of the methods, which refers
+/// to it: it is not moved.
+struct PreparedGrain {
+  PreparedGrain() = default;
+  PreparedGrain(const PreparedGrain&) = delete;
+  PreparedGrain& operator=(const PreparedGrain&) = delete;
+
+  NormalizedScan scan;
+  MeshCheckReport input;  ///< in the input's units
+  HandleReport handles;   ///< in the input's units; as published none is cut
+  SeriesCoefficients coefficients;
+  double steep_area_fraction = 0.0;  ///< see RemeshResult
+  std::unique_ptr<const RemeshMethod> method;
+  /// To the scan, where distances are measured. On a dense scan, building this tree costs more than
+  /// querying it. All node counts of a search share one tree.
+  std::optional<MeshDistance> distance;
+};
+
+/// Makes a repaired scan ready for the method that the options hold. This is where the method is
+/// chosen. Throws Error as the methods do.
+void prepare(CheckedMesh checked, const RemeshOptions& options, const Execution& execution,
+             PreparedGrain& grain);
+
+/// Makes the same scan ready for other options, with what was done about its handles. `grain` is
+/// empty before.
+void prepare_again(const PreparedGrain& prepared, const RemeshOptions& options,
+                   const Execution& execution, PreparedGrain& grain);
+
+/// Makes a surface given by a formula or by coefficients ready; `scaled`, of equivalent radius 1,
+/// must outlive the grain, and `integrals` are those of the surface in the unit `unit`.
+void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, double unit,
+             const RemeshOptions& options, const Execution& execution, PreparedGrain& grain);
+
+/// Places and measures `node_count` nodes; no search, no warnings. Throws Error as the method does.
+RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& options,
+                             int node_count, const Execution& execution);
+
+/// Whether the smallest number of nodes is searched for.
+inline bool searches(const RemeshOptions& options) { return options.target.percent > 0.0; }
+
+}  // namespace wscvt

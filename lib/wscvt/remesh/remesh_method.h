@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/remesh/remesh_result.h"
+
+namespace wscvt {
+
+/// The nodes and their mesh, in the units of the NormalizedScan and about its origin; so is what
+/// the report has of lengths.
+struct Nodes {
+  IndexedMesh mesh;
+  std::vector<double> cell_areas;  ///< see RemeshResult
+  std::vector<double> curvatures;  ///< largest absolute principal curvature at the nodes; if asked
+  std::variant<OnScanReport, AsPublishedReport> report;
+};
+
+/// One of the two methods, made ready for a grain.
+class RemeshMethod {
+ public:
+  RemeshMethod() = default;
+  RemeshMethod(const RemeshMethod&) = delete;
+  RemeshMethod& operator=(const RemeshMethod&) = delete;
+  virtual ~RemeshMethod() = default;
+
+  /// Places `node_count` nodes: asked once, or by a search and by suggestions many times. Throws
+  /// Error: InvalidInput, NumericalFailure, Cancelled.
+  virtual Nodes place(int node_count, const Execution& execution) const = 0;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh/remesh_result.h"
+
+#include "wscvt/base/error.h"
+#include "wscvt/nodes/error_measure.h"
+#include "wscvt/surface/harmonic_surface.h"
+
+namespace wscvt {
+
+double error_percent(const RemeshResult& result, ErrorMeasure measure) {
+  return error_percent(measure, result.remesh, result.original, result.distances);
+}
+
+void write_coefficients(const std::string& path, const RemeshResult& result) {
+  const SeriesCoefficients& coefficients = result.coefficients;
+  if (!coefficients.radius.empty()) {
+    write_harmonics(path, HarmonicSurface(coefficients.radius));
+  } else if (!coefficients.map[0].empty()) {
+    write_harmonic_map(path, HarmonicMap(coefficients.map));
+  } else {
+    throw Error(ErrorCode::InvalidInput,
+                "The result holds no coefficients; ask for them before remeshing.");
+  }
+}
+
+}  // namespace wscvt

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/mesh_quality.h"
+#include "wscvt/nodes/nodes_options.h"
+#include "wscvt/nodes/scan_nodes_options.h"
+#include "wscvt/remesh/remesh_options.h"
+#include "wscvt/scan/scan_options.h"
+#include "wscvt/surface/surface_options.h"
+#include "wscvt/tessellation/tessellation_options.h"
+
+namespace wscvt {
+
+/// Another setting, and what it gives.
+struct SuggestedSetting {
+  std::string setting;           ///< in words that complete "with"
+  double rms_distance = 0.0;     ///< from the scan to that remesh / equivalent radius
+  double area_difference = 0.0;  ///< area of that remesh / the scan's, less 1
+};
+
+/// How the method OnScan went.
+struct OnScanReport {
+  HandleReport handles;  ///< lengths and places of the input
+  ScanNodesReport nodes;
+};
+
+/// How the method AsPublished went.
+struct AsPublishedReport {
+  double overhang_fraction = 0.0;  ///< of the scan, see folded_solid_angle; 0 of a formula
+  HarmonicFitReport fit;           ///< of the SH series; empty of a formula
+  RelaxationReport relaxation;
+};
+
+/// Coefficients of an SH series about the result's centre, length. A grain that rays from its
+/// centroid see whole has one of the radius, others one of x, y and z (see HarmonicMap).
+struct SeriesCoefficients {
+  std::vector<double> radius;
+  std::array<std::vector<double>, 3> map;
+};
+
+/// A remesh and the reports of its stages, all in the input's units and coordinates.
+struct RemeshResult {
+  IndexedMesh mesh;                      ///< exactly N points, closed, outward (to_mesh: OpenMesh)
+  std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
+  std::vector<double> radial_distances;  ///< |vertex - centre|, length
+  std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
+  /// Surface area of each node's cell, length^2: as published of its power cell, on the scan a
+  /// third of its triangles'.
+  std::vector<double> cell_areas;
+  std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
+  Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
+  /// The scan as it was remeshed: with a surface where it is points, shrink-wrapped where that is
+  /// asked for, repaired, with its handles; if asked for, and not of a surface from a formula.
+  IndexedMesh repaired_scan;
+  MeshCheckReport input;  ///< what of the scan was repaired, and its measures
+  /// Of the area of a surface that was made of points, the fraction inclined more than 75 degrees
+  /// to the radius; else 0.
+  double steep_area_fraction = 0.0;
+  std::variant<OnScanReport, AsPublishedReport> method;
+  SeriesCoefficients coefficients;  ///< as published of a scan, on the scan if asked for
+  /// Rms distance from the scan to the remesh; length. Over the samples of `distances`, or over
+  /// 10,000 points of the scan where those were not asked for.
+  double rms_distance = 0.0;
+  std::vector<SuggestedSetting> suggestions;  ///< if the remesh is not accurate; see is_inaccurate
+  std::optional<MeshDistances> distances;     ///< between remesh and scan; if asked for
+  std::optional<NodeCountSearch> search;  ///< the error of each N tried, %; with an error target
+  MeshQuality original_quality;           ///< of the repaired scan
+  MeshQuality quality;                    ///< of the remesh
+  ShapeDescriptors original;              ///< of the repaired scan
+  ShapeDescriptors remesh;
+  RemeshOptions options;              ///< as used
+  std::vector<std::string> warnings;  ///< sentences for the user
+};
+
+/// The report of the method, or nullptr where the other one was used.
+inline const OnScanReport* on_scan_report(const RemeshResult& result) {
+  return std::get_if<OnScanReport>(&result.method);
+}
+inline const AsPublishedReport* as_published_report(const RemeshResult& result) {
+  return std::get_if<AsPublishedReport>(&result.method);
+}
+
+/// A result's error by a measure, in %, >= 0. Throws Error(InvalidInput) for Distance when the
+/// result holds no distances.
+double error_percent(const RemeshResult& result, ErrorMeasure measure);
+
+/// Writes the coefficients of a result as write_harmonics or write_harmonic_map does. On the scan a
+/// result needs `measures.coefficients`. Throws Error: InvalidInput for a result without
+/// coefficients, and what those throw.
+void write_coefficients(const std::string& path, const RemeshResult& result);
+
+}  // namespace wscvt

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh/remesh_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wscvt/base/text_format.h"
+#include "wscvt/scan/closing_advice.h"
+
+namespace wscvt {
+
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+/// Share of steep area above which points are taken to lie behind each other. The points of 22 real
+/// scans, made a surface again: up to .039 where the remesh follows that surface (area within 2 %,
+/// but for one of 4 %), .087 to .68 where it loses 3 to 50 % of its area.
+constexpr double steep_points_limit = 0.06;
+
+void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
+  const bool wraps = result.options.envelope.opening_percent > 0.0;
+  const std::size_t faces = result.options.points ? result.input.input_faces : 0;
+  const std::string unused =
+      faces > 0 ? ", its " + std::to_string(faces) + " faces were not used" : std::string();
+  if (result.options.points && !wraps) {
+    warnings.push_back(
+        "The scan was taken as points" + unused +
+        ": volume, area and folds of the original are those of the surface that was made for them, "
+        "with one radius in each direction, not those of the body. Check the result against it.");
+    if (result.steep_area_fraction > steep_points_limit) {
+      warnings.push_back(
+          format_percent(result.steep_area_fraction) +
+          " of the area of the surface made of the points is steep, as where some lie behind "
+          "others: they have no one radius in each direction. " +
+          surface_of_points_advice());
+    }
+  }
+  if (wraps) {
+    warnings.push_back("The scan was taken by its envelope" + unused +
+                       ": volume, area and distances of the original are those "
+                       "of the envelope, in which what is narrower than " +
+                       format_percent(0.01 * result.options.envelope.opening_percent) +
+                       " of the bounding box is filled. Check the result against the scan.");
+  }
+  const MeshCheckReport& input = result.input;
+  const std::size_t bodies = input.components - input.inner_components;
+  if (input.components > input.inner_components + 1) {
+    warnings.push_back("The scan has " + std::to_string(bodies) +
+                       " separate bodies; only the largest was remeshed.");
+  }
+  if (input.inner_components > 0) {
+    warnings.push_back("The scan has " + std::to_string(input.inner_components) +
+                       (input.inner_components == 1 ? " surface" : " surfaces") +
+                       " inside its outer one, around " + format_percent(input.inner_volume_share) +
+                       " of its volume; only the outer one was remeshed, as a body without pores.");
+  }
+  const double mended = input.flap_area_share + input.filled_area_share;
+  if (mended > 0.0) {
+    warnings.push_back("Holes and non-manifold edges of the scan were mended, which changed " +
+                       format_percent(mended) + " of its area. Check the result against the scan.");
+  }
+}
+
+void warn_of_handles(const RemeshResult& result, Sentences& warnings) {
+  const OnScanReport* report = on_scan_report(result);
+  if (report == nullptr) {
+    if (result.input.genus == 0) return;
+    warnings.push_back("The scan has " + std::to_string(result.input.genus) +
+                       (result.input.genus == 1 ? " handle" : " handles") +
+                       " (tunnels through the grain), which the published method closes.");
+    return;
+  }
+  const HandleReport& handles = report->handles;
+  if (!handles.cut.empty()) {
+    const std::size_t cut = handles.cut.size();
+    std::string text = std::to_string(cut) + (cut == 1 ? " handle" : " handles") + " of the scan " +
+                       (cut == 1 ? "was" : "were") + " cut, which changed its volume by " +
+                       format_percent(std::abs(handles.volume_change)) + ". The log says where.";
+    if (report->nodes.self_intersections > 0 || is_inaccurate(result)) {
+      text += " " + envelope_of_flaws_advice();
+    }
+    warnings.push_back(text);
+  }
+  if (handles.kept > 0) {
+    warnings.push_back("The grain has " + std::to_string(handles.kept) +
+                       (handles.kept == 1 ? " handle" : " handles") +
+                       " (tunnels through it), and so has the remesh.");
+  }
+}
+
+void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings) {
+  const OnScanReport* report = on_scan_report(result);
+  if (report == nullptr) return;
+  const std::string nodes = std::to_string(result.mesh.points.size()) + " nodes";
+  const std::size_t pairs = report->nodes.self_intersections;
+  if (pairs > 0) {
+    warnings.push_back(std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
+                       " of triangles of the remesh intersect: parts of the grain are closer "
+                       "together than " +
+                       nodes + " can follow. Use more nodes.");
+  }
+  const int enough = report->nodes.enough_nodes;
+  if (enough > 0) {
+    warnings.push_back(nodes + " are too few for the thin parts of this grain. Use at least " +
+                       std::to_string(enough) + " nodes.");
+  }
+}
+
+void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
+  const AsPublishedReport* report = as_published_report(result);
+  if (report == nullptr) return;
+  if (report->overhang_fraction > overhang_warning_limit) {
+    warnings.push_back("Overhangs of the grain cover " + format_percent(report->overhang_fraction) +
+                       " of the sphere. There the outermost surface was taken. Check the result "
+                       "against the scan.");
+  }
+  const HarmonicFitReport& fit = report->fit;
+  if (fit.degree < fit.requested_degree) {
+    warnings.push_back("The degree of the SH series was lowered from " +
+                       std::to_string(fit.requested_degree) + " to " + std::to_string(fit.degree) +
+                       ", because above it the radius is not positive everywhere: the grain is "
+                       "long, flat or sharp.");
+  }
+  const auto& options = std::get<AsPublishedOptions>(result.options.method);
+  // Of nodes on the scan the series only decides the cells.
+  if (options.placement != PublishedPlacement::Series) return;
+  const double residual = fit.residual / result.input.equivalent_radius;
+  if (residual > residual_warning_limit) {
+    warnings.push_back("The SH surface is " + format_percent(residual) +
+                       " of the equivalent radius (rms) off the scan. " +
+                       (fit.limit == DegreeLimit::None ? "Raise --degree, or use" : "Use") +
+                       " the placement on-surface or the method on-scan.");
+  }
+}
+
+void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
+  const AsPublishedReport* report = as_published_report(result);
+  if (report == nullptr) return;
+  const auto& options = std::get<AsPublishedOptions>(result.options.method);
+  const RelaxationReport& relaxation = report->relaxation;
+  if (options.sampling != Sampling::Weighted) {
+    const auto nodes = static_cast<int>(result.mesh.points.size());
+    if (nodes != result.options.node_count) {
+      warnings.push_back("The sampling " + key_of(options.sampling) + " has no form with " +
+                         std::to_string(result.options.node_count) + " nodes. The nearest, with " +
+                         std::to_string(nodes) + ", was used.");
+    }
+  } else if (relaxation.outcome == RelaxationOutcome::Settled) {
+    warnings.push_back("The relaxation stopped improving. The cell areas still vary by " +
+                       format_percent(relaxation.history.back().area_spread) +
+                       " around their targets. More nodes give more even cells.");
+  } else if (relaxation.outcome == RelaxationOutcome::Stuck) {
+    warnings.push_back("The relaxation stopped after " + std::to_string(relaxation.iterations) +
+                       " iterations, because a further step would have torn the triangulation. "
+                       "The mesh is valid but may be less even.");
+  } else if (relaxation.outcome == RelaxationOutcome::IterationLimit) {
+    warnings.push_back("The relaxation stopped at its limit of " +
+                       std::to_string(relaxation.iterations) +
+                       " iterations before it converged. The mesh is valid but may be less even.");
+  }
+  if (relaxation.weight_scale < 1.0) {
+    warnings.push_back("The differences between the weights were scaled by " +
+                       format_number(relaxation.weight_scale, 3) +
+                       ", because seeds would have lost their cells. " +
+                       (options.weighting == Weighting::Curvature
+                            ? "Lower --alpha."
+                            : "Use more nodes, or another weighting."));
+  }
+}
+
+std::string off_by(double rms_distance, double area_difference) {
+  return "rms distance " + format_percent(rms_distance) + " of the equivalent radius, area error " +
+         (area_difference < 0.0 ? "-" : "+") + format_percent(std::abs(area_difference));
+}
+
+void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
+  if (result.input.input_vertices == 0 || !is_inaccurate(result)) return;
+  const double rms = result.rms_distance / result.input.equivalent_radius;
+  const double area = result.remesh.area / result.original.area - 1.0;
+  std::string text = "The remesh is not accurate: " + off_by(rms, area) + ".";
+  // The measure that is farthest over its limit decides which setting helps most.
+  const auto badness = [](double distance, double area_difference) {
+    return std::max(distance / distance_warning_limit,
+                    std::abs(area_difference) / area_warning_limit);
+  };
+  const auto badness_of = [&](const SuggestedSetting& one) {
+    return badness(one.rms_distance, one.area_difference);
+  };
+  std::vector<SuggestedSetting> better;
+  for (const SuggestedSetting& one : result.suggestions) {
+    if (badness_of(one) < badness(rms, area)) better.push_back(one);
+  }
+  std::stable_sort(better.begin(), better.end(),
+                   [&](const SuggestedSetting& a, const SuggestedSetting& b) {
+                     return badness_of(a) < badness_of(b);
+                   });
+  // Two, since the nearest may cost nodes or evenness that one does not want to pay.
+  constexpr std::size_t most_named = 2;
+  for (std::size_t k = 0; k < std::min(most_named, better.size()); ++k) {
+    text += " Better: " + better[k].setting + " (" +
+            off_by(better[k].rms_distance, better[k].area_difference) + ").";
+  }
+  if (better.empty() && !result.suggestions.empty()) text += " No tested setting is better.";
+  warnings.push_back(text);
+}
+
+/// On the scan triangles have angles above 35 degrees on ordinary grains; smaller ones are said.
+void warn_of_angles(const RemeshResult& result, Sentences& warnings) {
+  constexpr double jammed = 20.0;
+  if (on_scan_report(result) == nullptr) return;
+  const double smallest = result.quality.smallest_angle;
+  if (smallest >= jammed) return;
+  warnings.push_back("The smallest angle is " + format_number(smallest, 3) +
+                     " degrees: at a thin or sharp place there is no room for better triangles. "
+                     "Another number of nodes gives other triangles there.");
+}
+
+void warn_of_search(const RemeshResult& result, Sentences& warnings) {
+  if (result.search && !result.search->met) {
+    warnings.push_back("No number of nodes up to " + std::to_string(result.search->node_count) +
+                       " has an error of at most " +
+                       format_percent(0.01 * result.options.target.percent) +
+                       ". This is the result with that many. Allow more nodes, or a larger error.");
+  }
+}
+
+}  // namespace
+
+bool is_inaccurate(const RemeshResult& result) {
+  const auto* on_scan = std::get_if<OnScanOptions>(&result.options.method);
+  if (on_scan != nullptr && on_scan->placement == ScanPlacement::ContactFit) return false;
+  return result.rms_distance > distance_warning_limit * result.input.equivalent_radius ||
+         std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
+}
+
+std::vector<std::string> remesh_warnings(const RemeshResult& result,
+                                         const std::string& of_precision) {
+  Sentences warnings;
+  if (!of_precision.empty()) warnings.push_back(of_precision);
+  warn_of_scan(result, warnings);
+  warn_of_handles(result, warnings);
+  warn_of_fit(result, warnings);
+  warn_of_distance(result, warnings);
+  warn_of_self_intersections(result, warnings);
+  warn_of_relaxation(result, warnings);
+  warn_of_angles(result, warnings);
+  warn_of_search(result, warnings);
+  return warnings;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh/repaired_scan.h"
+
+#include <utility>
+
+#include "wscvt/scan/coordinates.h"
+#include "wscvt/scan/envelope.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/point_cloud.h"
+#include "wscvt/scan/steep_area.h"
+
+namespace wscvt {
+
+RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
+                         const Execution& execution) {
+  RepairedScan repaired;
+  const std::size_t points = scan.points.size();
+  const std::size_t faces = scan.triangles.size();
+  const bool wraps = options.envelope.opening_percent > 0.0;
+  if (wraps && options.points) {
+    // Not of a surface made of the points by their rays: the wrap sees what lies behind others.
+    scan.triangles.clear();
+  } else {
+    scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.7));
+  }
+  const std::size_t different = scan.points.size();
+  repaired.precision_warning = precision_warning(scan);
+  if (wraps) scan = envelope_of(std::move(scan), options.envelope, execution.part(0.7, 0.85));
+  MeshCheckOptions check;
+  check.mended_area_limit_percent = options.max_repaired_area_percent;
+  repaired.checked =
+      check_mesh(std::move(scan), check, execution.part(options.points || wraps ? 0.85 : 0.0, 1.0));
+  MeshCheckReport& report = repaired.checked.report;
+  if (options.points && !wraps) {
+    repaired.steep_area_fraction =
+        steep_area_fraction(repaired.checked.mesh, report.centroid, execution);
+  }
+  if (options.points || wraps) count_given(points, faces, different, report);
+  return repaired;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/remesh/remesh_options.h"
+#include "wscvt/scan/scan_options.h"
+
+namespace wscvt {
+
+/// The scan as both methods take it: one closed, outward surface, in the input's units.
+struct RepairedScan {
+  CheckedMesh checked;
+  double steep_area_fraction = 0.0;  ///< of a surface made of points, see RemeshResult; else 0
+  std::string precision_warning;     ///< see precision_warning
+};
+
+/// Makes a surface of points and wraps the scan, where that is asked for, and repairs it (see
+/// check_mesh). Throws Error as mesh_of_points, envelope_of and check_mesh do.
+RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
+                         const Execution& execution);
+
+}  // namespace wscvt

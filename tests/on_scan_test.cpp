@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The method on the scan as a whole: any closed grain, by one pipeline.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "grains/bent_grain.h"
+#include "grains/ct_grain.h"
+#include "grains/handled_body.h"
+#include "support/expect_error.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/remesh.h"
+#include "wscvt/remesh/remesh_warnings.h"
+#include "wscvt/report/report.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/mesh_io.h"
+#include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/quadric_surface.h"
+
+namespace wscvt {
+namespace {
+
+IndexedMesh body(const std::string& name) {
+  return test::bent_grain_mesh(test::bent_grain(name), 2500);
+}
+
+RemeshOptions options_of(int nodes, const OnScanOptions& on_scan = {}) {
+  RemeshOptions options;
+  options.node_count = nodes;
+  options.method = on_scan;
+  return options;
+}
+
+OnScanOptions placed(ScanPlacement placement) {
+  OnScanOptions on_scan;
+  on_scan.placement = placement;
+  return on_scan;
+}
+
+const OnScanReport& report_of(const RemeshResult& result) { return *on_scan_report(result); }
+
+/// Exactly so many nodes, closed, outward, of that genus: nothing to repair; and no pair of
+/// triangles that the report does not have.
+void expect_valid(const RemeshResult& result, std::size_t nodes, int genus,
+                  const std::string& what) {
+  const std::size_t faces = 2 * nodes - 4 + 4 * static_cast<std::size_t>(genus);
+  ASSERT_EQ(result.mesh.points.size(), nodes) << what;
+  ASSERT_EQ(result.mesh.triangles.size(), faces) << what;
+  const MeshCheckReport report = check_mesh(result.mesh, MeshCheckOptions(), Execution(1)).report;
+  EXPECT_EQ(report.vertices, nodes) << what;
+  EXPECT_EQ(report.faces, faces) << what;
+  EXPECT_EQ(report.genus, genus) << what;
+  EXPECT_EQ(report.reoriented_faces, 0U) << what;
+  EXPECT_EQ(report_of(result).nodes.self_intersections, self_intersections(result.mesh).size())
+      << what;
+}
+
+bool says(const std::vector<std::string>& lines, const std::string& what) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const std::string& line) { return line.find(what) != std::string::npos; });
+}
+
+double rms(const RemeshResult& result) {
+  return result.rms_distance / result.input.equivalent_radius;
+}
+
+TEST(OnScan, GentleAndBentGrainsGoTheSameWay) {
+  std::vector<std::pair<std::string, IndexedMesh>> grains = {{"lumpy", test::lumpy(4)}};
+  for (const char* name : {"hook", "C-shape", "mushroom", "crescent"}) {
+    grains.emplace_back(name, body(name));
+  }
+  for (const auto& [name, scan] : grains) {
+    const RemeshResult result = remesh(scan, options_of(400), Execution(1));
+    expect_valid(result, 400, 0, name);
+    EXPECT_EQ(report_of(result).nodes.self_intersections, 0U) << name;
+    // Rounding of sums over 800 triangles, and of the way to units of the radius and back.
+    EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11) << name;
+    EXPECT_NEAR(result.remesh.area / result.original.area, 1.0, 0.03) << name;
+    EXPECT_LT(result.quality.edge_ratio.mean, 1.2) << name;
+    EXPECT_TRUE(says(report_lines(result), "on the scan: ")) << name;
+  }
+}
+
+TEST(OnScan, NodesOnTheSurfaceLieOnItAndFittedOnesAreCloser) {
+  const IndexedMesh scan = body("hook");
+  const MeshDistance to_scan(scan, Execution(1));
+  const RemeshResult on = remesh(scan, options_of(300, placed(ScanPlacement::OnSurface)));
+  expect_valid(on, 300, 0, "on the surface");
+  for (const double d : to_scan.distances(on.mesh.points, Execution(1))) {
+    EXPECT_LT(d, 1e-9 * on.input.equivalent_radius);
+  }
+  const RemeshResult fitted = remesh(scan, options_of(300));
+  EXPECT_LT(rms(fitted), 0.8 * rms(on));
+}
+
+TEST(OnScan, ALargerEdgeRatioIsCloserToTheScan) {
+  const IndexedMesh scan = test::exact_mesh(test::angular_grain(5), test::sphere(4));
+  OnScanOptions close;
+  close.edge_ratio = 1.4;
+  const RemeshResult even = remesh(scan, options_of(300));
+  const RemeshResult closer = remesh(scan, options_of(300, close));
+  expect_valid(closer, 300, 0, "close");
+  EXPECT_LT(rms(closer), 0.95 * rms(even));
+  EXPECT_GT(closer.quality.edge_ratio.mean, even.quality.edge_ratio.mean + 0.1);
+}
+
+TEST(OnScan, ContactFitKeepsTheMeshAndLiesFartherOut) {
+  for (const char* name : {"hook", "mushroom"}) {
+    const RemeshResult fitted = remesh(body(name), options_of(400), Execution(2));
+    const RemeshResult contact =
+        remesh(body(name), options_of(400, placed(ScanPlacement::ContactFit)), Execution(2));
+    expect_valid(contact, 400, 0, name);
+    EXPECT_EQ(contact.mesh.triangles, fitted.mesh.triangles) << name;
+    EXPECT_GT(contact.remesh.volume, 1.001 * fitted.remesh.volume) << name;
+    EXPECT_LT(contact.remesh.volume, 1.1 * fitted.remesh.volume) << name;
+    // What it is fitted to is not the scan's shape, so nothing better is suggested.
+    EXPECT_TRUE(contact.suggestions.empty()) << name;
+  }
+}
+
+TEST(OnScan, CurvatureWeightingsGatherNodesWhereItBends) {
+  // The ends of a long ellipsoid.
+  const IndexedMesh scan = test::scaled(test::sphere(5), Vector3(2.5, 1.0, 1.0));
+  const auto at_the_ends = [&](CellWeighting weighting) {
+    OnScanOptions on_scan;
+    on_scan.weighting = weighting;
+    const RemeshResult result = remesh(scan, options_of(400, on_scan), Execution(1));
+    expect_valid(result, 400, 0, "ellipsoid");
+    return std::count_if(result.mesh.points.begin(), result.mesh.points.end(),
+                         [](const Vector3& p) { return std::abs(p.x()) > 2.0; });
+  };
+  const auto even = at_the_ends(CellWeighting::Area);
+  EXPECT_GT(at_the_ends(CellWeighting::Curvature), 1.1 * static_cast<double>(even));
+  EXPECT_GT(at_the_ends(CellWeighting::ErrorAdaptive), 1.1 * static_cast<double>(even));
+}
+
+TEST(OnScan, SameBytesOnAnyNumberOfThreads) {
+  for (const auto& weighting : enumerators<CellWeighting>()) {
+    OnScanOptions on_scan;
+    on_scan.weighting = weighting.value;
+    RemeshOptions options = options_of(300, on_scan);
+    options.measures.distances = true;
+    options.measures.node_curvatures = true;
+    const RemeshResult one = remesh(body("mushroom"), options, Execution(1));
+    const RemeshResult three = remesh(body("mushroom"), options, Execution(3));
+    EXPECT_EQ(one.mesh.points, three.mesh.points) << weighting.label;
+    EXPECT_EQ(one.mesh.triangles, three.mesh.triangles) << weighting.label;
+    EXPECT_EQ(one.cell_areas, three.cell_areas) << weighting.label;
+    EXPECT_EQ(report_json(one), report_json(three)) << weighting.label;
+  }
+}
+
+TEST(OnScan, NoisyHandlesAreCutAndTold) {
+  for (const IndexedMesh& mesh : {test::ball_with_a_bridge(), test::ball_with_a_tunnel()}) {
+    const RemeshResult result = remesh(mesh, options_of(300), Execution(1));
+    expect_valid(result, 300, 0, "a ball with a handle");
+    EXPECT_EQ(result.input.genus, 1);
+    ASSERT_EQ(report_of(result).handles.cut.size(), 1U);
+    EXPECT_TRUE(says(result.warnings, "1 handle of the scan was cut"));
+    EXPECT_TRUE(says(report_lines(result), "1 handle cut and closed"));
+    // The volume that is kept is that of the scan without its handle.
+    EXPECT_NEAR(result.remesh.volume / result.input.volume, 1.0, 1e-11);
+  }
+}
+
+TEST(OnScan, HandlesAreKeptOrRefusedWhereAskedFor) {
+  const IndexedMesh drilled = test::ball_with_a_tunnel();
+  OnScanOptions on_scan;
+  on_scan.handles.action = HandleAction::Keep;
+  const RemeshResult kept = remesh(drilled, options_of(500, on_scan), Execution(1));
+  expect_valid(kept, 500, 1, "kept");
+  EXPECT_EQ(report_of(kept).handles.kept, 1);
+  EXPECT_TRUE(report_of(kept).handles.cut.empty());
+  EXPECT_TRUE(says(kept.warnings, "has 1 handle"));
+  on_scan.handles.action = HandleAction::Refuse;
+  const std::string sentence = test::refusal(
+      ErrorCode::InvalidInput, [&] { remesh(drilled, options_of(500, on_scan), Execution(1)); });
+  EXPECT_NE(sentence.find("--handles cut or keep"), std::string::npos) << sentence;
+}
+
+TEST(OnScan, ARingStaysARing) {
+  const IndexedMesh ring = test::torus(1.0, 0.4, 24);
+  const RemeshResult result = remesh(ring, options_of(400), Execution(1));
+  expect_valid(result, 400, 1, "a ring");
+  EXPECT_EQ(report_of(result).handles.kept, 1);
+  EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11);
+  EXPECT_TRUE(says(report_lines(result), "1 kept"));
+  OnScanOptions cut_open;
+  cut_open.handles.length_limit = 3.0;
+  const RemeshResult cut = remesh(ring, options_of(400, cut_open), Execution(1));
+  expect_valid(cut, 400, 0, "a ring cut open");
+  EXPECT_EQ(report_of(cut).handles.cut.size(), 1U);
+}
+
+TEST(OnScan, CoefficientsGiveTheBodyAgain) {
+  RemeshOptions options = options_of(400);
+  options.measures.coefficients = true;
+  const RemeshResult hook = remesh(body("hook"), options, Execution(1));
+  EXPECT_TRUE(hook.coefficients.radius.empty());
+  ASSERT_EQ(hook.coefficients.map[0].size(), 441U);  // degree 20
+  const RemeshResult again = remesh(HarmonicMap(hook.coefficients.map), options, Execution(1));
+  expect_valid(again, 400, 0, "a hook from its coefficients");
+  // The series is an approximation: rms .7 to 2.5 % at degree 20 on such bodies.
+  EXPECT_NEAR(again.input.volume / hook.input.volume, 1.0, 0.05);
+  EXPECT_TRUE(remesh(body("hook"), options_of(50)).coefficients.map[0].empty());
+  // Rays see all of a gentle grain.
+  options.degree = 8;
+  const RemeshResult gentle = remesh(test::lumpy(4), options, Execution(1));
+  EXPECT_EQ(gentle.coefficients.radius.size(), 81U);
+  EXPECT_TRUE(gentle.coefficients.map[0].empty());
+}
+
+TEST(OnScan, ASurfaceFromAFormulaIsSampledAndItsNodesLieOnIt) {
+  const Ellipsoid ellipsoid(Vector3(13.0, 9.0, 7.0));
+  const RemeshResult on =
+      remesh(ellipsoid, options_of(500, placed(ScanPlacement::OnSurface)), Execution(1));
+  expect_valid(on, 500, 0, "on the surface");
+  for (std::size_t i = 0; i < on.directions.size(); ++i) {
+    EXPECT_NEAR(on.radial_distances[i], ellipsoid.radius(on.directions[i]), 1e-12);
+  }
+  EXPECT_NEAR(on.original.volume / (4.0 / 3.0 * test::pi * 13.0 * 9.0 * 7.0), 1.0, 1e-10);
+  const RemeshResult fitted = remesh(ellipsoid, options_of(500), Execution(1));
+  EXPECT_NEAR(fitted.remesh.volume / fitted.original.volume, 1.0, 1e-9);
+}
+
+TEST(OnScan, WhatIsNotAccurateIsSaidWithSettingsThatHelp) {
+  const RemeshOptions options = options_of(80);
+  const RemeshResult few = remesh(body("mushroom"), options);
+  ASSERT_TRUE(is_inaccurate(few));
+  EXPECT_TRUE(says(few.warnings, "not accurate: rms distance"));
+  ASSERT_FALSE(few.suggestions.empty());
+  // Followed, the last gives what it promises.
+  RemeshOptions twice = options;
+  twice.node_count = 160;
+  const RemeshResult followed = remesh(body("mushroom"), twice);
+  const auto found =
+      std::find_if(few.suggestions.begin(), few.suggestions.end(),
+                   [](const SuggestedSetting& one) { return one.setting == "160 nodes"; });
+  if (found != few.suggestions.end()) {
+    EXPECT_DOUBLE_EQ(rms(followed), found->rms_distance);
+    EXPECT_DOUBLE_EQ(followed.remesh.area / followed.original.area - 1.0, found->area_difference);
+  } else {
+    // One before it was accurate.
+    EXPECT_LT(few.suggestions.back().rms_distance, distance_warning_limit);
+  }
+  RemeshOptions silent = options;
+  silent.measures.suggestions = false;
+  EXPECT_TRUE(remesh(body("mushroom"), silent).suggestions.empty());
+  // As published on a body of fine detail the other method helps.
+  const IndexedMesh box = test::subdivided(test::box(1.0, 1.1, 1.3), 5);
+  RemeshOptions published = options_of(800);
+  published.method = AsPublishedOptions();
+  published.degree = 4;
+  const RemeshResult blunt = remesh(box, published);
+  EXPECT_TRUE(says(blunt.warnings, "Better: the method on-scan"));
+  const RemeshResult enough = remesh(box, options_of(800));
+  EXPECT_FALSE(is_inaccurate(enough));
+  EXPECT_TRUE(enough.suggestions.empty());
+}
+
+}  // namespace
+}  // namespace wscvt
