@@ -45,7 +45,7 @@ struct Case {
 
 /// Those of one scan.
 std::vector<Case> cases_of(const std::string& scan) {
-  std::ifstream file(WSCVT_MESHES_DIR "/../tests/as_published_digests.txt");
+  std::ifstream file(WSCVT_MESHES_DIR "/../tests/remesh/as_published_digests.txt");
   std::vector<Case> cases;
   std::string line;
   while (std::getline(file, line)) {
