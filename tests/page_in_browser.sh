@@ -25,8 +25,8 @@ browser() {  # width, height, further arguments
   }
 }
 
-# With an error target, so that every figure is there.
-"$program" -q "$meshes/sand_7228.ply" "$folder/remesh.ply" -n 300 --target 2 --target-measure distance \
+# With an allowed error, so that every figure is there.
+"$program" -q "$meshes/sand_7228.ply" "$folder/remesh.ply" -n 300 --max-error 2 --error-measure distance \
   --report "$folder/page.html"
 
 # A window of Chromium is never narrower than 500 pixels, but a frame in it is.

@@ -35,7 +35,7 @@ cat > "$work/collapse.mlx" <<XML
 </FilterScript>
 XML
 # The edge length at which a surface of this area has about that many vertices: the remesh's own.
-"$program" "$scan" "$work/ours.ply" -n "$nodes" -w area --report "$work/ours.json" -q
+"$program" "$scan" "$work/ours.ply" -n "$nodes" --report "$work/ours.json" -q
 edge=$(sed -n 's/^ *"mean": \([0-9.e+-]*\),*$/\1/p' "$work/ours.json" | sed -n 3p)
 cat > "$work/isotropic.mlx" <<XML
 <!DOCTYPE FilterScript>
@@ -81,7 +81,7 @@ run() {  # name, output file, command...
 
 server="meshlabserver -i $scan"
 {
-  run wscvt "$work/ours.ply" "$program" "$scan" "$work/ours.ply" -n "$nodes" -w area -q
+  run wscvt "$work/ours.ply" "$program" "$scan" "$work/ours.ply" -n "$nodes" -q
   run wscvt-published "$work/published.ply" \
     "$program" "$scan" "$work/published.ply" -n "$nodes" -w area --method as-published -q
   # shellcheck disable=SC2086

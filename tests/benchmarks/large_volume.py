@@ -85,7 +85,8 @@ def main():
         out = arguments.folder / "out"
         call = [arguments.program, "extract", arguments.folder / "labels.json", out]
         if arguments.remesh:
-            call += ["--remesh", "-n", "500", "--method", "as-published"]
+            call = [arguments.program, "batch", arguments.folder / "labels.json", "-o", out, "-n",
+                    "500", "--method", "as-published"]
         start = time.time()
         child = subprocess.run(
             call, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (LIMIT, LIMIT)))

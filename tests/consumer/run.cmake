@@ -29,7 +29,7 @@ endforeach()
 # The shells of the library build on these as well, but for how they write texts and files, and for a
 # sample's table and a volume's, which are the program's own.
 set(of_the_project wscvt/base/output_file.h wscvt/base/text_format.h
-  wscvt/report/json.h wscvt/report/sample_summary.h wscvt/report/sample_table.h)
+  wscvt/remesh/option_advice.h wscvt/report/json.h wscvt/report/sample_summary.h wscvt/report/sample_table.h)
 file(GLOB_RECURSE shells ${source_dir}/lib/program/*.h ${source_dir}/lib/program/*.cpp
   ${source_dir}/lib/python/*.cpp ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp)
 foreach(shell ${shells})

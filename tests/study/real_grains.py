@@ -44,8 +44,8 @@ def row(name, nodes, report, seconds):
             f"| {percent * report['distances']['root_mean_square']:.3f} "
             f"| {percent * report['distances']['largest']:.2f} "
             f"| {errors['area']['error_percent']:+.2f} | {errors['volume']['error_percent']:+.0e} "
-            f"| {report['space']['self_intersections']} | {seconds:.2f} "
-            f"| {report['parametrization']} | {len(report['warnings'])} |")
+            f"| {report['on_scan']['self_intersections']} | {seconds:.2f} "
+            f"| {len(report['warnings'])} |")
 
 
 def main():
@@ -57,9 +57,9 @@ def main():
     scans = sorted(p for p in arguments.folder.iterdir() if p.suffix.lower() in MESHES)
     if not scans:
         sys.exit(f"{arguments.folder} holds no mesh file.")
-    print("| scan | N | ratio | ECV | angle | rms | largest | area | volume | meeting | s | map "
+    print("| scan | N | ratio | ECV | angle | rms | largest | area | volume | pairs | s "
           "| warnings |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for scan in scans:
         for nodes in arguments.nodes:
             report, told = remesh(arguments.program, scan, nodes, options)

@@ -9,12 +9,12 @@ program=$(realpath "${1:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLAC
 folder=$(realpath -m "${2:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
 seeds=$(seq "${3:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
 shift 3
-[ $# -gt 0 ] || set -- 7228:scan 100:scan 500:scan 1000:scan 100:least-squares 200:least-squares 200:contact
+[ $# -gt 0 ] || set -- 7228:on-surface 100:on-surface 500:on-surface 1000:on-surface 100:fitted 200:fitted 200:contact-fit
 here=$(realpath "$(dirname "$0")")
 mkdir -p "$folder"
 cd "$folder"
 # What the packings are held against: as many nodes on the scan as it has vertices.
-"$program" remesh -q "$here/../../meshes/sand_7228.ply" vertices.ply -n 7228 -p scan \
+"$program" remesh -q "$here/../../meshes/sand_7228.ply" vertices.ply -n 7228 -p on-surface \
   --frame principal --size 0.1 --node-table vertices.csv --sdf vertices.npy
 for set in "$@"; do
   nodes=${set%:*}
@@ -24,7 +24,7 @@ for set in "$@"; do
     --frame principal --size 0.1 --node-table "$name.csv" --sdf "$name.npy"
 done
 # Without damping and friction the packing must keep its energy: else the law makes some in those below too.
-"$program" remesh -q "$here/../../meshes/sand_7228.ply" undamped.ply -n 100 -p scan \
+"$program" remesh -q "$here/../../meshes/sand_7228.ply" undamped.ply -n 100 -p on-surface \
   --frame principal --size 0.1 --node-table undamped.csv --sdf undamped.npy
 for law in contacts own; do
   yade -n -x "$here/yade_packing.py" undamped.csv undamped.npy 1 undamped.energies 3 6 1 0 0 "$law" \
