@@ -448,22 +448,22 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   set("/input/degenerate_faces", input.degenerate_faces);
   set("/input/sliver_faces", input.sliver_faces);
   set("/input/duplicate_faces", input.duplicate_faces);
-  set("/input/duplicate_area_share", input.duplicate_area_share);
-  set("/input/folded_faces", input.folded_faces);
-  set("/input/folded_area_share", input.folded_area_share);
+  set("/input/duplicate_area_fraction", input.duplicate_area_share);
+  set("/input/back_to_back_faces", input.folded_faces);
+  set("/input/back_to_back_area_fraction", input.folded_area_share);
   set("/input/non_manifold_edges", input.non_manifold_edges);
   set("/input/flap_faces", input.flap_faces);
-  set("/input/flap_area_share", input.flap_area_share);
+  set("/input/flap_area_fraction", input.flap_area_share);
   set("/input/filled_holes", input.filled_holes);
   set("/input/filling_faces", input.filling_faces);
-  set("/input/filled_area_share", input.filled_area_share);
+  set("/input/filled_area_fraction", input.filled_area_share);
   set("/input/reoriented_faces", input.reoriented_faces);
   set("/input/split_vertices", input.split_vertices);
   set("/input/components", input.components);
   set("/input/inner_components", input.inner_components);
-  set("/input/inner_volume_share", input.inner_volume_share);
+  set("/input/inner_volume_fraction", input.inner_volume_share);
   set("/input/dropped_faces", input.dropped_faces);
-  set("/input/dropped_volume_share", input.dropped_volume_share);
+  set("/input/dropped_volume_fraction", input.dropped_volume_share);
   set("/input/used_vertices", input.vertices);
   set("/input/used_faces", input.faces);
   set("/input/genus", input.genus);
@@ -474,15 +474,14 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   set("/centre/x", result.centre.x());
   set("/centre/y", result.centre.y());
   set("/centre/z", result.centre.z());
-  set("/folded_share", result.folded_share);
-  set("/steep_share", result.steep_share);
-  set("/handles/volume_change", result.handles.volume_change);
-  set("/fit/requested_degree", result.fit.requested_degree);
-  set("/fit/degree", result.fit.degree);
-  set("/fit/rays", result.fit.rays);
-  set("/fit/residual", result.fit.residual);
-  set("/fit/chord_error", result.fit.chord_error);
-  set("/fit/smallest_radius", result.fit.smallest_radius);
+  set("/steep_area_fraction", result.steep_area_fraction);
+  AsPublishedReport& method = published(result);
+  set("/as_published/overhang_fraction", method.overhang_fraction);
+  set("/as_published/fit/requested_degree", method.fit.requested_degree);
+  set("/as_published/fit/degree", method.fit.degree);
+  set("/as_published/fit/rays", method.fit.rays);
+  set("/as_published/fit/residual", method.fit.residual);
+  set("/as_published/fit/smallest_radius", method.fit.smallest_radius);
   for (auto [name, quality] : {std::pair("/quality/original", &result.original_quality),
                                std::pair("/quality/remesh", &result.quality)}) {
     const std::string of = name;
@@ -499,7 +498,7 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
     set(of + "/mean_smallest_angle_degrees", quality->mean_smallest_angle);
     set(of + "/valence_six_share", quality->valence_six_share);
   }
-  set("/misfit/root_mean_square", result.misfit);
+  set("/rms_distance/scan_to_remesh", result.rms_distance);
   result.distances.emplace();
   set("/distances/from_remesh/maximum", result.distances->to_reference.maximum);
   set("/distances/from_remesh/root_mean_square", result.distances->to_reference.root_mean_square);
@@ -511,14 +510,12 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   set("/distances/largest", result.distances->largest);
   set("/distances/root_mean_square", result.distances->root_mean_square);
   result.search.emplace();
-  set("/search/node_count", result.search->node_count);
+  set("/node_count_search/node_count", result.search->node_count);
   result.search->trials = {{300, 1.5}, {642, 0.5}};
-  result.relaxation.history = {{0.5, 0.25, 7}, {0.125, 0.0625, 3}};
-  set("/relaxation/iterations", result.relaxation.iterations);
-  set("/relaxation/rebuilds", result.relaxation.rebuilds);
-  set("/relaxation/weight_scale", result.relaxation.weight_scale);
-  result.refinement.history = {{0.75, 1, 2, 3}, {0.375, 4, 5, 6}};
-  set("/refinement/start_distance", result.refinement.start_distance);
+  method.relaxation.history = {{0.5, 0.25, 7}, {0.125, 0.0625, 3}};
+  set("/as_published/relaxation/iterations", method.relaxation.iterations);
+  set("/as_published/relaxation/rebuilds", method.relaxation.rebuilds);
+  set("/as_published/relaxation/weight_scale", method.relaxation.weight_scale);
 
   const auto json = nlohmann::json::parse(report_json(result));
   for (const auto& [name, value] : expected) {
@@ -527,32 +524,59 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   const auto at = [&](const std::string& name) {
     return json.at(nlohmann::json::json_pointer(name));
   };
-  EXPECT_NEAR(at("/fit/residual_percent_of_equivalent_radius").get<double>(),
-              100.0 * result.fit.residual / input.equivalent_radius, 1e-12);
-  EXPECT_NEAR(at("/misfit/percent_of_equivalent_radius").get<double>(),
-              100.0 * result.misfit / input.equivalent_radius, 1e-12);
+  EXPECT_NEAR(at("/as_published/fit/residual_percent_of_equivalent_radius").get<double>(),
+              100.0 * method.fit.residual / input.equivalent_radius, 1e-12);
+  EXPECT_NEAR(at("/rms_distance/percent_of_equivalent_radius").get<double>(),
+              100.0 * result.rms_distance / input.equivalent_radius, 1e-12);
   EXPECT_EQ(at("/result/vertices"), result.mesh.points.size());
   EXPECT_EQ(at("/result/faces"), result.mesh.triangles.size());
   // The last of a history, and each list of its own numbers.
-  EXPECT_EQ(at("/relaxation/displacement"), 0.125);
-  EXPECT_EQ(at("/relaxation/area_spread"), 0.0625);
-  EXPECT_EQ(at("/relaxation/history/displacement"), nlohmann::json({0.5, 0.125}));
-  EXPECT_EQ(at("/relaxation/history/area_spread"), nlohmann::json({0.25, 0.0625}));
-  EXPECT_EQ(at("/relaxation/history/flips"), nlohmann::json({7, 3}));
-  EXPECT_EQ(at("/refinement/rounds"), 2);
-  EXPECT_EQ(at("/refinement/distance"), 0.375);
-  EXPECT_EQ(at("/refinement/history/distance"), nlohmann::json({0.75, 0.375}));
-  EXPECT_EQ(at("/refinement/history/moves"), nlohmann::json({1, 4}));
-  EXPECT_EQ(at("/refinement/history/flips"), nlohmann::json({2, 5}));
-  EXPECT_EQ(at("/refinement/history/relocations"), nlohmann::json({3, 6}));
-  EXPECT_EQ(at("/search/trials/1/node_count"), 642);
-  EXPECT_EQ(at("/search/trials/1/error_percent"), 0.5);
+  EXPECT_EQ(at("/as_published/relaxation/displacement"), 0.125);
+  EXPECT_EQ(at("/as_published/relaxation/area_spread"), 0.0625);
+  EXPECT_EQ(at("/as_published/relaxation/history/displacement"), nlohmann::json({0.5, 0.125}));
+  EXPECT_EQ(at("/as_published/relaxation/history/area_spread"), nlohmann::json({0.25, 0.0625}));
+  EXPECT_EQ(at("/as_published/relaxation/history/flips"), nlohmann::json({7, 3}));
+  EXPECT_EQ(at("/node_count_search/trials/1/node_count"), 642);
+  EXPECT_EQ(at("/node_count_search/trials/1/error_percent"), 0.5);
   // The mass of each body, its tensor without symmetry between the axes.
   for (const auto& [name, body] : {std::pair(std::string("/mass/original"), &result.original),
                                    std::pair(std::string("/mass/remesh"), &result.remesh)}) {
     EXPECT_EQ(at(name + "/volume"), body->volume);
     EXPECT_EQ(at(name + "/inertia_tensor/yz").get<double>(), body->inertia_tensor(1, 2));
   }
+}
+
+TEST(Report, EveryNumberOfTheMethodOnTheScanStandsUnderItsOwnName) {
+  RemeshResult result = on_scan_example();
+  auto& method = std::get<OnScanReport>(result.method);
+  Distinct number;
+  std::vector<std::pair<std::string, std::function<double()>>> expected;
+  const auto set = [&](const std::string& name, auto& field) {
+    number.fill(field);
+    expected.emplace_back("/on_scan/" + name, [&field] { return static_cast<double>(field); });
+  };
+  set("handles/kept", method.handles.kept);
+  set("handles/volume_change", method.handles.volume_change);
+  ScanNodesReport& nodes = method.nodes;
+  set("genus", nodes.genus);
+  set("split_vertices", nodes.split_vertices);
+  set("coarsened_vertices", nodes.proxy_vertices);
+  set("evening_steps", nodes.evening_steps);
+  set("evening_flips", nodes.evening_flips);
+  set("fit_rounds", nodes.fit_rounds);
+  set("fit_flips", nodes.fit_flips);
+  set("fit_relocations", nodes.relocations);
+  set("fit_rms_distance", nodes.rms_distance);
+  set("volume_offset", nodes.volume_offset);
+  set("mean_edge_ratio", nodes.mean_edge_ratio);
+  set("mended_intersections", nodes.mended_intersections);
+  set("self_intersections", nodes.self_intersections);
+  set("enough_nodes", nodes.enough_nodes);
+  const auto json = nlohmann::json::parse(report_json(result));
+  for (const auto& [name, value] : expected) {
+    EXPECT_EQ(json.at(nlohmann::json::json_pointer(name)).get<double>(), value()) << name;
+  }
+  EXPECT_TRUE(json.at("as_published").at("fit").at("degree").is_null());
 }
 
 TEST(Report, MassHoldsEveryNumberOfTheTensorAndTheAxes) {

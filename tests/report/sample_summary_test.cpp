@@ -111,7 +111,7 @@ TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
   result.remesh.volume = 3.3;
   result.remesh.area = 6.0;
   result.remesh.sphericity = 0.4375;
-  result.misfit = 0.03;
+  result.rms_distance = 0.03;
   result.original_quality.edge_ratio.mean = 9.0;
   result.original_quality.smallest_angle = 9.5;
   result.quality.edge_ratio = {1.5, 2.5, 3.5, 4.5};
@@ -125,7 +125,7 @@ TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
       {"aspect_ratio", 0.25},      {"elongation", 0.3125},
       {"flatness", 0.8},           {"sphericity", 0.875},
       {"volume_error", 10.0},      {"area_error", 20.0},
-      {"sphericity_error", -50.0}, {"misfit", 1.5},
+      {"sphericity_error", -50.0}, {"rms_distance", 1.5},
       {"edge_ratio", 1.5},         {"smallest_angle", 33.0}};
   for (const auto& [key, value] : expected) {
     EXPECT_NEAR(all.at(key).at("median").get<double>(), value, 1e-12) << key;
