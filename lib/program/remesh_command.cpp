@@ -27,8 +27,8 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
         "scan.ply remesh.ply --frame principal --node-table nodes.csv --sdf grid.npy"},
        "A remesh of the same scan, options and version has the same bytes on any number of "
        "threads.\n"
-       "What a report prints as an option is what one types: \"weighting\": \"area\" is "
-       "--weighting=area.",
+       "What a report prints as an option is what one types: \"weighting\": \"wscvt-c\" is "
+       "--weighting=wscvt-c.",
        true});
   add_file_argument(app, "scan", arguments.scan, "Scan: PLY, STL, OBJ or OFF")->required();
   add_file_argument(app, "output", arguments.output, "Remesh: PLY, STL, OBJ or OFF")->required();
@@ -37,6 +37,9 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   add_common_arguments(app, arguments.common);
   add_file_argument(app, "--coefficients", arguments.coefficients,
                     "Write the coefficients of the SH series to this file as JSON");
+  for (const char* name : {"--threads", "--overwrite", "--quiet", "--coefficients"}) {
+    app.get_option(name)->group(finer_settings);
+  }
   return app;
 }
 
