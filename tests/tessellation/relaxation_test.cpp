@@ -59,8 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Relaxation, EveryWeighting,
                                          Weighting::Curvature, Weighting::Area));
 
 TEST(Relaxation, MomentumWithRestartsSparesMostOfTheSteps) {
-  // Plain steps of 1.8 times the way take 700 and more from either start; momentum that is never
-  // dropped swings about the end and spares a third only.
+  // Both starts together take 333 steps with momentum and 1148 without.
   const SurfaceSeedModel model = model_of(ellipsoid(), Weighting::Area, 300);
   RelaxationOptions options;
   options.displacement_tolerance = 1e-5;
@@ -68,7 +67,7 @@ TEST(Relaxation, MomentumWithRestartsSparesMostOfTheSteps) {
   for (const auto& start : {fibonacci_lattice(300), random_directions(300, test::announced(20))}) {
     steps += relax(start, model, options, Execution(1)).report.iterations;
   }
-  EXPECT_LT(steps, 0);
+  EXPECT_LT(steps, 500);
 }
 
 TEST(Relaxation, RandomStartConvergesToo) {
