@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
 
 namespace wscvt {
@@ -51,6 +54,89 @@ TEST(Picture, PngReadsBackToItsPixels) {
   }
   EXPECT_EQ(halved({2, 2, {{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {12, 1, 1}}}).pixels[0],
             (Colour{6, 0, 0}));
+}
+
+/// The bytes that a text in base64 stands for (RFC 4648).
+std::string decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  EXPECT_EQ(text.size() % 4, 0U);
+  std::string bytes;
+  for (std::size_t i = 0; i + 4 <= text.size(); i += 4) {
+    std::uint32_t group = 0;
+    std::size_t held = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t digit = digits.find(text[i + k]);
+      held += digit == std::string::npos ? 0 : 1;
+      group = group << 6U | static_cast<std::uint32_t>(digit == std::string::npos ? 0 : digit);
+    }
+    for (std::size_t k = 0; k + 1 < held; ++k) {
+      bytes += static_cast<char>(group >> (16U - 8U * k) & 255U);
+    }
+  }
+  return bytes;
+}
+
+TEST(Picture, ElementOfAPageHoldsTheFileWhole) {
+  // Files that end in groups of one, two and three bytes.
+  std::set<std::size_t> remainders;
+  for (int k = 0; k < 57; ++k) {
+    Picture picture{1 + k / 3, 1 + k % 3, {}};
+    for (int i = 0; i < picture.width * picture.height; ++i) {
+      picture.pixels.push_back({static_cast<std::uint8_t>(37 * i * i % 251),
+                                static_cast<std::uint8_t>(91 * i),
+                                static_cast<std::uint8_t>(201 * i)});
+    }
+    const std::string element = image_element(picture, "a \"b\"");
+    const std::string opening = "base64,";
+    const std::size_t begin = element.find(opening) + opening.size();
+    EXPECT_EQ(decoded(element.substr(begin, element.find('"', begin) - begin)), png_of(picture));
+    EXPECT_NE(element.find("width=\"" + std::to_string(picture.width) + "\" height=\"" +
+                           std::to_string(picture.height) + "\""),
+              std::string::npos);
+    EXPECT_NE(element.find("alt=\"a &quot;b&quot;\""), std::string::npos);
+    remainders.insert(png_of(picture).size() % 3);
+  }
+  EXPECT_EQ(remainders.size(), 3U);
+}
+
+TEST(Picture, HalvesByTheRoundedMeanOfFour) {
+  // A picture that is neither square nor even in its values.
+  Picture picture{6, 4, {}};
+  for (int k = 0; k < 24; ++k) {
+    picture.pixels.push_back({static_cast<std::uint8_t>(k * k % 251),
+                              static_cast<std::uint8_t>(255 - 10 * k),
+                              static_cast<std::uint8_t>(7 * k)});
+  }
+  const Picture half = halved(picture);
+  ASSERT_EQ(half.width, 3);
+  ASSERT_EQ(half.height, 2);
+  for (std::size_t y = 0; y < 2; ++y) {
+    for (std::size_t x = 0; x < 3; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < 4; ++k) {
+          sum += picture.pixels[(2 * y + k / 2) * 6 + 2 * x + k % 2][c];
+        }
+        EXPECT_EQ(half.pixels[3 * y + x][c], std::floor(sum / 4.0 + 0.5)) << x << y << c;
+      }
+    }
+  }
+}
+
+TEST(Picture, ColoursGoFromBlueOverWhiteToRed) {
+  const Colour white = diverging_colour(0.0);
+  const Colour red = diverging_colour(1.0);
+  const Colour blue = diverging_colour(-1.0);
+  EXPECT_EQ(*std::min_element(white.begin(), white.end()),
+            *std::max_element(white.begin(), white.end()));
+  EXPECT_GT(red[0], 2 * red[2]);
+  EXPECT_GT(blue[2], 2 * blue[0]);
+  EXPECT_EQ(diverging_colour(7.0), red);
+  EXPECT_EQ(diverging_colour(-7.0), blue);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(diverging_colour(0.5)[c], 0.5 * (white[c] + red[c]), 1.0);
+    EXPECT_NEAR(diverging_colour(-0.25)[c], 0.75 * white[c] + 0.25 * blue[c], 1.0);
+  }
 }
 
 }  // namespace

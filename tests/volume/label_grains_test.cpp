@@ -87,6 +87,32 @@ TEST_F(LabelGrainsOfAFile, SortsLabelsOutAndReadsThemInTheOrderOfTheirLastSlices
                      std::to_string(third.mesh.triangles.size()) + ",5.ply\r\n");
 }
 
+TEST_F(LabelGrainsOfAFile, TouchesTheBorderOnAnySide) {
+  // A box in the middle of each of the six sides, and one that leaves a voxel free all round.
+  MadeVolume volume({20, 22, 24});
+  const std::vector<std::pair<Vector3, Vector3>> boxes = {
+      {{0, 8, 8}, {3, 12, 12}},   {{17, 8, 8}, {20, 12, 12}}, {{8, 0, 8}, {12, 3, 12}},
+      {{8, 19, 8}, {12, 22, 12}}, {{8, 8, 0}, {12, 12, 3}},   {{8, 8, 21}, {12, 12, 24}}};
+  volume.fill_box(9, {1, 1, 1}, {19, 21, 23});
+  std::uint32_t label = 0;
+  for (const auto& [least, most] : boxes) volume.fill_box(++label, least, most);
+  write(volume);
+  VolumeOptions options;
+  options.smallest = 48;  // which each of the six has, to the voxel
+  const LabelGrains grains(path_, options, Execution(1));
+  ASSERT_EQ(grains.labels().size(), 7U);
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(grains.labels()[k].voxels, 48U);
+    EXPECT_EQ(grains.state(grains.labels()[k]), LabelState::AtTheBorder) << k;
+  }
+  EXPECT_EQ(grains.state(grains.labels()[6]), LabelState::Taken);
+  options.smallest = 49;
+  const LabelGrains larger(path_, options, Execution(1));
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(larger.state(larger.labels()[k]), LabelState::TooSmall) << k;
+  }
+}
+
 TEST_F(LabelGrainsOfAFile, RowsSayWhatBecameOfALabel) {
   MadeVolume volume({20, 20, 20});
   volume.fill_box(1, {2, 3, 4}, {12, 11, 9});
