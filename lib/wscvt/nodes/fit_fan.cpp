@@ -100,14 +100,19 @@ double add_triangles(const FitState& state, const FitFan& fan, const Vector3& at
   return energy;
 }
 
-double add_pull(const FitFan& fan, const Vector3& at, FanEquations* equations) {
+double add_pull(const FitState& state, const FitFan& fan, const Vector3& at,
+                FanEquations* equations) {
   Vector3 centre = Vector3::Zero();
   Vector3 normal = Vector3::Zero();
+  double weights = 0.0;
   const std::size_t count = fan.ring.size();
   for (std::size_t j = 0; j < count; ++j) {
-    centre += fan.ring[j] / static_cast<double>(count);
+    const double weight = state.ring_weight(fan.node, fan.nodes[j]);
+    weights += weight;
+    centre += weight * fan.ring[j];
     normal += doubled_area_normal(at, fan.ring[j], fan.ring[(j + 1) % count]);
   }
+  centre /= weights;
   normal /= normal.norm() + 1e-300;
   const Vector3 off = at - centre;
   const Vector3 flat = off - normal.dot(off) * normal;
@@ -146,7 +151,7 @@ double fan_energy(const FitState& state, FitFan& fan, const Vector3& at, FanEqua
     }
   }
   energy += add_triangles(state, fan, at, equations);
-  if (fan.pull > 0.0) energy += add_pull(fan, at, equations);
+  if (fan.pull > 0.0) energy += add_pull(state, fan, at, equations);
   return energy;
 }
 
@@ -193,6 +198,7 @@ double fan_sharpness(const FitFan& fan, const Vector3& at) {
 
 FitFan fan_of(const FitState& state, std::int32_t v, const NodeRing& ring) {
   FitFan fan;
+  fan.node = v;
   fan.centre = state.mesh.points[v];
   fan.nodes = ring.nodes;
   for (const std::int32_t y : ring.nodes) fan.ring.push_back(state.mesh.points[y]);

@@ -12,6 +12,7 @@ namespace wscvt {
 /// The triangles about one node, whatever the mesh has there now, with the samples that they would
 /// hold: to ask what the node costs at a place, and to find a better one.
 struct FitFan {
+  std::int32_t node = -1;  ///< of the mesh; -1 where it has none there yet
   Vector3 centre = Vector3::Zero();
   std::vector<Vector3> ring;          ///< corners about, counter-clockwise
   std::vector<std::int32_t> nodes;    ///< which nodes of the mesh they are

@@ -30,6 +30,7 @@ class GuardedMove {
         shares_(mesh_.points.size(), 1.0),
         marked_(mesh_.points.size(), 0),
         old_normals_(mesh_.triangles.size()),
+        normals_(mesh_.triangles.size()),
         outward_(mesh_.triangles.size()),
         old_sharpness_(mesh_.triangles.size()),
         loose_(mesh_.triangles.size(), 0) {
@@ -62,7 +63,11 @@ class GuardedMove {
         shorten(attempt < halvings ? 0.5 : 0.0);
         continue;
       }
-      if (attempt >= tries_of_pairs || !mark_meeting()) break;
+      if (attempt >= tries_of_pairs) break;
+      if (!mark_meeting()) {
+        if (none_meet_) return;
+        break;
+      }
       shorten(attempt < shortenings ? 0.4 : 0.0);
     }
     take_back_meeting();
@@ -104,7 +109,8 @@ class GuardedMove {
   bool mark_spoilt() {
     bool any = false;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const Vector3 normal = state_.unit_normal(t);
+      normals_[t] = state_.unit_normal(t);
+      const Vector3& normal = normals_[t];
       const double after = normal.dot(outward_[t]);
       const double before = old_normals_[t].dot(outward_[t]);
       bool spoilt = false;
@@ -124,17 +130,16 @@ class GuardedMove {
   }
 
   bool mark_folded() {
-    std::vector<Vector3> normals(mesh_.triangles.size());
-    for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = state_.unit_normal(t);
     const auto agrees = [&](std::size_t t) {
-      return state_.of[t].size() >= enough_to_agree && normals[t].dot(outward_[t]) > face_agreement;
+      return state_.of[t].size() >= enough_to_agree &&
+             normals_[t].dot(outward_[t]) > face_agreement;
     };
     bool any = false;
     for (std::size_t h = 0; h < mesh_.opposite.size(); ++h) {
       const std::size_t t = h / 3;
       const std::size_t u = face_of(mesh_.opposite[h]);
       if (u < t) continue;
-      const double cosine = normals[t].dot(normals[u]);
+      const double cosine = normals_[t].dot(normals_[u]);
       if (cosine >= folded || cosine >= old_normals_[t].dot(old_normals_[u]) - 1e-9) continue;
       if (agrees(t) && agrees(u)) continue;
       any = mark_free(t) || any;
@@ -147,8 +152,10 @@ class GuardedMove {
   bool mark_meeting() {
     state_.build_hash();
     bool any = false;
+    none_meet_ = true;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (const std::int32_t u : state_.hash.meeting(mesh_, static_cast<std::int32_t>(t))) {
+        none_meet_ = false;
         const auto at = [&](std::size_t f) {
           const auto& [a, b, c] = mesh_.triangles[f];
           return std::array<Vector3, 3>{old_[a], old_[b], old_[c]};
@@ -190,9 +197,11 @@ class GuardedMove {
   std::vector<double> shares_;
   std::vector<char> marked_;
   std::vector<Vector3> old_normals_;
+  std::vector<Vector3> normals_;  ///< as the nodes stand; unit
   std::vector<Vector3> outward_;  ///< where the scan looks at each triangle; unit or zero
   std::vector<double> old_sharpness_;
   std::vector<char> loose_;  ///< triangles that stand against the scan
+  bool none_meet_ = false;   ///< as of the last look, where no node has moved since
 };
 
 }  // namespace

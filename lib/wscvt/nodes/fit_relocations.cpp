@@ -23,6 +23,7 @@ constexpr std::size_t candidates_a_move = 6;
 /// Spokes about a new node, in mean edges about it: there is one node more.
 constexpr double crowded_rest = 0.75;
 constexpr int most_relocated_degree = 9;
+constexpr std::size_t candidate_block = 16;
 /// Faces that a merge leaves look at least this much along the scan.
 constexpr double merged_agreement = 0.3;
 /// No edge is left turned further than this, 143 degrees.
@@ -60,8 +61,9 @@ struct Quad {
 
 class Relocations {
  public:
-  explicit Relocations(FitState& state)
+  Relocations(FitState& state, const Execution& execution)
       : state_(state),
+        execution_(execution),
         mesh_(state.mesh),
         most_(std::max<std::size_t>(
             1,
@@ -152,11 +154,15 @@ class Relocations {
     std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(kept),
                       candidates.end());
     candidates.resize(kept);
-    std::vector<Removal> removals;
-    for (const auto& candidate : candidates) {
-      const Removal removal = cheapest_removal(candidate.second);
-      if (removal.into >= 0) removals.push_back(removal);
-    }
+    std::vector<Removal> removals(kept);
+    execution_.parallel_for(kept, candidate_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        removals[i] = cheapest_removal(candidates[i].second);
+      }
+    });
+    removals.erase(std::remove_if(removals.begin(), removals.end(),
+                                  [](const Removal& removal) { return removal.into < 0; }),
+                   removals.end());
     std::sort(removals.begin(), removals.end());
     return removals;
   }
@@ -261,7 +267,9 @@ class Relocations {
     std::partial_sort(insertions.begin(), insertions.begin() + static_cast<std::ptrdiff_t>(kept),
                       insertions.end());
     insertions.resize(kept);
-    for (Insertion& insertion : insertions) try_insertion(insertion);
+    execution_.parallel_for(kept, candidate_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) try_insertion(insertions[i]);
+    });
     std::sort(insertions.begin(), insertions.end());
     while (!insertions.empty() && insertions.back().gain <= 0.0) insertions.pop_back();
     return insertions;
@@ -411,6 +419,7 @@ class Relocations {
   }
 
   FitState& state_;
+  const Execution& execution_;
   EditMesh& mesh_;
   std::size_t most_;
   double spring_;
@@ -422,6 +431,8 @@ class Relocations {
 
 }  // namespace
 
-int relocate_nodes(FitState& state) { return Relocations(state).run(); }
+int relocate_nodes(FitState& state, const Execution& execution) {
+  return Relocations(state, execution).run();
+}
 
 }  // namespace wscvt

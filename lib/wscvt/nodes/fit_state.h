@@ -23,8 +23,10 @@ inline constexpr double ring_stiffness = 0.13;
 inline constexpr double robust_weight = 0.3;
 inline constexpr double most_robust = 9.0;
 /// A rest length is this share the mean edge about, else the mean edge of the mesh: local means
-/// alone would let density drift, one mean for all would cost distance.
-inline constexpr double local_share = 0.9;
+/// alone would let density drift, one mean for all would cost distance. Where a density is wanted
+/// the fit may not even it out, and the wanted length counts for more.
+inline constexpr double even_local_share = 0.9;
+inline constexpr double weighted_local_share = 0.5;
 /// A face looks as the scan does where its normal is within 60 degrees of its samples'.
 inline constexpr double face_agreement = 0.5;
 
@@ -70,6 +72,12 @@ struct FitState {
   double ring() const { return ring_stiffness * round.evenness; }
   double ring_edge(std::int32_t v) const { return ring_edges.empty() ? edge : ring_edges[v]; }
   double node_spacing(std::int32_t v) const { return spacing.empty() ? 1.0 : spacing[v]; }
+  double local_share() const { return spacing.empty() ? even_local_share : weighted_local_share; }
+  /// Weight of a neighbour in the middle of a node's ring: inverse to their wanted distance, so
+  /// that the middle is where the node stands between denser and sparser sides.
+  double ring_weight(std::int32_t v, std::int32_t w) const {
+    return spacing.empty() ? 1.0 : 2.0 / (spacing[v] + spacing[w]);
+  }
   /// Weight of a sample by its distance.
   double weight(double squared_distance) const;
   /// What a sample costs: its squared distance, times one and a half weights beyond the first.

@@ -162,11 +162,13 @@ class FitEquations {
     half_edges_.resize(starts_.back());
     neighbours_.resize(starts_.back());
     blocks_.resize(starts_.back());
+    ring_sums_.assign(count_, 0.0);
     for (std::size_t i = 0; i < count_; ++i) {
       std::int32_t at = starts_[i];
       mesh_.around(static_cast<std::int32_t>(i), [&](std::int32_t h) {
         half_edges_[at] = h;
         neighbours_[at++] = mesh_.target(h);
+        ring_sums_[i] += state_.ring_weight(static_cast<std::int32_t>(i), mesh_.target(h));
       });
     }
   }
@@ -184,12 +186,12 @@ class FitEquations {
       sum += normal;
       area += length;
       if (length > 0.0) tensor += normal * normal.transpose() / length;
-      centre += mesh_.points[neighbours_[at]];
+      centre += state_.ring_weight(static_cast<std::int32_t>(i), neighbours_[at]) *
+                mesh_.points[neighbours_[at]];
       edges += (mesh_.points[neighbours_[at]] - mesh_.points[i]).norm();
     }
-    const auto degree = static_cast<double>(mesh_.degrees[i]);
-    centres_[i] = centre / degree;
-    state_.ring_edges[i] = edges / degree;
+    centres_[i] = centre / ring_sums_[i];
+    state_.ring_edges[i] = edges / static_cast<double>(mesh_.degrees[i]);
     NodeShape& shape = shapes_[i];
     const double length = sum.norm();
     shape.normal = length > 0.0 ? Vector3(sum / length) : Vector3::UnitZ();
@@ -306,8 +308,9 @@ class FitEquations {
     const double wanted =
         0.5 * state_.edge *
         (state_.node_spacing(static_cast<std::int32_t>(i)) + state_.node_spacing(j));
-    const double rest = (1.0 - local_share) * wanted +
-                        local_share * 0.5 * (state_.ring_edges[i] + state_.ring_edges[j]);
+    const double local = state_.local_share();
+    const double rest =
+        (1.0 - local) * wanted + local * 0.5 * (state_.ring_edges[i] + state_.ring_edges[j]);
     const double weight = state_.dial.plain_springs * state_.spring();
     const Matrix3 along = weight * u * u.transpose();
     diagonal_[i] += along;
@@ -389,7 +392,7 @@ class FitEquations {
     Vector3 result = values[i];
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
       const std::int32_t j = neighbours_[at];
-      result -= values[j] / static_cast<double>(mesh_.degrees[j]);
+      result -= state_.ring_weight(static_cast<std::int32_t>(i), j) / ring_sums_[j] * values[j];
     }
     return result;
   }
@@ -401,10 +404,10 @@ class FitEquations {
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
       const Vector3& other = p[neighbours_[at]];
       product += blocks_[at] * other;
-      ring += other;
+      ring += state_.ring_weight(static_cast<std::int32_t>(i), neighbours_[at]) * other;
     }
     q[i] = product;
-    bent[i] = shapes_[i].tangential(p[i] - ring / static_cast<double>(mesh_.degrees[i]));
+    bent[i] = shapes_[i].tangential(p[i] - ring / ring_sums_[i]);
   }
 
   FitState& state_;
@@ -412,7 +415,8 @@ class FitEquations {
   const Execution& execution_;
   std::size_t count_;
   std::vector<NodeShape> shapes_;
-  std::vector<Vector3> centres_;  ///< of each ring
+  std::vector<Vector3> centres_;   ///< of each ring
+  std::vector<double> ring_sums_;  ///< of the ring's weights
   std::vector<FaceSystem> faces_;
   std::vector<std::int32_t> starts_;
   std::vector<std::int32_t> half_edges_;

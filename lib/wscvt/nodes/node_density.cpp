@@ -141,4 +141,13 @@ std::vector<double> node_densities(const IndexedMesh& surface, CellWeighting wei
   return field;
 }
 
+std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface,
+                              double power) {
+  if (density.empty()) return density;
+  for (double& value : density) value = std::pow(value, power);
+  const double mean = weighted_mean(vertex_areas(surface), density);
+  for (double& value : density) value /= mean;
+  return density;
+}
+
 }  // namespace wscvt

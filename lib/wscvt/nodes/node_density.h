@@ -21,4 +21,8 @@ std::vector<double> node_densities(const IndexedMesh& surface, CellWeighting wei
                                    double curvature_alpha, int node_count,
                                    const Execution& execution);
 
+/// A density to a power, mean over the surface's area 1 again. Empty stays empty.
+std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface,
+                              double power);
+
 }  // namespace wscvt

@@ -93,7 +93,7 @@ class SurfaceFit {
     state_.list_samples();
     state_.read_spacing();
     if (round >= first_relocation && round < dial_.rounds - rounds_without_relocation) {
-      report_.relocations += relocate_nodes(state_);
+      report_.relocations += relocate_nodes(state_, execution_);
     }
     if (round > 0 && round < dial_.rounds - 1) report_.flips += flip_for_fit(state_);
     move_nodes(state_, fit_step(state_, execution_));

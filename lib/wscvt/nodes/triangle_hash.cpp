@@ -25,11 +25,23 @@ bool segment_pierces(const Vector3& p, const Vector3& q, const std::array<Vector
   return true;
 }
 
+/// Whether a triangle lies on one side of the plane of another, or touches it from there.
+bool on_one_side(const std::array<Vector3, 3>& x, const std::array<Vector3, 3>& y) {
+  const Vector3 n = doubled_area_normal(x[0], x[1], x[2]);
+  const double a = n.dot(y[0] - x[0]);
+  const double b = n.dot(y[1] - x[0]);
+  const double c = n.dot(y[2] - x[0]);
+  return (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0);
+}
+
 bool boxes_part(const std::array<Vector3, 3>& x, const std::array<Vector3, 3>& y) {
-  const Vector3 low = y[0].cwiseMin(y[1]).cwiseMin(y[2]);
-  const Vector3 high = y[0].cwiseMax(y[1]).cwiseMax(y[2]);
-  return (low.array() > x[0].cwiseMax(x[1]).cwiseMax(x[2]).array()).any() ||
-         (high.array() < x[0].cwiseMin(x[1]).cwiseMin(x[2]).array()).any();
+  for (int k = 0; k < 3; ++k) {
+    const double low = std::min({y[0][k], y[1][k], y[2][k]});
+    const double high = std::max({y[0][k], y[1][k], y[2][k]});
+    if (low > x[0][k] && low > x[1][k] && low > x[2][k]) return true;
+    if (high < x[0][k] && high < x[1][k] && high < x[2][k]) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -52,6 +64,7 @@ bool triangles_cross(const Triangle& a, const std::array<Vector3, 3>& x, const T
     return segment_pierces(x[following(in_a)], x[preceding(in_a)], y) ||
            segment_pierces(y[following(in_b)], y[preceding(in_b)], x);
   }
+  if (on_one_side(x, y) || on_one_side(y, x)) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     if (segment_pierces(x[k], x[following(k)], y) || segment_pierces(y[k], y[following(k)], x)) {
       return true;
