@@ -130,7 +130,7 @@ TEST(ScanNodes, FindTheEdgesOfACube) {
   const ScanNodes fitted = place(cube, 400);
   expect_sound(fitted, 400, 0);
   const IndexedMesh dense = test::subdivided(cube, 5);
-  EXPECT_LT(rms_from(dense, fitted.mesh), 0.3 * rms_from(dense, place(cube, 400, on_scan).mesh));
+  EXPECT_LT(rms_from(dense, fitted.mesh), 0.5 * rms_from(dense, place(cube, 400, on_scan).mesh));
 }
 
 TEST(ScanNodes, KeepBothSheetsOfAThinPlate) {
