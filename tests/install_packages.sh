@@ -7,7 +7,7 @@ set -eu
 
 packages="
   g++ cmake ninja-build clang-format clang-tidy dpkg-dev
-  libopenmesh-dev libeigen3-dev libcgal-dev libboost-dev libtbb-dev zlib1g-dev nlohmann-json3-dev
+  libopenmesh-dev libeigen3-dev libcgal-dev libboost-dev zlib1g-dev nlohmann-json3-dev
   libtiff-dev libexpat1-dev
   libcli11-dev help2man libgtest-dev libbenchmark-dev gnuplot-nox time python3
   pybind11-dev python3-dev python3-numpy python3-pytest

@@ -18,7 +18,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Remeshing of scanned grains: librar
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwscvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libopenmesh-dev, libeigen3-dev, libcgal-dev, libtbb-dev, zlib1g-dev")
+  "libopenmesh-dev, libeigen3-dev, libcgal-dev, zlib1g-dev")
 
 if(WSCVT_BUILD_PROGRAM)
   list(APPEND CPACK_COMPONENTS_ALL program)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "batch_command.h"
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +19,9 @@
 #include "signals.h"
 #include "volume_arguments.h"
 #include "work.h"
+#include "wrong_call.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh.h"
@@ -97,7 +100,9 @@ std::string call_text(const BatchArguments& arguments) {
 }
 
 void check_call(const std::string& path, const std::string& call, bool is_begun) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno != ENOENT && errno != ENOTDIR) refuse_to_read(path);
   const std::string before((std::istreambuf_iterator<char>(file)), {});
   if (before == call) return;
   if (is_begun) {
@@ -108,7 +113,7 @@ void check_call(const std::string& path, const std::string& call, bool is_begun)
   write_file(path, call);
 }
 
-/// The row of a grain, whose mesh is then written. Throws Error(Cancelled) alone.
+/// The row of a grain, whose mesh is then written. Throws as row_or_failure.
 GrainRow remeshed_row(const BatchArguments& arguments, const OutputFolder& folder,
                       BatchGrains& grains, std::size_t k, const Execution& execution) {
   const std::string& grain = grains.names()[k];
@@ -129,12 +134,13 @@ GrainRow remeshed_row(const BatchArguments& arguments, const OutputFolder& folde
   });
 }
 
-/// Half-written meshes that a killed batch left beside those it wrote.
+/// Half-written files that a killed batch left beside those it wrote.
 void remove_parts(const std::vector<std::string>& grains, std::size_t first,
                   const OutputFolder& folder) {
-  std::error_code ignored;
-  for (std::size_t k = first; k < grains.size(); ++k) {
-    fs::remove(folder.mesh(grains[k]) + ".part", ignored);
+  for (std::size_t k = first; k < grains.size(); ++k) remove_partial_file(folder.mesh(grains[k]));
+  for (const std::string& file :
+       {folder.call(), folder.summary(".json"), folder.summary(".html")}) {
+    remove_partial_file(file);
   }
 }
 
@@ -186,18 +192,23 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
 }
 
 int run(const BatchArguments& arguments) {
-  check_options(arguments.options);
-  check_mesh_format("mesh." + arguments.format);
+  checked([&] {
+    check_options(arguments.options);
+    check_format(arguments.format);
+    check_volume_options(arguments.volume);
+  });
   if (!arguments.quiet) check_writable("/dev/stdout");
-  BatchGrains inputs(arguments.inputs, arguments.volume, arguments.shard, arguments.quiet);
+  const std::vector<std::string> files = checked([&] { return grain_files(arguments.inputs); });
+  BatchGrains inputs(files, arguments.volume, arguments.shard, arguments.quiet);
   const std::vector<std::string>& grains = inputs.names();
   const OutputFolder folder(arguments);
-  check_meshes(grains, folder);
+  checked([&] { check_meshes(grains, folder); });
   std::error_code error;
   fs::create_directories(arguments.folder, error);
   const std::string header = sample_header(arguments.seconds);
-  check_call(folder.call(), call_text(arguments), fs::exists(folder.table(), error));
-  SampleTable table(folder.table(), header, grains);
+  checked(
+      [&] { check_call(folder.call(), call_text(arguments), fs::exists(folder.table(), error)); });
+  SampleTable table = checked([&] { return SampleTable(folder.table(), header, grains); });
   const std::size_t first = table.rows();
   remove_parts(grains, first, folder);
 
@@ -212,6 +223,7 @@ int run(const BatchArguments& arguments) {
   all.count = grains.size();
   all.threads = arguments.threads;
   all.quiet = arguments.quiet;
+  all.when_stopped = "The same call goes on from there.";
   all.name = [&](std::size_t k) { return grains[k]; };
   all.work = [&](std::size_t k, const Execution& execution) {
     return remeshed_row(arguments, folder, inputs, k, execution);
@@ -219,7 +231,6 @@ int run(const BatchArguments& arguments) {
   all.take = [&](std::size_t, const GrainRow& row) { table.append(row.record); };
   const GrainRunEnd end = run_grains(all);
   if (end.was_cancelled) {
-    std::fprintf(stderr, " The same call goes on from there.\n");
     return 128 + noted_signal();
   }
   if (arguments.shard.count == 1) {

@@ -8,9 +8,9 @@
 
 namespace wscvt::program {
 
-BatchGrains::BatchGrains(const std::vector<std::string>& inputs, const VolumeOptions& options,
+BatchGrains::BatchGrains(const std::vector<std::string>& files, const VolumeOptions& options,
                          const Shard& shard, bool quiet) {
-  for (const std::string& path : grain_files(inputs)) {
+  for (const std::string& path : files) {
     if (is_volume(path)) {
       add_volume(path, options, shard, quiet);
     } else if (is_of(shard, path)) {

@@ -23,9 +23,9 @@ struct GrainScan {
 /// The grains that the inputs of a batch name: files of meshes, and the labels of volumes.
 class BatchGrains {
  public:
-  /// Counts the labels of volumes, with a line on a terminal unless quiet. Throws as grain_files
-  /// and LabelGrains do.
-  BatchGrains(const std::vector<std::string>& inputs, const VolumeOptions& options,
+  /// Of what grain_files gives. Counts the labels of volumes, with a line on a terminal unless
+  /// quiet. Throws as LabelGrains does.
+  BatchGrains(const std::vector<std::string>& files, const VolumeOptions& options,
               const Shard& shard, bool quiet);
 
   /// Of the part of the sample, in the order of the inputs. A file's is its path, a label's that of

@@ -10,6 +10,7 @@
 
 #include "volume/label_volume.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"
 #include "wscvt/scan/mesh_io.h"
 
@@ -57,8 +58,12 @@ void add_list(const std::string& list, std::vector<std::string>& files) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     // A list of lists could name itself.
     if (!line.empty() && line.front() == '@') refuse_list_in(list, line);
+    if (line.find('\0') != std::string::npos) {
+      refuse("The list \"" + list + "\" holds a NUL, which no file's name does; correct it.");
+    }
     if (!line.empty()) add_input(line, files);
   }
+  if (lines.bad()) refuse_to_read(list);
 }
 
 void add_input(const std::string& input, std::vector<std::string>& files) {

@@ -6,6 +6,7 @@
 #include "exit_code.h"
 #include "output_paths.h"
 #include "work.h"
+#include "wrong_call.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/sample_summary.h"
 #include "wscvt/report/sample_table.h"
@@ -37,8 +38,10 @@ int run(const CollectArguments& arguments) {
   outputs.insert(outputs.begin(), {"the table", arguments.output});
   std::vector<NamedFile> inputs;
   for (const std::string& table : arguments.tables) inputs.push_back({"a part", table});
-  check_output_paths(inputs, outputs, false);
-  for (const std::string& summary : arguments.summaries) check_summary(summary);
+  checked([&] {
+    check_output_paths(inputs, outputs, false);
+    for (const std::string& summary : arguments.summaries) check_summary(summary);
+  });
   join_tables(arguments.tables, arguments.output);
   const SampleSummary summary = summarise_table(arguments.output);
   for (const std::string& file : arguments.summaries) write_summary(file, summary);

@@ -2,12 +2,19 @@
 #include "common_arguments.h"
 
 #include "command.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 
 void add_threads_argument(CLI::App& app, int& threads) {
   add_number(app, "-t,--threads", threads, threads_option);
+}
+
+void check_format(const std::string& format) {
+  if (is_mesh_file("mesh." + format)) return;
+  refuse("The format of the meshes is \"" + format + "\"; give --format ply, stl, obj or off.");
 }
 
 CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,

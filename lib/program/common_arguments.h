@@ -21,6 +21,9 @@ void add_common_arguments(CLI::App& app, CommonArguments& arguments);
 /// Adds the number of threads alone.
 void add_threads_argument(CLI::App& app, int& threads);
 
+/// Throws wscvt::Error(InvalidInput) for an ending that no mesh has, given by --format.
+void check_format(const std::string& format);
+
 /// Adds one file; it is empty where it is not given.
 CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,
                                const std::string& description);

@@ -8,6 +8,7 @@
 #include "output_paths.h"
 #include "remesh_arguments.h"
 #include "work.h"
+#include "wrong_call.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
@@ -77,13 +78,16 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
 
 int run(const CreateArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  check_grain_surface(arguments.surface);
   std::vector<NamedFile> outputs = named_reports(common.reports);
   outputs.insert(outputs.begin(), {"the mesh", arguments.output});
-  check_output_paths({{"the file of the coefficients", arguments.surface.coefficients_file}},
-                     outputs, common.overwrite);
-  for (const std::string& report : common.reports) check_remesh_report(report);
-  check_mesh_format(arguments.output);
+  checked([&] {
+    check_options(arguments.options);
+    check_grain_surface(arguments.surface);
+    check_mesh_format(arguments.output);
+    check_output_paths({{"the file of the coefficients", arguments.surface.coefficients_file}},
+                       outputs, common.overwrite);
+    for (const std::string& report : common.reports) check_remesh_report(report);
+  });
 
   Work work(common);
   const RemeshResult result = remesh(arguments.surface, arguments.options, work.execution());

@@ -14,6 +14,7 @@
 #include "signals.h"
 #include "volume/label_table.h"
 #include "work.h"
+#include "wrong_call.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/scan/mesh_io.h"
@@ -116,7 +117,15 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
 }
 
 int run(const ExtractArguments& arguments) {
-  check_mesh_format("mesh." + arguments.format);
+  checked([&] {
+    check_format(arguments.format);
+    check_volume_options(arguments.options);
+    if (same_file(arguments.volume, arguments.folder)) {
+      refuse("\"" + arguments.volume + "\" is the volume itself; give a folder for what is made.");
+    }
+    if (!is_volume(arguments.volume))
+      open_volume(arguments.volume);  // throws what is wrong with it
+  });
   if (!arguments.quiet) check_writable("/dev/stdout");
   const std::unique_ptr<LabelGrains> grains =
       open_grains(arguments.volume, arguments.options, arguments.quiet);
@@ -125,6 +134,7 @@ int run(const ExtractArguments& arguments) {
   fs::create_directories(folder, error);
   const std::string table = (folder / "labels.csv").string();
   check_writable(table);
+  remove_partial_file(table);
   LabelRows rows(arguments.volume, *grains);
   std::vector<std::size_t> all(grains->taken().size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -133,10 +143,16 @@ int run(const ExtractArguments& arguments) {
   const auto label_of = [&](std::size_t k) -> const LabelExtent& {
     return grains->labels()[grains->taken()[k]];
   };
+  const auto file_of = [&](std::size_t k) {
+    return std::to_string(label_of(k).label) + "." + arguments.format;
+  };
+  // What a killed call left.
+  for (const std::size_t k : all) remove_partial_file((folder / file_of(k)).string());
   GrainRun run;
   run.count = all.size();
   run.threads = arguments.threads;
   run.quiet = arguments.quiet;
+  run.when_stopped = "There is no table. The same call makes all of it.";
   run.name = [&](std::size_t k) { return grain_name(arguments.volume, label_of(k).label); };
   run.work = [&](std::size_t k, const Execution& execution) {
     const auto row_of = [&](const LabelOutcome& outcome) -> GrainRow {
@@ -147,7 +163,7 @@ int run(const ExtractArguments& arguments) {
           const LabelGrain grain = grains->read(k, execution);
           LabelOutcome outcome{&grain, "", ""};
           if (!grain.mesh.points.empty()) {
-            outcome.file = std::to_string(label_of(k).label) + "." + arguments.format;
+            outcome.file = file_of(k);
             write_mesh(grain.mesh, (folder / outcome.file).string());
             rows.note(k, grain.pieces > 1 ? Made::MeshOfAPiece : Made::Mesh);
           }
@@ -160,7 +176,6 @@ int run(const ExtractArguments& arguments) {
   run.take = [&](std::size_t k, const GrainRow& row) { rows.take(k, row); };
   const GrainRunEnd end = run_grains(run);
   if (end.was_cancelled) {
-    std::fprintf(stderr, " There is no table.\n");
     return 128 + noted_signal();
   }
   write_file(table, rows.table());

@@ -1,28 +1,78 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grain_queue.h"
 
+#include <malloc.h>
+
 #include <chrono>
-#include <thread>
+#include <system_error>
 #include <utility>
-#include <vector>
 
 namespace wscvt::program {
+
+namespace {
+
+/// A grain is given up because the queue was stopped.
+struct GivenUp {};
+
+}  // namespace
 
 GrainQueue::GrainQueue(std::size_t first, std::size_t count, Work work, Take take)
     : next_(first), taken_(first), count_(count), work_(std::move(work)), take_(std::move(take)) {}
 
-void GrainQueue::work_on_grains() {
+GrainRow GrainQueue::row_of(std::size_t grain, std::unique_lock<std::mutex>& lock) {
+  ++at_work_;
+  lock.unlock();
+  try {
+    GrainRow row = work_(grain);
+    lock.lock();
+    --at_work_;
+    return row;
+  } catch (const std::bad_alloc&) {
+    lock.lock();
+    --at_work_;
+  } catch (...) {
+    lock.lock();
+    --at_work_;
+    throw;
+  }
+  return row_alone(grain, lock);
+}
+
+GrainRow GrainQueue::row_alone(std::size_t grain, std::unique_lock<std::mutex>& lock) {
+  ++too_large_;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return stopped_ || at_work_ == 0; });
+  if (stopped_) throw GivenUp();
+  ++at_work_;
+  lock.unlock();
+  ::malloc_trim(0);  // what the other threads' grains have left
+  std::exception_ptr thrown;
+  GrainRow row;
+  try {
+    row = work_(grain);
+  } catch (const std::bad_alloc&) {
+    thrown = std::make_exception_ptr(GrainTooLarge(grain));
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  lock.lock();
+  --at_work_;
+  --too_large_;
+  changed_.notify_all();
+  if (thrown) std::rethrow_exception(thrown);
+  return row;
+}
+
+void GrainQueue::work_on_grains(const Watch& watch) {
   std::unique_lock<std::mutex> lock(mutex_);
   try {
     while (true) {
-      changed_.wait(lock,
-                    [&] { return stopped_ || next_ == count_ || next_ < taken_ + most_ahead_; });
+      changed_.wait(lock, [&] {
+        return stopped_ || next_ == count_ || (too_large_ == 0 && next_ < taken_ + most_ahead_);
+      });
       if (stopped_ || next_ == count_) break;
       const std::size_t grain = next_++;
-      lock.unlock();
-      GrainRow row = work_(grain);
-      lock.lock();
-      waiting_.emplace(grain, std::move(row));
+      waiting_.emplace(grain, row_of(grain, lock));
       for (auto first = waiting_.begin();
            !stopped_ && first != waiting_.end() && first->first == taken_;
            first = waiting_.erase(first)) {
@@ -30,7 +80,14 @@ void GrainQueue::work_on_grains() {
         ++taken_;
       }
       changed_.notify_all();
+      if (!watch) continue;
+      lock.unlock();
+      const bool goes_on = watch();
+      lock.lock();
+      if (!goes_on) stopped_ = true;
     }
+  } catch (const GivenUp&) {
+    // Why it was stopped is known already.
   } catch (...) {
     if (!lock.owns_lock()) lock.lock();
     if (!failure_) failure_ = std::current_exception();
@@ -40,13 +97,32 @@ void GrainQueue::work_on_grains() {
   changed_.notify_all();
 }
 
+void GrainQueue::start(int threads, std::vector<std::thread>& workers) {
+  workers.reserve(static_cast<std::size_t>(threads));
+  try {
+    for (int i = 0; i < threads; ++i) {
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        ++working_;
+      }
+      workers.emplace_back([this] { work_on_grains({}); });
+    }
+  } catch (const std::exception&) {
+    // No more threads, or no memory for one: those that are there do.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    --working_;
+  }
+}
+
 void GrainQueue::run(int threads, const Watch& watch) {
   constexpr std::size_t grains_ahead = 32;  // of each thread: some take a hundred times as long
   most_ahead_ = grains_ahead * static_cast<std::size_t>(threads);
-  working_ = threads;
   std::vector<std::thread> workers;
-  workers.reserve(static_cast<std::size_t>(threads));
-  for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work_on_grains(); });
+  start(threads, workers);
+  if (workers.empty()) {
+    working_ = 1;
+    work_on_grains(watch);
+  }
   {
     std::unique_lock<std::mutex> lock(mutex_);
     while (working_ > 0) {

@@ -7,7 +7,10 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <new>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace wscvt::program {
 
@@ -17,8 +20,19 @@ struct GrainRow {
   std::string error;   ///< the sentence of a failure; empty: none
 };
 
+/// Memory was not enough for a grain, not even while no other was worked on.
+class GrainTooLarge : public std::bad_alloc {
+ public:
+  explicit GrainTooLarge(std::size_t grain) : grain_(grain) {}
+  std::size_t grain() const { return grain_; }
+
+ private:
+  std::size_t grain_;
+};
+
 /// Works on the grains of a batch, one a thread, and hands on the row of each in the order of the
-/// grains. Rows that wait for an earlier one are few: grains far ahead of it are not begun.
+/// grains. Rows that wait for an earlier one are few: grains far ahead of it are not begun. A grain
+/// for which there is not enough memory is worked on again, alone.
 class GrainQueue {
  public:
   /// Called on several threads at once.
@@ -31,12 +45,16 @@ class GrainQueue {
   GrainQueue(std::size_t first, std::size_t count, Work work, Take take);
 
   /// Works until all rows are taken, or until told to stop: then grains that are being worked on
-  /// are left to `work`, whose rows after the first missing one are lost. Throws what `work` and
-  /// `take` throw.
+  /// are left to `work`, whose rows after the first missing one are lost. Goes on with as many of
+  /// the threads as the system starts; with none it works on the caller's, and `watch` is called
+  /// after each grain. Throws GrainTooLarge, and what else `work` and `take` throw.
   void run(int threads, const Watch& watch);
 
  private:
-  void work_on_grains();
+  void start(int threads, std::vector<std::thread>& workers);
+  void work_on_grains(const Watch& watch);
+  GrainRow row_of(std::size_t grain, std::unique_lock<std::mutex>& lock);
+  GrainRow row_alone(std::size_t grain, std::unique_lock<std::mutex>& lock);
 
   std::size_t next_;   ///< to be begun
   std::size_t taken_;  ///< rows
@@ -46,7 +64,9 @@ class GrainQueue {
   std::size_t most_ahead_ = 0;
   std::map<std::size_t, GrainRow> waiting_;
   bool stopped_ = false;
-  int working_ = 0;  ///< threads
+  int working_ = 0;    ///< threads
+  int at_work_ = 0;    ///< grains
+  int too_large_ = 0;  ///< grains that wait to be worked on alone, or are
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable changed_;

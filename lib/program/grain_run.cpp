@@ -13,6 +13,8 @@
 #include "progress_line.h"
 #include "signals.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt::program {
@@ -45,6 +47,24 @@ int thread_count(int asked, std::size_t grains) {
                   static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(all), grains)));
 }
 
+/// Why a run was stopped, and what to do.
+std::string sentence_of(const std::exception& error, const GrainRun& run) {
+  if (const auto* too_large = dynamic_cast<const GrainTooLarge*>(&error)) {
+    return "There is not enough memory for \"" + run.name(too_large->grain()) +
+           "\", although no other grain was worked on at the same time. " +
+           // Threads hold on to memory that they have used.
+           (thread_count(run.threads, run.count) > 1
+                ? "Call it again with -t 1."
+                : "Use a machine with more memory or raise its limit (ulimit -v), or simplify this "
+                  "scan, or leave it out of the inputs.");
+  }
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    return "There is not enough memory. Use a machine with more memory or raise its limit (ulimit "
+           "-v).";
+  }
+  return error.what();
+}
+
 }  // namespace
 
 GrainRunEnd run_grains(const GrainRun& run) {
@@ -67,7 +87,8 @@ GrainRunEnd run_grains(const GrainRun& run) {
     if (row.error.empty()) return;
     ++failed;
     line.clear();
-    std::fprintf(stderr, "Failed: %s: %s\n", run.name(grain).c_str(), row.error.c_str());
+    std::fprintf(stderr, "Failed: %s: %s\n", readable(run.name(grain), "").c_str(),
+                 readable(row.error).c_str());
   };
   GrainQueue queue(run.first, run.count, work, take);
   try {
@@ -81,13 +102,19 @@ GrainRunEnd run_grains(const GrainRun& run) {
       stopped = noted_signal() != 0;
       return !stopped;
     });
-  } catch (const Error& cancelled) {
-    if (cancelled.code() != ErrorCode::Cancelled) throw;
+  } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const Error*>(&error);
+    if (known == nullptr || known->code() != ErrorCode::Cancelled) {
+      throw Error(ErrorCode::InputOutput, "Stopped after " + std::to_string(done) + " of " +
+                                              std::to_string(run.count) + " grains. " +
+                                              sentence_of(error, run) + " " + run.when_stopped);
+    }
   }
   line.clear();
   const bool was_cancelled = done < run.count;
   if (was_cancelled) {
-    std::fprintf(stderr, "Cancelled after %zu of %zu grains.", done.load(), run.count);
+    std::fprintf(stderr, "Cancelled after %zu of %zu grains. %s\n", done.load(), run.count,
+                 run.when_stopped.c_str());
   }
   return {done, failed, was_cancelled};
 }
@@ -96,11 +123,13 @@ GrainRow row_or_failure(const std::function<GrainRow()>& make,
                         const std::function<GrainRow(const std::string& sentence)>& failed) {
   try {
     return make();
+  } catch (const MachineRefused&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
     return failed(error.what());
-  } catch (const std::bad_alloc&) {
-    return failed("There is not enough memory for this grain; take fewer threads.");
   } catch (const std::exception& error) {
     return failed(error.what());
   }

@@ -8,6 +8,8 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,6 +26,8 @@
 #include "remesh_command.h"
 #include "signals.h"
 #include "standard_streams.h"
+#include "wrong_call.h"
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/version.h"
 
 namespace {
@@ -94,7 +98,10 @@ int run(int argc, char** argv) {
     std::reverse(words.begin(), words.end());  // as CLI11 wants them
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    if (app.exit(error) != 0) return program::WrongArguments;
+    std::ostringstream said;
+    const int code = app.exit(error, std::cout, said);
+    std::fputs(wscvt::readable(said.str()).c_str(), stderr);
+    if (code != 0) return program::WrongArguments;
     if (!std::cout.flush()) throw std::runtime_error("The help could not be written.");
     return program::Done;
   }
@@ -108,10 +115,20 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   program::fill_closed_streams();
+  program::ignore_file_size_signal();
   try {
     return run(argc, argv);
+  } catch (const program::WrongCall& error) {
+    std::fprintf(stderr, "%s\n", wscvt::readable(error.what()).c_str());
+    return program::WrongArguments;
+  } catch (const std::bad_alloc&) {
+    std::fputs(
+        "There is not enough memory for this call. Give the program more (ulimit -v), simplify the "
+        "mesh, or ask for fewer nodes.\n",
+        stderr);
+    return program::Failed;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", wscvt::readable(error.what()).c_str());
     // As a shell gives it for a program that the signal ended.
     const int signal = program::noted_signal();
     return signal == 0 ? program::Failed : 128 + signal;

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "output_paths.h"
 #include "work.h"
+#include "wrong_call.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
@@ -24,11 +25,15 @@ void add_measure_arguments(CLI::App& app, MeasureArguments& arguments) {
 
 void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference) {
   const CommonArguments& common = arguments.common;
-  check_output_paths({{"the grain", arguments.grain}, {"the reference", reference.value_or("")}},
-                     named_reports(common.reports), common.overwrite);
-  for (const std::string& report : common.reports) {
-    check_descriptor_report(report, reference.has_value());
-  }
+  checked([&] {
+    check_mesh_format(arguments.grain);
+    if (reference) check_mesh_format(*reference);
+    check_output_paths({{"the grain", arguments.grain}, {"the reference", reference.value_or("")}},
+                       named_reports(common.reports), common.overwrite);
+    for (const std::string& report : common.reports) {
+      check_descriptor_report(report, reference.has_value());
+    }
+  });
   Work work(common);
   const auto read = [&](const std::string& path, double begin, double end) {
     return NamedMesh{path, read_mesh(path, work.execution().part(begin, end))};

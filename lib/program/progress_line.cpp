@@ -5,13 +5,16 @@
 
 #include <cstdio>
 
+#include "wscvt/base/readable_text.h"
+
 namespace wscvt::program {
 
 ProgressLine::ProgressLine(bool wanted) : is_shown_(wanted && isatty(STDERR_FILENO) == 1) {}
 
 void ProgressLine::show(double fraction, const std::string& stage) {
   if (!is_shown_) return;
-  const std::string text = std::to_string(static_cast<int>(100.0 * fraction)) + " %  " + stage;
+  const std::string text =
+      std::to_string(static_cast<int>(100.0 * fraction)) + " %  " + wscvt::readable(stage, "");
   if (text == drawn_) return;
   // Back to the beginning, the text, and the rest of the line emptied.
   std::fprintf(stderr, "\r%s\033[K", text.c_str());

@@ -2,6 +2,7 @@
 #include "remesh_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "output_paths.h"
 #include "remesh_arguments.h"
 #include "work.h"
+#include "wrong_call.h"
+#include "wscvt/base/file_name.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
@@ -43,6 +46,23 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   return app;
 }
 
+namespace {
+
+/// Throws wscvt::Error for a name that does not end as the file does that is written. Pipes,
+/// devices and folders are left to check_writable.
+void check_coefficients_path(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  const bool is_other =
+      std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  if (path.empty() || is_other || ending_of(path) == ".json") return;
+  refuse("\"" + path +
+         "\" is to hold the coefficients, which are written as JSON; give a name that ends in "
+         ".json.");
+}
+
+}  // namespace
+
 int run(const RemeshArguments& arguments) {
   const CommonArguments& common = arguments.common;
   std::vector<NamedFile> outputs = named_reports(common.reports);
@@ -51,10 +71,15 @@ int run(const RemeshArguments& arguments) {
   const SimulationArguments& simulation = arguments.simulation;
   const std::vector<NamedFile> simulation_files = named_simulation_files(simulation);
   outputs.insert(outputs.end(), simulation_files.begin(), simulation_files.end());
-  check_simulation_arguments(simulation);
-  check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
-  for (const std::string& report : common.reports) check_remesh_report(report);
-  check_mesh_format(arguments.output);
+  checked([&] {
+    check_options(arguments.options);
+    check_simulation_arguments(simulation);
+    check_mesh_format(arguments.scan);
+    check_mesh_format(arguments.output);
+    check_coefficients_path(arguments.coefficients);
+    check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
+    for (const std::string& report : common.reports) check_remesh_report(report);
+  });
   RemeshOptions options = arguments.options;
   options.measures.coefficients = !arguments.coefficients.empty();
 
@@ -65,6 +90,12 @@ int run(const RemeshArguments& arguments) {
 
   Work work(common);
   IndexedMesh scan = read_mesh(arguments.scan, work.execution().part(0.0, reading_share));
+  if (!simulation.grids.empty()) {
+    checked([&] {
+      check_grid_of(scan, options, simulation.options,
+                    work.execution().part(reading_share, reading_share));
+    });
+  }
   const RemeshResult result =
       remesh(std::move(scan), options, work.execution().part(reading_share, 1.0));
 

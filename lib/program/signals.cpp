@@ -29,6 +29,8 @@ void note_signals() {
   }
 }
 
+void ignore_file_size_signal() { std::signal(SIGXFSZ, SIG_IGN); }
+
 int noted_signal() { return noted; }
 
 }  // namespace wscvt::program

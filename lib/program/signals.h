@@ -7,6 +7,10 @@ namespace wscvt::program {
 /// nothing half written stays behind; a second one ends it.
 void note_signals();
 
+/// From now on a file that grows beyond the limit of the machine (ulimit -f) is an error of
+/// writing, with its sentence, instead of the end of the program.
+void ignore_file_size_signal();
+
 /// Number of the signal that came; 0 while none has.
 int noted_signal();
 

@@ -7,6 +7,7 @@
 #include "signals.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/readable_text.h"
 
 namespace wscvt::program {
 
@@ -23,7 +24,7 @@ std::string today() {
 
 /// The library's own sentence knows of no files.
 [[noreturn]] void cancel(const std::string& stage, const std::vector<std::string>& written) {
-  std::string sentence = "Cancelled during: " + stage + ". ";
+  std::string sentence = (stage.empty() ? "Cancelled" : "Cancelled during: " + stage) + ". ";
   if (written.empty()) {
     sentence += "Nothing was written.";
   } else {
@@ -53,7 +54,7 @@ Work::Work(const CommonArguments& arguments)
 void Work::print(const std::vector<std::string>& warnings, const std::vector<std::string>& lines) {
   line_.clear();
   for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "Warning: %s\n", warning.c_str());
+    std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());
   }
   program::print(lines, quiet_);
 }
@@ -61,7 +62,7 @@ void Work::print(const std::vector<std::string>& warnings, const std::vector<std
 void print(const std::vector<std::string>& lines, bool quiet) {
   if (quiet) return;
   std::string text;
-  for (const std::string& line : lines) text += line + "\n";
+  for (const std::string& line : lines) text += readable(line) + "\n";
   write_file("/dev/stdout", text);
 }
 

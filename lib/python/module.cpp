@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/version.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/remesh.h"
@@ -56,6 +58,10 @@ std::string keyword_of(std::string_view key) {
   std::string keyword(key);
   std::replace(keyword.begin(), keyword.end(), '-', '_');
   return keyword;
+}
+
+std::string type_name_of(const py::handle& value) {
+  return py::str(py::type::handle_of(value).attr("__name__")).cast<std::string>();
 }
 
 template <class Value>
@@ -258,7 +264,29 @@ struct Remesh {
   wscvt::ReportOrigin origin;
 };
 
+/// The mesh to compare with. Throws TypeError for what is no pair of arrays.
+IndexedMesh mesh_of_reference(const py::object& reference) {
+  try {
+    const auto [vertices, faces] = reference.cast<std::pair<Points, py::object>>();
+    return mesh_of(vertices, faces);
+  } catch (const py::cast_error&) {
+    throw py::type_error("The reference is of type " + type_name_of(reference) +
+                         "; give a pair of arrays, (vertices, faces).");
+  }
+}
+
 // Work.
+
+/// Whether the work goes on. Throws TypeError for what is no answer.
+bool goes_on(const py::object& answer) {
+  if (answer.is_none()) return true;
+  try {
+    return answer.cast<bool>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("The function for the progress returned a value of type " +
+                         type_name_of(answer) + "; return True, or False to cancel.");
+  }
+}
 
 /// Does work without the interpreter's lock. What a progress callback throws cancels it and goes on
 /// to the caller, and so does Ctrl-C.
@@ -270,8 +298,7 @@ auto work_on(int threads, const py::object& progress, const Work& work) {
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (progress.is_none()) return true;
-      const py::object answer = progress(fraction, stage);
-      return answer.is_none() || answer.cast<bool>();
+      return goes_on(progress(fraction, stage));
     } catch (...) {
       thrown = std::current_exception();
       return false;
@@ -330,8 +357,7 @@ py::object describe(const Points& vertices, const py::object& faces, const py::o
   wscvt::NamedMesh grain = {"grain", mesh_of(vertices, faces)};
   std::optional<wscvt::NamedMesh> original;
   if (!reference.is_none()) {
-    const auto [points, triangles] = reference.cast<std::pair<Points, py::object>>();
-    original = wscvt::NamedMesh{"reference", mesh_of(points, triangles)};
+    original = wscvt::NamedMesh{"reference", mesh_of_reference(reference)};
   }
   const wscvt::GrainMeasures measures =
       work_on(threads, progress, [&](const wscvt::Execution& execution) {
@@ -354,9 +380,13 @@ PYBIND11_MODULE(_wscvt, module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const Error& error) {
-      py::object raised = error_type(error.what());
+      py::object raised = error_type(wscvt::readable(error.what()));
       raised.attr("code") = name_of(error.code());
       PyErr_SetObject(error_type.ptr(), raised.ptr());
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(PyExc_MemoryError,
+                      "There is not enough memory for this; simplify the mesh or ask for fewer "
+                      "nodes.");
     }
   });
   module.attr("__version__") = wscvt::version();

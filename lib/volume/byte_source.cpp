@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 
 namespace wscvt {
 
@@ -23,19 +25,18 @@ constexpr std::size_t block_size = std::size_t{1} << 20;
 
 class FileBytes : public ByteSource {
  public:
-  FileBytes(const std::string& path, std::uint64_t offset) : buffer_(block_size), offset_(offset) {
+  FileBytes(const std::string& path, std::uint64_t offset)
+      : path_(path), buffer_(block_size), offset_(offset) {
     stream_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    errno = 0;
     stream_.open(path, std::ios::binary);
-    if (!stream_.is_open()) {
-      throw Error(ErrorCode::InputOutput, "\"" + path +
-                                              "\" cannot be opened; check that the file is there "
-                                              "and can be read.");
-    }
+    if (!stream_.is_open()) refuse_to_open(path, errno);
     FileBytes::rewind();
   }
 
   std::size_t read(char* bytes, std::size_t count) override {
     stream_.read(bytes, static_cast<std::streamsize>(count));
+    if (stream_.bad()) refuse_to_read(path_);
     return static_cast<std::size_t>(stream_.gcount());
   }
 
@@ -45,6 +46,7 @@ class FileBytes : public ByteSource {
   }
 
  private:
+  std::string path_;
   std::vector<char> buffer_;
   std::ifstream stream_;
   std::uint64_t offset_;
@@ -199,10 +201,7 @@ std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text) {
 std::uint64_t file_size(const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) {
-    throw Error(ErrorCode::InputOutput,
-                "\"" + path + "\" cannot be read; check that the file is there.");
-  }
+  if (error) refuse_to_open(path, error.value());
   return size;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -49,22 +50,42 @@ void LabelGrains::want(const std::vector<std::size_t>& grains) {
   volume_->rewind();
 }
 
-std::vector<VoxelStretch> LabelGrains::stretches_of(std::size_t grain, const Execution& execution) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const LabelExtent& label = labels_[taken_[grain]];
+void LabelGrains::begin_again() {
+  for (auto& [label, stretches] : at_work_) stretches.clear();
+  volume_->rewind();
+  next_slice_ = 0;
+}
+
+void LabelGrains::read_to(std::int32_t slice, const Execution& execution) {
+  if (is_behind_) begin_again();
   const auto take_stretch = [&](Label found, std::int32_t y, std::int32_t z, std::int32_t begin,
                                 std::int32_t end) {
     const auto place = at_work_.find(found);
     if (place != at_work_.end()) place->second.push_back({z, y, begin, end});
     return true;
   };
-  for (; next_slice_ < label.end[2]; ++next_slice_) {
+  is_behind_ = true;  // where what follows throws
+  for (; next_slice_ < slice; ++next_slice_) {
     execution.report(0.0, "Reading the volume");
     for (std::int32_t y = 0; y < geometry().counts[1]; ++y) {
       visit_stretches(volume_->next_row(), y, next_slice_, take_stretch);
     }
   }
-  const auto place = at_work_.find(label.label);
+  is_behind_ = false;
+}
+
+std::vector<VoxelStretch> LabelGrains::stretches_of(std::size_t grain, const Execution& execution) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const LabelExtent& label = labels_[taken_[grain]];
+  const auto [place, was_read_before] = at_work_.try_emplace(label.label);
+  if (was_read_before) is_behind_ = true;
+  try {
+    read_to(label.end[2], execution);
+  } catch (const Error& error) {
+    // All of it could be read when the labels were found.
+    if (error.code() == ErrorCode::InputOutput) throw MachineRefused(error.what());
+    throw;
+  }
   std::vector<VoxelStretch> stretches = std::move(place->second);
   at_work_.erase(place);
   return stretches;

@@ -78,13 +78,16 @@ class LabelGrains {
   /// Says which grains are to be read, by their places in taken(), ascending.
   void want(const std::vector<std::size_t>& grains);
 
-  /// Reads on to the last slice of a wanted grain and makes its mesh. Each is read once, in their
-  /// order but for those that several threads work on. Throws Error as the volume and
-  /// smoothed_surface do, and Cancelled.
+  /// Reads on to the last slice of a wanted grain and makes its mesh: in their order but for those
+  /// that several threads work on. A grain may be read again, which reads the volume from its
+  /// beginning. Throws Error as smoothed_surface does, Cancelled, and MachineRefused where the
+  /// volume cannot be read as it was when its labels were found.
   LabelGrain read(std::size_t grain, const Execution& execution);
 
  private:
   std::vector<VoxelStretch> stretches_of(std::size_t grain, const Execution& execution);
+  void read_to(std::int32_t slice, const Execution& execution);
+  void begin_again();
 
   VolumeOptions options_;
   std::unique_ptr<LabelVolume> volume_;
@@ -92,6 +95,7 @@ class LabelGrains {
   std::vector<std::size_t> taken_;
   std::mutex mutex_;  ///< of what follows
   std::int32_t next_slice_ = 0;
+  bool is_behind_ = false;  ///< at_work_ misses stretches of slices before next_slice_
   std::unordered_map<Label, std::vector<VoxelStretch>> at_work_;
 };
 

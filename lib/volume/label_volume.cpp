@@ -68,9 +68,9 @@ std::unique_ptr<LabelVolume> open_volume(const std::string& path,
   if (fs::is_directory(path, error)) return open_tiff(path, voxel_size);
   const Format* const format = format_of(path);
   if (format == nullptr) {
-    refuse_volume(path,
-                  "is no volume by its ending; give a .tif, .nrrd, .nhdr, .mhd, .mha, .vti, or "
-                  "the .json that describes a raw file, or a folder of .tif files.");
+    refuse("\"" + path +
+           "\" is no volume by its ending; give a .tif, .nrrd, .nhdr, .mhd, .mha, .vti, or the "
+           ".json that describes a raw file, or a folder of .tif files.");
   }
   return format->open(path, voxel_size);
 }

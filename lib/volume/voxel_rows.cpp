@@ -180,6 +180,13 @@ std::unique_ptr<LabelVolume> volume_of_file(const VolumeGeometry& geometry, cons
 }
 
 std::string voxel_file_beside(const std::string& header, const std::string& name) {
+  // A NUL would end it, and name another file.
+  if (std::any_of(name.begin(), name.end(),
+                  [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; })) {
+    refuse_volume(header, "names the file " + in_quotes(name) +
+                              " for its voxels, and there are control characters in that; correct "
+                              "it.");
+  }
   if (name.empty() || name.find('%') != std::string::npos ||
       lower_case(name).rfind("list", 0) == 0) {
     refuse_volume(header, "names more than one file of voxels, or none; save it in one.");

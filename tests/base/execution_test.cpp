@@ -122,6 +122,17 @@ TEST(Execution, ALoopIsCancelledBetweenItsBlocks) {
   }
 }
 
+TEST(Execution, ACancelBeforeTheFirstStageNamesNone) {
+  const Execution execution(1, [](double, const std::string&) { return false; });
+  try {
+    execution.parallel_for(100, 1, [](std::size_t, std::size_t) {});
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Cancelled);
+    EXPECT_STREQ(error.what(), "Cancelled.");
+  }
+}
+
 TEST(Execution, ProgressNeverGoesBackWithinARun) {
   std::vector<double> fractions;
   const Execution whole(1, [&](double fraction, const std::string&) {

@@ -38,7 +38,7 @@ double number_at(const std::string& bytes, std::size_t place) {
 
 TEST(DistanceGrid, OfABoxIsItsClosedForm) {
   const Vector3 half(0.5, 1.0, 1.5);
-  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.17, 3}, Execution(2));
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.17}, Execution(2));
   int inside = 0;
   for_each_point(grid, [&](const Vector3& p, double value) {
     const Vector3 beyond = p.cwiseAbs() - half;
@@ -47,14 +47,14 @@ TEST(DistanceGrid, OfABoxIsItsClosedForm) {
     if (value < 0.0) ++inside;
   });
   EXPECT_EQ(inside, 5 * 11 * 17);  // the multiples of 0.17 below half the edges
-  // Three cells beyond the box on every side, and not four.
+  // Four cells beyond the box on every side, and not five.
   for (int k = 0; k < 3; ++k) {
     const double last =
         grid.origin[k] + 0.17 * static_cast<double>(grid.counts[static_cast<std::size_t>(k)] - 1);
-    EXPECT_LE(grid.origin[k], -half[k] - 3 * 0.17 + 1e-9);
-    EXPECT_GT(grid.origin[k], -half[k] - 4 * 0.17 - 1e-9);
-    EXPECT_GE(last, half[k] + 3 * 0.17 - 1e-9);
-    EXPECT_LT(last, half[k] + 4 * 0.17 + 1e-9);
+    EXPECT_LE(grid.origin[k], -half[k] - 4 * 0.17 + 1e-9);
+    EXPECT_GT(grid.origin[k], -half[k] - 5 * 0.17 - 1e-9);
+    EXPECT_GE(last, half[k] + 4 * 0.17 - 1e-9);
+    EXPECT_LT(last, half[k] + 5 * 0.17 + 1e-9);
   }
 }
 
@@ -62,7 +62,7 @@ TEST(DistanceGrid, OfABoxIsItsClosedForm) {
 TEST(DistanceGrid, SignIsThatOfEveryPointAlone) {
   const IndexedMesh torus = test::torus(1.0, 0.3, 48);
   const MeshDistance surface(torus);
-  const DistanceGrid grid = distance_grid(torus, {0.06, 2}, Execution(2));
+  const DistanceGrid grid = distance_grid(torus, {0.06}, Execution(2));
   std::size_t inside = 0;
   for_each_point(grid, [&](const Vector3& p, double value) {
     EXPECT_EQ(value < 0.0, surface.contains(p)) << p.transpose();
@@ -74,13 +74,13 @@ TEST(DistanceGrid, SignIsThatOfEveryPointAlone) {
 TEST(DistanceGrid, SpacingFollowsTheSizeUnlessGiven) {
   const IndexedMesh sphere = test::sphere(4);
   EXPECT_NEAR(distance_grid(sphere, {}, Execution(2)).spacing, 2.0 / 50.0, 1e-3);
-  EXPECT_EQ(distance_grid(sphere, {0.2, 4}, Execution(2)).spacing, 0.2);
+  EXPECT_EQ(distance_grid(sphere, {0.2}, Execution(2)).spacing, 0.2);
 }
 
 TEST(DistanceGrid, SameBytesOnAnyNumberOfThreads) {
   const IndexedMesh mesh = test::lumpy(3);
-  EXPECT_EQ(distance_grid(mesh, {0.1, 2}, Execution(1)).values,
-            distance_grid(mesh, {0.1, 2}, Execution(3)).values);
+  EXPECT_EQ(distance_grid(mesh, {0.1}, Execution(1)).values,
+            distance_grid(mesh, {0.1}, Execution(3)).values);
 }
 
 TEST(DistanceGrid, StopsWhenAskedTo) {
@@ -94,7 +94,7 @@ TEST(DistanceGrid, StopsWhenAskedTo) {
 }
 
 TEST(DistanceGrid, NumPyFileHoldsEveryNumber) {
-  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4, 1}, Execution(1));
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4}, Execution(1));
   const std::string bytes = grid_npy(grid);
   ASSERT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\1\0", 8));
   const std::size_t header =
@@ -113,7 +113,7 @@ TEST(DistanceGrid, NumPyFileHoldsEveryNumber) {
 }
 
 TEST(DistanceGrid, ImageDataRunsAlongXFirst) {
-  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4, 1}, Execution(1));
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4}, Execution(1));
   const std::string bytes = grid_vti(grid);
   const auto& [nx, ny, nz] = grid.counts;
   const std::size_t begin = bytes.find("\n_") + 2;
@@ -127,7 +127,7 @@ TEST(DistanceGrid, ImageDataRunsAlongXFirst) {
 }
 
 TEST(DistanceGrid, NetdemTableIsPositiveInside) {
-  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.25, 1}, Execution(1));
+  const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.25}, Execution(1));
   const auto table = nlohmann::json::parse(grid_netdem(grid));
   EXPECT_EQ(table.at("dim")[1].get<std::size_t>(), grid.counts[1]);
   EXPECT_EQ(table.at("spacing").get<double>(), 0.25);
@@ -141,11 +141,47 @@ TEST(DistanceGrid, NetdemTableIsPositiveInside) {
   EXPECT_LT(values[0][0][0].get<double>(), 0.0);
 }
 
+TEST(DistanceGrid, DefaultSpacingIsAFiftiethOrWhatTwentyMillionPointsTake) {
+  // The box of a body that is nearly a cube has 50 to 60 cells a side.
+  const double diameter = std::cbrt(6.0 * 2.0 * 2.1 * 2.3 / 3.14159265358979);
+  const DistanceGrid usual = distance_grid(test::box(2.0, 2.1, 2.3), {}, Execution());
+  EXPECT_NEAR(usual.spacing, diameter / 50.0, 1e-12);
+  // A plate and a needle, of which a fiftieth would take 10^9 points.
+  for (const Vector3& size :
+       {Vector3(3e5, 2e5, 1.0), Vector3(1.0, 1.1, 2e7), Vector3(1e9, 1.0, 2.0)}) {
+    const IndexedMesh body = test::box(size.x(), size.y(), size.z());
+    const double fiftieth = std::cbrt(6.0 * size.prod() / 3.14159265358979) / 50.0;
+    EXPECT_THROW(check_grid(body, {fiftieth}), Error);
+    const double spacing = grid_spacing(body, {}, Execution());
+    EXPECT_GT(spacing, fiftieth);
+    EXPECT_NO_THROW(check_grid(body, {spacing}));
+    // Not much more than is needed.
+    EXPECT_THROW(check_grid(body, {0.9 * spacing}), Error);
+  }
+}
+
+TEST(DistanceGrid, TheRefusalOfASpacingNamesTheOptionAndOneThatIsTaken) {
+  const IndexedMesh box = test::box(1, 2, 3);
+  try {
+    check_grid(box, {0.005});
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+    const std::string sentence = error.what();
+    EXPECT_NE(sentence.find("(--sdf-spacing) of 0.005 takes a grid of 52"), std::string::npos)
+        << sentence;  // 209 x 409 x 609 points
+    const std::size_t place = sentence.find("; give ") + 7;
+    const double advised = std::stod(sentence.substr(place));
+    EXPECT_GT(advised, 0.005);
+    EXPECT_NO_THROW(check_grid(box, {advised})) << sentence;
+  }
+  EXPECT_NO_THROW(check_grid(box, {}));
+}
+
 TEST(DistanceGrid, RefusesWhatHasNoInsideOrNoEnd) {
   EXPECT_ERROR(distance_grid(IndexedMesh(), {}, Execution(1)), InvalidInput);
-  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {1e-4, 1}, Execution(1)), InvalidInput);
-  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {-0.1, 1}, Execution(1)), InvalidInput);
-  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {0.1, 0}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {1e-4}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(distance_grid(test::box(1, 2, 3), {-0.1}, Execution(1)), InvalidInput);
   IndexedMesh inward = test::box(1, 2, 3);
   for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
   EXPECT_ERROR(distance_grid(inward, {}, Execution(1)), InvalidInput);

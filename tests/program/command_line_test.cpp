@@ -59,7 +59,7 @@ TEST_F(CommandLine, WritesReportsByTheirEndings) {
        {"report.pdf", "report", "other.csv", "remesh.ply", "no/page.html"}) {
     SCOPED_TRACE(bad);
     const Outcome outcome = run(sand_ + " remesh.ply -n 1000000 --report " + bad);
-    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.exit_code, bad == "no/page.html" ? 1 : 2);
     EXPECT_NE(outcome.errors.find(bad), std::string::npos) << outcome.errors;
   }
   EXPECT_EQ(content("other.csv"), "a,b\r\n");
@@ -75,8 +75,15 @@ TEST_F(CommandLine, SaysItsVersion) {
 TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
   expect_refused("--report report.json",
                  {{"missing.ply remesh.ply -n 100", 1, "missing.ply"},
-                  {sand_ + " remesh.ply -p series -r 10", 1, "least squares"},
-                  {sand_ + " remesh.ply --coefficients ./report.json", 1, "two names"},
+                  {sand_ + " remesh.ply -p series -r 10", 2, "least squares"},
+                  {sand_ + " remesh.ply --coefficients ./report.json", 2, "two names"},
+                  {sand_ + " remesh.ply --coefficients g.txt", 2, "in .json"},
+                  {sand_ + " o.xyz", 2, "o.xyz"},
+                  {"scan.xyz remesh.ply", 2, "scan.xyz"},
+                  {sand_ + " remesh.ply --report x.txt", 2, "x.txt"},
+                  {sand_ + " remesh.ply --sdf x.txt", 2, "x.txt"},
+                  {sand_ + " remesh.ply --node-table x.txt", 2, "x.txt"},
+                  {sand_ + " remesh.ply --size 1 --scale 2", 2, "give one of them"},
                   {sand_ + " remesh.ply --nodse 100", 2, "nodse"},
                   {sand_ + " remesh.ply more.ply", 2, "more.ply"},
                   {sand_, 2, "output"}},
@@ -90,12 +97,12 @@ TEST_F(CommandLine, ReplacesTheScanOnlyWhenTold) {
   fs::create_hard_link(folder_ / "scan.ply", folder_ / "hard.ply");
   for (const std::string output : {"./scan.ply", "link.ply", "hard.ply"}) {
     const Outcome outcome = run("scan.ply " + output + " -n 100");
-    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.errors.find("--overwrite"), std::string::npos) << outcome.errors;
     EXPECT_EQ(content("scan.ply"), before);
   }
   fs::create_symlink("scan.ply", folder_ / "scan.json");
-  EXPECT_EQ(run("scan.ply remesh.ply -n 100 --report scan.json").exit_code, 1);
+  EXPECT_EQ(run("scan.ply remesh.ply -n 100 --report scan.json").exit_code, 2);
   EXPECT_EQ(content("scan.ply"), before);
   EXPECT_EQ(run("scan.ply link.ply -n 100 --overwrite").exit_code, 0);  // the advice
   EXPECT_EQ(read_mesh((folder_ / "hard.ply").string()).points.size(), 100U);
@@ -106,7 +113,7 @@ TEST_F(CommandLine, WritesWhereItsPathsLead) {
   // A report through a dangling link must not overwrite the mesh it points to.
   fs::create_symlink("remesh.ply", folder_ / "link.json");
   const Outcome dangling = run(sand_ + " remesh.ply -n 100 --report link.json");
-  EXPECT_EQ(dangling.exit_code, 1);
+  EXPECT_EQ(dangling.exit_code, 2);
   EXPECT_NE(dangling.errors.find("two names"), std::string::npos) << dangling.errors;
   fs::create_symlink("/dev/null", folder_ / "null.json");
   const Outcome null =
@@ -129,7 +136,7 @@ TEST_F(CommandLine, ChecksItsPathsBeforeTheWork) {
                                 "no/folder/remesh.ply", "remesh.ply --coefficients ."}) {
     SCOPED_TRACE(bad);
     const Outcome outcome = run("missing.ply " + bad + " -n 1000000");
-    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.exit_code, bad == "remesh.vtk" ? 2 : 1);
     EXPECT_EQ(outcome.errors.find("missing.ply"), std::string::npos) << outcome.errors;
   }
 }
@@ -210,10 +217,35 @@ TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
   }
 }
 
+TEST_F(CommandLine, ACancelledCreationSaysWhereItWas) {
+  const pid_t child = start(folder_, "create", "superellipsoid", "made.ply", "-n", "200000", "-q");
+  ASSERT_NE(child, -1);
+  // As soon as the program notes the signal, before it has told of anything.
+  const auto notes_signals = [&] {
+    std::ifstream status("/proc/" + std::to_string(child) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.rfind("SigCgt:", 0) != 0) continue;
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1U) != 0;
+    }
+    return false;
+  };
+  while (!notes_signals()) {
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << content("said.txt");
+  }
+  ASSERT_EQ(kill(child, SIGTERM), 0);
+  EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
+  const std::string said = content("said.txt");
+  EXPECT_EQ(said.rfind("Cancelled", 0), 0U) << said;
+  EXPECT_EQ(said.find(": ."), std::string::npos) << said;
+  EXPECT_NE(said.find(". Nothing was written.\n"), std::string::npos) << said;
+  EXPECT_FALSE(exists("made.ply"));
+}
+
 TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
-  // Signed distances at 100 million points take minutes; the remesh is there before them.
+  // Signed distances at 12 million points take minutes; the remesh is there before them.
   const pid_t child = start(folder_, WSCVT_MESHES_DIR "/sand_7228.ply", "remesh.ply", "-n", "100",
-                            "-q", "--size", "1", "--sdf", "grid.npy", "--sdf-spacing", "0.002");
+                            "-q", "--size", "1", "--sdf", "grid.npy", "--sdf-spacing", "0.005");
   ASSERT_NE(child, -1);
   while (!exists("remesh.ply")) {
     int status = 0;

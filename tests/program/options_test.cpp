@@ -283,6 +283,24 @@ TEST_F(ProgramOptions, FilesForASimulationLieInOneFrame) {
   EXPECT_LT((read_mesh(path("large.ply")).points[7] - 1000.0 * plain).norm(), 1e-9);
 }
 
+TEST_F(ProgramOptions, AGridThatIsTooLargeIsRefusedBeforeTheRemesh) {
+  // A million nodes would take long. Diameter 2, so that 0.001 takes 2000 points along an axis.
+  for (const std::string frame : {"", " --frame principal", " --frame centred"}) {
+    const Outcome outcome =
+        run("remesh scan.ply bad.ply -n 1000000 --size 2 --sdf grid.npy "
+            "--sdf-spacing 0.001" +
+            frame);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find("(--sdf-spacing) of 0.001 takes a grid of "), std::string::npos)
+        << outcome.errors;
+    EXPECT_FALSE(exists("bad.ply") || exists("grid.npy"));
+  }
+  // What is wrong with the scan comes first.
+  std::ofstream(folder_ / "none.ply") << "no mesh";
+  const Outcome outcome = run("remesh none.ply bad.ply --sdf grid.npy --sdf-spacing 1e-9");
+  EXPECT_EQ(outcome.exit_code, 1);
+}
+
 TEST_F(ProgramOptions, RefuseFilesForASimulationBeforeTheWork) {
   for (const char* wrong :
        {"--node-table nodes.txt", "--sdf grid.csv", "--node-table grain.shp", "--frame middle",

@@ -169,6 +169,38 @@ def test_what_is_refused(scan):
             call()
 
 
+@pytest.mark.parametrize("reference", [3, "scan.ply", (1.0,), ("a", "b"), {"vertices": 1}, object()])
+def test_a_reference_of_another_type_is_a_type_error(scan, reference):
+    with pytest.raises(TypeError, match=r"\(vertices, faces\)"):
+        wscvt.describe(*scan, reference)
+
+
+@pytest.mark.parametrize("answer", ["stop", [], np.zeros(3), object()])
+def test_an_answer_of_another_type_is_a_type_error(scan, answer):
+    with pytest.raises(TypeError, match=f"{type(answer).__name__}; return True, or False"):
+        wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: answer)
+
+
+def test_answers_that_are_true_or_false_count(scan):
+    for answer in [None, True, np.True_, 1]:
+        wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: answer)
+    for answer in [False, np.False_, 0]:
+        with pytest.raises(wscvt.Error) as cancelled:
+            wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: answer)
+        assert cancelled.value.code == "cancelled"
+
+
+def test_memory_that_is_refused_is_a_memory_error():
+    code = ("import resource, numpy, wscvt\n"
+            "resource.setrlimit(resource.RLIMIT_AS, (2 ** 30, 2 ** 30))\n"
+            "try:\n"
+            "    wscvt.create('ellipsoid', nodes=1000000)\n"
+            "except MemoryError as error:\n"
+            "    print(error)\n")
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
+    assert "fewer nodes" in ended.stdout, ended.stderr
+
+
 def test_progress_tells_and_cancels(scan):
     told = []
     wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: told.append((fraction, stage)))

@@ -312,7 +312,7 @@ TEST_F(MeshIo, RefusesWhereItCannotWrite) {
   EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("taken.ply")), InputOutput);
   EXPECT_TRUE(fs::is_directory(path("taken.ply")));
   EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("no/such/folder/a.ply")), InputOutput);
-  EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("a.vtk")), InputOutput);
+  EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("a.vtk")), InvalidInput);
 }
 
 TEST_F(MeshIo, LeavesNothingBeside) {

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "support/read_content.h"
+#include "wscvt/base/machine_refused.h"
+#include "wscvt/scan/byte_reader.h"
 #include "wscvt/scan/obj_reader.h"
 #include "wscvt/scan/off_reader.h"
 #include "wscvt/scan/stl_reader.h"
@@ -162,6 +165,19 @@ TEST(StlReader, SaysWhatIsWrong) {
                  "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 0 1\n"
                  "vertex 0 1 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n",
                  "line 7 has \"vertex\" where \"endloop\"");
+}
+
+TEST(ByteReader, AReadThatFailsIsNotTheEndOfTheFile) {
+  // Of its own memory a process can read no byte at 0: the system's error is that of a bad disk.
+  std::ifstream memory("/proc/self/mem", std::ios::binary);
+  ASSERT_TRUE(memory.is_open());
+  ByteReader reader(memory, 1000, "scan.ply");
+  try {
+    reader.next(10);
+    FAIL() << "read";
+  } catch (const MachineRefused& error) {
+    EXPECT_STREQ(error.what(), "\"scan.ply\" could not be read to its end; check the disk.");
+  }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "support/expect_error.h"
 #include "support/made_volume.h"
 #include "volume/label_table.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
@@ -189,6 +190,50 @@ TEST_F(LabelGrainsOfAFile, AreTheSameOnSeveralThreadsAndWhenSomeAreLeftOut) {
   grains.want({4, 20});
   EXPECT_EQ(grains.read(4, Execution(1)).mesh.points, alone[4].mesh.points);
   EXPECT_EQ(grains.read(20, Execution(1)).mesh.points, alone[20].mesh.points);
+}
+
+TEST_F(LabelGrainsOfAFile, AreReadAgainWhereReadingOrWorkBrokeOff) {
+  MadeVolume volume({40, 30, 60});
+  volume.fill_ball(4, {12, 12, 12}, 8.0);
+  volume.fill_ball(2, {27, 15, 25}, 7.0);  // reaches into the slices of both
+  volume.fill_ball(9, {14, 14, 45}, 9.0);
+  write(volume);
+  LabelGrains grains(path_, {}, Execution(1));
+  const std::vector<std::size_t> all = {0, 1, 2};
+  grains.want(all);
+  std::vector<IndexedMesh> meshes;
+  for (const std::size_t grain : all) meshes.push_back(grains.read(grain, Execution(1)).mesh);
+  const auto expect_mesh = [&](std::size_t grain) {
+    const IndexedMesh mesh = grains.read(grain, Execution(1)).mesh;
+    EXPECT_EQ(mesh.points, meshes[grain].points);
+    EXPECT_EQ(mesh.triangles, meshes[grain].triangles);
+  };
+  // Each again, once it was taken, also out of turn.
+  grains.want(all);
+  for (const std::size_t grain : {0U, 0U, 1U, 0U, 2U, 1U, 2U}) expect_mesh(grain);
+  // Broken off within the slices of two grains.
+  for (int slices = 0; slices < 50; slices += 7) {
+    grains.want(all);
+    int told = 0;
+    const Execution breaks(1, [&](double, const std::string&) { return told++ < slices; });
+    EXPECT_ERROR(grains.read(2, breaks), Cancelled);
+    for (const std::size_t grain : all) expect_mesh(grain);
+  }
+}
+
+TEST_F(LabelGrainsOfAFile, AVolumeThatIsGoneIsNoFailureOfItsGrains) {
+  MadeVolume volume({300, 300, 40});
+  volume.fill_ball(4, {12, 12, 12}, 8.0);
+  volume.fill_ball(9, {14, 14, 30}, 8.0);
+  write(volume);
+  LabelGrains grains(path_, {}, Execution(1));
+  grains.want({0, 1});
+  const std::uintmax_t size = fs::file_size(path_);
+  fs::resize_file(path_, size / 2);
+  EXPECT_THROW(grains.read(1, Execution(1)), MachineRefused);
+  write(volume);
+  EXPECT_FALSE(grains.read(0, Execution(1)).mesh.points.empty());
+  EXPECT_FALSE(grains.read(1, Execution(1)).mesh.points.empty());
 }
 
 TEST_F(LabelGrainsOfAFile, RefusesGreyImagesEmptyOnesAndCancels) {

@@ -1,93 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/execution.h"
 
-#ifndef WSCVT_PLAIN_THREADS
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#endif
-
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/worker_threads.h"
 
 namespace wscvt {
-
-namespace {
-
-#ifdef WSCVT_PLAIN_THREADS
-
-// ThreadSanitizer sees the locks of the standard library, but not what TBB does with atomics alone:
-// its build goes without TBB.
-class Workers {
- public:
-  explicit Workers(int threads) : threads_(threads) {}
-
-  static int machine() {
-    return std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
-  }
-
-  template <class Run>
-  void for_each(std::size_t count, const Run& run) {
-    std::atomic<std::size_t> next{0};
-    std::mutex mutex;
-    std::exception_ptr failure;
-    const auto work = [&] {
-      try {
-        for (std::size_t i = next++; i < count; i = next++) run(i);
-      } catch (...) {
-        next = count;
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!failure) failure = std::current_exception();
-      }
-    };
-    std::vector<std::thread> others;
-    for (int i = 1; i < threads_; ++i) others.emplace_back(work);
-    work();
-    for (std::thread& other : others) other.join();
-    if (failure) std::rethrow_exception(failure);
-  }
-
- private:
-  int threads_;
-};
-
-#else
-
-class Workers {
- public:
-  explicit Workers(int threads) : arena_(threads) {}
-
-  static int machine() { return tbb::info::default_concurrency(); }
-
-  template <class Run>
-  void for_each(std::size_t count, const Run& run) {
-    arena_.execute([&] { tbb::parallel_for(std::size_t{0}, count, run); });
-  }
-
- private:
-  tbb::task_arena arena_;
-};
-
-#endif
-
-}  // namespace
 
 /// What all copies and parts of an execution share: the threads and what was reported last.
 class Execution::Arena {
  public:
   explicit Arena(int threads) {
-    if (threads > 1) workers.emplace(threads);
+    if (threads > 1) workers.emplace(threads - 1);
   }
 
-  std::optional<Workers> workers;  ///< none when the caller works alone
+  std::optional<WorkerThreads> workers;  ///< none when the caller works alone
   /// The thread whose loop runs now. It alone repeats the progress, between its own blocks: the
   /// callback belongs to the thread that called the library.
   std::atomic<std::thread::id> caller{};
@@ -118,7 +51,8 @@ class CallerOfLoop {
 };
 
 [[noreturn]] void cancel(const std::string& stage) {
-  throw Error(ErrorCode::Cancelled, "Cancelled during: " + stage + ".");
+  throw Error(ErrorCode::Cancelled,
+              (stage.empty() ? "Cancelled" : "Cancelled during: " + stage) + ".");
 }
 
 }  // namespace
@@ -128,8 +62,8 @@ Execution::Execution(int threads, ProgressCallback progress) : progress_(std::mo
     throw Error(ErrorCode::InvalidInput, "The number of threads is " + std::to_string(threads) +
                                              "; give 0 for all of the machine's, or 1 and more.");
   }
-  // More than the machine has would gain nothing, and TBB writes a warning to stderr.
-  const int machine = Workers::machine();
+  // More than the machine has would gain nothing.
+  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   arena_ = std::make_shared<Arena>(threads > 0 ? std::min(threads, machine) : machine);
 }
 

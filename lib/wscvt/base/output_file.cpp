@@ -17,7 +17,7 @@
 #include <system_error>
 #include <utility>
 
-#include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 
 namespace wscvt {
 
@@ -26,14 +26,17 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
+  throw MachineRefused("\"" + path + "\" " + what);
 }
 
 [[noreturn]] void fail_half_written(const std::string& path) {
   fail(path,
-       "could not be written whole and was left as it was; check the space on the disk and that "
-       "no folder has this name.");
+       "could not be written whole and was left as it was; check the space on the disk, the limit "
+       "of file sizes (ulimit -f), and that no folder has this name.");
 }
+
+/// What a file is called while it is written.
+std::string partial_name(const std::string& target) { return target + ".part"; }
 
 constexpr const char* check_the_folder =
     "cannot be written; check that the folder is there and can be written to.";
@@ -80,7 +83,7 @@ class PartialFile {
   explicit PartialFile(const std::string& target) {
     // Never a file that was there: it may be somebody's.
     for (int attempt = 0; attempt < 100 && path_.empty(); ++attempt) {
-      const std::string name = target + ".part" + (attempt == 0 ? "" : std::to_string(attempt));
+      const std::string name = partial_name(target) + (attempt == 0 ? "" : std::to_string(attempt));
       if (std::FILE* created = std::fopen(name.c_str(), "wbx")) {
         std::fclose(created);
         path_ = name;
@@ -199,6 +202,11 @@ void write_file(const std::string& path, const std::string& content) {
     stream << content;
     return true;
   });
+}
+
+void remove_partial_file(const std::string& path) {
+  std::error_code ignored;
+  fs::remove(partial_name(follow(path).path.string()), ignored);
 }
 
 void check_writable(const std::string& path) {

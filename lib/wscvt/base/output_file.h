@@ -14,14 +14,18 @@ namespace wscvt {
 /// replaced.
 ///
 /// `write` puts the content into a binary stream in the classic locale and returns whether that
-/// went well. Throws Error(InputOutput) when the file cannot be written, and whatever `write`
+/// went well. Throws MachineRefused when the file cannot be written, and whatever `write`
 /// throws; an existing file is then as it was, and nothing is left beside it.
 void write_file(const std::string& path, const std::function<bool(std::ostream&)>& write);
 
 /// The same for content that is there already.
 void write_file(const std::string& path, const std::string& content);
 
-/// Throws the Error(InputOutput) that write_file would end with, as far as it can be told before
+/// Removes what a write_file of this path has left beside it that was killed. For files in a folder
+/// of one's own: it may be in use by another process.
+void remove_partial_file(const std::string& path);
+
+/// Throws the MachineRefused that write_file would end with, as far as it can be told before
 /// there is a content, and writes nothing.
 void check_writable(const std::string& path);
 

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <utility>
 
+#include "wscvt/base/readable_text.h"
+
 namespace wscvt {
 
 std::string format_number(double value, int significant) {
@@ -77,7 +79,7 @@ std::string csv_record(const std::vector<std::string>& fields) {
   std::string record;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (i > 0) record += ',';
-    const std::string& field = fields[i];
+    const std::string field = csv_field(fields[i]);
     if (field.find_first_of(",\"\r\n") == std::string::npos) {
       record += field;
       continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/exchange/distance_grid.h"
 
+#include <algorithm>
 #include <boost/endian/conversion.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -19,8 +20,6 @@ namespace {
 /// interpolates there.
 constexpr double margin = 4.0;
 
-constexpr double most_points = 5e8;
-
 std::array<unsigned char, 8> bytes_of(double value) {
   std::array<unsigned char, 8> bytes{};
   boost::endian::endian_store<double, 8, boost::endian::order::little>(bytes.data(), value);
@@ -32,51 +31,114 @@ void append(std::string& text, double value) {
   text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-/// A grid about the mesh, without its values.
-DistanceGrid empty_grid(const IndexedMesh& mesh, const GridOptions& options,
-                        const Execution& execution) {
+/// Where the points of a mesh lie.
+struct Box {
+  Vector3 lowest;
+  Vector3 highest;
+};
+
+Box box_of(const IndexedMesh& mesh) {
   if (mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput,
                 "The mesh has no faces, so there is no inside; give a closed triangle mesh.");
   }
-  DistanceGrid grid;
-  grid.spacing = options.spacing;
-  if (grid.spacing == 0.0) {
-    const double volume =
-        mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), execution).volume();
-    if (!(volume > 0.0)) {
-      throw Error(ErrorCode::InvalidInput,
-                  "The mesh encloses no positive volume, so there is no inside; give a closed mesh "
-                  "whose faces look outward.");
-    }
-    grid.spacing = std::cbrt(6.0 * volume / pi) / 50.0;
-  }
-  Vector3 lowest = mesh.points[mesh.triangles.front()[0]];
-  Vector3 highest = lowest;
+  Box box{mesh.points[mesh.triangles.front()[0]], mesh.points[mesh.triangles.front()[0]]};
   for (const Triangle& t : mesh.triangles) {
     for (const std::int32_t v : t) {
-      lowest = lowest.cwiseMin(mesh.points[v]);
-      highest = highest.cwiseMax(mesh.points[v]);
+      box.lowest = box.lowest.cwiseMin(mesh.points[v]);
+      box.highest = box.highest.cwiseMax(mesh.points[v]);
     }
   }
+  return box;
+}
+
+/// First and last multiple of the spacing along an axis.
+struct Span {
+  double first;
+  double last;
+};
+
+Span span_of(const Box& box, int axis, const GridOptions& options) {
+  return {std::floor(box.lowest[axis] / options.spacing) - margin,
+          std::ceil(box.highest[axis] / options.spacing) + margin};
+}
+
+double point_count(const Box& box, const GridOptions& options) {
   double points = 1.0;
-  for (int k = 0; k < 3; ++k) {
-    const double first = std::floor(lowest[k] / grid.spacing) - margin;
-    const double last = std::ceil(highest[k] / grid.spacing) + margin;
-    grid.origin[k] = first * grid.spacing;
-    points *= last - first + 1.0;
-    if (!(points <= most_points)) {
-      throw Error(ErrorCode::InvalidInput,
-                  "A spacing of " + format_number(grid.spacing) +
-                      " takes a grid of more than 500 million points; give a larger one.");
-    }
-    grid.counts[static_cast<std::size_t>(k)] = static_cast<std::size_t>(last - first) + 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Span span = span_of(box, axis, options);
+    points *= span.last - span.first + 1.0;
+  }
+  return points;
+}
+
+/// The spacing, or a larger one with which the grid has no more points than may be.
+double affordable_spacing(const Box& box, GridOptions options) {
+  for (double points = point_count(box, options); !(points <= most_grid_points);
+       points = point_count(box, options)) {
+    // Of bodies with three long axes; on others it takes a few steps more.
+    options.spacing *= std::max(1.001, std::min(1e6, std::cbrt(points / most_grid_points)));
+  }
+  return options.spacing;
+}
+
+void refuse_grid(const Box& box, const GridOptions& options) {
+  throw Error(ErrorCode::InvalidInput,
+              "A spacing (--" + std::string(grid_spacing_option.key) + ") of " +
+                  format_number(options.spacing) + " takes a grid of " +
+                  format_number(point_count(box, options) / 1e6, 3) +
+                  " million points, more than " + format_number(most_grid_points / 1e6) +
+                  " million; give " + format_number(1.01 * affordable_spacing(box, options), 3) +
+                  " or more, or 0.");
+}
+
+double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
+  const Box box = box_of(mesh);
+  const double volume =
+      mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), execution).volume();
+  if (!(volume > 0.0)) {
+    throw Error(ErrorCode::InvalidInput,
+                "The mesh encloses no positive volume, so there is no inside; give a closed mesh "
+                "whose faces look outward.");
+  }
+  return affordable_spacing(box, {std::cbrt(6.0 * volume / pi) / 50.0});
+}
+
+}  // namespace
+
+double grid_spacing(const IndexedMesh& closed, const GridOptions& options,
+                    const Execution& execution) {
+  return options.spacing > 0.0 ? options.spacing : default_spacing(closed, execution);
+}
+
+namespace {
+
+/// A grid about the mesh, without its values.
+DistanceGrid empty_grid(const IndexedMesh& mesh, GridOptions options, const Execution& execution) {
+  const Box box = box_of(mesh);
+  options.spacing = grid_spacing(mesh, options, execution);
+  // A remesh may reach a little farther than the scan that check_grid saw.
+  if (!(point_count(box, options) <= 1.1 * most_grid_points)) refuse_grid(box, options);
+  DistanceGrid grid;
+  grid.spacing = options.spacing;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Span span = span_of(box, axis, options);
+    grid.origin[axis] = span.first * grid.spacing;
+    grid.counts[static_cast<std::size_t>(axis)] =
+        static_cast<std::size_t>(span.last - span.first) + 1;
   }
   grid.values.resize(grid.counts[0] * grid.counts[1] * grid.counts[2]);
   return grid;
 }
 
 }  // namespace
+
+void check_grid(const IndexedMesh& closed, const GridOptions& options) {
+  const Box box = box_of(closed);
+  if (options.spacing > 0.0 && !(point_count(box, options) <= most_grid_points)) {
+    refuse_grid(box, options);
+  }
+}
 
 DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options,
                            const Execution& execution) {

@@ -22,12 +22,24 @@ struct DistanceGrid {
   std::vector<double> values;
 };
 
+/// Points of a grid: 160 MB of distances, which take minutes.
+inline constexpr double most_grid_points = 2e7;
+
+/// The spacing of a grid about the mesh: that of the options, or their default of it. Throws
+/// Error(InvalidInput) for a mesh without faces or volume.
+double grid_spacing(const IndexedMesh& closed, const GridOptions& options,
+                    const Execution& execution);
+
+/// Throws Error(InvalidInput), naming the option, for a spacing that takes more than
+/// most_grid_points about the mesh. The spacing 0 never does.
+void check_grid(const IndexedMesh& closed, const GridOptions& options);
+
 /// Distances are exact at the points (see MeshDistance), and so is their sign, which is that of a
 /// ray's crossings or, where the surface lies too far to come between, of a point beside. The grid
 /// starts at a multiple of the spacing, so that grids of one body fit each other.
 ///
 /// Throws Error(InvalidInput) for a mesh without faces or volume, for options out of range and for
-/// grids of more than 500 million points, Error(Cancelled).
+/// grids of more than 1.1 most_grid_points, Error(Cancelled).
 DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options,
                            const Execution& execution);
 

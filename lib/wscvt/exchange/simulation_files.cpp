@@ -12,6 +12,7 @@
 #include "wscvt/exchange/node_table.h"
 #include "wscvt/exchange/rockable_shape.h"
 #include "wscvt/exchange/simulation_options.h"
+#include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt {
@@ -85,6 +86,19 @@ void check_grid_path(const std::string& path) {
 
 std::string grid_description_path(const std::string& path) {
   return ending_of(path) == ".npy" ? path + ".json" : "";
+}
+
+void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const SimulationOptions& options,
+                   const Execution& execution) {
+  if (options.grid.spacing == 0.0) return;
+  try {
+    scan = repair_scan(std::move(scan), remesh, execution).checked.mesh;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    return;
+  }
+  const SimulationFrame frame = simulation_frame(describe_shape(scan, execution), options.frame);
+  check_grid(in_frame(std::move(scan), frame), options.grid);
 }
 
 void write_nodes(const std::string& path, const RemeshResult& result,

@@ -21,6 +21,12 @@ void check_grid_path(const std::string& path);
 /// has no place for it; empty for the others.
 std::string grid_description_path(const std::string& path);
 
+/// Throws Error(InvalidInput), naming the option, where the grid asked for is too large for this
+/// scan, before it is remeshed: it is mended for that as remesh does. What is wrong with the scan
+/// is left to remesh to say.
+void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const SimulationOptions& options,
+                   const Execution& execution);
+
 /// Writes the nodes of a remesh in the frame asked for, by the name's ending: nodes_csv, nodes_vtp
 /// or rockable_shape. Throws Error as check_nodes_path and write_file do.
 void write_nodes(const std::string& path, const RemeshResult& result,

@@ -77,13 +77,19 @@ MassProperties in_frame(const MassProperties& mass, const SimulationFrame& frame
 
 /// How fine and how large a grid is.
 struct GridOptions {
-  double spacing = 0.0;  ///< length, >= 0; 0: a fiftieth of the equivalent diameter
+  /// Length, >= 0; 0: a fiftieth of the equivalent diameter, or as much more as a grid of 20
+  /// million points takes.
+  double spacing = 0.0;
 };
 
 inline constexpr NumberOption<double> grid_spacing_option = {
-    "sdf-spacing", "spacing of the grid of distances",
-    0.0,           std::numeric_limits<double>::infinity(),
-    Ends::Both,    "in the unit written; 0 takes a fiftieth of the equivalent diameter"};
+    "sdf-spacing",
+    "spacing of the grid of distances",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::Both,
+    "in the unit written; 0 takes a fiftieth of the equivalent diameter, or more where that is a "
+    "grid of more than 20 million points"};
 /// Whose surface the distances of a grid are to.
 enum class GridSurface { Scan, Remesh };
 

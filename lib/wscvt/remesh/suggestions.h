@@ -14,9 +14,9 @@ namespace wscvt {
 using RemeshWith =
     std::function<RemeshResult(const RemeshOptions& options, const Execution& execution)>;
 
-/// Settings that bring the remesh closer to the scan, each tried by `remesh_with`, not guessed:
-/// first those that keep the number of nodes, which is what a simulation pays for. Settings that
-/// cannot be remeshed are left out. Throws Error(Cancelled).
+/// A setting that brings the remesh closer to the scan with the same number of nodes, which is what
+/// a simulation pays for: tried to its end by `remesh_with`, once, so that it costs about as much
+/// as the run. None where it cannot be remeshed. Throws Error(Cancelled).
 std::vector<SuggestedSetting> suggest_settings(const RemeshOptions& options,
                                                const RemeshWith& remesh_with,
                                                const Execution& execution);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/html_document.h"
 
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -44,7 +45,7 @@ std::string with_unit(const std::string& label, const std::string& unit) {
 
 std::string html_escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : readable(text, "\t\n")) {
     switch (c) {
       case '&':
         result += "&amp;";

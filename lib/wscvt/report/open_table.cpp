@@ -9,16 +9,15 @@
 #include <cerrno>
 #include <utility>
 
-#include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 
 // Streams of the standard library can neither lock a file nor take its end off.
 namespace wscvt {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what,
-                       ErrorCode code = ErrorCode::InputOutput) {
-  throw Error(code, "\"" + path + "\" " + what);
+[[noreturn]] void fail_table(const std::string& path, const std::string& what) {
+  throw MachineRefused("\"" + path + "\" " + what);
 }
 
 }  // namespace
@@ -26,12 +25,11 @@ namespace {
 OpenTable::OpenTable(std::string path, TableUse use) : path_(std::move(path)) {
   const int flags = use == TableUse::Read ? O_RDONLY : O_RDWR | O_CREAT | O_APPEND;
   descriptor_ = ::open(path_.c_str(), flags | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail(path_, "cannot be opened; check that it is a file and yours.");
+  if (descriptor_ < 0) fail_table(path_, "cannot be opened; check that it is a file and yours.");
   const bool waits = use != TableUse::AppendAlone;
   if (::flock(descriptor_, LOCK_EX | (waits ? 0 : LOCK_NB)) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
-    fail(path_, "is being written by another batch; wait for it, or give another folder.",
-         ErrorCode::InvalidInput);
+    fail_table(path_, "is being written by another batch; wait for it, or give another folder.");
   }
 }
 
@@ -39,7 +37,7 @@ OpenTable::~OpenTable() { ::close(descriptor_); }
 
 std::size_t OpenTable::size() const {
   struct stat state {};
-  if (::fstat(descriptor_, &state) != 0) fail(path_, "cannot be read; check the disk.");
+  if (::fstat(descriptor_, &state) != 0) fail_table(path_, "cannot be read; check the disk.");
   return static_cast<std::size_t>(state.st_size);
 }
 
@@ -49,7 +47,7 @@ std::string OpenTable::read(std::size_t from, std::size_t size) const {
   while (have < size) {
     const ssize_t count =
         ::pread(descriptor_, bytes.data() + have, size - have, static_cast<off_t>(from + have));
-    if (count < 0) fail(path_, "cannot be read; check the disk.");
+    if (count < 0) fail_table(path_, "cannot be read; check the disk.");
     if (count == 0) break;
     have += static_cast<std::size_t>(count);
   }
@@ -69,14 +67,15 @@ void OpenTable::append(const std::string& bytes) const {
   if (written == bytes.size()) return;
   const bool restored = ::ftruncate(descriptor_, static_cast<off_t>(before)) == 0;
   if (before == 0) ::unlink(path_.c_str());
-  fail(path_, restored ? "could not be written whole and was left as it was; check the space on "
-                         "the disk."
-                       : "took a part of a row only; remove its last line and check the disk.");
+  fail_table(path_, restored
+                        ? "could not be written whole and was left as it was; check the space on "
+                          "the disk."
+                        : "took a part of a row only; remove its last line and check the disk.");
 }
 
 void OpenTable::cut(std::size_t size) const {
   if (::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) return;
-  fail(path_, "ends within a row, which cannot be taken off; see whose it is.");
+  fail_table(path_, "ends within a row, which cannot be taken off; see whose it is.");
 }
 
 }  // namespace wscvt

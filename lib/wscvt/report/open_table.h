@@ -17,8 +17,8 @@ enum class TableUse {
 /// public headers.
 class OpenTable {
  public:
-  /// Throws Error: InputOutput when it cannot be opened, InvalidInput when it is to be appended to
-  /// alone and another has it.
+  /// Throws MachineRefused when it cannot be opened, and when it is to be appended to alone and
+  /// another has it.
   OpenTable(std::string path, TableUse use);
   OpenTable(const OpenTable&) = delete;
   OpenTable& operator=(const OpenTable&) = delete;
@@ -26,7 +26,7 @@ class OpenTable {
 
   const std::string& path() const { return path_; }
 
-  /// In bytes. Throws Error(InputOutput), as all that follows.
+  /// In bytes. Throws MachineRefused, as all that follows.
   std::size_t size() const;
 
   /// As much as there is of `size` bytes at `from`.

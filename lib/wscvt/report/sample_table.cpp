@@ -8,6 +8,7 @@
 #include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/report.h"
 
@@ -133,7 +134,8 @@ void SampleTable::read(const std::string& header, const std::vector<std::string>
            "is no table with this batch's columns; give another folder.");
     }
     if (rows_ > 0) {
-      const std::string expected = rows_ <= grains.size() ? grains[rows_ - 1] : "nothing";
+      const std::string expected =
+          rows_ <= grains.size() ? csv_field(grains[rows_ - 1]) : "nothing";
       if (fields.front() != expected) {
         fail(ErrorCode::InvalidInput, path,
              "has \"" + fields.front() + "\" in row " + std::to_string(rows_) +

@@ -31,9 +31,9 @@ std::string failed_row(const std::string& grain, const std::string& error, Secon
 /// of one, which the next one to open it takes off.
 class SampleTable {
  public:
-  /// Opens the table of these grains, or begins it. Throws Error: InvalidInput when the file has
-  /// other columns or rows of other grains, or when another process has it open; InputOutput when
-  /// it cannot be read or written.
+  /// Opens the table of these grains, or begins it. Throws Error(InvalidInput) when the file has
+  /// other columns or rows of other grains, and MachineRefused when it cannot be read or written,
+  /// or another process has it open.
   SampleTable(const std::string& path, const std::string& header,
               const std::vector<std::string>& grains);
 

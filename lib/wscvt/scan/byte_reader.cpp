@@ -6,6 +6,7 @@
 #include <istream>
 #include <utility>
 
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/scan/text_fields.h"
 
 namespace wscvt {
@@ -39,6 +40,7 @@ bool ByteReader::fill(std::size_t count) {
   stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(wanted));
   const auto got = static_cast<std::size_t>(stream_.gcount());
   end_ += got;
+  if (stream_.bad()) refuse_to_read(path_);
   // A file that became shorter since its size was asked for ends here.
   unread_ = got < wanted ? 0 : unread_ - got;
   return end_ >= count;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/endian/conversion.hpp>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -20,6 +21,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/scan/byte_reader.h"
 #include "wscvt/scan/obj_reader.h"
@@ -49,7 +51,8 @@ std::optional<Format> known_format(const std::string& path) {
 Format format_of(const std::string& path) {
   const std::optional<Format> format = known_format(path);
   if (!format) {
-    fail(path, "does not end in .ply, .stl, .obj or .off; convert the mesh to one of these.");
+    refuse("\"" + path +
+           "\" does not end in .ply, .stl, .obj or .off; convert the mesh to one of these.");
   }
   return *format;
 }
@@ -156,17 +159,19 @@ IndexedMesh read_mesh(const std::string& path, const Execution& execution) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !is_pipe) {
     fail(path, "is a folder or a device; give the name of a file.");
   }
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "cannot be opened; check that the file is there and readable.");
+  if (!file) refuse_to_open(path, errno);
   if (is_pipe) {
     // How much a pipe holds is known at its end.
     std::stringstream content;
+    content.exceptions(std::ios::badbit);  // or memory that is refused would be the pipe's end
     content << file.rdbuf();
     ByteReader reader(content, content.str().size(), path, execution);
     return read_as(reader, format);
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) fail(path, "cannot be read; check that the file is there and readable.");
+  if (error) refuse_to_open(path, error.value());
   ByteReader reader(file, size, path, execution);
   return read_as(reader, format);
 }

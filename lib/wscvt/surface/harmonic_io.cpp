@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <complex>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/harmonic_transform.h"
@@ -25,11 +27,9 @@ constexpr const char* map_kind = "map";
 constexpr std::array<const char*, 3> coordinate_names{"x", "y", "z"};
 
 std::ifstream open_for_reading(const std::string& path) {
+  errno = 0;
   std::ifstream stream(path);
-  if (!stream) {
-    throw Error(ErrorCode::InputOutput,
-                "The file " + path + " cannot be opened; check that it exists and may be read.");
-  }
+  if (!stream) refuse_to_open(path, errno);
   return stream;
 }
 

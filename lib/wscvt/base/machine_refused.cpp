@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/base/machine_refused.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+namespace wscvt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the number tells of the file itself, as it stands on the disk.
+bool is_of_the_file(int error_number) {
+  switch (error_number) {
+    case 0:  // nothing is known: a stream that failed without asking the system
+    case EACCES:
+    case EISDIR:
+    case ELOOP:
+    case ENAMETOOLONG:
+    case ENOENT:
+    case ENOTDIR:
+    case ENXIO:
+    case EPERM:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+void refuse_to_open(const std::string& path, int error_number) {
+  const std::string file = "\"" + path + "\" ";
+  if (!is_of_the_file(error_number)) {
+    throw MachineRefused(file +
+                         "could not be opened: " + std::generic_category().message(error_number) +
+                         ". Check the disk and the machine's limits (ulimit -a).");
+  }
+  std::error_code error;
+  const fs::path folder = fs::path(path).parent_path();
+  if (error_number == ENOENT && !folder.empty() && !fs::exists(folder, error)) {
+    throw MachineRefused(file + "cannot be opened: the folder \"" + folder.string() +
+                         "\" is not there. Check its name and that its disk is mounted.");
+  }
+  throw Error(ErrorCode::InputOutput,
+              file + "cannot be opened; check that the file is there and readable.");
+}
+
+void refuse_to_read(const std::string& path) {
+  throw MachineRefused("\"" + path + "\" could not be read to its end; check the disk.");
+}
+
+}  // namespace wscvt
