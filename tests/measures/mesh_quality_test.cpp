@@ -57,6 +57,15 @@ TEST(MeshQuality, SubdividedIcosahedronHasTwelveVerticesOfFive) {
   EXPECT_NEAR(measure_quality(mesh).valence_six_share, (vertices - 12.0) / vertices, 1e-15);
 }
 
+TEST(MeshQuality, RegularVerticesHaveSixEdgesNotMoreNorFewer) {
+  // Two of the vertices are in as many faces as there are segments, all others in four.
+  for (const int segments : {5, 6, 7, 12}) {
+    EXPECT_EQ(measure_quality(test::bicone(segments)).valence_six_share,
+              segments == 6 ? 2.0 / 8.0 : 0.0)
+        << segments;
+  }
+}
+
 TEST(MeshQuality, DoesNotDependOnPoseScaleOrOrder) {
   const IndexedMesh mesh = test::lumpy(3);
   const MeshQuality reference = measure_quality(mesh);

@@ -190,6 +190,96 @@ TEST_F(LabelVolumeOfAFile, KeepsPlaceSizeAndUnitOfNrrd) {
   EXPECT_ERROR(open_volume(path("a.nrrd"), Vector3(1.0, 0.0, 1.0)), InvalidInput);
 }
 
+// pigz -i, bgzip and cat of several files make them: streams one behind the other, as gzip's
+// definition allows (RFC 1952, 2.2).
+TEST_F(LabelVolumeOfAFile, ReadsGzipOfSeveralStreams) {
+  const std::string voxels = made_.bytes<std::uint16_t>();
+  const std::vector<std::vector<std::size_t>> all_cuts = {
+      {1}, {voxels.size() - 1}, {0, 70, 71, 140}, {100, 100, 105}};
+  for (const std::vector<std::size_t>& cuts : all_cuts) {
+    std::string packed;
+    std::size_t begin = 0;
+    for (const std::size_t cut : cuts) {
+      packed += test::packed(voxels.substr(begin, cut - begin), true);
+      begin = cut;
+    }
+    packed += test::packed(voxels.substr(begin), true);
+    write_bytes(path("a.nrrd"), nrrd("ushort", "encoding: gzip\nendian: little\n\n") + packed);
+    expect_labels("a.nrrd");
+  }
+  // The same of zlib, in the blocks of a .vti and in MetaImage.
+  write_bytes(path("a.zraw"), test::packed(voxels.substr(0, 31), false) +
+                                  test::packed(voxels.substr(31, 100), false) +
+                                  test::packed(voxels.substr(131), false));
+  write_bytes(path("a.mhd"), "NDims = 3\nDimSize = " + made_.size_text() +
+                                 "\nElementType = MET_USHORT\nCompressedData = True\n"
+                                 "ElementDataFile = a.zraw\n");
+  expect_labels("a.mhd");
+}
+
+// Axes that are neither at right angles nor alike, steps of 2, 3 and 5 along them: no two of the
+// nine numbers may be taken for each other.
+TEST_F(LabelVolumeOfAFile, EachAxisHasItsOwnDirectionAndStepInEveryFormat) {
+  Eigen::Matrix3d unit_axes;
+  unit_axes.col(0) = Vector3(0.6, 0.8, 0.0);
+  unit_axes.col(1) = Vector3(0.0, 0.28, 0.96);
+  unit_axes.col(2) = Vector3(1.0, 0.0, 0.0);
+  const Vector3 steps(2.0, 3.0, 5.0);
+  const Vector3 origin(10.0, 20.0, 40.0);
+  const Eigen::Matrix3d axes = unit_axes * steps.asDiagonal();
+  const auto text = [](double number) { return std::to_string(number) + " "; };
+  const auto vector = [&](const Vector3& v, const std::string& between) {
+    return std::to_string(v.x()) + between + std::to_string(v.y()) + between +
+           std::to_string(v.z());
+  };
+  std::string directions;  // NRRD: a vector an axis
+  std::string rows;        // MetaImage: the axes one after the other, without their lengths
+  std::string matrix;      // VTK: row by row
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    directions += "(" + vector(axes.col(k), ",") + ") ";
+    rows += vector(unit_axes.col(k), " ") + " ";
+    for (Eigen::Index column = 0; column < 3; ++column) matrix += text(unit_axes(k, column));
+  }
+  write_bytes(path("a.nrrd"),
+              nrrd("uchar", "space directions: " + directions + "\nspace origin: (" +
+                                vector(origin, ",") + ")\nencoding: raw\n\n") +
+                  made_.bytes<std::uint8_t>());
+  write_bytes(path("a.mha"),
+              "NDims = 3\nDimSize = " + made_.size_text() + "\nTransformMatrix = " + rows +
+                  "\nOffset = " + vector(origin, " ") + "\nElementSpacing = " + vector(steps, " ") +
+                  "\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
+                  made_.bytes<std::uint8_t>());
+  write_bytes(path("a.vti"),
+              test::packed_vti(made_, "<ImageData WholeExtent=\"0 6 0 4 0 2\" Origin=\"" +
+                                          vector(origin, " ") + "\" Spacing=\"" +
+                                          vector(steps, " ") + "\" Direction=\"" + matrix +
+                                          "\">\n<Piece Extent=\"0 6 0 4 0 2\">\n"));
+  for (const char* name : {"a.nrrd", "a.mha", "a.vti"}) {
+    SCOPED_TRACE(name);
+    const VolumeGeometry placed = geometry(name);
+    EXPECT_LT((placed.axes - axes).norm(), 1e-6);  // six decimals were written
+    for (const Vector3& voxel : {Vector3(0, 0, 0), Vector3(6, 0, 0), Vector3(0, 4, 0),
+                                 Vector3(0, 0, 2), Vector3(1, 2, 1)}) {
+      const Vector3 middle = voxel + Vector3::Constant(0.5);
+      EXPECT_LT((placed.point(middle) - (origin + axes * voxel)).norm(), 1e-5);
+    }
+    // Sizes that are told take the place of all that: along x, y and z, from the origin on.
+    const VolumeGeometry told = open_volume(path(name), steps)->geometry();
+    EXPECT_EQ(told.point({1, 1, 1}), steps);
+    EXPECT_EQ(told.point({0, 0, 0}), Vector3(0, 0, 0));
+  }
+  // Three spacings without directions, and a raw file's.
+  write_bytes(path("b.nrrd"),
+              nrrd("uchar", "spacings: 2 3 5\nencoding: raw\n\n") + made_.bytes<std::uint8_t>());
+  write_bytes(path("b.raw"), made_.bytes<std::uint8_t>());
+  write_bytes(path("b.json"),
+              R"({"dimensions": [7, 5, 3], "type": "uint8", "spacing": [2, 3, 5]})");
+  for (const char* name : {"b.nrrd", "b.json"}) {
+    const VolumeGeometry placed = geometry(name);
+    EXPECT_EQ(Vector3(placed.point({2, 2, 2}) - placed.point({1, 1, 1})), steps) << name;
+  }
+}
+
 TEST_F(LabelVolumeOfAFile, ReadsMetaImage) {
   const std::string fields = "ObjectType = Image\nNDims = 3\nDimSize = " + made_.size_text() +
                              "\nElementSpacing = 0.1 0.2 0.4\nOffset = 10 20 30\n";
@@ -422,6 +512,50 @@ TEST_F(LabelVolumeOfAFile, RefusesWhatIsWrongWithAHeaderOrCut) {
   }
   EXPECT_ERROR(open_volume(path("not_there.nrrd")), InputOutput);
   EXPECT_ERROR(open_volume(path("a.ply")), InputOutput);
+}
+
+TEST_F(LabelVolumeOfAFile, HoldsLabelsUpToTheLargest) {
+  // Which a type with a sign would take for less than 0.
+  for (const std::uint32_t label : {128U, 255U, 32768U, 65535U, 2147483648U, 4294967295U}) {
+    SCOPED_TRACE(label);
+    made_.labels.back() = label;
+    if (label <= 255) {
+      write_bytes(path("a.nrrd"), nrrd("uchar", "encoding: raw\n\n") + made_.bytes<std::uint8_t>());
+      expect_labels("a.nrrd");
+    }
+    if (label <= 65535) {
+      write_bytes(path("a.nrrd"), nrrd("ushort", "endian: little\nencoding: raw\n\n") +
+                                      made_.bytes<std::uint16_t>());
+      expect_labels("a.nrrd");
+    }
+    write_bytes(path("a.nrrd"),
+                nrrd("uint", "endian: little\nencoding: raw\n\n") + made_.bytes<std::uint32_t>());
+    expect_labels("a.nrrd");
+    write_bytes(path("a.nrrd"),
+                nrrd("int64", "endian: little\nencoding: raw\n\n") + made_.bytes<std::uint64_t>());
+    expect_labels("a.nrrd");
+  }
+}
+
+TEST_F(LabelVolumeOfAFile, SkipsTheHeaderThatAMetaImageTellsOf) {
+  const std::string fields = "NDims = 3\nDimSize = " + made_.size_text() +
+                             "\nElementType = MET_USHORT\nElementDataFile = a.raw\n";
+  write_bytes(path("a.raw"), "1234567" + made_.bytes<std::uint16_t>());
+  for (const char* size : {"7", "-1"}) {  // -1: all but the voxels
+    write_bytes(path("a.mhd"), std::string("HeaderSize = ") + size + "\n" + fields);
+    expect_labels("a.mhd");
+  }
+}
+
+TEST_F(LabelVolumeOfAFile, FirstPointOfAVtiMayHaveAnyNumbers) {
+  write_bytes(path("a.vti"),
+              test::packed_vti(made_,
+                               "<ImageData WholeExtent=\"-4 2 3 7 11 13\" Origin=\"10 20 "
+                               "30\" Spacing=\"2 3 5\">\n<Piece Extent=\"-4 2 3 7 11 "
+                               "13\">\n"));
+  expect_labels("a.vti");
+  const VolumeGeometry placed = geometry("a.vti");
+  EXPECT_EQ(placed.point({0.5, 0.5, 0.5}), Vector3(10 - 8, 20 + 9, 30 + 55));
 }
 
 TEST_F(LabelVolumeOfAFile, RefusesVoxelsThatAreNoLabels) {
