@@ -112,6 +112,16 @@ const Marked* mark_of(std::string_view key) {
   return found == std::end(marked) ? nullptr : found;
 }
 
+/// What is wrong with a flag's value, `--points=VALUE`; empty when nothing is.
+std::string is_true_or_false(const std::string& text) {
+  try {
+    CLI::detail::to_flag_value(text);
+    return "";
+  } catch (const std::exception&) {
+    return "\"" + text + "\" is neither true nor false";
+  }
+}
+
 /// Adds an argument for each option, with the help text of both methods where both have it.
 class AddArgument {
  public:
@@ -141,6 +151,7 @@ class AddArgument {
               (*this_given)[key] = count > 0 ? "true" : "false";
             },
             help_of(value, option))
+        ->check(is_true_or_false, "")
         ->group(group_of(key));
   }
 

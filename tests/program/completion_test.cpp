@@ -41,11 +41,10 @@ TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
             (Words{"--max-error", "--max-handle-loop", "--max-nodes", "--max-overhang",
                    "--max-repaired-area"}));
   EXPECT_EQ(completed("wscvt a.ply b.ply --edge"), Words{"--edge-ratio"});
-  EXPECT_EQ(completed("wscvt batch --sh"), Words{"--shard"});
+  EXPECT_EQ(completed("wscvt batch --sha"), Words{"--shard"});
   EXPECT_EQ(completed("wscvt describe a.ply --ref"), Words());
   Words weightings;
   for (const auto& row : enumerators<CellWeighting>()) weightings.emplace(row.key);
-  for (const auto& row : enumerators<Weighting>()) weightings.emplace(row.key);
   EXPECT_EQ(completed("wscvt remesh --weighting ''"), weightings);
   EXPECT_EQ(completed("wscvt a.ply b.ply -w er"), Words{"error-adaptive"});
   EXPECT_EQ(completed("wscvt remesh scan"), Words()) << "files are bash's own";

@@ -686,7 +686,7 @@ TEST(MeshCheck, RefusesOtherOptionsOutOfRange) {
   for (const double limit : {-0.01, 1.01, std::nan("")}) {
     MeshCheckOptions options;
     options.mended_area_limit_percent = 100.0 * limit;
-    expect_mentions(refusal(box(1, 1, 1), options), {"area to mend", "0 to 100"});
+    expect_mentions(refusal(box(1, 1, 1), options), {"repaired area", "0 to 100"});
     options = MeshCheckOptions();
     options.weld_tolerance = limit;
     expect_mentions(refusal(box(1, 1, 1), options), {"tolerance of welding", "0 to 0.01"});

@@ -19,7 +19,8 @@ namespace wscvt::study {
 namespace {
 
 constexpr double grid_spacing = 0.04;
-constexpr int grid_margin = 5;
+/// Cells of a grid about the box of the scan, see distance_grid.
+constexpr int grid_margin = 4;
 /// True overlap at which forces are compared.
 constexpr double overlap = 0.01;
 
@@ -160,7 +161,7 @@ void ContactGrain::forces(const NodeTable& nodes, const Contact& contact, double
 
 ContactGrain::ContactGrain(const IndexedMesh& scan, std::size_t contacts,
                            const Execution& execution, std::uint64_t series)
-    : field_(distance_grid(scan, {grid_spacing, grid_margin}, execution)) {
+    : field_(distance_grid(scan, GridOptions{grid_spacing}, execution)) {
   const NodeTable surface = node_table(test::subdivided(scan, 1));
   for (const Vector3& p : surface.mesh.points) reach_ = std::max(reach_, p.norm());
   contacts_.resize(contacts);
