@@ -238,7 +238,7 @@ int run(const BatchArguments& arguments) {
     for (const char* ending : {".json", ".html"}) write_summary(folder.summary(ending), summary);
     print(summary_lines(summary), arguments.quiet);
   }
-  return end.failed == 0 ? Done : SomeFailed;
+  return end.failed == 0 && !inputs.is_much_left_out() ? Done : SomeFailed;
 }
 
 }  // namespace wscvt::program

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "batch_grains.h"
 
+#include <algorithm>
+
 #include "volume/label_table.h"
 #include "volume_arguments.h"
 #include "wscvt/base/error.h"
@@ -23,6 +25,7 @@ BatchGrains::BatchGrains(const std::vector<std::string>& files, const VolumeOpti
 void BatchGrains::add_volume(const std::string& path, const VolumeOptions& options,
                              const Shard& shard, bool quiet) {
   std::unique_ptr<LabelGrains> grains = open_grains(path, options, quiet);
+  print_notes(*grains, "wscvt batch " + path + " -o OUT", quiet);
   const auto volume = static_cast<std::ptrdiff_t>(volumes_.size());
   for (std::size_t k = 0; k < grains->taken().size(); ++k) {
     const std::string name = grain_name(path, grains->labels()[grains->taken()[k]].label);
@@ -49,6 +52,13 @@ std::string BatchGrains::label_table(
     }
   }
   return table;
+}
+
+bool BatchGrains::is_much_left_out() const {
+  return std::any_of(volumes_.begin(), volumes_.end(),
+                     [](const std::unique_ptr<LabelGrains>& grains) {
+                       return program::is_much_left_out(*grains);
+                     });
 }
 
 void BatchGrains::begin(std::size_t first) {

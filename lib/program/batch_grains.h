@@ -36,6 +36,9 @@ class BatchGrains {
   /// volume. `file_of` names the file that a grain is written to.
   std::string label_table(const std::function<std::string(const std::string&)>& file_of) const;
 
+  /// Whether so much of a volume is left out that the exit code says so.
+  bool is_much_left_out() const;
+
   /// Says that grains before the `first` are not going to be read.
   void begin(std::size_t first);
 

@@ -4,9 +4,9 @@
 namespace wscvt::program {
 
 const char* const exit_code_text =
-    "Exit codes: 0 done, 1 the work failed, 2 wrong arguments, 3 some grains of a sample failed;\n"
-    "130 and 143 cancelled by SIGINT and SIGTERM. A sentence on the standard error says what to "
-    "do.";
+    "Exit codes: 0 done, 1 the work failed, 2 wrong arguments, 3 done, but some grains failed or\n"
+    "more than 5 % of a volume was left out; 130 and 143 cancelled by SIGINT and SIGTERM. A\n"
+    "sentence on the standard error says what to do.";
 
 CLI::App& add_command(CLI::App& program, const CommandText& text) {
   CLI::App& app = *program.add_subcommand(text.name, text.purpose);

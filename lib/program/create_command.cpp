@@ -66,9 +66,10 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
              polar_exponent_option);
   add_number(app, "--" + std::string(azimuthal_exponent_option.key),
              arguments.surface.azimuthal_exponent, azimuthal_exponent_option);
-  add_file_argument(app, "--coefficients", arguments.surface.coefficients_file,
-                    "Of harmonics: .dat (text of the NIST/VCCTL particle shape sets) or .json (as "
-                    "remesh writes it)");
+  add_file_argument(
+      app, "--coefficients", arguments.surface.coefficients_file,
+      "Of harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh (SHTOOLS, "
+      "4pi) or .json (as remesh writes it)");
   add_number(app, "--" + std::string(coefficient_degree_option.key),
              arguments.surface.coefficient_degree, coefficient_degree_option);
   add_remesh_arguments(app, arguments.options, Remeshed::Surface);

@@ -9,7 +9,9 @@ enum ExitCode {
   Done = 0,
   Failed = 1,          ///< the work could not be done: a sentence says why
   WrongArguments = 2,  ///< the call makes no sense: nothing was begun
-  SomeFailed = 3       ///< of a batch: it is whole, but grains of it failed
+  /// Of many grains: the work is done, but grains of it failed, or more than 5 % of the voxels of a
+  /// volume's grains were left out.
+  SomeFailed = 3
 };
 
 }  // namespace wscvt::program

@@ -90,9 +90,10 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
                 {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012"},
                 "OUT gets a mesh per label, named by it, and labels.csv, which says what became of "
                 "each.\nwscvt batch takes volumes too and remeshes their grains."});
-  add_file_argument(app, "volume", arguments.volume,
-                    "Labels: .tif or a folder of slices, .nrrd, .mhd, .vti, or the .json beside a "
-                    ".raw")
+  add_file_argument(
+      app, "volume", arguments.volume,
+      "Labels: .tif, .nrrd, .mhd, .vti, .vtk, .nii, .npy, .npz, .h5, .mat, a folder of "
+      ".tif or .png slices, or the .json beside a .raw")
       ->required();
   app.add_option("output", arguments.folder, "Folder for all that is made")
       ->type_name("OUT")
@@ -129,6 +130,8 @@ int run(const ExtractArguments& arguments) {
   if (!arguments.quiet) check_writable("/dev/stdout");
   const std::unique_ptr<LabelGrains> grains =
       open_grains(arguments.volume, arguments.options, arguments.quiet);
+  print_notes(*grains, "wscvt extract " + arguments.volume + " " + arguments.folder,
+              arguments.quiet);
   const fs::path folder = arguments.folder;
   std::error_code error;
   fs::create_directories(folder, error);
@@ -180,7 +183,7 @@ int run(const ExtractArguments& arguments) {
   }
   write_file(table, rows.table());
   print({rows.summary(end.failed)}, arguments.quiet);
-  return end.failed == 0 ? Done : SomeFailed;
+  return end.failed == 0 && !is_much_left_out(*grains) ? Done : SomeFailed;
 }
 
 }  // namespace wscvt::program

@@ -1,30 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume_arguments.h"
 
+#include <cstdio>
+#include <optional>
+
 #include "command.h"
 #include "progress_line.h"
 #include "signals.h"
+#include "work.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt::program {
 
 namespace {
 
-/// "0.02", or "0.02,0.02,0.05" for x, y and z.
-Vector3 voxel_size_of(std::string_view text) {
-  Vector3 size;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+/// "0.02", "12um", or "0.02,0.02,0.05 mm" for x, y and z.
+void read_voxel_size(std::string_view text, VolumeChoice& choice) {
+  const std::string whole(text);
+  Vector3 size = Vector3::Zero();
+  std::string unit;
+  Eigen::Index count = 0;
+  for (bool is_last = false; !is_last; ++count) {
     const std::size_t comma = text.find(',');
-    size[axis] = from_typed(text.substr(0, comma), voxel_size_option);
-    const bool is_last = comma == std::string_view::npos;
-    if (is_last && axis == 0) return Vector3::Constant(size[0]);
-    if (is_last != (axis == 2)) {
+    is_last = comma == std::string_view::npos;
+    const std::string_view part = text.substr(0, comma);
+    // A unit follows the number, with or without a blank between.
+    const std::size_t end = part.find_first_not_of("0123456789.+-eE \t");
+    const std::size_t digits = part.substr(0, end).find_last_not_of(" \t");
+    const std::string named(end == std::string_view::npos ? std::string_view() : part.substr(end));
+    if (!named.empty() && (!is_known_unit(named) || (!unit.empty() && unit_of(named) != unit))) {
+      throw Error(ErrorCode::InvalidInput, "The size of a voxel is \"" + whole +
+                                               "\"; give one unit of nm, um, mm, cm, m, or none.");
+    }
+    if (!named.empty()) unit = unit_of(named);
+    if (count == 3 || (is_last && count == 1)) {
       throw Error(ErrorCode::InvalidInput,
-                  "The size of a voxel is \"" + std::string(text) +
+                  "The size of a voxel is \"" + whole +
                       "\"; give one number, or three with commas between them.");
     }
+    size[count] = from_typed(part.substr(0, digits == std::string_view::npos ? 0 : digits + 1),
+                             voxel_size_option);
     text.remove_prefix(is_last ? text.size() : comma + 1);
   }
-  return size;
+  choice.voxel_size = count == 1 ? Vector3(Vector3::Constant(size[0])) : size;
+  choice.unit = unit;
 }
 
 }  // namespace
@@ -35,15 +55,32 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
   add_number(app, name_of(smoothing_option.key), options.smoothing, smoothing_option)
       ->group(heading);
   add_typed(app, name_of(voxel_size_option.key),
-            [&options](std::string_view text) { options.voxel_size = voxel_size_of(text); })
+            [&options](std::string_view text) { read_voxel_size(text, options.choice); })
       ->description("Size of a voxel, or X,Y,Z, " + range_text(voxel_size_option) +
-                    ". Default: what the volume says, or 1")
+                    ", with its unit: 12um. Default: what the volume says, or 1")
       ->type_name("SIZE")
       ->group(heading);
   add_number(app, name_of(background_option.key), options.background, background_option)
       ->group(heading);
   app.add_flag(name_of(at_border_option.key), options.at_border,
                help_of(options.at_border, at_border_option))
+      ->group(heading);
+  app.add_flag(name_of(parts_option.key), options.parts, help_of(options.parts, parts_option))
+      ->group(heading);
+  const auto add_place = [&](std::optional<std::int64_t>& place,
+                             const NumberOption<std::int64_t>& option) {
+    add_typed(app, name_of(option.key),
+              [&](std::string_view text) { place = from_typed(text, option); })
+        ->description("Which " + std::string(option.subject) + ", from 1")
+        ->type_name("N")
+        ->group(heading);
+  };
+  add_place(options.choice.channel, channel_option);
+  add_place(options.choice.frame, frame_option);
+  add_typed(app, "--array",
+            [&options](std::string_view text) { options.choice.array = std::string(text); })
+      ->description("Which array, or data set by its path, of a file that has several")
+      ->type_name("NAME")
       ->group(heading);
 }
 
@@ -58,12 +95,52 @@ std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const Volume
   return std::make_unique<LabelGrains>(volume, options, execution);
 }
 
+void print_notes(const LabelGrains& grains, const std::string& command, bool quiet) {
+  for (const std::string& note : grains.notes()) print({note}, quiet);
+  std::size_t in_pieces = 0;
+  std::size_t pieces = 0;
+  for (const std::size_t k : grains.taken()) {
+    const LabelExtent& label = grains.labels()[k];
+    if (label.pieces < 2) continue;
+    ++in_pieces;
+    pieces = label.pieces;
+  }
+  if (in_pieces == 0) return;
+  const std::string share = format_percent(grains.left_out());
+  const std::string what =
+      grains.labels().size() == 1
+          ? "The volume has one label, " + std::to_string(grains.labels()[0].label) + ", in " +
+                std::to_string(pieces) +
+                " parts, as a mask has. The largest is taken; the "
+                "others, " +
+                share + " of the voxels, are left out."
+          : std::to_string(in_pieces) + (in_pieces == 1 ? " label of " : " labels of ") +
+                std::to_string(grains.taken().size()) + (in_pieces == 1 ? " is" : " are") +
+                " in several parts. The largest of each is taken; the others, " + share +
+                " of all voxels, are left out.";
+  std::fprintf(stderr,
+               "Warning: %s To take each part as a grain: %s --parts. Grains that touch "
+               "are one part.\n",
+               what.c_str(), command.c_str());
+}
+
+bool is_much_left_out(const LabelGrains& grains) {
+  constexpr double much = 0.05;
+  return grains.left_out() > much;
+}
+
 Json json_of(const VolumeOptions& options) {
   Json json = Json::object();
   const auto put = [&](std::string_view key, const Json& value) { json[std::string(key)] = value; };
   put(smallest_option.key, options.smallest);
   put(smoothing_option.key, options.smoothing);
-  put(voxel_size_option.key, options.voxel_size ? wscvt::json_of(*options.voxel_size) : Json());
+  const VolumeChoice& choice = options.choice;
+  put(voxel_size_option.key, choice.voxel_size ? wscvt::json_of(*choice.voxel_size) : Json());
+  put("unit", choice.unit);
+  put(parts_option.key, options.parts);
+  put(channel_option.key, choice.channel ? Json(*choice.channel) : Json());
+  put(frame_option.key, choice.frame ? Json(*choice.frame) : Json());
+  put("array", choice.array);
   put(background_option.key, options.background);
   put(at_border_option.key, options.at_border);
   return json;

@@ -19,6 +19,14 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
 std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,
                                          bool quiet);
 
+/// What a person should know of a volume, how it was read, to the standard output unless quiet;
+/// and, to the standard error, which part of it is left out. `command` is what one calls to take
+/// each part as a grain.
+void print_notes(const LabelGrains& grains, const std::string& command, bool quiet);
+
+/// Whether so much of a volume is left out that the exit code says so.
+bool is_much_left_out(const LabelGrains& grains);
+
 /// Every option under the name that one types.
 Json json_of(const VolumeOptions& options);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/header_file.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "volume/byte_source.h"
@@ -9,11 +10,14 @@
 
 namespace wscvt {
 
-HeaderFile::HeaderFile(const std::string& path)
-    : size_(file_size(path)), stream_(path, std::ios::binary), reader_(stream_, size_, path) {
+HeaderFile::HeaderFile(const std::string& path, std::uint64_t begin)
+    : size_(file_size(path)),
+      stream_(path, std::ios::binary),
+      reader_(stream_, size_ - std::min(size_, begin), path) {
   if (!stream_.is_open()) {
     refuse_volume(path, "cannot be opened; check that the file can be read.");
   }
+  stream_.seekg(static_cast<std::streamoff>(std::min(size_, begin)));
 }
 
 std::string HeaderFile::line() {
@@ -61,14 +65,6 @@ std::int64_t whole_number_of(std::string_view text, const HeaderFile& file) {
   const std::optional<std::int64_t> number = whole_number_in(trimmed(text));
   if (!number) file.fail_line("has " + in_quotes(text) + " where a whole number belongs.");
   return *number;
-}
-
-std::array<std::int64_t, 3> whole_vector_in(std::string_view text, const HeaderFile& file) {
-  TextFields fields(text);
-  std::array<std::int64_t, 3> numbers{};
-  for (std::int64_t& number : numbers) number = whole_number_of(fields.next(), file);
-  if (!fields.next().empty()) file.fail_line("has more than three sizes; save one volume alone.");
-  return numbers;
 }
 
 }  // namespace wscvt

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -16,8 +15,8 @@ namespace wscvt {
 /// The lines at the beginning of a file, before its voxels.
 class HeaderFile {
  public:
-  /// Throws Error(InputOutput) when the file cannot be opened.
-  explicit HeaderFile(const std::string& path);
+  /// Begins at the byte `begin`. Throws Error(InputOutput) when the file cannot be opened.
+  explicit HeaderFile(const std::string& path, std::uint64_t begin = 0);
 
   /// The next line, without white space at its ends. Throws Error(InputOutput) where the file ends,
   /// and after more lines or longer ones than a header has.
@@ -50,8 +49,5 @@ Vector3 vector_in(std::string_view text, const HeaderFile& file);
 
 /// A whole number. Throws Error(InputOutput), naming the line.
 std::int64_t whole_number_of(std::string_view text, const HeaderFile& file);
-
-/// Three of them.
-std::array<std::int64_t, 3> whole_vector_in(std::string_view text, const HeaderFile& file);
 
 }  // namespace wscvt

@@ -14,9 +14,15 @@ namespace wscvt {
 struct LabelExtent {
   Label label = 0;
   std::uint64_t voxels = 0;
-  VoxelCounts begin = {};  ///< its first voxel along each axis
-  VoxelCounts end = {};    ///< one behind its last
+  VoxelCounts begin = {};           ///< its first voxel along each axis
+  VoxelCounts end = {};             ///< one behind its last
+  std::size_t pieces = 0;           ///< that it is in, which hang together by faces of voxels
+  std::uint64_t largest_piece = 0;  ///< voxels of the one that has most
 
+  /// The share of its voxels that are not in that piece.
+  double left_out() const {
+    return 1.0 - static_cast<double>(largest_piece) / static_cast<double>(voxels);
+  }
   bool touches_border(const VoxelCounts& counts) const;
 };
 
@@ -40,8 +46,9 @@ bool visit_stretches(const std::vector<Label>& row, std::int32_t y, std::int32_t
 }
 
 /// Reads the volume once, from its beginning, and finds its labels but for the background, in their
-/// order. Memory is that of a row and of the labels. Throws Error: InvalidInput for more than
-/// `most_labels`, Cancelled, and what the volume throws.
+/// order, and how many pieces each is in. Memory is that of two slices' stretches and of the
+/// labels. Throws Error: InvalidInput for more than `most_labels`, Cancelled, and what the volume
+/// throws.
 std::vector<LabelExtent> label_census(LabelVolume& volume, Label background,
                                       const Execution& execution);
 

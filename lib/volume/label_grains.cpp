@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "volume/volume_parts.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/text_format.h"
@@ -13,16 +14,23 @@ namespace wscvt {
 void check_volume_options(const VolumeOptions& options) {
   require_in_range(options.smallest, smallest_option);
   require_in_range(options.smoothing, smoothing_option);
-  if (!options.voxel_size) return;
-  for (const double size : *options.voxel_size) require_in_range(size, voxel_size_option);
+  if (options.choice.channel) require_in_range(*options.choice.channel, channel_option);
+  if (options.choice.frame) require_in_range(*options.choice.frame, frame_option);
+  if (!options.choice.voxel_size) return;
+  for (const double size : *options.choice.voxel_size) require_in_range(size, voxel_size_option);
 }
 
 LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
                          const Execution& execution)
     : options_(options) {
   check_volume_options(options);
-  volume_ = open_volume(path, options.voxel_size);
-  labels_ = label_census(*volume_, options.background, execution);
+  volume_ = open_volume(path, options.choice);
+  if (options.parts) {
+    volume_ = parts_of(std::move(volume_), options.background, execution.part(0.0, 0.5));
+    options_.background = 0;
+  }
+  labels_ = label_census(*volume_, options_.background,
+                         options.parts ? execution.part(0.5, 1.0) : execution);
   if (labels_.empty()) {
     throw Error(ErrorCode::InvalidInput, "\"" + path + "\" holds no label but the background, " +
                                              std::to_string(options.background) +
@@ -34,6 +42,23 @@ LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
   std::stable_sort(taken_.begin(), taken_.end(), [&](std::size_t a, std::size_t b) {
     return labels_[a].end[2] < labels_[b].end[2];
   });
+}
+
+std::string LabelGrains::name_of(Label label) const {
+  const auto found = volume_->names().find(label);
+  return found == volume_->names().end() ? "" : found->second;
+}
+
+double LabelGrains::left_out() const {
+  std::uint64_t all = 0;
+  std::uint64_t left_out = 0;
+  for (const std::size_t k : taken_) {
+    const LabelExtent& label = labels_[k];
+    const bool is_kept = static_cast<std::int64_t>(label.largest_piece) >= options_.smallest;
+    all += label.voxels;
+    left_out += label.voxels - (is_kept ? label.largest_piece : 0);
+  }
+  return all == 0 ? 0.0 : static_cast<double>(left_out) / static_cast<double>(all);
 }
 
 LabelState LabelGrains::state(const LabelExtent& label) const {

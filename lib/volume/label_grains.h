@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -25,7 +24,8 @@ struct VolumeOptions {
   std::int64_t smallest = 100;  ///< voxels of the smallest grain that is taken
   bool at_border = false;  ///< also grains that touch the border of the volume, cut as they are
   int smoothing = 20;      ///< passes, see smoothed_surface
-  std::optional<Vector3> voxel_size;  ///< along x, y and z, in place of the file's; length
+  bool parts = false;      ///< each part of a label is a grain, see volume_parts.h
+  VolumeChoice choice;     ///< what is taken of the file, and the size of its voxels
 };
 
 inline constexpr NumberOption<Label> background_option = {"background", "label of what is no grain",
@@ -37,6 +37,13 @@ inline constexpr NumberOption<std::int64_t> smallest_option = {
 inline constexpr FlagOption at_border_option = {
     "at-border", "grains at the border",
     "are taken too, cut as they are; without it they are listed only"};
+inline constexpr FlagOption parts_option = {
+    "parts", "parts of a label",
+    "are grains of their own, numbered anew; a part hangs together by faces of voxels"};
+inline constexpr NumberOption<std::int64_t> channel_option = {
+    "channel", "channel of a file that has several", 1, 1000000};
+inline constexpr NumberOption<std::int64_t> frame_option = {
+    "frame", "frame (point in time) of a file that has several", 1, 1000000};
 inline constexpr NumberOption<double> voxel_size_option = {"voxel-size", "size of a voxel", 0.0,
                                                            std::numeric_limits<double>::infinity(),
                                                            Ends::NotMinimum};
@@ -66,6 +73,16 @@ class LabelGrains {
   LabelGrains(const std::string& path, const VolumeOptions& options, const Execution& execution);
 
   const VolumeGeometry& geometry() const { return volume_->geometry(); }
+
+  /// See LabelVolume.
+  const std::vector<std::string>& notes() const { return volume_->notes(); }
+
+  /// What the file calls a label; empty: nothing.
+  std::string name_of(Label label) const;
+
+  /// The share of the voxels of all labels that are taken that lies in pieces which are not: of
+  /// each the piece with most voxels is, unless it is smaller than the smallest grain.
+  double left_out() const;
 
   /// All labels, ascending.
   const std::vector<LabelExtent>& labels() const { return labels_; }

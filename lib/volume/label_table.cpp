@@ -42,9 +42,9 @@ std::string grain_name(const std::string& volume, Label label) {
 }
 
 std::string label_header() {
-  return csv_record({"grain", "label", "state", "error", "voxels", "volume", "unit", "x_min",
-                     "y_min", "z_min", "x_max", "y_max", "z_max", "pieces", "mesh_volume",
-                     "vertices", "faces", "file"});
+  return csv_record({"grain",  "label",    "name",        "state",    "error", "voxels", "volume",
+                     "unit",   "x_min",    "y_min",       "z_min",    "x_max", "y_max",  "z_max",
+                     "pieces", "left_out", "mesh_volume", "vertices", "faces", "file"});
 }
 
 std::string label_row(const std::string& volume, const LabelGrains& grains,
@@ -53,6 +53,7 @@ std::string label_row(const std::string& volume, const LabelGrains& grains,
   const double voxel = geometry.voxel_volume();
   std::vector<std::string> fields = {grain_name(volume, label.label),
                                      std::to_string(label.label),
+                                     grains.name_of(label.label),
                                      state_text(grains.state(label), outcome),
                                      outcome.error,
                                      std::to_string(label.voxels),
@@ -62,12 +63,13 @@ std::string label_row(const std::string& volume, const LabelGrains& grains,
   for (const Vector3& corner : {least, most}) {
     for (const double coordinate : corner) fields.push_back(format_exact(coordinate));
   }
+  fields.push_back(std::to_string(label.pieces));
+  fields.push_back(format_exact(label.left_out()));
   if (outcome.grain == nullptr) {
-    fields.insert(fields.end(), 4, "");
+    fields.insert(fields.end(), 3, "");
   } else {
     const LabelGrain& grain = *outcome.grain;
     const bool is_made = !grain.mesh.points.empty();
-    fields.push_back(std::to_string(grain.pieces));
     fields.push_back(is_made ? format_exact(voxel * static_cast<double>(grain.enclosed)) : "");
     fields.push_back(is_made ? std::to_string(grain.mesh.points.size()) : "");
     fields.push_back(is_made ? std::to_string(grain.mesh.triangles.size()) : "");

@@ -8,12 +8,13 @@
 namespace wscvt {
 
 // The table of the labels of a volume: CSV after RFC 4180 with a row a label. Columns: "grain", the
-// volume and the label, as in the table of a sample; "label"; "state", "taken" (it is remeshed),
-// "written", "in N pieces" (the largest is written), "at the border", "too small" or "failed";
-// "error", the sentence of a failure; "voxels"; "volume", theirs; "unit", of length, as the file
-// names it; "x_min" to "z_max", the box of its voxels; and, of what is written, "pieces",
-// "mesh_volume", that of the mesh: of the largest piece, its pores filled; "vertices", "faces" and
-// "file".
+// volume and the label, as in the table of a sample; "label"; "name", what the file calls it;
+// "state", "taken" (it is remeshed), "written", "in N pieces" (the largest is written), "at the
+// border", "too small" or "failed"; "error", the sentence of a failure; "voxels"; "volume", theirs;
+// "unit", of length, as the file names it; "x_min" to "z_max", the box of its voxels; "pieces" that
+// it is in; "left_out", the share of its voxels that are not in the largest piece; and, of what is
+// written, "mesh_volume", that of the mesh: of the largest piece, its pores filled; "vertices",
+// "faces" and "file".
 
 /// What became of a label.
 struct LabelOutcome {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "volume/image_stack.h"
 #include "volume/volume_formats.h"
 #include "volume/voxel_rows.h"
 #include "wscvt/base/error.h"
@@ -19,8 +20,7 @@ namespace fs = std::filesystem;
 
 struct Format {
   std::vector<std::string> endings;
-  std::unique_ptr<LabelVolume> (*open)(const std::string& path,
-                                       const std::optional<Vector3>& voxel_size);
+  std::unique_ptr<LabelVolume> (*open)(const std::string& path, const VolumeChoice& choice);
 };
 
 const Format* format_of(const std::string& path) {
@@ -29,9 +29,16 @@ const Format* format_of(const std::string& path) {
       {{".mhd", ".mha"}, open_meta_image},
       {{".vti"}, open_vti},
       {{".tif", ".tiff"}, open_tiff},
+      {{".png"}, open_png},
+      {{".nii", ".nii.gz"}, open_nifti},
+      {{".npy"}, open_npy},
+      {{".npz"}, open_npz},
+      {{".vtk"}, open_legacy_vtk},
+      {{".h5", ".hdf5", ".hdf", ".mat"}, open_hdf5},
       {{".json"}, open_raw},
   };
-  const std::string ending = ending_of(path);
+  std::string ending = ending_of(path);
+  if (ending == ".gz") ending = ending_of(path.substr(0, path.size() - 3)) + ending;
   for (const Format& format : formats) {
     if (std::find(format.endings.begin(), format.endings.end(), ending) != format.endings.end()) {
       return &format;
@@ -45,11 +52,27 @@ bool is_stack(const std::string& folder) {
   bool has_slices = false;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (is_mesh_file(entry.path().string())) return false;
-    const std::string ending = ending_of(entry.path().string());
-    has_slices = has_slices || ending == ".tif" || ending == ".tiff";
+    const std::string name = entry.path().filename().string();
+    if (is_foreign_file(name)) continue;
+    if (is_mesh_file(name)) return false;
+    has_slices = has_slices || is_slice(name);
   }
   return has_slices;
+}
+
+/// What is the same for all formats.
+void check_opened(LabelVolume& volume, const std::string& path) {
+  const VolumeGeometry& geometry = volume.geometry();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (geometry.counts[axis] > 1) continue;
+    refuse_volume(path, "is one image of " + std::to_string(geometry.counts[axis == 0 ? 1 : 0]) +
+                            " x " + std::to_string(geometry.counts[axis == 2 ? 1 : 2]) +
+                            " voxels, and grains need a stack of them. Give the folder of the "
+                            "slices, or a file of all.");
+  }
+  if (!geometry.has_size) {
+    volume.add_note("Voxel size not in the file: lengths in voxels. Give it by --voxel-size.");
+  }
 }
 
 }  // namespace
@@ -59,27 +82,47 @@ bool is_volume(const std::string& path) {
   return fs::is_directory(path, error) ? is_stack(path) : format_of(path) != nullptr;
 }
 
-std::unique_ptr<LabelVolume> open_volume(const std::string& path,
-                                         const std::optional<Vector3>& voxel_size) {
-  if (voxel_size && !(voxel_size->allFinite() && voxel_size->minCoeff() > 0.0)) {
+std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice) {
+  if (choice.voxel_size &&
+      !(choice.voxel_size->allFinite() && choice.voxel_size->minCoeff() > 0.0)) {
     throw Error(ErrorCode::InvalidInput, "The size of a voxel has to be above 0 along each axis.");
   }
   std::error_code error;
-  if (fs::is_directory(path, error)) return open_tiff(path, voxel_size);
-  const Format* const format = format_of(path);
-  if (format == nullptr) {
-    refuse("\"" + path +
-           "\" is no volume by its ending; give a .tif, .nrrd, .nhdr, .mhd, .mha, .vti, or the "
-           ".json that describes a raw file, or a folder of .tif files.");
+  std::unique_ptr<LabelVolume> volume;
+  if (fs::is_directory(path, error)) {
+    volume = open_stack(path, choice);
+  } else {
+    const Format* const format = format_of(path);
+    if (format == nullptr) {
+      refuse("\"" + path +
+             "\" is no volume by its ending; give a .tif, .nrrd, .nhdr, .mhd, .mha, .vti, .vtk, "
+             ".nii, .nii.gz, .npy, .npz, .h5 or .mat, the .json that describes a raw file, or a "
+             "folder of .tif or .png files.");
+    }
+    volume = format->open(path, choice);
   }
-  return format->open(path, voxel_size);
+  check_opened(*volume, path);
+  return volume;
+}
+
+void refuse_array_choice(const VolumeChoice& choice, const std::string& path) {
+  if (choice.array.empty()) return;
+  refuse_volume(path, "is of a format whose files hold one array; leave --array out.");
 }
 
 void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Vector3& origin,
-                 const std::optional<Vector3>& voxel_size, const std::string& path) {
-  geometry.axes = voxel_size ? Eigen::Matrix3d(voxel_size->asDiagonal()) : axes;
-  geometry.corner =
-      voxel_size ? Vector3(Vector3::Zero()) : Vector3(origin - axes * Vector3::Constant(0.5));
+                 const VolumeChoice& choice, const std::string& path) {
+  geometry.axes = axes;
+  geometry.corner = origin - axes * Vector3::Constant(0.5);
+  if (choice.voxel_size) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Index axis = geometry.order[static_cast<std::size_t>(k)];
+      geometry.axes.col(k) = (*choice.voxel_size)[axis] * Vector3::Unit(axis);
+    }
+    geometry.corner = Vector3::Zero();
+    geometry.has_size = true;
+    if (!choice.unit.empty()) geometry.unit = choice.unit;
+  }
   const double volume = geometry.voxel_volume();
   if (std::isnormal(volume) && geometry.corner.allFinite()) return;
   refuse_volume(path,

@@ -5,11 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "volume/volume_choice.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -27,7 +28,11 @@ struct VolumeGeometry {
   /// to (i + 1, j + 1, k + 1). Length.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Vector3 corner = Vector3::Zero();  ///< of the cell of voxel (0, 0, 0)
-  std::string unit;                  ///< of length, as the file names it; empty: it does not
+  std::string unit;                  ///< of length, see unit_of; empty: it is not said
+  bool has_size = false;             ///< the file, or who asked, says how large a voxel is
+  /// Along which of the file's axes x, y and z each axis of the lattice runs: voxels may stand in
+  /// another order in the file.
+  std::array<Eigen::Index, 3> order = {0, 1, 2};
 
   Vector3 point(const Vector3& lattice) const { return axes * lattice + corner; }
   double voxel_volume() const;  ///< length^3
@@ -42,6 +47,14 @@ class LabelVolume {
 
   const VolumeGeometry& geometry() const { return geometry_; }
 
+  /// What a person should know of how the file was read: sentences.
+  const std::vector<std::string>& notes() const { return notes_; }
+  void add_note(const std::string& sentence);
+
+  /// What the file calls its labels; empty: it does not say.
+  const std::map<Label, std::string>& names() const { return names_; }
+  void set_names(std::map<Label, std::string> names) { names_ = std::move(names); }
+
   /// The next row, geometry().counts[0] labels, valid until the next call. Throws
   /// Error(InputOutput) when the file ends before it, is damaged, or holds a label below 0 or above
   /// 4294967295.
@@ -55,26 +68,21 @@ class LabelVolume {
 
  private:
   VolumeGeometry geometry_;
+  std::vector<std::string> notes_;
+  std::map<Label, std::string> names_;
 };
 
 /// Whether a name is one of a volume: it ends as the formats below do, or is a folder with TIFF
 /// files and no meshes.
 bool is_volume(const std::string& path);
 
-/// Opens a volume of labels: whole numbers of 8 to 64 bits. The format follows from the ending:
-/// - .nrrd, .nhdr: NRRD of three dimensions, raw or gzip, the voxels in it or in one file beside;
-/// - .mhd, .mha: MetaImage likewise, raw or zlib;
-/// - .vti: VTK ImageData, its scalars or first array, at points or cells, appended or in base64,
-///   plain or packed by zlib;
-/// - .tif, .tiff: TIFF of a page a slice, in strips or tiles, packed by what libtiff knows, or as
-///   ImageJ writes stacks above 4 GiB; a folder: of the TIFF files in it, by name, numbers in their
-///   order;
-/// - .json: a description of a raw file (see open_raw in volume_formats.h).
-/// `voxel_size`, along x, y and z, replaces the file's, and its axes then are those of the lattice.
+/// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The format
+/// follows from the ending; lib/README.md has the table of what is read of each. What was chosen of
+/// it, and a voxel size in place of the file's, is in `choice`.
 ///
-/// Throws Error: InputOutput when the file cannot be read, is cut short or of a form that is not
-/// known, InvalidInput for sizes that are not above 0.
-std::unique_ptr<LabelVolume> open_volume(const std::string& path,
-                                         const std::optional<Vector3>& voxel_size = {});
+/// Throws Error: InputOutput when the file cannot be read, is cut short, of a form that is not
+/// known, or holds more than one volume of which none was chosen; InvalidInput for sizes that are
+/// not above 0.
+std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice = {});
 
 }  // namespace wscvt

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -7,6 +9,7 @@
 #include "volume/volume_formats.h"
 #include "volume/voxel_rows.h"
 #include "wscvt/base/error.h"
+#include "wscvt/scan/text_fields.h"
 
 namespace wscvt {
 
@@ -25,6 +28,18 @@ Json description_of(const std::string& path) {
     refuse_volume(path, "is no JSON object; see lib/README.md for what it has to hold.");
   }
   return description;
+}
+
+/// A key that is not known could be a misspelled one.
+void check_keys(const Json& description, const std::string& path) {
+  for (const auto& [key, value] : description.items()) {
+    const auto is_key = [&key = key](const char* known) { return key == known; };
+    constexpr std::array<const char*, 8> known = {"dimensions", "type", "byte_order", "spacing",
+                                                  "origin",     "unit", "offset",     "file"};
+    if (std::any_of(known.begin(), known.end(), is_key)) continue;
+    refuse_volume(path, "has the key " + in_quotes(key) +
+                            ", which describes no raw file; lib/README.md has those that do.");
+  }
 }
 
 /// Three numbers; one stands for all of them.
@@ -66,15 +81,16 @@ VoxelCounts counts_of(const Json& description, const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<LabelVolume> open_raw(const std::string& path,
-                                      const std::optional<Vector3>& voxel_size) {
+std::unique_ptr<LabelVolume> open_raw(const std::string& path, const VolumeChoice& choice) {
   const Json description = description_of(path);
+  check_keys(description, path);
   VolumeGeometry geometry;
   geometry.counts = counts_of(description, path);
-  geometry.unit = text_of(description, "unit", "", path);
+  geometry.unit = unit_of(text_of(description, "unit", "", path));
+  geometry.has_size = description.contains("spacing");
   const Vector3 spacing = vector_of(description.value("spacing", Json(1)), "spacing", path);
   const Vector3 origin = vector_of(description.value("origin", Json(0)), "origin", path);
-  set_lattice(geometry, spacing.asDiagonal(), origin, voxel_size, path);
+  set_lattice(geometry, spacing.asDiagonal(), origin, choice, path);
   VoxelType type = voxel_type_of(text_of(description, "type", "", path), path);
   const std::string order = text_of(description, "byte_order", "little", path);
   if (order != "little" && order != "big") {
@@ -87,10 +103,12 @@ std::unique_ptr<LabelVolume> open_raw(const std::string& path,
   }
   const std::string beside =
       std::filesystem::path(path).filename().replace_extension(".raw").string();
+  refuse_array_choice(choice, path);
   VoxelData data;
-  data.path = voxel_file_beside(path, text_of(description, "file", beside, path));
+  data.picks = picks_of({}, choice, path);
+  data.paths = {voxel_file_beside(path, text_of(description, "file", beside, path))};
   data.offset = offset.get<std::uint64_t>();
-  return volume_of_file(geometry, type, data);
+  return volume_of_files(geometry, type, data);
 }
 
 }  // namespace wscvt

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <filesystem>
 #include <memory>
-#include <new>
 #include <utility>
 
+#include "volume/image_stack.h"
 #include "volume/volume_formats.h"
 #include "volume/voxel_rows.h"
 #ifdef WSCVT_HAS_TIFF
-#include <tiffio.h>
-
 #include <boost/endian/conversion.hpp>
-#include <cstdarg>
-#include <cstdio>
+#include <cmath>
 #include <cstring>
 
-#include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
+#include "volume/tiff_file.h"
+#include "volume/tiff_layout.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/scan/text_fields.h"
 #endif
 
@@ -26,71 +23,25 @@ namespace wscvt {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// One open file. What libtiff says of an error is kept for the sentence.
-class TiffFile {
- public:
-  explicit TiffFile(const std::string& path) : path_(path) {
-    // A strip that a damaged file claims to be larger than what it could unpack to is refused.
-    const std::uint64_t most =
-        std::min<std::uint64_t>(1U << 30, 1100 * file_size(path) + (1 << 20));
-    TIFFOpenOptions* const options = TIFFOpenOptionsAlloc();
-    if (options == nullptr) throw std::bad_alloc();
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(most));
-    TIFFOpenOptionsSetErrorHandlerExtR(options, note_error, this);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, pass_over, nullptr);
-    most_ = most;
-    tiff_ = TIFFOpenExt(path.c_str(), "r", options);
-    TIFFOpenOptionsFree(options);
-    if (tiff_ == nullptr) fail("is not a TIFF file");
-  }
-  TiffFile(const TiffFile&) = delete;
-  TiffFile& operator=(const TiffFile&) = delete;
-  ~TiffFile() { TIFFClose(tiff_); }
-
-  TIFF* get() const { return tiff_; }
-  const std::string& path() const { return path_; }
-  std::uint64_t most_bytes() const { return most_; }
-
-  /// How many there are. A file that was cut has lost the way to the others, and libtiff ends
-  /// there.
-  std::int64_t pages() const {
-    const std::int64_t count = TIFFNumberOfDirectories(tiff_);
-    if (!said_.empty()) fail("has lost pages");
-    return count;
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    refuse_volume(path_,
-                  what + (said_.empty() ? "" : " (" + shown(said_) + ")") + "; export it again.");
-  }
-
- private:
-  static int note_error(TIFF*, void* self, const char*, const char* format, va_list arguments) {
-    char text[256];
-    std::vsnprintf(text, sizeof text, format, arguments);
-    auto& said = static_cast<TiffFile*>(self)->said_;
-    if (said.empty()) said = text;
-    return 1;
-  }
-  static int pass_over(TIFF*, void*, const char*, const char*, va_list) { return 1; }
-
-  std::string path_;
-  std::string said_;
-  std::uint64_t most_ = 0;
-  TIFF* tiff_ = nullptr;
-};
-
 /// What a page says of itself.
 struct Page {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  VoxelType type;
+  int bits = 8;            ///< of a number: 1, 2, 4, or those of the type
+  VoxelType type;          ///< of numbers of less than 8 bits: bytes
+  int samples = 1;         ///< numbers a voxel
+  bool is_planar = false;  ///< one sample stands behind the other, not beside it
+  bool shows_0_as_white = false;
 
   bool operator==(const Page& other) const {
-    return width == other.width && height == other.height && type.bytes == other.type.bytes &&
-           type.has_sign == other.type.has_sign;
+    return width == other.width && height == other.height && bits == other.bits &&
+           type.has_sign == other.type.has_sign && type.is_float == other.type.is_float &&
+           samples == other.samples && is_planar == other.is_planar;
+  }
+
+  std::string text() const {
+    return std::to_string(width) + " x " + std::to_string(height) + " voxels of " +
+           std::to_string(samples) + " x " + std::to_string(bits) + " bits";
   }
 };
 
@@ -100,6 +51,10 @@ Page page_of(const TiffFile& file) {
   std::uint16_t bits = 1;
   std::uint16_t samples = 1;
   std::uint16_t format = SAMPLEFORMAT_UINT;
+  std::uint16_t planes = PLANARCONFIG_CONTIG;
+  std::uint16_t compression = COMPRESSION_NONE;
+  std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
+  std::uint32_t depth = 1;
   if (TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &page.width) == 0 ||
       TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &page.height) == 0) {
     file.fail("does not say how large its pages are");
@@ -107,106 +62,106 @@ Page page_of(const TiffFile& file) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
-  const bool is_whole = format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT;
-  if (samples != 1 || !is_whole || (bits != 8 && bits != 16 && bits != 32 && bits != 64)) {
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &planes);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_IMAGEDEPTH, &depth);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+  if (compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG) {
+    file.fail("is packed by JPEG, which changes numbers, so that they are no labels any more");
+  }
+  if (depth != 1) file.fail("has pages of " + std::to_string(depth) + " slices");
+  const bool is_float = format == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64);
+  const bool has_sign = format == SAMPLEFORMAT_INT;
+  const bool is_whole = (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID || has_sign) &&
+                        (bits == 8 || bits == 16 || bits == 32 || bits == 64);
+  const bool is_small =
+      format == SAMPLEFORMAT_UINT && samples == 1 && (bits == 1 || bits == 2 || bits == 4);
+  if (samples < 1 || (!is_whole && !is_small && !is_float)) {
     refuse_volume(file.path(), "has " + std::to_string(samples) + " numbers of " +
                                    std::to_string(bits) +
-                                   " bits a voxel, or decimals; save labels as whole numbers of 8, "
-                                   "16, 32 or 64 bits.");
+                                   " bits a voxel, of a kind that is not known; save labels as "
+                                   "whole numbers of 8, 16, 32 or 64 bits.");
   }
-  page.type = {bits / 8, format == SAMPLEFORMAT_INT,
+  page.bits = bits;
+  page.type = {std::max(1, bits / 8), has_sign || is_float, is_float,
                boost::endian::order::native == boost::endian::order::big};
+  page.samples = samples;
+  page.is_planar = planes == PLANARCONFIG_SEPARATE && samples > 1;
+  page.shows_0_as_white = photometric == PHOTOMETRIC_MINISWHITE;
   return page;
 }
 
-/// What ImageJ writes into its stacks: lines of "key=value".
-class ImageJText {
- public:
-  explicit ImageJText(const TiffFile& file) {
-    char* text = nullptr;
-    if (TIFFGetField(file.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 0 && text != nullptr &&
-        std::strncmp(text, "ImageJ=", 7) == 0) {
-      text_ = std::string("\n") + text;
-    }
-  }
-
-  bool is_there() const { return !text_.empty(); }
-
-  /// Empty where there is none.
-  std::string value(const std::string& key) const {
-    const std::size_t place = text_.find("\n" + key + "=");
-    if (place == std::string::npos) return "";
-    const std::size_t begin = place + key.size() + 2;
-    return text_.substr(begin, text_.find('\n', begin) - begin);
-  }
-
-  std::int64_t images() const { return whole_number_in(value("images")).value_or(1); }
-
- private:
-  std::string text_;
+/// A slice: a page of a file.
+struct SlicePage {
+  std::size_t file = 0;
+  std::uint32_t page = 0;
 };
-
-/// The voxel size that ImageJ noted; other programs' resolutions are of paper.
-void set_lattice_of_imagej(VolumeGeometry& geometry, const TiffFile& file,
-                           const std::optional<Vector3>& voxel_size) {
-  const ImageJText text(file);
-  float across = 0.0F;
-  float down = 0.0F;
-  Vector3 spacing = Vector3::Ones();
-  if (text.is_there() && TIFFGetField(file.get(), TIFFTAG_XRESOLUTION, &across) != 0 &&
-      TIFFGetField(file.get(), TIFFTAG_YRESOLUTION, &down) != 0 && across > 0.0F && down > 0.0F) {
-    // Stored as fractions, which libtiff gives as float; ImageJ's are of six digits.
-    spacing = {1.0 / static_cast<double>(across), 1.0 / static_cast<double>(down), 0.0};
-    spacing.z() = number_in(text.value("spacing")).value_or(spacing.x());
-    geometry.unit = text.value("unit");
-  }
-  if (geometry.unit == "\\u00B5m" || geometry.unit == "micron") geometry.unit = "um";
-  set_lattice(geometry, spacing.asDiagonal(), 0.5 * spacing, voxel_size, file.path());
-}
 
 /// Slices that are pages of one file, or files of one page.
 class TiffStack : public LabelVolume {
  public:
-  TiffStack(const VolumeGeometry& geometry, const Page& page, std::vector<std::string> files)
-      : LabelVolume(geometry), page_(page), files_(std::move(files)) {}
+  /// `sample`: the one that is taken of each voxel's.
+  TiffStack(const VolumeGeometry& geometry, const Page& page, int sample,
+            std::vector<std::string> files, std::vector<SlicePage> slices)
+      : LabelVolume(geometry),
+        page_(page),
+        sample_(static_cast<std::uint16_t>(sample)),
+        files_(std::move(files)),
+        slices_(std::move(slices)),
+        next_row_(page.height) {}
 
   const std::vector<Label>& next_row() override {
     if (next_row_ == page_.height) next_page();
     const std::size_t in_band = next_row_ % band_rows_;
-    if (in_band == 0) {
-      band_.resize(row_bytes() * std::min(band_rows_, page_.height - next_row_));
-      if (tile_width_ == 0) {
-        read_strip();
-      } else {
-        read_tiles();
-      }
-    }
+    if (in_band == 0) read_band();
     row_.resize(page_.width);
-    labels_of(band_.data() + in_band * row_bytes(), page_.type, row_, file_->path());
+    unpack_row(band_.data() + in_band * row_bytes_);
+    labels_of(voxels_.data(), page_.type, row_,
+              {file_->path(), next_row_, static_cast<std::int64_t>(next_slice_) - 1});
     ++next_row_;
     return row_;
   }
 
   void rewind() override {
     file_.reset();
-    next_file_ = 0;
+    next_slice_ = 0;
     next_row_ = page_.height;
   }
 
  private:
   void next_page() {
-    if (!file_ || TIFFReadDirectory(file_->get()) == 0) {
-      if (next_file_ == files_.size())
-        refuse_volume(files_.back(), "has lost pages; copy it again.");
-      file_ = std::make_unique<TiffFile>(files_[next_file_++]);
+    const SlicePage& slice = slices_.at(next_slice_);
+    const bool is_same_file = file_ && file_at_ == slice.file;
+    if (!is_same_file) {
+      file_ = std::make_unique<TiffFile>(files_[slice.file]);
+      file_at_ = slice.file;
+      page_at_ = 0;
     }
-    if (!(page_of(*file_) == page_)) {
-      refuse_volume(file_->path(),
-                    "has a page of another size or type than the first; save slices "
-                    "that are alike.");
+    // Pages are a chain: it is gone along, and begun again where it has to be.
+    bool is_found = true;
+    if (slice.page < page_at_) {
+      is_found = TIFFSetDirectory(file_->get(), static_cast<tdir_t>(slice.page)) != 0;
+    } else {
+      for (; is_found && page_at_ < slice.page; ++page_at_) {
+        is_found = TIFFReadDirectory(file_->get()) != 0;
+      }
     }
+    page_at_ = slice.page;
+    if (!is_found) refuse_volume(file_->path(), "has lost pages; copy it again.");
+    ++next_slice_;
+    const Page here = page_of(*file_);
+    if (!(here == page_)) {
+      refuse_volume(file_->path(), "has the page " + std::to_string(slice.page + 1) + " of " +
+                                       here.text() + ", and the first has " + page_.text() +
+                                       "; save slices that are alike.");
+    }
+    begin_page();
+  }
+
+  void begin_page() {
     std::uint32_t rows = 0;
     tile_width_ = 0;
+    row_bytes_ = static_cast<std::size_t>(TIFFScanlineSize64(file_->get()));
     if (TIFFIsTiled(file_->get()) != 0) {
       TIFFGetField(file_->get(), TIFFTAG_TILEWIDTH, &tile_width_);
       TIFFGetField(file_->get(), TIFFTAG_TILELENGTH, &rows);
@@ -221,114 +176,303 @@ class TiffStack : public LabelVolume {
   }
 
   void check_bytes(std::uint64_t voxels) const {
-    if (voxels > file_->most_bytes() / static_cast<std::uint64_t>(page_.type.bytes)) {
+    const auto bytes =
+        static_cast<std::uint64_t>(page_.type.bytes) * static_cast<std::uint64_t>(page_.samples);
+    if (voxels > file_->most_bytes() / bytes) {
       file_->fail("claims strips or tiles larger than itself");
     }
   }
 
-  std::size_t bytes_of(std::uint32_t voxels) const {
-    return std::size_t{voxels} * static_cast<std::size_t>(page_.type.bytes);
+  void read_band() {
+    band_.resize(row_bytes_ * std::min(band_rows_, page_.height - next_row_));
+    const std::uint16_t plane = page_.is_planar ? sample_ : std::uint16_t{0};
+    if (tile_width_ == 0) {
+      read_strip(plane);
+    } else {
+      read_tiles(plane);
+    }
   }
-  std::size_t row_bytes() const { return bytes_of(page_.width); }
 
-  void read_strip() {
+  void read_strip(std::uint16_t plane) {
     const auto wanted = static_cast<tmsize_t>(band_.size());
-    const std::uint32_t strip = next_row_ / band_rows_;
+    const std::uint32_t strip = TIFFComputeStrip(file_->get(), next_row_, plane);
     if (TIFFReadEncodedStrip(file_->get(), strip, band_.data(), wanted) != wanted) {
       file_->fail("is cut short or damaged");
     }
   }
 
   /// Those beside each other that hold the next rows.
-  void read_tiles() {
+  void read_tiles(std::uint16_t plane) {
     const tmsize_t tile_bytes = TIFFTileSize(file_->get());
-    const tmsize_t tile_row_bytes = TIFFTileRowSize(file_->get());
+    const auto tile_row_bytes = static_cast<std::size_t>(TIFFTileRowSize(file_->get()));
     tile_.resize(static_cast<std::size_t>(tile_bytes));
-    const auto rows = static_cast<tmsize_t>(band_.size() / row_bytes());
-    for (std::uint32_t x = 0; x < page_.width; x += tile_width_) {
-      const std::uint32_t tile = TIFFComputeTile(file_->get(), x, next_row_, 0, 0);
+    const std::size_t rows = band_.size() / row_bytes_;
+    std::size_t begin = 0;
+    for (std::uint32_t x = 0; x < page_.width; x += tile_width_, begin += tile_row_bytes) {
+      const std::uint32_t tile = TIFFComputeTile(file_->get(), x, next_row_, 0, plane);
       if (TIFFReadEncodedTile(file_->get(), tile, tile_.data(), tile_bytes) != tile_bytes) {
         file_->fail("is cut short or damaged");
       }
-      const std::size_t bytes = bytes_of(std::min(tile_width_, page_.width - x));
-      char* to = band_.data() + bytes_of(x);
-      for (tmsize_t row = 0; row < rows; ++row, to += row_bytes()) {
-        std::memcpy(to, tile_.data() + row * tile_row_bytes, bytes);
+      if (begin >= row_bytes_) file_->fail("has tiles of another width than it says");
+      const std::size_t bytes = std::min(tile_row_bytes, row_bytes_ - begin);
+      for (std::size_t row = 0; row < rows; ++row) {
+        std::memcpy(band_.data() + row * row_bytes_ + begin, tile_.data() + row * tile_row_bytes,
+                    bytes);
+      }
+    }
+  }
+
+  /// The numbers that are taken of a row, byte after byte.
+  void unpack_row(const char* packed) {
+    const auto size = static_cast<std::size_t>(page_.type.bytes);
+    voxels_.resize(size * page_.width);
+    if (page_.bits < 8) {
+      const auto bits = static_cast<unsigned>(page_.bits);
+      for (std::size_t x = 0; x < page_.width; ++x) {
+        const auto byte = static_cast<unsigned char>(packed[x * bits / 8]);
+        const auto shift = static_cast<unsigned>(8 - bits - x * bits % 8);
+        voxels_[x] = static_cast<char>(byte >> shift & ((1U << bits) - 1U));
+      }
+    } else if (page_.samples == 1 || page_.is_planar) {
+      std::memcpy(voxels_.data(), packed, voxels_.size());
+    } else {
+      const std::size_t step = size * static_cast<std::size_t>(page_.samples);
+      for (std::size_t x = 0; x < page_.width; ++x) {
+        std::memcpy(voxels_.data() + x * size, packed + x * step + sample_ * size, size);
       }
     }
   }
 
   Page page_;
+  std::uint16_t sample_;
   std::vector<std::string> files_;
-  std::size_t next_file_ = 0;
+  std::vector<SlicePage> slices_;
   std::unique_ptr<TiffFile> file_;
-  std::uint32_t next_row_ = page_.height;
+  std::size_t file_at_ = 0;
+  std::uint32_t page_at_ = 0;
+  std::size_t next_slice_ = 0;
+  std::uint32_t next_row_;
   // A band is what the file unpacks at once: the rows of a strip, or of the tiles beside each
   // other.
   std::uint32_t band_rows_ = 1;
   std::uint32_t tile_width_ = 0;  // 0: strips
+  std::size_t row_bytes_ = 0;     // of a band
   std::vector<char> band_;
   std::vector<char> tile_;
+  std::vector<char> voxels_;
   std::vector<Label> row_;
 };
 
-/// The TIFF files of a folder in the order of the numbers in their names.
-std::vector<std::string> slices_in(const std::string& folder) {
-  std::vector<std::string> files;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const std::string ending = ending_of(entry.path().string());
-    if (ending == ".tif" || ending == ".tiff") files.push_back(entry.path().string());
+/// The size of a voxel along x and y by the resolution of a page, in centimetres where the page has
+/// a unit; nothing where it has none.
+std::optional<Vector3> voxel_of_resolution(const TiffFile& file) {
+  float across = 0.0F;
+  float down = 0.0F;
+  std::uint16_t unit = RESUNIT_INCH;
+  if (TIFFGetField(file.get(), TIFFTAG_XRESOLUTION, &across) == 0 ||
+      TIFFGetField(file.get(), TIFFTAG_YRESOLUTION, &down) == 0 || !(across > 0.0F) ||
+      !(down > 0.0F)) {
+    return std::nullopt;
   }
-  if (files.empty()) refuse_volume(folder, "holds no .tif file; check its name.");
-  std::sort(files.begin(), files.end(), [](const std::string& a, const std::string& b) {
-    return ::strverscmp(a.c_str(), b.c_str()) < 0;
-  });
-  return files;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
+  // Stored as fractions, which libtiff gives as float; ImageJ's are of six digits.
+  Vector3 size(1.0 / static_cast<double>(across), 1.0 / static_cast<double>(down), 0.0);
+  if (unit == RESUNIT_INCH) size *= 2.54;
+  return size;
+}
+
+/// Sets the lattice by what ImageJ or OME wrote, or by the page's resolution.
+void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, TiffLayout& layout,
+                         const VolumeChoice& choice) {
+  const std::optional<Vector3> resolution = voxel_of_resolution(file);
+  Vector3 size = layout.voxel_size;
+  std::uint16_t unit = RESUNIT_INCH;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
+  if (layout.writer == "ImageJ" && size.z() > 0.0 && resolution) {
+    // In ImageJ's unit, whatever the page's.
+    size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
+    size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();
+  } else if (layout.writer.empty() && resolution && unit != RESUNIT_NONE) {
+    // Screens and printers have up to 1200 dots an inch, 0.021 mm; a finer one is of an instrument.
+    constexpr double finest_dot_cm = 2.54 / 1200.0;
+    if (resolution->x() < 0.999 * finest_dot_cm && resolution->y() < 0.999 * finest_dot_cm) {
+      size = 10.0 * Vector3(resolution->x(), resolution->y(), resolution->x());
+      layout.unit = "mm";
+      layout.notes.push_back("Voxel size from the TIFF's resolution, along z as along x: " +
+                             format_number(size.x()) + " mm. Give another by --voxel-size X,Y,Z.");
+    }
+  } else if (layout.writer == "ImageJ") {
+    size = Vector3::Zero();
+  }
+  geometry.has_size = size.minCoeff() > 0.0;
+  if (!geometry.has_size) {
+    size = Vector3::Ones();
+  } else {
+    geometry.unit = layout.unit;
+  }
+  set_lattice(geometry, size.asDiagonal(), 0.5 * size, choice, file.path());
+}
+
+/// Where each slice is that is taken of a file of pages.
+std::vector<SlicePage> slices_of(const TiffLayout& layout,
+                                 const std::vector<std::int64_t>& places) {
+  std::vector<SlicePage> slices;
+  std::int64_t count = 1;
+  for (const VolumeAxis& axis : layout.axes) {
+    if (axis.kind == AxisKind::Space) count = axis.count;
+  }
+  for (std::int64_t z = 0; z < count; ++z) {
+    std::int64_t plane = 0;
+    std::int64_t step = 1;
+    for (std::size_t k = 0; k < layout.axes.size(); ++k) {
+      plane += step * (layout.axes[k].kind == AxisKind::Space ? z : places[k]);
+      step *= layout.axes[k].count;
+    }
+    const std::int64_t page =
+        layout.pages.empty() ? plane : layout.pages[static_cast<std::size_t>(plane)];
+    slices.push_back({0, static_cast<std::uint32_t>(page)});
+  }
+  return slices;
+}
+
+/// Whether a file's dimensions hold more than one channel besides those of a page, which are then
+/// told apart.
+VolumeAxis channels_of(const TiffLayout& layout, const std::string& path) {
+  VolumeAxis channels = {AxisKind::Channel, layout.samples};
+  for (const VolumeAxis& axis : layout.axes) {
+    if (axis.kind != AxisKind::Channel || axis.count == 1) continue;
+    if (channels.count > 1) {
+      refuse_volume(path, "has " + std::to_string(axis.count) + " channels of " +
+                              std::to_string(channels.count) +
+                              " numbers a voxel; save one channel alone.");
+    }
+    channels.count = axis.count;
+  }
+  return channels;
+}
+
+std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& page,
+                                             const VolumeChoice& choice) {
+  const std::string& path = file.path();
+  TiffLayout layout = tiff_layout(file.description(), file.pages(), page.samples, path);
+  // Each kind of dimension is one choice.
+  const std::int64_t channel = chosen_place(channels_of(layout, path), choice, path);
+  VolumeAxis frames = {AxisKind::Frame, 1};
+  std::vector<std::int64_t> places;
+  std::int64_t slices = 1;
+  for (const VolumeAxis& axis : layout.axes) {
+    if (axis.kind == AxisKind::Space) slices *= axis.count;
+    if (axis.kind == AxisKind::Frame && axis.count > 1) {
+      if (frames.count > 1) {
+        refuse_volume(path, "has two dimensions beside space, of " + std::to_string(frames.count) +
+                                " and " + std::to_string(axis.count) +
+                                " places; save one volume alone.");
+      }
+      frames.count = axis.count;
+    }
+  }
+  const std::int64_t frame = chosen_place(frames, choice, path);
+  for (const VolumeAxis& axis : layout.axes) {
+    const bool has_more = axis.count > 1;
+    places.push_back(!has_more                        ? 0
+                     : axis.kind == AxisKind::Channel ? channel
+                     : axis.kind == AxisKind::Frame   ? frame
+                                                      : 0);
+  }
+  VolumeGeometry geometry;
+  geometry.counts = voxel_counts({page.width, page.height, slices}, path);
+  set_lattice_of_tiff(geometry, file, layout, choice);
+  std::unique_ptr<LabelVolume> volume;
+  if (layout.may_be_one_block) {
+    // Above 4 GiB ImageJ writes one page and the voxels of all behind it, as they are.
+    std::uint16_t compression = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(file.get(), TIFFTAG_COMPRESSION, &compression);
+    std::uint64_t* offsets = nullptr;
+    if (compression != COMPRESSION_NONE || TIFFIsTiled(file.get()) != 0 || page.bits < 8 ||
+        page.samples > 1 || TIFFGetField(file.get(), TIFFTAG_STRIPOFFSETS, &offsets) == 0) {
+      std::int64_t images = 1;
+      for (const VolumeAxis& axis : layout.axes) images *= axis.count;
+      file.fail("has one page of the " + std::to_string(images) + " that " + layout.writer +
+                " noted");
+    }
+    VoxelType type = page.type;
+    type.big_endian = TIFFIsBigEndian(file.get()) != 0;
+    std::vector<VolumeAxis> axes = {{AxisKind::Space, page.width}, {AxisKind::Space, page.height}};
+    axes.insert(axes.end(), layout.axes.begin(), layout.axes.end());
+    VoxelData data;
+    data.paths = {path};
+    data.offset = offsets[0];
+    data.picks = picks_of(axes, choice, path);
+    volume = volume_of_files(geometry, type, data);
+  } else {
+    const int sample = page.samples > 1 ? static_cast<int>(channel) : 0;
+    volume = std::make_unique<TiffStack>(geometry, page, sample, std::vector<std::string>{path},
+                                         slices_of(layout, places));
+  }
+  for (const std::string& note : layout.notes) {
+    if (!choice.voxel_size) volume->add_note(note);
+  }
+  return volume;
+}
+
+std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, const TiffFile& first,
+                                                  const Page& page, const VolumeChoice& choice) {
+  std::vector<SlicePage> pages;
+  for (std::size_t k = 0; k < slices.paths.size(); ++k) {
+    const TiffFile file(slices.paths[k]);
+    const std::int64_t count = file.pages();
+    if (count > 1) {
+      refuse_volume(slices.paths[k], "has " + std::to_string(count) +
+                                         " pages, and a slice of a folder is a file of one. Give "
+                                         "such a file alone.");
+    }
+    const Page here = page_of(file);
+    if (!(here == page)) {
+      refuse_volume(slices.paths[k], "is a slice of " + here.text() +
+                                         ", and those before it have " + page.text() +
+                                         "; save slices that are alike.");
+    }
+    pages.push_back({k, 0});
+  }
+  const std::int64_t channel =
+      chosen_place({AxisKind::Channel, page.samples}, choice, slices.folder);
+  chosen_place({AxisKind::Frame, 1}, choice, slices.folder);
+  VolumeGeometry geometry;
+  geometry.counts = voxel_counts({page.width, page.height, static_cast<std::int64_t>(pages.size())},
+                                 slices.folder);
+  // The text of one slice is of no stack, but the resolution is its own.
+  TiffLayout layout;
+  set_lattice_of_tiff(geometry, first, layout, choice);
+  std::unique_ptr<LabelVolume> volume = std::make_unique<TiffStack>(
+      geometry, page, static_cast<int>(channel), slices.paths, std::move(pages));
+  for (const std::string& note : layout.notes) {
+    if (!choice.voxel_size) volume->add_note(note);
+  }
+  return volume;
 }
 
 }  // namespace
 
-std::unique_ptr<LabelVolume> open_tiff(const std::string& path,
-                                       const std::optional<Vector3>& voxel_size) {
-  std::error_code error;
-  const std::vector<std::string> files =
-      fs::is_directory(path, error) ? slices_in(path) : std::vector<std::string>{path};
-  const TiffFile first(files.front());
+std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
+                                              const VolumeChoice& choice) {
+  refuse_array_choice(choice, slices.folder);
+  const TiffFile first(slices.paths.front());
   const Page page = page_of(first);
-  const ImageJText text(first);
-  std::uint64_t offset = 0;
-  std::uint64_t* offsets = nullptr;
-  if (TIFFGetField(first.get(), TIFFTAG_STRIPOFFSETS, &offsets) != 0) offset = offsets[0];
-  VolumeGeometry geometry;
-  std::int64_t slices = 0;
-  for (const std::string& file : files) {
-    slices += files.size() == 1 ? first.pages() : TiffFile(file).pages();
+  std::unique_ptr<LabelVolume> volume = slices.paths.size() == 1
+                                            ? volume_of_pages(first, page, choice)
+                                            : volume_of_page_files(slices, first, page, choice);
+  if (page.shows_0_as_white) {
+    volume->add_note(
+        "The TIFF shows 0 as white; its numbers were taken as they are. Where white is what lies "
+        "between the grains, that is right; else give --background.");
   }
-  // Above 4 GiB ImageJ writes one page and the voxels of all behind it, as they are.
-  const bool is_one_block = slices == 1 && text.is_there() && text.images() > 1;
-  if (is_one_block) {
-    std::uint16_t compression = COMPRESSION_NONE;
-    TIFFGetFieldDefaulted(first.get(), TIFFTAG_COMPRESSION, &compression);
-    if (compression != COMPRESSION_NONE || TIFFIsTiled(first.get()) != 0) {
-      first.fail("has one page of the " + std::to_string(text.images()) + " that ImageJ noted");
-    }
-    slices = text.images();
-  }
-  geometry.counts = voxel_counts({page.width, page.height, slices}, path);
-  set_lattice_of_imagej(geometry, first, voxel_size);
-  if (is_one_block) {
-    VoxelType type = page.type;
-    type.big_endian = TIFFIsBigEndian(first.get()) != 0;
-    return volume_of_file(geometry, type, {files.front(), offset});
-  }
-  return std::make_unique<TiffStack>(geometry, page, files);
+  return volume;
 }
 
 #else
 
-std::unique_ptr<LabelVolume> open_tiff(const std::string& path, const std::optional<Vector3>&) {
-  refuse_volume(path,
+std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices, const VolumeChoice&) {
+  refuse_volume(slices.folder,
                 "cannot be read: this program was built without libtiff; install libtiff-dev "
                 "and build it again, or save the volume as .nrrd.");
 }

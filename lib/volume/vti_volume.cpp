@@ -13,6 +13,8 @@
 #include "volume/voxel_rows.h"
 #ifdef WSCVT_HAS_EXPAT
 #include <expat.h>
+#include <lz4.h>
+#include <zlib.h>
 
 #include "volume/header_file.h"
 #include "wscvt/base/error.h"
@@ -27,15 +29,21 @@ namespace {
 
 using Attributes = std::map<std::string, std::string>;
 
-/// What the XML in front of the voxels says.
-struct VtiHeader {
-  Attributes file;      ///< of VTKFile
-  Attributes image;     ///< of ImageData
-  Attributes piece;     ///< of the first Piece
-  Attributes array;     ///< of the array that is taken
-  Attributes appended;  ///< of AppendedData
+/// An array of the image.
+struct VtiArray {
+  Attributes attributes;
   bool of_cells = false;
-  std::uint64_t data = 0;  ///< the byte after the tag behind which the voxels stand
+  std::uint64_t data = 0;  ///< the byte after its tag
+};
+
+/// What the XML about the voxels says.
+struct VtiHeader {
+  Attributes file;   ///< of VTKFile
+  Attributes image;  ///< of ImageData
+  Attributes piece;  ///< of the first Piece
+  std::vector<VtiArray> arrays;
+  Attributes appended;         ///< of AppendedData
+  std::uint64_t appendix = 0;  ///< the byte after its tag
 };
 
 // Where a parser is: its line, and the byte behind what it is at. Expat 2.9 has other names for
@@ -54,7 +62,7 @@ std::uint64_t end_of(XML_Parser parser) {
 }
 #endif
 
-/// Finds the array of labels: the scalars, or the first.
+/// Finds the arrays.
 class VtiParser {
  public:
   explicit VtiParser(const std::string& path) : path_(path), parser_(XML_ParserCreate(nullptr)) {
@@ -74,18 +82,25 @@ class VtiParser {
       const bool is_last = count < part.size();
       const XML_Status status =
           XML_Parse(parser_, part.data(), static_cast<int>(count), is_last ? 1 : 0);
-      if (is_done_) break;
-      if (status != XML_STATUS_OK) {
-        refuse_volume(path_, std::string("is not the XML of a .vti file: ") +
-                                 XML_ErrorString(XML_GetErrorCode(parser_)) + " in line " +
-                                 std::to_string(line_of(parser_)) + "; export it again.");
-      }
-      if (is_last) refuse_volume(path_, "holds no array of labels; export it again.");
+      if (is_done_ || is_last) break;
+      if (status != XML_STATUS_OK) fail();
+    }
+    // What is wrong behind the arrays is found where it is read; a file that was cut has arrays
+    // too.
+    if (header_.arrays.empty()) {
+      if (XML_GetErrorCode(parser_) != XML_ERROR_NONE && !is_done_) fail();
+      refuse_volume(path_, "holds no array of labels; export it again.");
     }
     return header_;
   }
 
  private:
+  [[noreturn]] void fail() {
+    refuse_volume(path_, std::string("is not the XML of a .vti file: ") +
+                             XML_ErrorString(XML_GetErrorCode(parser_)) + " in line " +
+                             std::to_string(line_of(parser_)) + "; export it again.");
+  }
+
   static void begin_element(void* self, const char* name, const char** attributes) {
     static_cast<VtiParser*>(self)->begin(name, attributes);
   }
@@ -105,50 +120,61 @@ class VtiParser {
       header_.piece = attributes;
     } else if (name == "PointData" || name == "CellData") {
       section_ = name;
-      scalars_ = attributes["Scalars"];
-    } else if (name == "DataArray" && !section_.empty() && header_.array.empty()) {
-      if (!scalars_.empty() && attributes["Name"] != scalars_) return;
-      header_.array = attributes;
-      header_.of_cells = section_ == "CellData";
-      if (attributes["format"] != "appended") end_here();
+    } else if (name == "DataArray" && !section_.empty()) {
+      header_.arrays.push_back({attributes, section_ == "CellData", end_of(parser_)});
     } else if (name == "AppendedData") {
       header_.appended = attributes;
-      end_here();
+      header_.appendix = end_of(parser_);
+      is_done_ = true;  // what follows need be no XML
+      XML_StopParser(parser_, XML_FALSE);
     }
-  }
-
-  void end_here() {
-    header_.data = end_of(parser_);
-    is_done_ = true;
-    XML_StopParser(parser_, XML_FALSE);
   }
 
   std::string path_;
   XML_Parser parser_;
   VtiHeader header_;
   std::string section_;
-  std::string scalars_;
   bool is_done_ = false;
 };
+
+/// What packs the blocks of an array.
+enum class Packer { None, ZLib, Lz4 };
 
 /// What stands behind the lengths that VTK puts before an array.
 class VtkArrayBytes : public ByteSource {
  public:
   VtkArrayBytes(std::unique_ptr<ByteSource> bytes, std::uint64_t wanted, const VoxelType& length,
-                bool is_packed, std::string path)
+                Packer packer, std::string path)
       : bytes_(std::move(bytes)),
         wanted_(wanted),
         length_(length),
-        is_packed_(is_packed),
+        packer_(packer),
         path_(std::move(path)) {
-    skip_lengths();
+    read_lengths();
   }
 
-  std::size_t read(char* bytes, std::size_t count) override { return bytes_->read(bytes, count); }
+  std::size_t read(char* bytes, std::size_t count) override {
+    if (packer_ == Packer::None) return bytes_->read(bytes, count);
+    std::size_t filled = 0;
+    while (filled < count) {
+      if (next_ == made_.size()) {
+        if (next_block_ == packed_sizes_.size()) break;
+        unpack_block();
+      }
+      const std::size_t part = std::min(count - filled, made_.size() - next_);
+      std::copy_n(made_.data() + next_, part, bytes + filled);
+      next_ += part;
+      filled += part;
+    }
+    return filled;
+  }
 
   void rewind() override {
     bytes_->rewind();
-    skip_lengths();
+    made_.clear();
+    next_ = 0;
+    next_block_ = 0;
+    read_lengths();
   }
 
  private:
@@ -164,20 +190,51 @@ class VtkArrayBytes : public ByteSource {
     return value;
   }
 
-  void skip_lengths() {
-    if (!is_packed_) {
+  void read_lengths() {
+    if (packer_ == Packer::None) {
       if (next_length() != wanted_) refuse();
       return;
     }
     const std::uint64_t blocks = next_length();
-    const std::uint64_t block = next_length();
-    const std::uint64_t last = next_length();
-    if (blocks == 0 || block == 0 || blocks > wanted_ / block + 1 ||
-        (last == 0 ? blocks * block : (blocks - 1) * block + last) != wanted_) {
+    block_ = next_length();
+    last_ = next_length();
+    if (blocks == 0 || block_ == 0 || blocks > wanted_ / block_ + 1 ||
+        (last_ == 0 ? blocks * block_ : (blocks - 1) * block_ + last_) != wanted_) {
       refuse();
     }
-    // The blocks are zlib streams that stand one behind the other, so their sizes are not needed.
-    for (std::uint64_t k = 0; k < blocks; ++k) next_length();
+    packed_sizes_.clear();
+    for (std::uint64_t k = 0; k < blocks; ++k) packed_sizes_.push_back(next_length());
+  }
+
+  void unpack_block() {
+    const bool is_last = next_block_ + 1 == packed_sizes_.size();
+    const std::uint64_t size = is_last && last_ != 0 ? last_ : block_;
+    const std::uint64_t packed_size = packed_sizes_[next_block_++];
+    // What no packing can reach is not made room for.
+    constexpr std::uint64_t most_packed = 1100;
+    constexpr std::uint64_t most_block = std::uint64_t{1} << 30;
+    if (packed_size > most_block || size > most_block || size > packed_size * most_packed) refuse();
+    packed_.resize(packed_size);
+    if (bytes_->read(packed_.data(), packed_.size()) < packed_.size()) refuse();
+    made_.resize(size);
+    next_ = 0;
+    bool is_whole = false;
+    if (packer_ == Packer::ZLib) {
+      uLongf made = size;
+      is_whole = ::uncompress(reinterpret_cast<Bytef*>(made_.data()), &made,
+                              reinterpret_cast<const Bytef*>(packed_.data()),
+                              static_cast<uLong>(packed_.size())) == Z_OK &&
+                 made == size;
+    } else {
+      is_whole =
+          ::LZ4_decompress_safe(packed_.data(), made_.data(), static_cast<int>(packed_.size()),
+                                static_cast<int>(made_.size())) == static_cast<int>(size);
+    }
+    if (!is_whole) {
+      refuse_volume(path_,
+                    "holds packed voxels that are damaged; copy the file again, or export "
+                    "it again.");
+    }
   }
 
   [[noreturn]] void refuse() const {
@@ -188,8 +245,15 @@ class VtkArrayBytes : public ByteSource {
   std::unique_ptr<ByteSource> bytes_;
   std::uint64_t wanted_;
   VoxelType length_;
-  bool is_packed_;
+  Packer packer_;
   std::string path_;
+  std::uint64_t block_ = 0;  ///< bytes of a block, but for the last
+  std::uint64_t last_ = 0;   ///< of the last; 0: as the others
+  std::vector<std::uint64_t> packed_sizes_;
+  std::size_t next_block_ = 0;
+  std::vector<char> packed_;
+  std::vector<char> made_;
+  std::size_t next_ = 0;  ///< of made_
 };
 
 std::string value_of(const Attributes& attributes, const std::string& key,
@@ -233,11 +297,12 @@ std::array<std::int64_t, 6> extent_of(const VtiHeader& header, const std::string
   return extent;
 }
 
-VolumeGeometry geometry_of(const VtiHeader& header, const std::optional<Vector3>& voxel_size,
+VolumeGeometry geometry_of(const VtiHeader& header, bool of_cells, const VolumeChoice& choice,
                            const std::string& path) {
   const std::array<std::int64_t, 6> extent = extent_of(header, path);
-  const int more = header.of_cells ? 0 : 1;
+  const int more = of_cells ? 0 : 1;
   VolumeGeometry geometry;
+  geometry.has_size = header.image.count("Spacing") > 0;
   geometry.counts = voxel_counts(
       {extent[1] - extent[0] + more, extent[3] - extent[2] + more, extent[5] - extent[4] + more},
       path);
@@ -251,11 +316,11 @@ VolumeGeometry geometry_of(const VtiHeader& header, const std::optional<Vector3>
   }
   const Vector3 first(static_cast<double>(extent[0]), static_cast<double>(extent[2]),
                       static_cast<double>(extent[4]));
-  const double to_centre = header.of_cells ? 0.5 : 0.0;
+  const double to_centre = of_cells ? 0.5 : 0.0;
   set_lattice(
       geometry, axes,
       Vector3(origin[0], origin[1], origin[2]) + axes * (first + Vector3::Constant(to_centre)),
-      voxel_size, path);
+      choice, path);
   return geometry;
 }
 
@@ -272,53 +337,71 @@ std::uint64_t begin_of_appended(const std::string& path, std::uint64_t data) {
   refuse_volume(path, "has no \"_\" before its appended data; export it again.");
 }
 
+Packer packer_of(const std::string& name, const std::string& path) {
+  if (name.empty()) return Packer::None;
+  if (name == "vtkZLibDataCompressor") return Packer::ZLib;
+  if (name == "vtkLZ4DataCompressor") return Packer::Lz4;
+  refuse_volume(path, "is packed by " + in_quotes(name) + "; save it plain, or by ZLib or LZ4.");
+}
+
 }  // namespace
 
-std::unique_ptr<LabelVolume> open_vti(const std::string& path,
-                                      const std::optional<Vector3>& voxel_size) {
+std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoice& choice) {
   const std::uint64_t size = file_size(path);
   const VtiHeader header = VtiParser(path).read();
-  if (header.array.empty()) refuse_volume(path, "holds no array of labels; export it again.");
-  if (value_of(header.array, "NumberOfComponents", "1") != "1") {
-    refuse_volume(path, "has voxels of more than one number; save the labels alone.");
+  std::vector<std::string> names;
+  for (const VtiArray& array : header.arrays) {
+    names.push_back(value_of(array.attributes, "Name", ""));
   }
-  const VolumeGeometry geometry = geometry_of(header, voxel_size, path);
-  VoxelType type = voxel_type_of(value_of(header.array, "type", ""), path);
+  const VtiArray& array = header.arrays[chosen_array(names, choice, path)];
+  VoxelType type = voxel_type_of(value_of(array.attributes, "type", ""), path);
   type.big_endian = value_of(header.file, "byte_order", "LittleEndian") == "BigEndian";
+  const std::optional<std::int64_t> components =
+      whole_number_in(value_of(array.attributes, "NumberOfComponents", "1"));
+  const VolumeGeometry geometry = geometry_of(header, array.of_cells, choice, path);
+  const std::vector<BlockPick> picks =
+      picks_of({{AxisKind::Channel, components.value_or(0)}}, choice, path);
 
-  const std::string format = value_of(header.array, "format", "ascii");
-  const std::string packer = value_of(header.file, "compressor", "");
-  const bool is_packed = !packer.empty();
-  const bool is_known = format == "appended" || format == "binary";
-  if (!is_known || (is_packed && packer != "vtkZLibDataCompressor")) {
-    refuse_volume(path, "has its voxels as " + in_quotes(is_known ? packer : format) +
-                            "; save it binary or appended, plain or by ZLib.");
-  }
-  std::uint64_t begin = header.data;
-  bool is_text = true;
-  if (format == "appended") {
+  const std::string format = value_of(array.attributes, "format", "ascii");
+  std::uint64_t begin = array.data;
+  const bool is_appended = format == "appended";
+  if (is_appended) {
     const std::optional<std::int64_t> offset =
-        whole_number_in(value_of(header.array, "offset", "0"));
+        whole_number_in(value_of(array.attributes, "offset", "0"));
     if (!offset || *offset < 0) refuse_volume(path, "has no offset of its array; export it again.");
-    begin = begin_of_appended(path, header.data) + static_cast<std::uint64_t>(*offset);
-    is_text = value_of(header.appended, "encoding", "base64") != "raw";
+    if (header.appendix == 0) refuse_volume(path, "has no appended data; export it again.");
+    begin = begin_of_appended(path, header.appendix) + static_cast<std::uint64_t>(*offset);
   }
   const std::uint64_t left = size - std::min(size, begin);
-  check_voxel_bytes(geometry, type, is_text ? left / 4 * 3 : left, is_packed, path);
-
-  VoxelType length{4, false, type.big_endian};
-  if (value_of(header.file, "header_type", "UInt32") == "UInt64") length.bytes = 8;
+  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
+  for (const BlockPick& pick : picks) wanted *= static_cast<std::uint64_t>(pick.count);
   std::unique_ptr<ByteSource> bytes = file_bytes(path, begin);
-  if (is_text) bytes = base64_bytes(std::move(bytes));
-  bytes = std::make_unique<VtkArrayBytes>(std::move(bytes), voxel_bytes(geometry.counts, type),
-                                          length, is_packed, path);
-  if (is_packed) bytes = inflated_bytes(std::move(bytes), path);
+  if (format == "ascii") {
+    wanted = wanted / static_cast<std::uint64_t>(type.bytes) * sizeof(double);
+    check_voxel_bytes(wanted, left, Packing::Text, path);
+    type = {sizeof(double), true, true, false};
+    bytes = bytes_of_numbers(std::move(bytes), path);
+  } else if (is_appended || format == "binary") {
+    const std::string packer_name = value_of(header.file, "compressor", "");
+    const bool is_text = !is_appended || value_of(header.appended, "encoding", "base64") != "raw";
+    const Packer packer = packer_of(packer_name, path);
+    check_voxel_bytes(wanted, is_text ? left / 4 * 3 : left,
+                      packer == Packer::None ? Packing::None : Packing::Deflate, path);
+    if (is_text) bytes = base64_bytes(std::move(bytes));
+    VoxelType length{4, false, false, type.big_endian};
+    if (value_of(header.file, "header_type", "UInt32") == "UInt64") length.bytes = 8;
+    bytes = std::make_unique<VtkArrayBytes>(std::move(bytes), wanted, length, packer, path);
+  } else {
+    refuse_volume(
+        path, "has its voxels as " + in_quotes(format) + "; save it ascii, binary or appended.");
+  }
+  bytes = picked_voxels(std::move(bytes), picks, static_cast<std::uint64_t>(type.bytes));
   return volume_of_bytes(geometry, type, std::move(bytes), path);
 }
 
 #else
 
-std::unique_ptr<LabelVolume> open_vti(const std::string& path, const std::optional<Vector3>&) {
+std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoice&) {
   refuse_volume(path,
                 "cannot be read: this program was built without Expat; install libexpat1-dev "
                 "and build it again, or save the volume as .nrrd.");

@@ -111,7 +111,7 @@ TEST(ServerCreates, TheGrainWhoseCoefficientsTheRemesherSaved) {
 TEST(ServerCreates, ASphereFromTheTextFormCutAtDegreeZero) {
   QTemporaryDir folder;
   std::ofstream(folder.filePath("grain.dat").toStdString())
-      << "0 0 " << 3.0 * std::sqrt(4.0 * pi) << " 0\n1 0 0.1 0\n1 1 0.2 0.3\n";
+      << "0 0 " << 3.0 * std::sqrt(4.0 * pi) << " 0\n1 0 0.1 0\n1 1 0.2 0.3\n1 -1 -0.2 0.3\n";
   const QString output = folder.filePath("grain.ply");
   const Outcome outcome = run_script("create_superellipsoid.mlx",
                                      {{"Surface", "2"},

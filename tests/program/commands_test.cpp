@@ -232,7 +232,7 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
   }
   {
     std::ofstream text(folder_ / "text.dat");
-    text << "0 0 10.0 0.0\n1 0 0.1 0\n1 1 0 0\n2 0 0.5 0\n2 1 0 0\n2 2 0 0\n";
+    text << "0 0 10.0 0.0\n1 0 0.1 0\n1 1 0 0\n1 -1 0 0\n2 0 0.5 0\n2 1 0 0\n2 2 0 0\n";
   }
   const Json all = report_of("create harmonics grain.ply -n 60 --coefficients text.dat");
   const Json cut =

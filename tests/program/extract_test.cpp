@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "program_run.h"
@@ -55,7 +56,13 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   const Outcome outcome = run("extract sample.nrrd out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output, "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small\n");
-  EXPECT_EQ(outcome.errors, "");
+  EXPECT_EQ(
+      outcome.errors.rfind("Warning: 1 label of 3 is in several parts. The largest of each "
+                           "is taken; the others, 0.512 % of all voxels, are left out. To "
+                           "take each part as a grain: wscvt extract sample.nrrd out --parts.",
+                           0),
+      0U)
+      << outcome.errors;
   auto table = rows("out/labels.csv", "label");
   ASSERT_EQ(table.size(), 5U);
   EXPECT_EQ(table["3"]["state"], "written");
@@ -68,6 +75,10 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   EXPECT_EQ(table["3"]["unit"], "mm");
   EXPECT_EQ(table["5"]["voxels"], "1064");
   EXPECT_EQ(std::stod(table["5"]["mesh_volume"]), 125.0);
+  EXPECT_EQ(table["5"]["pieces"], "2");
+  EXPECT_NEAR(std::stod(table["5"]["left_out"]), 64.0 / 1064.0, 1e-12);
+  EXPECT_EQ(table["9"]["pieces"], "1");
+  EXPECT_EQ(table["9"]["left_out"], "0");
   // The middle of the first voxel is 0.
   EXPECT_EQ(table["11"]["x_min"], "14.75");
   EXPECT_EQ(table["11"]["z_max"], "26.25");
@@ -90,6 +101,82 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   EXPECT_NEAR(describe_shape(read_mesh(path("all/11.off")), Execution(1)).volume, 27.0 * 6.0, 1e-9);
   EXPECT_TRUE(exists("all/9.off"));
   EXPECT_EQ(rows("all/labels.csv", "label")["11"]["unit"], "mm");
+}
+
+// membrain-pick 16, MorphoLibJ: one label for all grains.
+TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {
+  const std::int64_t ball = volume_.fill_ball(255, {20, 20, 30}, 12.0);
+  const std::int64_t other = volume_.fill_ball(255, {50, 20, 20}, 10.0);
+  test::write_bytes(folder_ / "mask.nrrd", test::nrrd(volume_, ""));
+  for (const std::string call : {"extract mask.nrrd out", "batch mask.nrrd -o remeshed -n 60"}) {
+    const Outcome outcome = run(call + " -q");
+    EXPECT_EQ(outcome.exit_code, 3) << call;
+    EXPECT_NE(outcome.errors.find("one label, 255, in 2 parts"), std::string::npos)
+        << outcome.errors;
+    EXPECT_NE(outcome.errors.find("--parts"), std::string::npos);
+    EXPECT_EQ(outcome.output, "");
+  }
+  auto table = rows("out/labels.csv", "label");
+  EXPECT_EQ(table["255"]["state"], "in 2 pieces");
+  EXPECT_NEAR(std::stod(table["255"]["left_out"]),
+              static_cast<double>(other) / static_cast<double>(ball + other), 1e-12);
+  // The command that it names.
+  const Outcome parted = run("extract mask.nrrd out --parts");
+  EXPECT_EQ(parted.exit_code, 0) << parted.errors;
+  EXPECT_EQ(parted.errors, "");
+  EXPECT_EQ(parted.output,
+            "Voxel size not in the file: lengths in voxels. Give it by --voxel-size.\n"
+            "2 labels: 2 written\n");
+  table = rows("out/labels.csv", "label");
+  EXPECT_EQ(table["1"]["voxels"], std::to_string(other));
+  EXPECT_EQ(table["2"]["voxels"], std::to_string(ball));
+  EXPECT_EQ(run("batch mask.nrrd -o parts -n 60 -q --parts").exit_code, 0);
+  EXPECT_EQ(read_mesh(path("parts/2.ply")).points.size(), 60U);
+  EXPECT_EQ(run("batch mask.nrrd -o parts -n 60 -q").exit_code, 1) << "another call";
+  // Just below and just above one part in twenty.
+  test::MadeVolume most({70, 60, 60});
+  most.fill_box(1, {10, 10, 10}, {20, 20, 29});
+  most.fill_box(1, {40, 40, 40}, {44, 45, 45});
+  test::write_bytes(folder_ / "most.nrrd", test::nrrd(most, ""));
+  EXPECT_EQ(run("extract most.nrrd out -q").exit_code, 0) << "100 of 2000: not more than 5 %";
+  most.at(44, 44, 44) = 1;
+  test::write_bytes(folder_ / "most.nrrd", test::nrrd(most, ""));
+  EXPECT_EQ(run("extract most.nrrd out -q").exit_code, 3);
+}
+
+TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
+  volume_.fill_box(3, {10, 10, 10}, {20, 20, 20});
+  test::MadeVolume two({70, 60, 120});
+  std::copy(volume_.labels.begin(), volume_.labels.end(), two.labels.begin() + 70 * 60 * 60);
+  two.fill_box(7, {10, 10, 10}, {14, 14, 14});
+  std::string bytes = test::nrrd(two, "");
+  const std::string one = "dimension: 3";
+  bytes.replace(bytes.find(one), one.size(), "dimension: 4");
+  const std::string sizes = "sizes: 70 60 120";
+  bytes.replace(bytes.find(sizes), sizes.size(), "sizes: 70 60 60 2");
+  test::write_bytes(folder_ / "two.nrrd", bytes);
+  expect_refused("extract",
+                 {{"two.nrrd out", 1, "2 frames"},
+                  {"two.nrrd out --frame 3", 1, "2 frames, not a frame 3"},
+                  {"two.nrrd out --frame 0", 2, "1 to 1000000"},
+                  {"two.nrrd out --frame 2 --array x", 1, "--array"},
+                  {"two.nrrd out --frame 2 --voxel-size 3ells", 2, "one unit of nm"},
+                  {"two.nrrd out --frame 2 --voxel-size 3um,3mm,3um", 2, "one unit of nm"}},
+                 {"out"});
+  for (const auto& [size, unit, volume] :
+       std::vector<std::tuple<std::string, std::string, double>>{{"12um", "um", 1728.0},
+                                                                 {"0.1mm", "mm", 1e-3},
+                                                                 {"'2 \xc2\xb5m'", "um", 8.0},
+                                                                 {"1,2,3nm", "nm", 6.0},
+                                                                 {"1mm,2mm,3mm", "mm", 6.0},
+                                                                 {"2", "", 8.0},
+                                                                 {"1e-3m", "m", 1e-9}}) {
+    ASSERT_EQ(run("extract two.nrrd out -q --frame 2 --voxel-size " + size).exit_code, 0) << size;
+    auto table = rows("out/labels.csv", "label");
+    ASSERT_EQ(table.size(), 1U);
+    EXPECT_EQ(table["3"]["unit"], unit);
+    EXPECT_NEAR(std::stod(table["3"]["volume"]) / (1000.0 * volume), 1.0, 1e-12) << size;
+  }
 }
 
 TEST_F(Extract, HasTheSameBytesAtAnyNumberOfThreads) {

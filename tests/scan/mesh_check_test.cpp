@@ -774,5 +774,16 @@ TEST(MeshCheck, StopsWhenToldTo) {
   }
 }
 
+// Photogrammetry in a map's metres, saved as floats: steps of half a metre for a grain of 0.4.
+TEST(MeshCheck, SaysThatSinglePrecisionFarFromTheOriginLeftNoVolume) {
+  IndexedMesh mesh = test::transformed(test::lumpy(3), 0.2 * Eigen::Matrix3d::Identity(),
+                                       Vector3(431250.0, 5412340.0, 212.0));
+  for (Vector3& point : mesh.points) point = point.cast<float>().cast<double>();
+  const std::string sentence =
+      test::refusal(ErrorCode::InvalidInput, [&] { check_mesh(mesh, {}, Execution(1)); });
+  EXPECT_NE(sentence.find("single precision"), std::string::npos) << sentence;
+  EXPECT_EQ(sentence.find("flat"), std::string::npos) << sentence;
+}
+
 }  // namespace
 }  // namespace wscvt

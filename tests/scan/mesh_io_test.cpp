@@ -214,6 +214,34 @@ TEST_F(MeshIo, ReadsTextStl) {
   EXPECT_EQ(mesh.points[mesh.triangles[1][1]], Vector3(1, 1, 0));
 }
 
+// meshio 530, stl_reader 3: bytes behind the last triangle, and a cut, whatever the header says.
+TEST_F(MeshIo, ReadsBinaryStlWithATailAndSaysHowMuchOfACutOneIsThere) {
+  write_mesh(test::box(1, 1, 1), path("a.stl"));
+  std::string bytes;
+  {
+    std::ifstream stream(path("a.stl"), std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  for (const char* header : {"made", "solid exported by SolidWorks", "SOLID"}) {
+    std::string named = bytes;
+    named.replace(0, 80, std::string(header).append(80 - std::string(header).size(), ' '));
+    for (const std::string& tail : {std::string("\r\n"), std::string(37, '\0'), std::string(49, 'x')}) {
+      std::ofstream(path("b.stl"), std::ios::binary) << named << tail;
+      EXPECT_EQ(read_mesh(path("b.stl")).points, read_mesh(path("a.stl")).points) << header;
+    }
+    for (const std::size_t left : {named.size() - 1, named.size() - 50, named.size() - 251}) {
+      std::ofstream(path("b.stl"), std::ios::binary) << named.substr(0, left);
+      const std::string held = std::to_string((left - 84) / 50);
+      EXPECT_NE(refusal(path("b.stl")).find("announces 12 triangles, but holds " + held),
+                std::string::npos)
+          << refusal(path("b.stl"));
+    }
+    std::ofstream(path("b.stl"), std::ios::binary) << named << std::string(50, 'x');
+    EXPECT_NE(refusal(path("b.stl")).find("announces 12 triangles, but holds 13"),
+              std::string::npos);
+  }
+}
+
 TEST_F(MeshIo, ReadsBinaryStlWhoseHeaderSaysSolid) {
   write_mesh(test::box(1, 1, 1), path("a.stl"));
   std::fstream stream(path("a.stl"), std::ios::in | std::ios::out | std::ios::binary);

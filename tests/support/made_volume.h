@@ -167,8 +167,7 @@ inline std::string packed_vti(const MadeVolume& volume, const std::string& image
          "byte_order=\"LittleEndian\" header_type=\"UInt32\" "
          "compressor=\"vtkZLibDataCompressor\">\n" +
          image +
-         "<PointData Scalars=\"labels\">\n<DataArray type=\"Float32\" Name=\"grey\" "
-         "format=\"binary\">AAAA</DataArray>\n<DataArray type=\"UInt16\" Name=\"labels\" "
+         "<PointData Scalars=\"labels\">\n<DataArray type=\"UInt16\" Name=\"labels\" "
          "format=\"binary\">\n   " +
          base64(header) + base64(blocks) +
          "\n</DataArray>\n</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n";

@@ -42,7 +42,7 @@ TEST(GrainSurface, ReadsHarmonicsByTheEndingOfTheirFile) {
   GrainSurface surface;
   surface.kind = SurfaceKind::Harmonics;
   surface.coefficients_file = testing::TempDir() + "wscvt_grain_surface.DAT";
-  std::ofstream(surface.coefficients_file) << "0 0 10 0\n1 0 0.5 0\n1 1 0 0\n";
+  std::ofstream(surface.coefficients_file) << "0 0 10 0\n1 0 0.5 0\n1 1 0 0\n1 -1 0 0\n";
   EXPECT_FALSE(holds_map(surface));
   EXPECT_EQ(surface_name(surface), "wscvt_grain_surface");
   const Vector3 up = Vector3::UnitZ();

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "support/expect_error.h"
 #include "support/seeds.h"
@@ -13,6 +15,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 namespace {
@@ -69,14 +72,65 @@ TEST_F(HarmonicIo, ComplexCoefficientsGiveTheSumOfComplexHarmonics) {
   }
 }
 
-TEST_F(HarmonicIo, NegativeOrdersMayBeLeftOutAndTheSeriesCut) {
-  write("0 0 10 0\n1 0 1 0\n1 1 0.5 0.25\n2 0 1 0\n2 1 0 0\n2 2 0 0\n");
+TEST_F(HarmonicIo, SomeNegativeOrdersMayBeLeftOutAndTheSeriesCut) {
+  write("0 0 10 0\n1 0 1 0\n1 1 0.5 0.25\n2 0 1 0\n2 1 0 0\n2 2 0 0\n2 -1 0 0\n");
   EXPECT_EQ(read_complex_harmonics(path_).degree(), 2);
   EXPECT_EQ(read_complex_harmonics(path_, 5).degree(), 2);
   const HarmonicSurface cut = read_complex_harmonics(path_, 1);
   EXPECT_EQ(cut.coefficients(),
             (std::vector<double>{10.0, -0.25 * std::sqrt(2.0), 1.0, 0.5 * std::sqrt(2.0)}));
   EXPECT_ERROR(read_complex_harmonics(path_, -2), InvalidInput);
+}
+
+// The same four numbers, of which SHTOOLS's are no complex ones: a body of volume 34.9 became one
+// of 0.81.
+TEST_F(HarmonicIo, RowsWithoutNegativeOrdersAreOfTwoConventionsAndRefused) {
+  const std::string sentence = refusal("0 0 2 0\n1 0 0.3 0\n1 1 0.1 0.2\n", false);
+  EXPECT_NE(sentence.find("SHTOOLS"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find(".sh"), std::string::npos) << sentence;
+  // A comma is of SHTOOLS alone.
+  EXPECT_NE(refusal("0, 0, 2, 0\n", false), "");
+}
+
+TEST_F(HarmonicIo, RowsOfShtoolsGiveTheSumOfItsHarmonics) {
+  for (const char* comma : {",", ""}) {
+    const std::string c(comma);
+    write("0" + c + " 0" + c + " 2.0" + c + " 0.0\n1" + c + " 0" + c + " 0.3" + c + " 0\n1" + c +
+          " 1" + c + " 0.1" + c + " -0.2\n2" + c + " 0" + c + " 0.05" + c + " 0\n2" + c + " 1" + c +
+          " 0.07" + c + " 0.02\n2" + c + " 2" + c + " -0.03" + c + " 0.04\n");
+    const HarmonicSurface surface = read_shtools(path_);
+    EXPECT_EQ(surface.degree(), 2);
+    for (const Vector3& u : random_directions(50, test::announced(5))) {
+      const double x = u.x();
+      const double y = u.y();
+      const double z = u.z();
+      // Closed forms of its harmonics: the mean of each one's square is 1, and P_11 = sin theta.
+      const double expected =
+          2.0 + 0.3 * std::sqrt(3.0) * z + std::sqrt(3.0) * (0.1 * x - 0.2 * y) +
+          0.05 * std::sqrt(5.0) * 0.5 * (3.0 * z * z - 1.0) +
+          std::sqrt(15.0) * z * (0.07 * x + 0.02 * y) +
+          0.5 * std::sqrt(15.0) * (-0.03 * (x * x - y * y) + 0.04 * 2.0 * x * y);
+      EXPECT_NEAR(surface.radius(u), expected, 1e-14);
+    }
+    EXPECT_EQ(read_shtools(path_, 0).coefficients().size(), 1U);
+    // Written and read again; the digits are those of a product with sqrt(4 pi).
+    write_shtools(path_, surface);
+    const HarmonicSurface again = read_shtools(path_);
+    for (std::size_t k = 0; k < 9; ++k) {
+      EXPECT_NEAR(again.coefficients()[k], surface.coefficients()[k], 1e-15) << k;
+    }
+  }
+  for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{
+           {"0, 0, 1, 0\n1, -1, 0, 0\n", "negative order"},
+           {"0, 0, 1, 0\n1, 0, 0, 0\n", "missing"},
+           {"0, 0, 1, 0.5\n", "sine"},
+           {"0, 0, 1\n", "l, m, C, S"},
+           {"0, 0, -1, 0\n", "positive"}}) {
+    write(text);
+    const std::string sentence =
+        test::refusal(ErrorCode::InvalidInput, [&] { read_shtools(path_); });
+    EXPECT_NE(sentence.find(word), std::string::npos) << sentence;
+  }
 }
 
 TEST_F(HarmonicIo, MalformedTextIsRefusedWithItsLine) {
@@ -93,7 +147,7 @@ TEST_F(HarmonicIo, MalformedTextIsRefusedWithItsLine) {
   EXPECT_NE(refusal("0 0 10 1\n", false).find("complex"), std::string::npos);
   EXPECT_NE(refusal("0 0 10 0\n1 0 0 0\n1 1 1 2\n1 -1 1 2\n", false).find("line 4"),
             std::string::npos);
-  EXPECT_NE(refusal("0 0 10 0\n1 1 0 0\n", false).find("missing"), std::string::npos);
+  EXPECT_NE(refusal("0 0 10 0\n1 1 0 0\n1 -1 0 0\n", false).find("missing"), std::string::npos);
   EXPECT_NE(refusal("0 0 -10 0\n", false).find("positive"), std::string::npos);
   EXPECT_NE(refusal("", false), "");
 }

@@ -2,8 +2,10 @@
 #include "wscvt/remesh/remesh_result.h"
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
 #include "wscvt/nodes/error_measure.h"
 #include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 
@@ -13,8 +15,15 @@ double error_percent(const RemeshResult& result, ErrorMeasure measure) {
 
 void write_coefficients(const std::string& path, const RemeshResult& result) {
   const SeriesCoefficients& coefficients = result.coefficients;
-  if (!coefficients.radius.empty()) {
+  const bool of_shtools = ending_of(path) == ".sh";
+  if (!coefficients.radius.empty() && of_shtools) {
+    write_shtools(path, HarmonicSurface(coefficients.radius));
+  } else if (!coefficients.radius.empty()) {
     write_harmonics(path, HarmonicSurface(coefficients.radius));
+  } else if (!coefficients.map[0].empty() && of_shtools) {
+    throw Error(ErrorCode::InvalidInput,
+                "The coefficients are of x, y and z, and a .sh file holds those of a radius. Write "
+                "them to a .json file.");
   } else if (!coefficients.map[0].empty()) {
     write_harmonic_map(path, HarmonicMap(coefficients.map));
   } else {

@@ -33,10 +33,16 @@ IndexedMesh read_binary(ByteReader& reader) {
   }
   const std::size_t triangles = load<std::uint32_t, order::little>(header.data() + 80);
   const std::uintmax_t expected = header_size + std::uintmax_t{record_size} * triangles;
-  if (expected != reader.remaining()) {
-    reader.fail("is no text and declares " + std::to_string(triangles) + " triangles, which take " +
-                std::to_string(expected) + " bytes, but has " + std::to_string(reader.remaining()) +
-                "; it is no STL file or was cut off" + export_again);
+  const std::uintmax_t held = (reader.remaining() - header_size) / record_size;
+  if (expected > reader.remaining()) {
+    reader.fail("is no text and announces " + std::to_string(triangles) + " triangles, but holds " +
+                std::to_string(held) + "; it is no STL file or was cut off" + export_again);
+  }
+  // Some programs leave bytes behind the last triangle, a line's end or zeros; as much as a
+  // triangle takes is a count that is wrong.
+  if (held > triangles) {
+    reader.fail("is no text and announces " + std::to_string(triangles) + " triangles, but holds " +
+                std::to_string(held) + "; it is no STL file" + export_again);
   }
   if (triangles == 0) reader.fail("holds no triangles" + std::string(export_again));
   reader.skip(header_size);
@@ -141,14 +147,15 @@ class TextReader {
   std::string_view word_;
 };
 
-/// By its size, since a binary header may begin with "solid" too.
+/// By its size, or by what no text holds, since a binary header may begin with "solid" too.
 bool is_binary(ByteReader& reader) {
   const std::string_view header = reader.peek(header_size);
   if (header.size() == header_size) {
     const auto triangles = load<std::uint32_t, boost::endian::order::little>(header.data() + 80);
     if (reader.remaining() == header_size + std::uintmax_t{record_size} * triangles) return true;
   }
-  return lower_case(TextFields(header).next()) != "solid";
+  return lower_case(TextFields(header).next()) != "solid" ||
+         header.find('\0') != std::string_view::npos;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "wscvt/base/file_name.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 
@@ -18,10 +19,10 @@ void check_grain_surface(const GrainSurface& surface) {
   require_in_range(surface.coefficient_degree, coefficient_degree_option);
   if (surface.kind != SurfaceKind::Harmonics) return;
   const std::string ending = ending_of(surface.coefficients_file);
-  if (ending == ".dat" || ending == ".json") return;
+  if (ending == ".dat" || ending == ".json" || ending == ".sh") return;
   throw Error(ErrorCode::InvalidInput,
               "The file of the coefficients is \"" + surface.coefficients_file +
-                  "\"; harmonics are made of a file whose name ends in .dat or .json.");
+                  "\"; harmonics are made of a file whose name ends in .dat, .sh or .json.");
 }
 
 bool holds_map(const GrainSurface& surface) {
@@ -38,11 +39,14 @@ std::unique_ptr<const RadialSurface> make_surface(const GrainSurface& surface) {
     case SurfaceKind::Superellipsoid:
       return std::make_unique<Superellipsoid>(surface.semi_axes, surface.polar_exponent,
                                               surface.azimuthal_exponent);
-    case SurfaceKind::Harmonics:
+    case SurfaceKind::Harmonics: {
+      const std::string& file = surface.coefficients_file;
+      const std::string ending = ending_of(file);
+      if (ending == ".json") return std::make_unique<HarmonicSurface>(read_harmonics(file));
       return std::make_unique<HarmonicSurface>(
-          ending_of(surface.coefficients_file) == ".json"
-              ? read_harmonics(surface.coefficients_file)
-              : read_complex_harmonics(surface.coefficients_file, surface.coefficient_degree));
+          ending == ".sh" ? read_shtools(file, surface.coefficient_degree)
+                          : read_complex_harmonics(file, surface.coefficient_degree));
+    }
   }
   return std::make_unique<Ellipsoid>(surface.semi_axes);
 }

@@ -14,8 +14,11 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/harmonic_transform.h"
+#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 
@@ -47,14 +50,16 @@ struct ComplexCoefficient {
   std::complex<double> value;
 };
 
-/// Coefficients in the order of harmonic_index, as many as the highest degree read needs.
-std::vector<ComplexCoefficient> read_lines(const std::string& path) {
+/// Coefficients in the order of harmonic_index, as many as the highest degree read needs. Commas
+/// may stand between numbers where `with_commas`.
+std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_commas) {
   std::ifstream stream = open_for_reading(path);
   std::vector<ComplexCoefficient> coefficients;
   std::string text;
   std::size_t line = 0;
   while (std::getline(stream, text)) {
     ++line;
+    if (with_commas) std::replace(text.begin(), text.end(), ',', ' ');
     std::istringstream fields(text);
     fields.imbue(std::locale::classic());
     fields >> std::ws;
@@ -64,7 +69,9 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path) {
     double real = 0.0;
     double imaginary = 0.0;
     if (!(fields >> n >> m >> real >> imaginary) || !(fields >> std::ws).eof()) {
-      refuse_line(path, line, "does not hold the four numbers n m Re Im.");
+      refuse_line(path, line,
+                  with_commas ? "does not hold the four numbers l, m, C, S."
+                              : "does not hold the four numbers n m Re Im.");
     }
     if (n < 0 || n > maximum_harmonic_degree || m < -n || m > n) {
       refuse_line(path, line,
@@ -87,6 +94,32 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path) {
   if (coefficients.empty()) refuse_file(path, "it holds no coefficients.");
   return coefficients;
 }
+
+/// The degree up to which coefficients are used.
+int used_degree(const std::vector<ComplexCoefficient>& coefficients, int degree) {
+  const int highest = static_cast<int>(std::lround(std::sqrt(coefficients.size()))) - 1;
+  return degree < 0 ? highest : std::min(degree, highest);
+}
+
+/// Two families of programs write the same four numbers: a file that fits both is read by neither.
+void check_convention(const std::vector<ComplexCoefficient>& coefficients,
+                      const std::string& path) {
+  if (coefficients.size() == 1) return;
+  for (std::size_t n = 1; n * n < coefficients.size(); ++n) {
+    for (std::size_t m = 0; m < n; ++m) {
+      if (coefficients[n * n + m].line != 0) return;  // of a negative order
+    }
+  }
+  refuse_file(path,
+              "it has no negative orders, so its rows are n m Re Im of the NIST particle shape "
+              "sets with half of them left out, or l m C S of SHTOOLS. Add the rows of negative "
+              "orders, (-1)^m times the conjugates, or name the file .sh if SHTOOLS wrote it "
+              "(normalization 4pi, csphase 1).");
+}
+
+/// SHTOOLS's harmonics for m >= 0 without the Condon-Shortley phase, normalized so that their mean
+/// square over the sphere is 1, in ours: ours have the phase, and their squares' integral is 1.
+double shtools_factor(int m) { return (m % 2 == 0 ? 1.0 : -1.0) * std::sqrt(4.0 * pi); }
 
 /// The surface of a file, checked to be one.
 HarmonicSurface make_surface(const std::string& path, std::vector<double> coefficients) {
@@ -156,13 +189,13 @@ HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
                                              std::to_string(degree) +
                                              "; give 0 or more, or -1 to keep all.");
   }
-  std::vector<ComplexCoefficient> complex = read_lines(path);
+  const std::vector<ComplexCoefficient> complex = read_lines(path, false);
+  check_convention(complex, path);
   double largest = 0.0;
   for (const ComplexCoefficient& coefficient : complex) {
     largest = std::max(largest, std::abs(coefficient.value));
   }
-  const int highest = static_cast<int>(std::lround(std::sqrt(complex.size()))) - 1;
-  const int used = degree < 0 ? highest : std::min(degree, highest);
+  const int used = used_degree(complex, degree);
   std::vector<double> real(harmonic_count(used));
   for (int n = 0; n <= used; ++n) {
     for (int m = 0; m <= n; ++m) {
@@ -186,6 +219,48 @@ HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
     }
   }
   return make_surface(path, std::move(real));
+}
+
+HarmonicSurface read_shtools(const std::string& path, int degree) {
+  const std::vector<ComplexCoefficient> rows = read_lines(path, true);
+  const int used = used_degree(rows, degree);
+  std::vector<double> real(harmonic_count(used));
+  for (int l = 0; l <= used; ++l) {
+    for (int m = -l; m <= l; ++m) {
+      const ComplexCoefficient& row = rows[harmonic_index(l, m)];
+      if (m < 0 && row.line != 0) {
+        refuse_line(
+            path, row.line,
+            "is of a negative order, which SHTOOLS does not write; name the file .dat if it "
+            "is of the NIST particle shape sets.");
+      }
+      if (m < 0) continue;
+      if (row.line == 0) {
+        refuse_file(path, "the row l = " + std::to_string(l) + ", m = " + std::to_string(m) +
+                              " is missing.");
+      }
+      if (m == 0 && row.value.imag() != 0.0) {
+        refuse_line(path, row.line, "has a sine of order 0, which there is not.");
+      }
+      real[harmonic_index(l, m)] = shtools_factor(m) * row.value.real();
+      if (m > 0) real[harmonic_index(l, -m)] = shtools_factor(m) * row.value.imag();
+    }
+  }
+  return make_surface(path, std::move(real));
+}
+
+void write_shtools(const std::string& path, const HarmonicSurface& surface) {
+  std::string text;
+  for (int l = 0; l <= surface.degree(); ++l) {
+    for (int m = 0; m <= l; ++m) {
+      const std::vector<double>& all = surface.coefficients();
+      const double cosine = all[harmonic_index(l, m)] / shtools_factor(m);
+      const double sine = m == 0 ? 0.0 : all[harmonic_index(l, -m)] / shtools_factor(m);
+      text += std::to_string(l) + ", " + std::to_string(m) + ", " + format_exact(cosine) + ", " +
+              format_exact(sine) + "\n";
+    }
+  }
+  write_file(path, text);
 }
 
 HarmonicKind read_harmonic_kind(const std::string& path) {

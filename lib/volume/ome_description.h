@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "volume/tiff_layout.h"
+
+namespace wscvt {
+
+/// The layout that OME's XML tells of, in any order of dimensions; as tiff_layout:
+/// https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html
+TiffLayout layout_of_ome(const std::string& text, std::int64_t pages, std::int64_t samples,
+                         const std::string& path);
+
+}  // namespace wscvt

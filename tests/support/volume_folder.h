@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/made_volume.h"
+#include "volume/label_volume.h"
+
+namespace wscvt::test {
+
+/// A folder for the files of a test, and a volume without symmetry in them: three side lengths,
+/// every label another but for some, the largest at the last voxel.
+class VolumeFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (std::filesystem::temp_directory_path() / "wscvt_volume_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    make({7, 5, 3});
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void make(const std::array<int, 3>& counts) {
+    made_ = MadeVolume(counts);
+    for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+      made_.labels[k] = static_cast<std::uint32_t>(k * k % 119);
+    }
+    made_.labels.back() = 127;
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& bytes) const {
+    write_bytes(path(name), bytes);
+  }
+
+  /// All labels, read twice, after the file was left within a slice.
+  std::vector<Label> labels_of(const std::string& name, const VolumeChoice& choice = {}) const {
+    const std::unique_ptr<LabelVolume> volume = open_volume(path(name), choice);
+    const VoxelCounts& counts = volume->geometry().counts;
+    volume->rewind();
+    for (int row = 0; row <= counts[1]; ++row) volume->next_row();
+    std::vector<Label> first;
+    std::vector<Label> second;
+    for (std::vector<Label>* labels : {&first, &second}) {
+      volume->rewind();
+      for (int row = 0; row < counts[1] * counts[2]; ++row) {
+        const std::vector<Label>& next = volume->next_row();
+        labels->insert(labels->end(), next.begin(), next.end());
+      }
+    }
+    EXPECT_EQ(first, second) << name;
+    return first;
+  }
+  void expect_made(const std::string& name, const VolumeChoice& choice = {}) const {
+    EXPECT_EQ(open_volume(path(name), choice)->geometry().counts, made_.counts);
+    EXPECT_EQ(labels_of(name, choice), made_.labels) << name;
+  }
+
+  VolumeGeometry geometry(const std::string& name, const VolumeChoice& choice = {}) const {
+    return open_volume(path(name), choice)->geometry();
+  }
+  std::vector<std::string> notes(const std::string& name) const {
+    return open_volume(path(name))->notes();
+  }
+
+  /// Opens and reads a file that has to be refused, with these words.
+  void expect_refused(const std::string& name, const std::vector<std::string>& words,
+                      const VolumeChoice& choice = {}) const {
+    const std::string sentence = refusal(ErrorCode::InputOutput, [&] { labels_of(name, choice); });
+    EXPECT_NE(sentence, "") << name << " was read.";
+    for (const std::string& word : words) {
+      EXPECT_NE(sentence.find(word), std::string::npos) << word << " is not in: " << sentence;
+    }
+  }
+
+  /// The file without its last bytes is refused, however many they are.
+  void expect_cut_is_refused(const std::string& name, std::size_t least_left) const {
+    const std::uintmax_t size = std::filesystem::file_size(path(name));
+    for (std::uintmax_t left = size - 1; left >= least_left; left -= 1 + left / 9) {
+      SCOPED_TRACE(name + " of " + std::to_string(left) + " bytes");
+      std::filesystem::resize_file(path(name), left);
+      expect_refused(name, {});
+    }
+  }
+
+  std::filesystem::path folder_;
+  MadeVolume made_{{7, 5, 3}};
+};
+
+inline VolumeChoice channel(std::int64_t place) {
+  VolumeChoice choice;
+  choice.channel = place;
+  return choice;
+}
+inline VolumeChoice frame(std::int64_t place) {
+  VolumeChoice choice;
+  choice.frame = place;
+  return choice;
+}
+inline VolumeChoice array(const std::string& name) {
+  VolumeChoice choice;
+  choice.array = name;
+  return choice;
+}
+
+}  // namespace wscvt::test

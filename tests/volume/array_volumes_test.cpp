@@ -1,0 +1,497 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// NumPy, HDF5, MATLAB, NIfTI and VTK's files from before XML.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "support/volume_folder.h"
+
+namespace wscvt {
+namespace {
+
+using test::array;
+using test::channel;
+using test::frame;
+using test::MadeVolume;
+
+class ArrayVolumes : public test::VolumeFolder {
+ protected:
+  std::vector<Label> labels(std::uint32_t more) const {
+    std::vector<Label> all = made_.labels;
+    for (Label& label : all) label += more;
+    return all;
+  }
+  static std::string npy(const std::string& type, const std::string& order,
+                         const std::string& shape, const std::string& voxels, int version = 1) {
+    std::string head =
+        "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
+    const std::size_t before = version == 1 ? 10 : 12;
+    while ((head.size() + before + 1) % 64 != 0) head += ' ';
+    head += '\n';
+    std::string length = test::four_bytes(head.size());
+    if (version == 1) length.resize(2);
+    return std::string("\x93NUMPY") + static_cast<char>(version) + '\0' + length + head + voxels;
+  }
+  /// The labels with z fastest.
+  std::string turned() const {
+    std::string bytes;
+    for (int x = 0; x < 7; ++x) {
+      for (int y = 0; y < 5; ++y) {
+        for (int z = 0; z < 3; ++z) {
+          const Label label = made_.labels[static_cast<std::size_t>((z * 5 + y) * 7 + x)];
+          bytes += test::four_bytes(label).substr(0, 2);
+        }
+      }
+    }
+    return bytes;
+  }
+  /// Every voxel is where it is in `made_`, whatever the order of the file: by a voxel's middle.
+  void expect_placed(const std::string& name, const Vector3& size) const {
+    const std::unique_ptr<LabelVolume> volume = open_volume(path(name));
+    const VolumeGeometry& geometry = volume->geometry();
+    volume->rewind();
+    for (int z = 0; z < geometry.counts[2]; ++z) {
+      for (int y = 0; y < geometry.counts[1]; ++y) {
+        const std::vector<Label> row = volume->next_row();
+        for (int x = 0; x < geometry.counts[0]; ++x) {
+          const Vector3 at = geometry.point(Vector3(x + 0.5, y + 0.5, z + 0.5));
+          const Vector3 voxel = at.cwiseQuotient(size);
+          const auto place = static_cast<std::size_t>(
+              (std::floor(voxel.z()) * 5 + std::floor(voxel.y())) * 7 + std::floor(voxel.x()));
+          ASSERT_LT(place, made_.labels.size());
+          ASSERT_EQ(row[static_cast<std::size_t>(x)], made_.labels[place]) << name;
+        }
+      }
+    }
+  }
+};
+
+TEST_F(ArrayVolumes, ReadsNumpyOfEveryTypeAndOrder) {
+  const std::string shape = "3, 5, 7";
+  write("a.npy", npy("|u1", "False", shape, made_.bytes<std::uint8_t>()));
+  expect_made("a.npy");
+  write("a.npy", npy("|i1", "False", shape, made_.bytes<std::int8_t>()));
+  expect_made("a.npy");
+  write("a.npy", npy("<u2", "False", shape, made_.bytes<std::uint16_t>(), 2));
+  expect_made("a.npy");
+  write("a.npy", npy(">i4", "False", shape, made_.bytes<std::int32_t>(true), 3));
+  expect_made("a.npy");
+  write("a.npy", npy("<i8", "False", shape, made_.bytes<std::int64_t>()));
+  expect_made("a.npy");
+  expect_cut_is_refused("a.npy", 1);
+  std::string doubles;
+  for (const Label label : made_.labels) {
+    const auto value = static_cast<double>(label);
+    doubles.append(reinterpret_cast<const char*>(&value), 8);
+  }
+  write("a.npy", npy("<f8", "False", shape, doubles));
+  expect_made("a.npy");
+  expect_placed("a.npy", Vector3(1, 1, 1));
+  // The first dimension fastest: nothing is mirrored by it.
+  write("a.npy", npy("<u2", "True", shape, turned()));
+  EXPECT_EQ(geometry("a.npy").counts, (VoxelCounts{3, 5, 7}));
+  expect_placed("a.npy", Vector3(1, 1, 1));
+  VolumeChoice choice;
+  choice.voxel_size = Vector3(1, 2, 4);
+  EXPECT_LT((geometry("a.npy", choice).point({1, 1, 1}) - Vector3(1, 2, 4)).norm(), 1e-15);
+  EXPECT_LT((geometry("a.npy", choice).point({1, 0, 0}) - Vector3(0, 0, 4)).norm(), 1e-15);
+  made_.labels.assign(made_.labels.size(), 1);
+  write("a.npy", npy("|b1", "False", shape, std::string(105, '\1')));
+  expect_made("a.npy");
+}
+
+TEST_F(ArrayVolumes, NamesTheDimensionsOfNumpyThatAreMoreThanThree) {
+  const std::string voxels = made_.bytes<std::uint16_t>();
+  MadeVolume more = made_;
+  for (Label& label : more.labels) label += 200;
+  write("a.npy", npy("<u2", "False", "2, 3, 5, 7", voxels + more.bytes<std::uint16_t>()));
+  expect_refused("a.npy", {"2 frames"});
+  expect_made("a.npy", frame(1));
+  EXPECT_EQ(labels_of("a.npy", frame(2)), labels(200));
+  for (const char* shape : {"1, 3, 5, 7", "3, 5, 7, 1", "1, 3, 1, 5, 7", "3, 5, 7,"}) {
+    write("a.npy", npy("<u2", "False", shape, voxels));
+    expect_made("a.npy");
+  }
+  for (const auto& [shape, word] : std::vector<std::pair<std::string, std::string>>{
+           {"15, 7", "three dimensions"},
+           {"1, 15, 7", "one image"},
+           {"105,", "three dimensions"},
+           {"3, 0, 7", "above 0"},
+           {"3, x, 7", "whole numbers"},
+           {"2, 2, 3, 5, 7", "more than one dimension"},
+           {"3, 5, 7000000", "7000000"}}) {
+    write("a.npy", npy("<u2", "False", shape, voxels));
+    expect_refused("a.npy", {word});
+  }
+  for (const char* type : {"<c8", "<U4", "<M8[s]", "|O", "<f2", "u", ""}) {
+    write("a.npy", npy(type, "False", "3, 5, 7", voxels));
+    expect_refused("a.npy", {"type"});
+  }
+  write("a.npy", npy("<u2", "Maybe", "3, 5, 7", voxels));
+  expect_refused("a.npy", {"order"});
+  write("a.npy", "\x93NUMPY\1");
+  expect_refused("a.npy", {"no array of NumPy"});
+  write("a.npy", "no array");
+  expect_refused("a.npy", {"no array of NumPy"});
+}
+
+TEST_F(ArrayVolumes, ReadsTheChosenArrayOfAnNpz) {
+  const auto write_npz = [&](const std::vector<std::pair<std::string, std::string>>& members,
+                             int level) {
+    const zipFile zip = zipOpen64(path("a.npz").c_str(), APPEND_STATUS_CREATE);
+    for (const auto& [name, content] : members) {
+      zip_fileinfo info{};
+      ASSERT_EQ(zipOpenNewFileInZip64(zip, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr,
+                                      level == 0 ? 0 : Z_DEFLATED, level, 1),
+                ZIP_OK);
+      ASSERT_EQ(zipWriteInFileInZip(zip, content.data(), static_cast<unsigned>(content.size())),
+                ZIP_OK);
+      zipCloseFileInZip(zip);
+    }
+    zipClose(zip, nullptr);
+  };
+  const std::string voxels = npy("<u2", "False", "3, 5, 7", made_.bytes<std::uint16_t>());
+  MadeVolume more = made_;
+  for (Label& label : more.labels) label += 200;
+  for (const int level : {0, 6}) {
+    write_npz({{"arr_0.npy", voxels}}, level);
+    expect_made("a.npz");
+    write_npz({{"grey.npy", npy("<u2", "False", "3, 5, 7", more.bytes<std::uint16_t>())},
+               {"labels.npy", voxels}},
+              level);
+    expect_refused("a.npz", {"2 arrays", "\"grey\"", "\"labels\""});
+    expect_made("a.npz", array("labels"));
+    EXPECT_EQ(labels_of("a.npz", array("grey")), labels(200));
+    expect_refused("a.npz", {"\"grey\""}, array("arr_0"));
+    write_npz({{"arr_0.npy", voxels.substr(0, voxels.size() - 1)}}, level);
+    expect_refused("a.npz", {"209 bytes"});
+  }
+  // A byte that was changed, packed or not.
+  for (const int level : {0, 6}) {
+    write_npz({{"arr_0.npy", voxels}}, level);
+    std::string content;
+    {
+      std::ifstream stream(path("a.npz"), std::ios::binary);
+      content.assign(std::istreambuf_iterator<char>(stream), {});
+    }
+    content[level == 0 ? 300 : 120] = static_cast<char>(content[level == 0 ? 300 : 120] ^ 1);
+    write("a.npz", content);
+    expect_refused("a.npz", {});
+  }
+  write_npz({{"arr_0.npy", voxels}}, 6);
+  std::filesystem::resize_file(path("a.npz"), std::filesystem::file_size(path("a.npz")) - 22);
+  expect_cut_is_refused("a.npz", 1);
+  write_npz({}, 0);
+  expect_refused("a.npz", {});
+}
+
+/// A NIfTI header of version 1 or 2, of 16-bit labels unless told otherwise.
+struct Nifti {
+  int version = 1;
+  bool big_endian = false;
+  std::vector<int> dimensions = {3, 7, 5, 3};
+  int type = 512;  // uint16
+  int bits = 16;
+  double slope = 0.0;
+  int sform = 1;
+
+  std::string bytes() const {
+    std::string head(version == 1 ? 348 : 540, '\0');
+    const auto put = [&](std::size_t place, std::size_t size, std::uint64_t value) {
+      for (std::size_t k = 0; k < size; ++k) {
+        head[place + (big_endian ? size - 1 - k : k)] = static_cast<char>(value >> (8 * k) & 0xffU);
+      }
+    };
+    const auto put_real = [&](std::size_t place, double value) {
+      if (version == 1) {
+        const auto single = static_cast<float>(value);
+        std::uint32_t word = 0;
+        std::memcpy(&word, &single, 4);
+        put(place, 4, word);
+      } else {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &value, 8);
+        put(place, 8, word);
+      }
+    };
+    const std::size_t real = version == 1 ? 4 : 8;
+    put(0, 4, head.size());
+    const std::size_t dimension_size = version == 1 ? 2 : 8;
+    for (std::size_t k = 0; k < 8; ++k) {
+      put((version == 1 ? 40U : 16U) + k * dimension_size, dimension_size,
+          k < dimensions.size() ? static_cast<std::uint64_t>(dimensions[k]) : 1U);
+    }
+    put(version == 1 ? 70 : 12, 2, static_cast<std::uint64_t>(type));
+    put(version == 1 ? 72 : 14, 2, static_cast<std::uint64_t>(bits));
+    const std::size_t sizes = version == 1 ? 76 : 104;
+    const double pixdim[8] = {1.0, 0.5, 0.25, 2.0, 1.0, 1.0, 1.0, 1.0};
+    for (std::size_t k = 0; k < 8; ++k) put_real(sizes + k * real, pixdim[k]);
+    if (version == 1) {
+      put_real(108, 352.0);
+    } else {
+      put(168, 8, 544);
+    }
+    put_real(version == 1 ? 112 : 176, slope);
+    put(version == 1 ? 123 : 500, version == 1 ? 1 : 4, 3);  // micrometres
+    put(version == 1 ? 254 : 348, version == 1 ? 2 : 4, static_cast<std::uint64_t>(sform));
+    // x of the lattice runs along -y, y along x.
+    const double rows[3][4] = {{0, 0.25, 0, 10}, {-0.5, 0, 0, 20}, {0, 0, 2, 30}};
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        put_real((version == 1 ? 280 : 400) + (4 * r + c) * real, rows[r][c]);
+      }
+    }
+    if (version == 1) {
+      std::memcpy(&head[344], "n+1\0", 4);
+    } else {
+      std::memcpy(&head[4], "n+2\0\r\n\032\n", 8);
+    }
+    return head + std::string(4, '\0');
+  }
+};
+
+TEST_F(ArrayVolumes, ReadsNifti) {
+  for (const int version : {1, 2}) {
+    for (const bool big : {false, true}) {
+      SCOPED_TRACE(std::to_string(version) + (big ? " big" : " little"));
+      Nifti nifti;
+      nifti.version = version;
+      nifti.big_endian = big;
+      write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>(big));
+      expect_made("a.nii");
+      const VolumeGeometry placed = geometry("a.nii");
+      EXPECT_EQ(placed.unit, "um");
+      EXPECT_TRUE(placed.has_size);
+      EXPECT_LT((placed.point({0.5, 0.5, 0.5}) - Vector3(10, 20, 30)).norm(), 1e-12);
+      EXPECT_LT((placed.point({1.5, 0.5, 0.5}) - Vector3(10, 19.5, 30)).norm(), 1e-12);
+      EXPECT_LT((placed.point({0.5, 1.5, 1.5}) - Vector3(10.25, 20, 32)).norm(), 1e-12);
+      write("a.nii.gz", test::packed(nifti.bytes() + made_.bytes<std::uint16_t>(big), true));
+      expect_made("a.nii.gz");
+      EXPECT_TRUE(is_volume(path("a.nii.gz")));
+      EXPECT_FALSE(is_volume(path("a.ply.gz")));
+      nifti.sform = 0;
+      write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>(big));
+      EXPECT_NEAR(geometry("a.nii").voxel_volume(), 0.25, 1e-12);
+      nifti.dimensions = {4, 7, 5, 3, 2};
+      const std::string first = made_.bytes<std::uint16_t>(big);
+      MadeVolume more = made_;
+      for (Label& label : more.labels) label += 200;
+      write("a.nii", nifti.bytes() + first + more.bytes<std::uint16_t>(big));
+      expect_refused("a.nii", {"2 frames"});
+      EXPECT_EQ(labels_of("a.nii", frame(2)), labels(200));
+      nifti.dimensions = {5, 7, 5, 3, 1, 2};
+      write("a.nii", nifti.bytes() + first + more.bytes<std::uint16_t>(big));
+      expect_refused("a.nii", {"2 channels"});
+      EXPECT_EQ(labels_of("a.nii", channel(2)), labels(200));
+    }
+  }
+  Nifti nifti;
+  const auto write_as = [&](int type, int bits, const std::string& voxels) {
+    nifti.type = type;
+    nifti.bits = bits;
+    write("a.nii", nifti.bytes() + voxels);
+  };
+  write_as(2, 8, made_.bytes<std::uint8_t>());
+  expect_made("a.nii");
+  write_as(256, 8, made_.bytes<std::int8_t>());
+  expect_made("a.nii");
+  write_as(4, 16, made_.bytes<std::int16_t>());
+  expect_made("a.nii");
+  write_as(8, 32, made_.bytes<std::int32_t>());
+  expect_made("a.nii");
+  write_as(768, 32, made_.bytes<std::uint32_t>());
+  expect_made("a.nii");
+  write_as(1024, 64, made_.bytes<std::int64_t>());
+  expect_made("a.nii");
+  write_as(1280, 64, made_.bytes<std::uint64_t>());
+  expect_made("a.nii");
+  std::string floats;
+  for (const Label label : made_.labels) {
+    const auto value = static_cast<float>(label);
+    floats.append(reinterpret_cast<const char*>(&value), 4);
+  }
+  write_as(16, 32, floats);
+  expect_made("a.nii");
+  expect_cut_is_refused("a.nii", 1);
+  write_as(128, 24, std::string(315, '\0'));  // RGB
+  expect_refused("a.nii", {"type"});
+  nifti.slope = 2.0;
+  write_as(4, 16, made_.bytes<std::int16_t>());
+  expect_refused("a.nii", {"scales its voxels by 2"});
+  write("a.nii", "no NIfTI");
+  expect_refused("a.nii", {"no NIfTI"});
+  nifti.slope = 0.0;
+  nifti.dimensions = {3, 7, 0, 3};
+  write_as(4, 16, made_.bytes<std::int16_t>());
+  expect_refused("a.nii", {"dimensions below 1"});
+  write("a.nii.gz", test::packed("no NIfTI", true));
+  expect_refused("a.nii.gz", {"no NIfTI"});
+}
+
+TEST_F(ArrayVolumes, ReadsLegacyVtk) {
+  const auto head = [&](const std::string& form, const std::string& counts) {
+    return "# vtk DataFile Version 3.0\nlabels\n" + form +
+           "\nDATASET STRUCTURED_POINTS\nDIMENSIONS " + counts +
+           "\nSPACING 0.1 0.2 0.4\nORIGIN 10 20 30\n";
+  };
+  const std::string scalars =
+      "POINT_DATA 105\nSCALARS labels unsigned_short 1\nLOOKUP_TABLE default\n";
+  write("a.vtk", head("BINARY", "7 5 3") + scalars + made_.bytes<std::uint16_t>(true));
+  expect_made("a.vtk");
+  EXPECT_TRUE(notes("a.vtk").empty());
+  EXPECT_LT((geometry("a.vtk").point({0.5, 0.5, 0.5}) - Vector3(10, 20, 30)).norm(), 1e-13);
+  expect_cut_is_refused("a.vtk", 1);
+  write("a.vtk", head("BINARY", "8 6 4") +
+                     "CELL_DATA 105\nSCALARS labels int\nLOOKUP_TABLE default\n" +
+                     made_.bytes<std::int32_t>(true));
+  expect_made("a.vtk");
+  EXPECT_LT((geometry("a.vtk").point({0, 0, 0}) - Vector3(10, 20, 30)).norm(), 1e-13);
+  for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
+           {"unsigned_char", made_.bytes<std::uint8_t>()},
+           {"char", made_.bytes<std::int8_t>()},
+           {"short", made_.bytes<std::int16_t>(true)},
+           {"unsigned_int", made_.bytes<std::uint32_t>(true)},
+           {"long", made_.bytes<std::int64_t>(true)},
+           {"vtktypeint64", made_.bytes<std::int64_t>(true)},
+           {"unsigned_long", made_.bytes<std::uint64_t>(true)}}) {
+    write("a.vtk", head("BINARY", "7 5 3") + "POINT_DATA 105\nSCALARS labels " + name +
+                       "\nLOOKUP_TABLE default\n" + bytes);
+    expect_made("a.vtk");
+  }
+  // Several arrays, among them those of a field; text and numbers.
+  std::string text;
+  std::string twice;
+  std::string grey;
+  for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+    text += std::to_string(made_.labels[k]) + (k % 9 == 8 ? "\n" : " ");
+    twice += std::to_string(made_.labels[k]) + " " + std::to_string(made_.labels[k] + 200) + "\n";
+    grey += "0.5 ";
+  }
+  const std::string fields = "FIELD FieldData 2\nlabels 1 105 int\n" + text +
+                             "\nMETADATA\nINFORMATION 0\n\npair 2 105 int\n" + twice;
+  write("a.vtk", head("ASCII", "7 5 3") +
+                     "POINT_DATA 105\nSCALARS grey float\nLOOKUP_TABLE default\n" + grey + "\n" +
+                     fields);
+  expect_refused("a.vtk", {"3 arrays", "\"grey\"", "\"labels\"", "\"pair\""});
+  expect_made("a.vtk", array("labels"));
+  VolumeChoice choice = array("pair");
+  expect_refused("a.vtk", {"2 channels"}, choice);
+  choice.channel = 2;
+  EXPECT_EQ(labels_of("a.vtk", choice), labels(200));
+  expect_refused("a.vtk", {"0.5"}, array("grey"));
+  write("a.vtk", head("BINARY", "7 5 3") + "POINT_DATA 105\nFIELD f 2\na 1 105 unsigned_char\n" +
+                     std::string(105, '\n') + "\nlabels 1 105 unsigned_short\n" +
+                     made_.bytes<std::uint16_t>(true) + "\n");
+  expect_made("a.vtk", array("labels"));
+  for (const auto& [wrong, word] : std::vector<std::pair<std::string, std::string>>{
+           {"no VTK\n", "VTK"},
+           {"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 0 float\n",
+            "structured points"},
+           {head("BINARY", "7 5 4") + scalars, "another number"},
+           {head("BINARY", "7 5 0") + scalars, "sizes"},
+           {head("BINARY", "7 5 3"), "no array"},
+           {head("BINARY", "7 5 3") + "POINT_DATA 105\nTENSORS t float\n", "\"tensors\""},
+           {head("BINARY", "7 5 3") + "POINT_DATA 105\nSCALARS l bit\nLOOKUP_TABLE d\n", "bit"},
+           {head("OTHER", "7 5 3"), "ASCII"}}) {
+    write("a.vtk", wrong);
+    expect_refused("a.vtk", {word});
+  }
+}
+
+class Hdf5Volumes : public ArrayVolumes {
+ protected:
+  /// Adds a data set to the file; `chunk` 0: in one block.
+  void add(const std::string& name, hid_t type, const std::vector<hsize_t>& counts,
+           const std::string& bytes, hsize_t chunk = 0, bool is_matlab = false,
+           const std::vector<double>& size = {}) const {
+    const bool is_new = !std::filesystem::exists(path("a.h5"));
+    const hid_t file =
+        is_new ? H5Fcreate(path("a.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
+               : H5Fopen(path("a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(file, 0);
+    const hid_t links = H5Pcreate(H5P_LINK_CREATE);
+    H5Pset_create_intermediate_group(links, 1);
+    const hid_t space = H5Screate_simple(static_cast<int>(counts.size()), counts.data(), nullptr);
+    const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+    if (chunk > 0) {
+      std::vector<hsize_t> chunks;
+      for (const hsize_t count : counts) chunks.push_back(std::min(count, chunk));
+      H5Pset_chunk(made, static_cast<int>(chunks.size()), chunks.data());
+      H5Pset_deflate(made, 6);
+    }
+    const hid_t set = H5Dcreate2(file, name.c_str(), type, space, links, made, H5P_DEFAULT);
+    ASSERT_GE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), 0);
+    const auto attribute = [&](const char* key, hid_t kind, hsize_t count, const void* value) {
+      const hid_t extent = H5Screate_simple(1, &count, nullptr);
+      const hid_t id = H5Acreate2(set, key, kind, extent, H5P_DEFAULT, H5P_DEFAULT);
+      H5Awrite(id, kind, value);
+      H5Aclose(id);
+      H5Sclose(extent);
+    };
+    const int code = 1;
+    if (is_matlab) attribute("MATLAB_class", H5T_NATIVE_INT, 1, &code);
+    if (!size.empty()) attribute("element_size_um", H5T_NATIVE_DOUBLE, 3, size.data());
+    H5Dclose(set);
+    H5Pclose(made);
+    H5Sclose(space);
+    H5Pclose(links);
+    H5Fclose(file);
+  }
+};
+
+TEST_F(Hdf5Volumes, AreReadByThePathOfTheirDataSet) {
+  for (const hsize_t chunk : {0, 1, 2, 3}) {
+    std::filesystem::remove(path("a.h5"));
+    add("deep/in/labels", H5T_NATIVE_UINT16, {3, 5, 7}, made_.bytes<std::uint16_t>(), chunk, false,
+        {4.0, 2.0, 1.0});
+    add("table", H5T_NATIVE_UINT16, {15, 7}, made_.bytes<std::uint16_t>());
+    expect_made("a.h5");
+    EXPECT_EQ(geometry("a.h5").unit, "um");
+    EXPECT_LT((geometry("a.h5").point({1, 1, 1}) - Vector3(1, 2, 4)).norm(), 1e-15);
+    expect_placed("a.h5", Vector3(1, 2, 4));
+    add("more", H5T_STD_I32BE, {1, 3, 5, 7}, made_.bytes<std::int32_t>(true), chunk);
+    expect_refused("a.h5", {"2 arrays", "\"/deep/in/labels\"", "\"/more\""});
+    expect_made("a.h5", array("/more"));
+    expect_made("a.h5", array("deep/in/labels"));
+    expect_refused("a.h5", {"\"/table\"", "Correct --array"}, array("table"));
+  }
+  MadeVolume more = made_;
+  for (Label& label : more.labels) label += 200;
+  add("frames", H5T_NATIVE_UINT16, {2, 3, 5, 7},
+      made_.bytes<std::uint16_t>() + more.bytes<std::uint16_t>(), 2);
+  VolumeChoice choice = array("frames");
+  expect_refused("a.h5", {"2 frames"}, choice);
+  choice.frame = 2;
+  EXPECT_EQ(labels_of("a.h5", choice), labels(200));
+  write("b.h5", "no HDF5");
+  expect_refused("b.h5", {"no HDF5"});
+  write("b.mat", "MATLAB 5.0 MAT-file");
+  expect_refused("b.mat", {"-v7.3"});
+}
+
+TEST_F(Hdf5Volumes, OfMatlabAreNotMirrored) {
+  // A(row, column, slice) = made(x = column, y = row, z = slice), the row fastest.
+  std::string bytes;
+  for (int z = 0; z < 3; ++z) {
+    for (int x = 0; x < 7; ++x) {
+      for (int y = 0; y < 5; ++y) {
+        bytes += test::four_bytes(made_.labels[static_cast<std::size_t>((z * 5 + y) * 7 + x)])
+                     .substr(0, 2);
+      }
+    }
+  }
+  add("L", H5T_NATIVE_UINT16, {3, 7, 5}, bytes, 3, true);
+  std::filesystem::rename(path("a.h5"), path("a.mat"));
+  EXPECT_EQ(geometry("a.mat").counts, (VoxelCounts{5, 7, 3}));
+  expect_placed("a.mat", Vector3(1, 1, 1));
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,517 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// TIFF as ImageJ, OME, tifffile and MATLAB write it, and folders of slices.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "support/tiff_pages.h"
+#include "support/volume_folder.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+using test::channel;
+using test::frame;
+using test::MadeVolume;
+using test::TiffPages;
+
+class TiffVolume : public test::VolumeFolder {
+ protected:
+  TiffPages as() const {
+    TiffPages pages;
+    pages.width = made_.counts[0];
+    pages.height = made_.counts[1];
+    return pages;
+  }
+
+  /// Slices as pages of 16 bits, plus a number.
+  std::string page(int z, std::uint32_t more = 0) const {
+    MadeVolume volume = made_;
+    for (std::uint32_t& label : volume.labels) label += more;
+    const std::size_t size = 2 * static_cast<std::size_t>(made_.counts[0] * made_.counts[1]);
+    return volume.bytes<std::uint16_t>().substr(static_cast<std::size_t>(z) * size, size);
+  }
+  std::vector<std::string> pages(std::uint32_t more = 0) const {
+    std::vector<std::string> all;
+    for (int z = 0; z < made_.counts[2]; ++z) all.push_back(page(z, more));
+    return all;
+  }
+  std::vector<Label> labels(std::uint32_t more) const {
+    std::vector<Label> all = made_.labels;
+    for (Label& label : all) label += more;
+    return all;
+  }
+
+  /// Bytes of one type, cut into pages.
+  template <class Value>
+  std::vector<std::string> pages_of() const {
+    const std::string bytes = made_.bytes<Value>();
+    const std::size_t size = bytes.size() / static_cast<std::size_t>(made_.counts[2]);
+    std::vector<std::string> all;
+    for (std::size_t z = 0; z < static_cast<std::size_t>(made_.counts[2]); ++z) {
+      all.push_back(bytes.substr(z * size, size));
+    }
+    return all;
+  }
+
+  void write_png(const std::string& name, int z, int bits, int color, bool interlaced = false,
+                 int height = 5) const {
+    std::FILE* const file = std::fopen(path(name).c_str(), "wb");
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, file);
+    png_set_IHDR(png, info, 7, static_cast<png_uint_32>(height), bits, color,
+                 interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    std::vector<png_color> palette(256);
+    if (color == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette.data(), 1 << bits);
+    png_write_info(png, info);
+    png_set_packing(png);
+    const int channels = color == PNG_COLOR_TYPE_RGB ? 3 : 1;
+    const std::uint32_t most = bits == 16 ? 0xffffU : (1U << bits) - 1U;
+    std::vector<std::vector<png_byte>> rows;
+    for (int y = 0; y < height; ++y) {
+      std::vector<png_byte> row;
+      for (int x = 0; x < 7; ++x) {
+        for (int c = 0; c < channels; ++c) {
+          const std::uint32_t label =
+              (made_.labels[static_cast<std::size_t>((z * 5 + y % 5) * 7 + x)] + 3U * c) & most;
+          if (bits == 16) row.push_back(static_cast<png_byte>(label >> 8));
+          row.push_back(static_cast<png_byte>(label & 0xffU));
+        }
+      }
+      rows.push_back(row);
+    }
+    std::vector<png_bytep> pointers;
+    for (auto& row : rows) pointers.push_back(row.data());
+    png_write_image(png, pointers.data());
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    std::fclose(file);
+  }
+};
+
+// Griottes 2 and its kind: channels and frames stand between the slices.
+TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
+  TiffPages stack = as();
+  std::vector<std::string> all;  // channels run fastest, then slices, then frames
+  for (std::uint32_t t = 0; t < 4; ++t) {
+    for (int z = 0; z < 3; ++z) {
+      for (std::uint32_t c = 0; c < 2; ++c) all.push_back(page(z, 1000 * t + 200 * c));
+    }
+  }
+  for (const char* mode : {"wl", "wb", "w8"}) {
+    stack.mode = mode;
+    stack.text = "ImageJ=1.53\nimages=24\nchannels=2\nslices=3\nframes=4\nhyperstack=true\n";
+    write_tiff(path("a.tif"), stack, all);
+    expect_refused("a.tif", {"2 channels", "--channel"});
+    expect_refused("a.tif", {"4 frames", "--frame"}, channel(1));
+    VolumeChoice choice = channel(2);
+    choice.frame = 3;
+    EXPECT_EQ(labels_of("a.tif", choice), labels(2200)) << mode;
+    choice.frame = 4;
+    EXPECT_EQ(labels_of("a.tif", choice), labels(3200)) << mode;
+    choice.frame = 5;
+    expect_refused("a.tif", {"4 frames, not a frame 5"}, choice);
+  }
+  stack.text = "ImageJ=1.53\nimages=24\nchannels=2\nslices=3\nframes=3\n";
+  write_tiff(path("a.tif"), stack, all);
+  expect_refused("a.tif", {"24 images", "3 slices"}, channel(1));
+  stack.text = "ImageJ=1.53\nimages=12\nslices=12\n";
+  write_tiff(path("a.tif"), stack, all);
+  expect_refused("a.tif", {"24 pages of the 12"});
+  stack.text = "ImageJ=1.53\nimages=24\nframes=24\n";
+  write_tiff(path("a.tif"), stack, all);
+  expect_refused("a.tif", {"one slice", "24 images"});
+  // A stack of slices has no channel to choose but the first.
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\n";
+  write_tiff(path("a.tif"), stack, pages());
+  expect_made("a.tif", channel(1));
+  expect_refused("a.tif", {"1 channel, not a channel 2"}, channel(2));
+  expect_refused("a.tif", {"--array"}, test::array("labels"));
+}
+
+TEST_F(TiffVolume, TakesImageJsSizesAsImageJDoes) {
+  TiffPages stack = as();
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=\\u00B5m\nspacing=0.25\n";
+  stack.resolution = 20.0;
+  for (const int unit : {RESUNIT_NONE, RESUNIT_INCH, RESUNIT_CENTIMETER}) {
+    stack.resolution_unit = unit;
+    write_tiff(path("a.tif"), stack, pages());
+    const VolumeGeometry read = geometry("a.tif");
+    EXPECT_TRUE(read.has_size);
+    EXPECT_EQ(read.unit, "um");
+    EXPECT_LT((read.point({1, 1, 1}) - Vector3(0.05, 0.1, 0.25)).norm(), 1e-7) << unit;
+    EXPECT_TRUE(notes("a.tif").empty());
+  }
+  // It writes no distance of 1.
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=mm\n";
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.05, 0.1, 1.0)).norm(), 1e-7);
+  ASSERT_EQ(notes("a.tif").size(), 1U);
+  EXPECT_NE(notes("a.tif")[0].find("1 mm"), std::string::npos);
+  for (const char* none : {"", "unit=pixel\nspacing=3\n"}) {
+    stack.text = std::string("ImageJ=1.53\nimages=3\nslices=3\n") + none;
+    write_tiff(path("a.tif"), stack, pages());
+    EXPECT_FALSE(geometry("a.tif").has_size);
+    EXPECT_EQ(geometry("a.tif").voxel_volume(), 1.0);
+    ASSERT_EQ(notes("a.tif").size(), 1U);
+    EXPECT_NE(notes("a.tif")[0].find("Voxel size not in the file: lengths in voxels"),
+              std::string::npos);
+  }
+}
+
+TEST_F(TiffVolume, TakesAResolutionThatIsOfNoPrinter) {
+  TiffPages stack = as();
+  stack.resolution = 2000.0;
+  stack.resolution_unit = RESUNIT_CENTIMETER;  // 0.005 mm along x
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_EQ(geometry("a.tif").unit, "mm");
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.005, 0.01, 0.005)).norm(), 1e-9);
+  EXPECT_NE(notes("a.tif").at(0).find("resolution"), std::string::npos);
+  VolumeChoice choice;
+  choice.voxel_size = Vector3(1, 2, 4);
+  EXPECT_TRUE(open_volume(path("a.tif"), choice)->notes().empty());
+  stack.resolution_unit = RESUNIT_INCH;
+  for (const double paper : {72.0, 300.0, 600.0, 1200.0, 2400.0}) {
+    stack.resolution = paper;
+    write_tiff(path("a.tif"), stack, pages());
+    EXPECT_FALSE(geometry("a.tif").has_size) << paper;
+  }
+}
+
+// All orders that OME has, pages in their order and not.
+TEST_F(TiffVolume, ReadsOmeInEveryOrderOfDimensions) {
+  std::string order = "CTZ";
+  int orders = 0;
+  do {
+    SCOPED_TRACE(order);
+    const auto count_of = [](char letter) { return letter == 'Z' ? 3 : letter == 'C' ? 2 : 4; };
+    std::vector<std::string> planes;
+    std::vector<std::string> where;
+    for (int c = 0; c < count_of(order[2]); ++c) {
+      for (int b = 0; b < count_of(order[1]); ++b) {
+        for (int a = 0; a < count_of(order[0]); ++a) {
+          const int at[3] = {a, b, c};
+          const auto place = [&](char letter) { return at[order.find(letter)]; };
+          planes.push_back(
+              page(place('Z'), static_cast<std::uint32_t>(1000 * place('T') + 200 * place('C'))));
+          where.push_back("FirstZ=\"" + std::to_string(place('Z')) + "\" FirstC=\"" +
+                          std::to_string(place('C')) + "\" FirstT=\"" + std::to_string(place('T')) +
+                          "\"");
+        }
+      }
+    }
+    const std::string head =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?><OME xmlns=\"o\"><Image ID=\"Image:0\">"
+        "<Pixels DimensionOrder=\"XY" +
+        order +
+        "\" SizeX=\"7\" SizeY=\"5\" SizeZ=\"3\" SizeC=\"2\" SizeT=\"4\" PhysicalSizeX=\"0.5\" "
+        "PhysicalSizeXUnit=\"mm\" PhysicalSizeY=\"0.25\" PhysicalSizeYUnit=\"mm\" "
+        "PhysicalSizeZ=\"2000\" PhysicalSizeZUnit=\"\xc2\xb5m\" Type=\"uint16\">";
+    const std::string end = "</Pixels></Image></OME>";
+    // Backwards in the file, each page named; as Bio-Formats names them.
+    std::string parts;
+    std::vector<std::string> backwards(planes.rbegin(), planes.rend());
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      parts += "<TiffData IFD=\"" + std::to_string(planes.size() - 1 - k) + "\" " + where[k] +
+               " PlaneCount=\"1\"><UUID FileName=\"x.ome.tif\">u</UUID></TiffData>";
+    }
+    const std::vector<std::pair<std::string, const std::vector<std::string>*>> forms = {
+        {"<TiffData IFD=\"0\" PlaneCount=\"24\"/>", &planes},
+        {"<TiffData/>", &planes},
+        {"", &planes},
+        {parts, &backwards}};
+    for (const auto& [tags, written] : forms) {
+      TiffPages stack = as();
+      stack.text = head + tags + end;
+      write_tiff(path("a.ome.tif"), stack, *written);
+      expect_refused("a.ome.tif", {"2 channels"});
+      VolumeChoice choice = channel(2);
+      choice.frame = 4;
+      EXPECT_EQ(labels_of("a.ome.tif", choice), labels(3200)) << tags;
+      const VolumeGeometry read = geometry("a.ome.tif", choice);
+      EXPECT_EQ(read.unit, "mm");
+      EXPECT_LT((read.point({1, 1, 1}) - Vector3(0.5, 0.25, 2.0)).norm(), 1e-12);
+      EXPECT_LT(read.corner.norm(), 1e-15);
+    }
+    ++orders;
+  } while (std::next_permutation(order.begin(), order.end()));
+  EXPECT_EQ(orders, 6);
+}
+
+TEST_F(TiffVolume, RefusesOmesTextThatFitsNoPages) {
+  const auto text = [](const std::string& attributes, const std::string& more) {
+    return "<OME><Image><Pixels DimensionOrder=\"XYZCT\" SizeZ=\"3\" " + attributes + ">" + more +
+           "</Pixels></Image></OME>";
+  };
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {text("SizeC=\"2\"", ""), "3 pages of the 6"},
+      {text("SizeC=\"x\"", ""), "SizeC"},
+      {text("SizeC=\"0\"", ""), "SizeC"},
+      {text("", "<TiffData IFD=\"1\" PlaneCount=\"3\"/>"), "outside"},
+      {text("", "<TiffData IFD=\"0\" FirstZ=\"1\" PlaneCount=\"2\"/>"), "lacks planes"},
+      {text("",
+            "<TiffData IFD=\"0\" PlaneCount=\"2\"><UUID FileName=\"a\"/></TiffData><TiffData "
+            "IFD=\"0\" FirstZ=\"2\"><UUID FileName=\"b\"/></TiffData>"),
+       "several files"},
+      {text("PhysicalSizeX=\"-1\"", ""), "PhysicalSizeX"},
+      {text("PhysicalSizeX=\"1\" PhysicalSizeXUnit=\"furlong\" PhysicalSizeY=\"1\"", ""),
+       "furlong"},
+      {"<OME><Image><Pixels SizeZ=\"3\"/><Pixels SizeZ=\"3\"/></Image></OME>", "2 images"},
+      {"<OME><Image><Pixels DimensionOrder=\"XYZZT\" SizeZ=\"3\"/></Image></OME>", "order"},
+      {"<OME><Image><Pixels SizeZ=\"3\"/></Image>", "damaged"},
+      {"<OME></OME>", "without Pixels"}};
+  for (const auto& [xml, word] : wrong) {
+    SCOPED_TRACE(xml);
+    TiffPages stack = as();
+    stack.text = xml;
+    write_tiff(path("a.tif"), stack, pages());
+    expect_refused("a.tif", {word});
+  }
+  TiffPages stack = as();
+  stack.text = text("PhysicalSizeX=\"2\" PhysicalSizeY=\"3\"", "");
+  write_tiff(path("a.tif"), stack, pages());
+  expect_made("a.tif");
+  EXPECT_EQ(geometry("a.tif").unit, "um");
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(2, 3, 2)).norm(), 1e-12);
+  EXPECT_NE(notes("a.tif").at(0).find("PhysicalSizeZ"), std::string::npos);
+}
+
+TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {
+  std::vector<std::string> all = pages(200);
+  for (const std::string& one : pages(400)) all.push_back(one);
+  TiffPages stack = as();
+  stack.text = R"({"shape": [2, 3, 5, 7]})";
+  write_tiff(path("a.tif"), stack, all);
+  expect_refused("a.tif", {"2 frames", "--frame"});
+  EXPECT_EQ(labels_of("a.tif", frame(2)), labels(400));
+  stack.text = R"({"shape": [2, 3, 5, 7], "axes": "CZYX"})";
+  write_tiff(path("a.tif"), stack, all);
+  EXPECT_EQ(labels_of("a.tif", channel(1)), labels(200));
+  stack.text = R"({"shape": [3, 2, 5, 7], "axes": "ZCYX"})";
+  write_tiff(path("a.tif"), stack, {all[0], all[3], all[1], all[4], all[2], all[5]});
+  EXPECT_EQ(labels_of("a.tif", channel(2)), labels(400));
+  stack.text = R"({"shape": [2, 4, 5, 7]})";
+  write_tiff(path("a.tif"), stack, all);
+  expect_refused("a.tif", {"6 pages", "2 x 4 x 5 x 7"}, frame(1));
+  for (const char* wrong :
+       {R"({"shape": [-6, 5, 7]})", R"({"shape": [7]})", R"({"shape": [6, 5, 7], "axes": "ZY"})"}) {
+    stack.text = wrong;
+    write_tiff(path("a.tif"), stack, all);
+    expect_refused("a.tif", {"shape"});
+  }
+  stack.text = R"({"shape": [3, 5, 7]})";
+  write_tiff(path("a.tif"), stack, pages());
+  expect_made("a.tif");
+}
+
+TEST_F(TiffVolume, ReadsTheChosenNumberOfAVoxel) {
+  TiffPages stack = as();
+  stack.samples = 3;
+  stack.bits = 8;
+  stack.photometric = PHOTOMETRIC_RGB;
+  for (const bool is_planar : {false, true}) {
+    stack.is_planar = is_planar;
+    std::vector<std::string> all;
+    for (const std::string& one : pages_of<std::uint8_t>()) {
+      std::string mixed;
+      for (std::size_t k = 0; k < 3 * one.size(); ++k) {
+        const std::size_t sample = is_planar ? k / one.size() : k % 3;
+        mixed += static_cast<char>(one[is_planar ? k % one.size() : k / 3] + 60 * sample);
+      }
+      all.push_back(mixed);
+    }
+    write_tiff(path("a.tif"), stack, all);
+    expect_refused("a.tif", {"3 channels"});
+    expect_made("a.tif", channel(1));
+    EXPECT_EQ(labels_of("a.tif", channel(3)), labels(120)) << is_planar;
+  }
+}
+
+template <class Value>
+std::string bytes_of_float(const std::vector<std::uint32_t>& labels, Value last) {
+  std::vector<Value> values(labels.begin(), labels.end());
+  values.back() = last;
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+// MorphoLibJ's watershed, and every user of NumPy.
+TEST_F(TiffVolume, TakesFloatsThatAreWholeForLabels) {
+  const auto cut = [](const std::string& bytes) {
+    std::vector<std::string> all;
+    for (std::size_t z = 0; z < 3; ++z) {
+      all.push_back(bytes.substr(z * bytes.size() / 3, bytes.size() / 3));
+    }
+    return all;
+  };
+  TiffPages stack = as();
+  stack.format = SAMPLEFORMAT_IEEEFP;
+  for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW}) {
+    stack.compression = compression;
+    for (const char* mode : {"wl", "wb"}) {
+      stack.mode = mode;
+      stack.bits = 32;
+      write_tiff(path("a.tif"), stack, cut(bytes_of_float<float>(made_.labels, 127.0F)));
+      expect_made("a.tif");
+      stack.bits = 64;
+      write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, 127.0)));
+      expect_made("a.tif");
+    }
+  }
+  made_.labels.back() = 4294967295U;
+  write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, 4294967295.0)));
+  expect_made("a.tif");
+  for (const double wrong : {0.5, -1.0, 4294967296.0, std::nan(""), HUGE_VAL}) {
+    write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, wrong)));
+    // The first place, which is the last voxel here.
+    expect_refused("a.tif", {"(6, 4, 2)", "whole numbers"});
+  }
+  std::string bytes = bytes_of_float<double>(made_.labels, 0.25);
+  const double fraction = 2.75;
+  std::copy_n(reinterpret_cast<const char*>(&fraction), 8, bytes.begin() + 8 * (35 + 2 * 7 + 3));
+  write_tiff(path("a.tif"), stack, cut(bytes));
+  expect_refused("a.tif", {"2.75", "(3, 2, 1)"});
+}
+
+// MATLAB's logical, masks of other programs; rows end within bytes.
+TEST_F(TiffVolume, ReadsNumbersOfFewerThanEightBits) {
+  make({37, 21, 3});
+  for (const int bits : {1, 2, 4}) {
+    for (std::uint32_t& label : made_.labels) label &= (1U << bits) - 1U;
+    made_.labels.back() = 1;
+    std::vector<std::string> all;
+    for (int z = 0; z < 3; ++z) {
+      std::string one;
+      for (int y = 0; y < 21; ++y) {
+        std::string row(static_cast<std::size_t>((37 * bits + 7) / 8), '\0');
+        for (int x = 0; x < 37; ++x) {
+          const int place = x * bits;
+          row[static_cast<std::size_t>(place / 8)] =
+              static_cast<char>(row[static_cast<std::size_t>(place / 8)] |
+                                static_cast<int>(made_.at(x, y, z)) << (8 - bits - place % 8));
+        }
+        one += row;
+      }
+      all.push_back(one);
+    }
+    TiffPages stack = as();
+    stack.bits = bits;
+    for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE}) {
+      stack.compression = compression;
+      for (const int tile : {0, 16}) {
+        SCOPED_TRACE(std::to_string(bits) + " bits, tile " + std::to_string(tile));
+        stack.tile = tile;
+        write_tiff(path("a.tif"), stack, all);
+        expect_made("a.tif");
+      }
+    }
+    stack.photometric = PHOTOMETRIC_MINISWHITE;
+    write_tiff(path("a.tif"), stack, all);
+    expect_made("a.tif");
+    EXPECT_NE(notes("a.tif").back().find("0 as white") == std::string::npos
+                  ? notes("a.tif").front().find("0 as white")
+                  : 0,
+              std::string::npos);
+  }
+}
+
+TEST_F(TiffVolume, RefusesWhatMakesNoLabels) {
+  TiffPages stack = as();
+  stack.bits = 8;
+  stack.compression = COMPRESSION_JPEG;
+  stack.rows = 16;
+  write_tiff(path("a.tif"), stack, pages_of<std::uint8_t>());
+  expect_refused("a.tif", {"JPEG"});
+  stack = as();
+  write_tiff(path("a.tif"), stack, {page(1)});
+  expect_refused("a.tif", {"one image of 7 x 5"});
+  stack.format = SAMPLEFORMAT_IEEEFP;
+  write_tiff(path("a.tif"), stack, pages());
+  expect_refused("a.tif", {"16 bits"});
+}
+
+// Folders from a Mac and from Windows, and what is odd in them is named.
+TEST_F(TiffVolume, LeavesForeignFilesOutOfAFolderAndNamesTheOddSlice) {
+  fs::create_directory(folder_ / "slices");
+  for (int z = 0; z < 3; ++z) {
+    write_tiff(path("slices/s" + std::to_string(8 + z) + ".tif"), as(), {page(z)});
+  }
+  expect_made("slices");
+  EXPECT_EQ(notes("slices").size(), 1U);  // of the voxel size
+  write("slices/._s9.tif", std::string("\0\5\x16\7", 4));
+  write("slices/Thumbs.db", "x");
+  write("slices/.DS_Store", "x");
+  EXPECT_TRUE(is_volume(path("slices")));
+  expect_made("slices");
+  EXPECT_NE(notes("slices").at(0).find("\"._s9.tif\""), std::string::npos) << notes("slices")[0];
+  EXPECT_NE(notes("slices").at(0).find("\"Thumbs.db\""), std::string::npos);
+  write("slices/remarks.txt", "x");
+  EXPECT_NE(notes("slices").at(0).find("and 1 more"), std::string::npos) << notes("slices")[0];
+  expect_refused("slices", {"1 channel, not a channel 2"}, channel(2));
+
+  fs::rename(path("slices/s10.tif"), path("slices/s11.tif"));
+  expect_made("slices");
+  EXPECT_NE(notes("slices").back().find("Voxel size"), std::string::npos);
+  EXPECT_NE(notes("slices").at(1).find("between \"s9.tif\" and \"s11.tif\""), std::string::npos);
+
+  TiffPages odd = as();
+  odd.height = 4;
+  write_tiff(path("slices/s9.tif"), odd, {page(1).substr(0, 56)});
+  expect_refused("slices", {"s9.tif", "7 x 4", "7 x 5"});
+  odd = as();
+  odd.bits = 8;
+  write_tiff(path("slices/s9.tif"), odd, {pages_of<std::uint8_t>()[1]});
+  expect_refused("slices", {"s9.tif", "8 bits"});
+  write_tiff(path("slices/s9.tif"), as(), {page(0), page(1)});
+  expect_refused("slices", {"s9.tif", "2 pages"});
+  write("slices/s9.tif", "no TIFF");
+  expect_refused("slices", {"s9.tif"});
+  fs::remove(path("slices/s9.tif"));
+  write_png("slices/s9.png", 1, 16, PNG_COLOR_TYPE_GRAY);
+  expect_refused("slices", {"2 .tif and 1 .png"});
+  for (const char* name : {"slices/s8.tif", "slices/s11.tif", "slices/s9.png"}) {
+    fs::remove(path(name));
+  }
+  expect_refused("slices", {"no .tif and no .png"});
+}
+
+TEST_F(TiffVolume, ReadsFoldersOfPngs) {
+  fs::create_directory(folder_ / "slices");
+  for (const bool is_interlaced : {false, true}) {
+    for (const int color : {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_PALETTE}) {
+      for (const int bits : {1, 2, 4, 8, 16}) {
+        if (color == PNG_COLOR_TYPE_PALETTE && bits == 16) continue;
+        SCOPED_TRACE(bits);
+        for (int z = 0; z < 3; ++z) {
+          write_png("slices/s" + std::to_string(9 + z) + ".png", z, bits, color, is_interlaced);
+        }
+        std::vector<Label> wanted = made_.labels;
+        for (Label& label : wanted) label &= bits == 16 ? 0xffffU : (1U << bits) - 1U;
+        EXPECT_EQ(labels_of("slices"), wanted);
+      }
+    }
+  }
+  for (int z = 0; z < 3; ++z) {
+    write_png("slices/s" + std::to_string(9 + z) + ".png", z, 16, PNG_COLOR_TYPE_RGB);
+  }
+  expect_refused("slices", {"3 channels"});
+  EXPECT_EQ(labels_of("slices", channel(3)), labels(6));
+  expect_refused("slices/s9.png", {"one image of 7 x 5"}, channel(1));
+  write_png("slices/s10.png", 1, 16, PNG_COLOR_TYPE_RGB, false, 6);
+  expect_refused("slices", {"s10.png", "7 x 6"});
+  write_png("slices/s10.png", 1, 16, PNG_COLOR_TYPE_RGB);
+  const std::uintmax_t size = fs::file_size(path("slices/s10.png"));
+  for (std::uintmax_t left = size - 30; left > 0; left /= 2) {
+    fs::resize_file(path("slices/s10.png"), left);
+    expect_refused("slices", {"s10.png"}, channel(1));
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
