@@ -26,15 +26,16 @@ ParameterList descriptor_parameters() {
                      "A second layer as the list of layers shows it, its name with or without the "
                      "ending or its number, or nothing: errors are those of the current layer "
                      "against this one, the original."),
-      option_parameter("RoundnessDegree", defaults.roundness_degree, roundness_degree_option,
-                       "Degree of roundness",
-                       "Degree of the harmonic series whose corners roundness reads. "
-                       "Higher sees sharper corners, and noise."),
-      option_parameter("RoughnessDegree", defaults.roughness_degree, roughness_degree_option,
-                       "Roughness starts above degree",
-                       "Degree of the smooth shape that roughness is measured from. "
-                       "What the series up to it describes counts as form, the rest as "
-                       "roughness."),
+      option_parameter("RoundnessBall", defaults.roundness_ball, roundness_ball_option,
+                       "Ball of roundness",
+                       "Radius of the balls that roundness reads curvature in, over the radius of "
+                       "the largest inscribed sphere. A smaller ball sees sharper corners, and "
+                       "noise. For scans of voxels take six voxels or more."),
+      option_parameter("RoughnessCutoff", defaults.roughness_cutoff, roughness_cutoff_option,
+                       "Cut-off length of roughness",
+                       "Longest wave that counts as roughness, over the radius of the sphere of "
+                       "equal volume. Longer waves are form. Roughness grows with it, so compare "
+                       "grains at the same cut-off only."),
       report_file_parameter(),
   };
 }
@@ -43,8 +44,8 @@ DescriptorSettings read_descriptor_settings(const ParameterValues& values) {
   const CheckedValues checked(descriptor_parameters(), values);
   DescriptorSettings settings;
   settings.reference_layer = checked.text("ReferenceLayer");
-  settings.options.roundness_degree = checked.whole("RoundnessDegree");
-  settings.options.roughness_degree = checked.whole("RoughnessDegree");
+  settings.options.roundness_ball = checked.real("RoundnessBall");
+  settings.options.roughness_cutoff = checked.real("RoughnessCutoff");
   settings.report_file = checked.text("ReportFile");
   check_descriptor_report_file(settings.report_file, !settings.reference_layer.empty());
   return settings;

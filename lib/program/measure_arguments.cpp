@@ -15,11 +15,11 @@
 namespace wscvt::program {
 
 void add_measure_arguments(CLI::App& app, MeasureArguments& arguments) {
-  const auto add = [&](int& value, const NumberOption<int>& option) {
+  const auto add = [&](double& value, const NumberOption<double>& option) {
     add_number(app, "--" + std::string(option.key), value, option);
   };
-  add(arguments.options.roundness_degree, roundness_degree_option);
-  add(arguments.options.roughness_degree, roughness_degree_option);
+  add(arguments.options.roundness_ball, roundness_ball_option);
+  add(arguments.options.roughness_cutoff, roughness_cutoff_option);
   add_common_arguments(app, arguments.common);
 }
 

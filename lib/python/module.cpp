@@ -349,11 +349,11 @@ Remesh create(const std::string& kind, const std::array<double, 3>& semi_axes,
 }
 
 py::object describe(const Points& vertices, const py::object& faces, const py::object& reference,
-                    int roundness_degree, int roughness_degree, int threads,
+                    double roundness_ball, double roughness_cutoff, int threads,
                     const py::object& progress) {
   wscvt::DetailedOptions options;
-  options.roundness_degree = roundness_degree;
-  options.roughness_degree = roughness_degree;
+  options.roundness_ball = roundness_ball;
+  options.roughness_cutoff = roughness_cutoff;
   wscvt::NamedMesh grain = {"grain", mesh_of(vertices, faces)};
   std::optional<wscvt::NamedMesh> original;
   if (!reference.is_none()) {
@@ -470,8 +470,8 @@ PYBIND11_MODULE(_wscvt, module) {
   module.def(
       "describe", &describe, py::arg("vertices"), py::arg("faces"),
       py::arg("reference") = py::none(), py::kw_only(),
-      py::arg("roundness_degree") = wscvt::DetailedOptions().roundness_degree,
-      py::arg("roughness_degree") = wscvt::DetailedOptions().roughness_degree,
+      py::arg("roundness_ball") = wscvt::DetailedOptions().roundness_ball,
+      py::arg("roughness_cutoff") = wscvt::DetailedOptions().roughness_cutoff,
       py::arg("threads") = 0, py::arg("progress") = py::none(),
       "Size, form, roundness, roughness and orientation of a closed mesh, as the dictionary "
       "of a JSON report; with reference=(vertices, faces) errors and distances against that. "

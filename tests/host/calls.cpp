@@ -79,7 +79,7 @@ std::vector<Call> unmeasurable_calls() {
       {"TwoHalves", two_grains(), {}, {"bodies"}},
       {"NoVolume", flat_grain(), {}, {"volume"}},
       {"UnknownLayer", grain(), {{"ReferenceLayer", "ghost"}}, {"'ghost'"}},
-      {"DegreeOutOfRange", grain(), {{"RoundnessDegree", "0"}}, {"RoundnessDegree", "60"}},
+      {"BallOutOfRange", grain(), {{"RoundnessBall", "0"}}, {"RoundnessBall", "0.05"}},
   };
 }
 

@@ -347,8 +347,8 @@ TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
   EXPECT_EQ(listed_parameters(creation_menu_text).toStdString(), create.join("\n").toStdString());
   EXPECT_LE(remesh.size(), 18);
   EXPECT_LE(create.size(), 18);
-  const QStringList describe{"ReferenceLayer RichString", "RoundnessDegree RichInt 15",
-                             "RoughnessDegree RichInt 8", "ReportFile OutputFile"};
+  const QStringList describe{"ReferenceLayer RichString", "RoundnessBall RichFloat 0.2",
+                             "RoughnessCutoff RichFloat 0.33", "ReportFile OutputFile"};
   EXPECT_EQ(listed_parameters(descriptor_menu_text).toStdString(),
             describe.join("\n").toStdString());
 }
@@ -1193,8 +1193,8 @@ TEST(FilterParameters, DefaultsAreTheLibrarysAndLieInTheirRanges) {
   EXPECT_EQ(published.placement, AsPublishedOptions().placement);
   EXPECT_EQ(published.max_overhang_percent, AsPublishedOptions().max_overhang_percent);
   const DetailedOptions details = filter::read_descriptor_settings({}).options;
-  EXPECT_EQ(details.roundness_degree, DetailedOptions().roundness_degree);
-  EXPECT_EQ(details.roughness_degree, DetailedOptions().roughness_degree);
+  EXPECT_EQ(details.roundness_ball, DetailedOptions().roundness_ball);
+  EXPECT_EQ(details.roughness_cutoff, DetailedOptions().roughness_cutoff);
 
   for (const filter::ParameterList& list :
        {filter::remesh_parameters(), filter::creation_parameters(),

@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{
             "UnknownLayer", describe, {{"ReferenceLayer", "scan"}}, true, {"'scan'", "grain.ply"}},
         BadCall{"ReportOfUnknownKind", describe, {{"ReportFile", "r.xml"}}, true, {".csv"}},
-        BadCall{"DegreeOutOfRange", describe, {{"RoundnessDegree", "61"}}, true, {"1 to 60"}}),
+        BadCall{"BallOutOfRange", describe, {{"RoundnessBall", "1.5"}}, true, {"0.05 to 1"}}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -61,6 +61,7 @@ TEST(DescriptorTable, ComparesASphereWithOneTwiceAsLarge) {
                             : row.unit == "length^2" ? 300.0
                             : row.unit == "length"   ? 100.0
                                                      : 0.0;
+    if (row.reference == 0.0) continue;  // no face of a ball is at the clip
     EXPECT_NEAR(row.error_percent, expected, 1e-9);
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/expect_error.h"
+#include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
@@ -207,6 +208,42 @@ TEST(ShapeDescriptors, RelativeError) {
   EXPECT_NEAR(relative_error_percent(1.1, 1.0), 10.0, 1e-12);
   EXPECT_NEAR(relative_error_percent(0.5, 1.0), -50.0, 1e-12);
   EXPECT_EQ(relative_error_percent(0.0, 0.0), 0.0);
+}
+
+TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
+  const IndexedMesh mesh = test::transformed(test::overhanging_rim(10),
+                                             test::random_rotation(test::announced(5)), {3, 2, 1});
+  const ShapeDescriptors d = describe_shape(mesh, Execution(1));
+  double whole = 0.0;
+  double clipped = 0.0;
+  double half = 0.0;
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3 a = mesh.points[t[0]] - d.centroid;
+    const Vector3 b = mesh.points[t[1]] - d.centroid;
+    const Vector3 c = mesh.points[t[2]] - d.centroid;
+    const Vector3 normal = (b - a).cross(c - a);
+    const double q = normal.dot(a + b + c) / (normal.norm() * (a + b + c).norm());
+    const auto square = [&](double clip) {
+      const double cosine = std::max(q, clip);
+      return 0.5 * normal.norm() * (1.0 - cosine * cosine) / cosine;
+    };
+    area += 0.5 * normal.norm();
+    whole += square(0.05);
+    half += square(0.025);
+    if (q < 0.05) clipped += square(0.05);
+  }
+  EXPECT_NEAR(d.sdq, std::sqrt(whole / area), 1e-9);
+  EXPECT_NEAR(d.sdq_clipped_share, clipped / whole, 1e-9);
+  EXPECT_NEAR(d.sdq_half_clip, std::sqrt(half / area), 1e-9);
+  const std::string told = sdq_clip_sentence("the grain", d);
+  EXPECT_EQ(told.rfind("Walls of the grain stand along rays", 0), 0U) << told;
+  EXPECT_NE(told.find("0.05"), std::string::npos) << told;
+  // A ball has no walls.
+  const ShapeDescriptors ball = describe_shape(test::sphere(3), Execution(1));
+  EXPECT_EQ(ball.sdq_clipped_share, 0.0);
+  EXPECT_EQ(ball.sdq_half_clip, ball.sdq);
+  EXPECT_EQ(sdq_clip_sentence("the grain", ball), "");
 }
 
 }  // namespace

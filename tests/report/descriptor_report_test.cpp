@@ -13,14 +13,14 @@ namespace wscvt {
 namespace {
 
 GrainMeasures one() {
-  return measure_grain({"ball, \"one\"", test::sphere(3)}, std::nullopt, DetailedOptions(),
+  return measure_grain({"ball, \"one\"", test::sphere(4)}, std::nullopt, DetailedOptions(),
                        Execution(1));
 }
 
 GrainMeasures two() {
   return measure_grain(
-      {"ball", test::sphere(3)},
-      NamedMesh{"larger", test::transformed(test::sphere(3), 1.1 * Eigen::Matrix3d::Identity())},
+      {"ball", test::sphere(4)},
+      NamedMesh{"larger", test::transformed(test::sphere(4), 1.1 * Eigen::Matrix3d::Identity())},
       DetailedOptions(), Execution(1));
 }
 

@@ -86,15 +86,15 @@ double ellipsoid_area(double c, double b, double a) {
                                  std::ellint_1(modulus, angle) * cosine * cosine);
 }
 
-/// Mean radius of curvature over the ellipsoid's points sharper than its inscribed sphere, over
-/// that sphere's radius; by its own parameters and the textbook curvatures: with h = 1 / |x / a^2|,
+/// Mean radius of curvature by turn (roundness.h) over the ellipsoid's points that are corners, over
+/// the radius of its inscribed sphere; by its own parameters and the textbook curvatures: with h = 1 / |x / a^2|,
 /// K = h^4 / (a b c)^2 and H = h^3 (a^2 + b^2 + c^2 - |x|^2) / (2 (a b c)^2).
 double ellipsoid_roundness(const Vector3& axes) {
   constexpr int side = 1000;
   const double inscribed = axes.minCoeff();
   const double product = axes.prod();
   double corners = 0.0;
-  double radii = 0.0;
+  double turn = 0.0;
   for (int i = 0; i < side; ++i) {
     for (int j = 0; j < side; ++j) {
       const double t = (i + 0.5) * pi / side;
@@ -106,12 +106,12 @@ double ellipsoid_roundness(const Vector3& axes) {
       const double mean =
           std::pow(h, 3) * (axes.squaredNorm() - x.squaredNorm()) / (2.0 * product * product);
       const double k = mean + std::sqrt(std::max(0.0, mean * mean - gauss));
-      if (k * inscribed <= 1.0) continue;
+      if (k * inscribed <= 1.05) continue;
       corners += product / h * std::sin(t);
-      radii += product / h * std::sin(t) / k;
+      turn += product / h * std::sin(t) * k;
     }
   }
-  return radii / (corners * inscribed);
+  return corners / (turn * inscribed);
 }
 
 Body ellipsoid() {
@@ -165,11 +165,11 @@ IndexedMesh zonal_mesh(const Radius& radius) {
   return mesh;
 }
 
-/// The unit sphere plus a zonal harmonic above the degree of the low-degree shape, which so is the
-/// sphere: the heights are the harmonic.
+/// The unit sphere plus a zonal harmonic of waves of 0.13 radii, far below the cut-off length of
+/// roughness: the heights are the harmonic.
 Body waves() {
-  constexpr int l = 12;
-  constexpr double height = 0.01;
+  constexpr int l = 48;
+  constexpr double height = 0.003;
   const double scale = height * std::sqrt((2 * l + 1) / (4.0 * pi));
   const auto radius = [&](double z) { return 1.0 + scale * std::legendre(l, z); };
   const auto slope = [&](double z) {
@@ -185,7 +185,7 @@ Body waves() {
     fourth += y * y * y * y / steps;
   }
   const double sq = height / std::sqrt(4.0 * pi);
-  return {"sphere with waves of degree 12",
+  return {"sphere with waves of degree 48",
           test::transformed(zonal_mesh(radius), test::random_rotation(5)),
           {{"sa", sa},
            {"sq", sq},

@@ -11,7 +11,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/measures/roughness.h"
+#include "wscvt/measures/printed_sdq.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 

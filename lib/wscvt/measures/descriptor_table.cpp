@@ -47,6 +47,7 @@ std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& d) {
       {"aspect_ratio_inertia", "aspect ratio S/L (inertia ellipsoid)", "", d.aspect_ratio},
       {"sphericity_wadell", "sphericity (Wadell)", "", d.sphericity},
       {"sdq_invariant", "Sdq (invariant form)", "", d.sdq},
+      {"sdq_clipped_fraction", "fraction of Sdq^2 at the clip", "", d.sdq_clipped_share, false},
       {"axis_s_inertia", "axis S (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[0]},
       {"axis_i_inertia", "axis I (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[1]},
       {"axis_l_inertia", "axis L (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[2]},
@@ -65,18 +66,36 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& d) {
   };
   append_axes(rows, "inertia", "inertia ellipsoid", d.inertia_axes, d.inertia_ratios);
   append_axes(rows, "box", "oriented box", d.box_axes, d.box_ratios);
+  rows.push_back({"feret_max", "largest Feret diameter (L of NIST)", "length", d.feret.largest});
+  rows.push_back({"feret_min", "smallest Feret diameter", "length", d.feret.smallest});
+  rows.push_back(
+      {"nist_width", "longest chord across L (W of NIST)", "length", d.feret.width_across});
+  rows.push_back({"nist_thickness", "longest chord across L and W (T of NIST)", "length",
+                  d.feret.thickness_across});
+  rows.push_back({"mean_curvature_integral", "integral of mean curvature", "length",
+                  d.mean_curvature_integral});
 
-  const auto radial = [&d](double value) { return d.has_radius ? value : not_a_number; };
-  const std::string low = " (from degree " + std::to_string(d.roughness.degree) + ")";
+  const double ball = d.roundness.ball_radius / d.inscribed_sphere.radius;
   rows.push_back({"roundness_wadell",
-                  "roundness (Wadell, degree " + std::to_string(d.roundness_degree) + ")", "",
-                  radial(d.roundness.roundness)});
-  rows.push_back({"sa", "roughness Sa" + low, "length", radial(d.roughness.sa)});
-  rows.push_back({"sq", "roughness Sq" + low, "length", radial(d.roughness.sq)});
-  rows.push_back({"ssk", "skewness Ssk" + low, "", radial(d.roughness.ssk), false});
-  rows.push_back({"sku", "kurtosis Sku" + low, "", radial(d.roughness.sku)});
+                  "roundness (Wadell, by turn, balls of " + format_number(ball, 3) + " R)", "",
+                  d.roundness.roundness});
+  rows.push_back({"roundness_smallest_radius", "smallest corner radius resolved, of R", "",
+                  d.roundness.smallest_radius});
+  // What a height says depends on the cut-off, so that no height is named without it.
+  const auto rough = [&d](double value) { return d.has_roughness ? value : not_a_number; };
+  const std::string above = " (cut-off " + format_number(d.roughness.cutoff, 4) + ")";
+  rows.push_back({"roughness_cutoff", "cut-off length of roughness", "length", d.roughness.cutoff});
+  rows.push_back({"sa", "roughness Sa" + above, "length", rough(d.roughness.sa)});
+  rows.push_back({"sq", "roughness Sq" + above, "length", rough(d.roughness.sq)});
+  rows.push_back({"sq_form_leak", "form in Sq, at most about" + above, "length",
+                  rough(d.roughness.form_leak)});
+  rows.push_back({"ssk", "skewness Ssk" + above, "", rough(d.roughness.ssk), false});
+  rows.push_back({"sku", "kurtosis Sku" + above, "", rough(d.roughness.sku)});
   rows.push_back({"sdq_invariant", "Sdq (invariant form)", "", d.basic.sdq});
-  rows.push_back({"sdq_printed", "Sdq (as printed, eq. 17, this pose)", "", radial(d.printed_sdq)});
+  rows.push_back({"sdq_clipped_fraction", "fraction of Sdq^2 at the clip", "",
+                  d.basic.sdq_clipped_share, false});
+  rows.push_back({"sdq_printed", "Sdq (as printed, eq. 17, this pose)", "",
+                  d.has_radius ? d.printed_sdq : not_a_number});
   rows.push_back({"orientation_f1", "surface orientation f1", "", d.orientation.eigenvalues[0]});
   rows.push_back({"orientation_f2", "surface orientation f2", "", d.orientation.eigenvalues[1]});
   rows.push_back({"orientation_f3", "surface orientation f3", "", d.orientation.eigenvalues[2]});

@@ -29,8 +29,8 @@ struct DescriptorComparison {
       0.0;  ///< 100 (value / reference - 1); NaN where that says nothing, see compare_descriptors
 };
 
-/// The descriptors as rows, always in the same order. Those of a radius that does not exist (see
-/// DetailedDescriptors::has_radius) are NaN.
+/// The descriptors as rows, always in the same order. Those that do not exist for a body
+/// (see DetailedDescriptors::has_roughness and has_radius) are NaN.
 std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& descriptors);
 std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& descriptors);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
@@ -31,9 +33,12 @@ struct ShapeDescriptors {
   /// orientation. It takes the place of the paper's eq. 17, which does (see printed_sdq):
   /// Sdq^2 = (1/A) integral of |grad_Omega r|^2 dOmega = (1/A) sum A_f (1 - c_f^2) / c_f, with c_f
   /// the cosine between a face's normal and the direction of its centroid from the volume centroid.
-  /// c_f is taken as at least 0.05, so that folds do not count as infinitely steep. No unit; 0 for
-  /// a sphere.
+  /// c_f is taken as at least the clip, 0.05, so that folds do not count as infinitely steep. No
+  /// unit; 0 for a sphere.
   double sdq = 0.0;
+  /// Share of Sdq^2 that comes from faces at the clip, in [0, 1]: that part is what the clip says.
+  double sdq_clipped_share = 0.0;
+  double sdq_half_clip = 0.0;          ///< Sdq with half the clip; no unit
   Vector3 centroid = Vector3::Zero();  ///< of the volume (Lien and Kajiya; Mirtich); length
   /// Semi-axes of the homogeneous ellipsoid with the same second moments of volume per volume (the
   /// inertia ellipsoid), S <= I <= L; length. a_k = (5 m_k)^(1/2) with m_k the eigenvalues of
@@ -49,6 +54,10 @@ struct ShapeDescriptors {
 /// Measures a closed outward mesh, as accurately far from the origin as near it. Throws
 /// Error(InvalidInput) when the volume is not positive.
 ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execution);
+
+/// A sentence of a grain whose Sdq moves by more than 2 % when its clip is halved, so that it says
+/// less of the grain than of the clip; empty for other grains. `grain` is the subject's name.
+std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& descriptors);
 
 /// 100 (value / reference - 1); 0 when the two are equal, even at zero.
 double relative_error_percent(double value, double reference);
@@ -75,37 +84,34 @@ struct MassProperties {
 /// Of a body whose descriptors are known. Throws nothing.
 MassProperties mass_properties(const ShapeDescriptors& descriptors);
 
-/// What describe_shape_in_detail reads the radius by.
+/// The two lengths that descriptors of detail depend on.
 struct DetailedOptions {
-  /// Degree of the harmonic series whose curvature roundness reads, 1 to 60.
-  int roundness_degree = 15;
-  /// Degree of the low-degree shape that roughness is measured from, 0 to 60.
-  int roughness_degree = 8;
-  /// Gauss-Legendre nodes in cos(theta) of the rays cast, times twice as many azimuths; 16 to 1024,
-  /// above both degrees.
-  int polar_nodes = 128;
+  /// Radius of the balls that roundness reads curvature in, over that of the largest inscribed
+  /// sphere.
+  double roundness_ball = 0.2;
+  /// Cut-off length of roughness over the radius of the sphere of equal volume: longer waves are
+  /// form. There is no plateau on real grains, so that Sq grows with it. 0.25 lets less of the form
+  /// of sharp bodies into the heights, and fewer waves.
+  double roughness_cutoff = 0.33;
 };
 
-inline constexpr NumberOption<int> roundness_degree_option = {
-    "roundness-degree",
-    "degree for roundness",
-    1,
-    fit_degree_option.maximum,
+inline constexpr NumberOption<double> roundness_ball_option = {
+    "roundness-ball",
+    "ball of roundness",
+    0.05,
+    1.0,
     Ends::Both,
-    "of the series whose corners roundness reads"};
-inline constexpr NumberOption<int> roughness_degree_option = {
-    "roughness-degree",
-    "degree for roughness",
-    0,
-    fit_degree_option.maximum,
+    "radius of the balls for curvature, over the inscribed radius"};
+inline constexpr NumberOption<double> roughness_cutoff_option = {
+    "roughness-cutoff",
+    "cut-off length of roughness",
+    0.01,
+    2.0,
     Ends::Both,
-    "of the smooth shape that roughness is measured from"};
-inline constexpr NumberOption<int> polar_nodes_option = {"polar-nodes", "number of polar nodes", 16,
-                                                         1024};
+    "longest wave that counts, over the equivalent radius"};
 
 /// Share of the solid angle in sheets beyond the first, seen from the volume centroid, above which
-/// a body has no radius to be measured by. A crescent, of which 23 % lie behind, would have a
-/// roundness of 0.98, the outermost layer's.
+/// a body has no radius for the printed Sdq.
 inline constexpr double largest_measured_fold = 0.01 * usual_fold_limit_percent;
 
 /// Three mutually perpendicular dimensions of a body, S <= I <= L; full lengths, not halves.
@@ -130,6 +136,14 @@ struct FormRatios {
   double krumbein_sphericity = 0.0;
 };
 
+/// Distances across a body (feret_diameters.h); lengths.
+struct FeretDiameters {
+  double largest = 0.0;           ///< between two points of it; L of NIST
+  double smallest = 0.0;          ///< between two parallel planes that hold it
+  double width_across = 0.0;      ///< the longest chord across the largest diameter; W of NIST
+  double thickness_across = 0.0;  ///< the longest chord across both; T of NIST
+};
+
 /// A sphere inside a body, and how much larger the largest one can be at most.
 struct InscribedSphere {
   Vector3 centre = Vector3::Zero();  ///< length
@@ -150,29 +164,32 @@ struct OrientationTensor {
   double rodness = 0.0;                   ///< (f2 - f3) / f1, towards 1 for a rod
 };
 
-/// Wadell's roundness of a body (1932, J. Geol. 40, 443-451), read by curvature as in Zhao and Wang
-/// (2016, Powder Technology), and the part of it that counts as corners; lib/README.md has the
-/// formula.
+/// Wadell's roundness of a body; roundness.h has the formula and the convention of its mean.
 struct Roundness {
-  double roundness = 1.0;          ///< in (0, 1]; 1 when there are no corners
+  /// In (0, 1]; 1 when there are no corners, not a number when the mesh is too coarse to tell.
+  double roundness = 1.0;
   double corner_area_share = 0.0;  ///< of the surface area, in [0, 1]
+  double ball_radius = 0.0;        ///< of the balls that curvature was read in; length
+  /// Radius of the sharpest corners that the balls can tell from sharper ones, over the inscribed
+  /// radius; no unit.
+  double smallest_radius = 0.0;
 };
 
-/// Height parameters after ISO 25178-2, of the radial deviation of a surface from its low-degree
-/// shape: z(u) = r(u) - r_low(u), less its mean, where r_low is the harmonic series of degree
-/// `degree` fitted to r by least squares over solid angle; means are taken over the area A of the
-/// low-degree shape.
+/// Height parameters after ISO 25178-2 of the heights z of a surface above what is left of it
+/// without waves shorter than the cut-off length (roughness.h), less their mean; means are taken
+/// over the area A of that reference surface.
 struct Roughness {
-  int degree = 0;    ///< of the low-degree shape
-  double sa = 0.0;   ///< (1/A) integral |z| dA; length
-  double sq = 0.0;   ///< ((1/A) integral z^2 dA)^(1/2); length
-  double ssk = 0.0;  ///< (1/A) integral z^3 dA / Sq^3; no unit, 0 for heights symmetric about 0
-  double sku = 0.0;  ///< (1/A) integral z^4 dA / Sq^4; no unit, 3 for normally distributed heights
+  double cutoff = 0.0;     ///< nesting index of the L-filter: a wave length; length
+  double sa = 0.0;         ///< (1/A) integral |z| dA; length
+  double sq = 0.0;         ///< ((1/A) integral z^2 dA)^(1/2); length
+  double ssk = 0.0;        ///< (1/A) integral z^3 dA / Sq^3; no unit, 0 for symmetric heights
+  double sku = 0.0;        ///< (1/A) integral z^4 dA / Sq^4; no unit, 3 for normal heights
+  double form_leak = 0.0;  ///< the part of Sq that is bent form, not roughness: an estimate; length
 };
 
 /// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
-/// that computes it: form_axes.h, inscribed_sphere.h, orientation_tensor.h, roundness.h,
-/// roughness.h. lib/README.md has them all in one table.
+/// that computes it: form_axes.h, feret_diameters.h, inscribed_sphere.h, orientation_tensor.h,
+/// roundness.h, roughness.h. lib/README.md has them all in one table.
 struct DetailedDescriptors {
   ShapeDescriptors basic;
   /// Of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell (1932);
@@ -181,28 +198,34 @@ struct DetailedDescriptors {
   /// Full axes of the inertia ellipsoid, twice ShapeDescriptors::inertia_semi_axes.
   FormAxes inertia_axes;
   FormRatios inertia_ratios;  ///< their ratios; sources at FormRatios
-  FormAxes box_axes;  ///< edges of the smallest oriented box (Chang, Gorissen and Melchior 2011)
+  FormAxes box_axes;          ///< edges of the smallest oriented box
   FormRatios box_ratios;
+  FeretDiameters feret;
+  double mean_curvature_integral = 0.0;  ///< of (k1 + k2) / 2 over the surface; length
   /// V / volume of the convex hull, in (0, 1]; no unit. As in SHAPE (Angelidakis, Nadimi
   /// and Utili 2021; see FormRatios). Hull by convex_hull.
   double convexity = 0.0;
   InscribedSphere inscribed_sphere;
   OrientationTensor orientation;
+  Roundness roundness;
+  /// Whether roughness exists: false where the mesh's edges are too long for the cut-off. Its
+  /// cut-off is always there.
+  bool has_roughness = false;
+  double least_cutoff = 0.0;  ///< that the mesh's edges carry; length
+  Roughness roughness;
   double folded_share = 0.0;  ///< of 4 pi, seen from the volume centroid
-  /// Whether those below exist: false when the volume centroid lies outside the body, and where the
-  /// surface folds by more than largest_measured_fold. Where it folds by less they see its
+  /// Whether the printed Sdq exists: false when the volume centroid lies outside the body, and
+  /// where the surface folds by more than largest_measured_fold. Where it folds by less it sees the
   /// outermost layer.
   bool has_radius = false;
-  Roundness roundness;       ///< of the fitted series of degree roundness_degree
-  int roundness_degree = 0;  ///< as fitted
-  Roughness roughness;
-  double printed_sdq = 0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (roughness.h)
+  double printed_sdq =
+      0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (printed_sdq.h)
 };
 
 /// Measures a closed outward mesh as checked by check_mesh; takes of the order of a second for
 /// 100,000 faces. Throws Error(InvalidInput) when the volume is not positive or an option is out of
-/// range, Error(NumericalFailure) when a ray from the volume centroid meets no face or no series
-/// can be fitted to r(u) (see fit_harmonics), Error(Cancelled).
+/// range, Error(NumericalFailure) when a ray from the volume centroid meets no face or the
+/// equations of the surface filter have no solution, Error(Cancelled).
 DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
                                              const DetailedOptions& options,
                                              const Execution& execution);

@@ -1,62 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "wscvt/base/convex_hull.h"
-#include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/feret_diameters.h"
 #include "wscvt/measures/form_axes.h"
 #include "wscvt/measures/inscribed_sphere.h"
 #include "wscvt/measures/orientation_tensor.h"
+#include "wscvt/measures/printed_sdq.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"
 #include "wscvt/scan/folded_solid_angle.h"
-#include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
 
 namespace {
 
-void check_options(const DetailedOptions& options) {
-  require_in_range(options.roundness_degree, roundness_degree_option);
-  require_in_range(options.roughness_degree, roughness_degree_option);
-  require_in_range(options.polar_nodes, polar_nodes_option);
-  const int largest = std::max(options.roundness_degree, options.roughness_degree);
-  if (options.polar_nodes <= largest) {
-    throw Error(ErrorCode::InvalidInput, "The number of polar nodes is " +
-                                             std::to_string(options.polar_nodes) +
-                                             "; give more than the degrees, of which one is " +
-                                             std::to_string(largest) + ".");
-  }
-}
-
-/// What is read off r(u), in units of `unit`.
-void describe_radius(const IndexedMesh& mesh, const DetailedOptions& options, double unit,
-                     const Execution& execution, DetailedDescriptors& result) {
-  const MeshSurface surface(mesh, result.basic.centroid, unit, result.folded_share, execution);
-  const HarmonicFit fit = fit_harmonics(surface, options.roundness_degree, execution);
-  result.roundness_degree = fit.report.degree;
-  result.roundness = wadell_roundness(fit.surface, result.inscribed_sphere.radius / unit,
-                                      options.polar_nodes, execution);
-  result.roughness =
-      radial_roughness(surface, options.roughness_degree, options.polar_nodes, execution);
-  result.roughness.sa *= unit;
-  result.roughness.sq *= unit;
-  result.printed_sdq = printed_sdq(surface, options.polar_nodes, execution);
-  result.has_radius = true;
-}
+/// Parallels of the midpoint rule for the printed Sdq.
+constexpr int printed_sdq_rings = 128;
 
 }  // namespace
 
 DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
                                              const DetailedOptions& options,
                                              const Execution& execution) {
-  check_options(options);
+  require_in_range(options.roundness_ball, roundness_ball_option);
+  require_in_range(options.roughness_cutoff, roughness_cutoff_option);
   DetailedDescriptors result;
   execution.report(0.0, "Measuring the shape");
   result.basic = describe_shape(mesh, execution);
@@ -70,14 +42,29 @@ DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
   const IndexedMesh hull = convex_hull(mesh.points, execution);
   result.convexity = std::min(1.0, result.basic.volume / describe_shape(hull, execution).volume);
   execution.report(0.2, "Turning the bounding box");
-  result.box_axes = oriented_box_axes(hull.points, execution);
+  result.box_axes = oriented_box_axes(hull.points, execution.part(0.2, 0.25));
   result.box_ratios = form_ratios(result.box_axes);
-  result.inscribed_sphere = largest_inscribed_sphere(mesh, execution.part(0.3, 0.8));
+  result.feret = feret_diameters(mesh, hull.points, execution.part(0.25, 0.3));
+  result.mean_curvature_integral = mean_curvature_integral(mesh, execution);
+  result.inscribed_sphere = largest_inscribed_sphere(mesh, execution.part(0.3, 0.7));
 
-  execution.report(0.8, "Measuring roundness and roughness");
+  execution.report(0.7, "Measuring roundness");
+  result.roundness = wadell_roundness(mesh, result.inscribed_sphere.radius, options.roundness_ball,
+                                      execution.part(0.7, 0.8));
+  result.least_cutoff = least_cutoff(mesh);
+  result.roughness.cutoff = options.roughness_cutoff * 0.5 * result.equivalent_diameter;
+  result.has_roughness = result.roughness.cutoff >= result.least_cutoff;
+  if (result.has_roughness) {
+    result.roughness = surface_roughness(mesh, result.roughness.cutoff, execution.part(0.8, 0.95));
+  }
+
+  execution.report(0.95, "Measuring the printed Sdq");
   result.folded_share = folded_solid_angle(mesh, result.basic.centroid, execution);
-  if (result.folded_share <= largest_measured_fold) {
-    describe_radius(mesh, options, 0.5 * result.equivalent_diameter, execution, result);
+  result.has_radius = result.folded_share <= largest_measured_fold;
+  if (result.has_radius) {
+    const MeshSurface surface(mesh, result.basic.centroid, 0.5 * result.equivalent_diameter,
+                              result.folded_share, execution);
+    result.printed_sdq = printed_sdq(surface, printed_sdq_rings, execution);
   }
   execution.report(1.0, "Measuring the shape");
   return result;

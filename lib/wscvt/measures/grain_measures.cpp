@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/measures/grain_measures.h"
 
+#include <cmath>
 #include <utility>
 
 #include "wscvt/base/error.h"
@@ -15,6 +16,9 @@ namespace {
 /// than this are lost in what the mesh itself leaves out.
 constexpr double told_folded_share = 0.01;
 
+/// Form in Sq, as a share of it, from which on the higher moments describe edges.
+constexpr double told_leak_share = 0.5;
+
 MeasuredGrain measured(NamedMesh grain, const DetailedOptions& options,
                        const Execution& execution) {
   try {
@@ -25,6 +29,52 @@ MeasuredGrain measured(NamedMesh grain, const DetailedOptions& options,
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
     throw Error(error.code(), "'" + grain.name + "': " + error.what());
+  }
+}
+
+void append_detail_remarks(const std::string& name, const DetailedDescriptors& descriptors,
+                           std::vector<std::string>& sentences) {
+  const Roundness& roundness = descriptors.roundness;
+  if (std::isnan(roundness.roundness)) {
+    sentences.push_back(
+        "The edges of '" + name +
+        "' are too long for its roundness: they ask for balls of radius " +
+        format_number(roundness.ball_radius, 3) + ", and the largest inscribed sphere has radius " +
+        format_number(descriptors.inscribed_sphere.radius, 3) + ". Give a denser mesh.");
+  } else if (roundness.roundness < roundness.smallest_radius) {
+    sentences.push_back("The corners of '" + name +
+                        "' are sharper than its mesh resolves: roundness is below " +
+                        format_number(roundness.smallest_radius, 3) + ".");
+  }
+  const Roughness& roughness = descriptors.roughness;
+  if (!descriptors.has_roughness) {
+    sentences.push_back("The edges of '" + name + "' are too long for its roughness: the cut-off " +
+                        "length is " + format_number(roughness.cutoff, 3) +
+                        ", and edges of this length carry waves from " +
+                        format_number(descriptors.least_cutoff, 3) +
+                        " on. Give a denser mesh or a larger cut-off.");
+  } else if (roughness.form_leak > told_leak_share * roughness.sq) {
+    sentences.push_back("Up to " + format_number(roughness.form_leak, 3) + " of the roughness Sq " +
+                        format_number(roughness.sq, 3) + " of '" + name +
+                        "' may be its form, so Ssk and Sku say more of its edges than of its " +
+                        "roughness. Give a smaller cut-off length.");
+  }
+  std::string clipped = sdq_clip_sentence("'" + name + "'", descriptors.basic);
+  if (!clipped.empty()) sentences.push_back(std::move(clipped));
+  const std::string missing = ", so it has no Sdq as printed, which is of a radius seen from " +
+                              std::string("there; Sdq in its invariant form is that of any body.");
+  if (!descriptors.has_radius && descriptors.folded_share < 1.0) {
+    sentences.push_back(
+        "Seen from its centroid '" + name + "' folds over itself: sheets beyond the first fill " +
+        format_percent(descriptors.folded_share) + " of the solid angle, more than " +
+        format_percent(largest_measured_fold) + missing);
+  } else if (!descriptors.has_radius) {
+    sentences.push_back("The volume centroid of '" + name + "' lies outside it" + missing);
+  } else if (descriptors.folded_share > told_folded_share) {
+    sentences.push_back("Seen from its centroid '" + name +
+                        "' folds over itself: sheets beyond the first fill " +
+                        format_percent(descriptors.folded_share) +
+                        " of the solid angle. Sdq as printed is that of its outermost layer.");
   }
 }
 
@@ -41,24 +91,7 @@ void append_remarks(const MeasuredGrain& grain, std::vector<std::string>& senten
                         "' were mended for the measurement, which changed " +
                         format_percent(mended) + " of its area.");
   }
-  const DetailedDescriptors& descriptors = grain.descriptors;
-  const std::string fold = "Seen from its centroid '" + grain.name +
-                           "' folds over itself: sheets beyond the first fill " +
-                           format_percent(descriptors.folded_share) + " of the solid angle";
-  if (descriptors.has_radius) {
-    if (descriptors.folded_share > told_folded_share) {
-      sentences.push_back(fold + ". Roundness and roughness are those of its outermost layer.");
-    }
-  } else if (descriptors.folded_share < 1.0) {
-    sentences.push_back(fold + ", more than " + format_percent(largest_measured_fold) +
-                        ", so it has no roundness, no roughness and no Sdq as printed, which are "
-                        "of a radius; Sdq in its invariant form is that of any body.");
-  } else {
-    sentences.push_back("The volume centroid of '" + grain.name +
-                        "' lies outside it, so it has no roundness, no roughness and no Sdq as "
-                        "printed, which are of a radius seen from there; Sdq in its invariant form "
-                        "is that of any body.");
-  }
+  append_detail_remarks(grain.name, grain.descriptors, sentences);
 }
 
 }  // namespace

@@ -1,119 +1,123 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/measures/roughness.h"
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
-#include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_fit.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/surface/surface_low_pass.h"
 
 namespace wscvt {
 
 namespace {
 
-/// Sq / mean radius below which heights are rounding errors.
+/// Sq / cut-off below which heights are rounding errors.
 constexpr double smallest_roughness = 1e-12;
 
-}  // namespace
+/// Edges per cut-off length that carry its waves.
+constexpr double edges_per_cutoff = 3.0;
 
-Roughness radial_roughness(const RadialSurface& surface, int degree, int polar_nodes,
-                           const Execution& execution) {
-  require_in_range(degree, fit_degree_option);
-  if (degree >= polar_nodes) {
-    throw Error(ErrorCode::InvalidInput,
-                "The degree of the low-degree shape is " + std::to_string(degree) + " with " +
-                    std::to_string(polar_nodes) + " polar nodes; give more nodes than the degree.");
+/// Filtering the reference surface once more finds 0.7 to 0.9 of the form that leaked into the
+/// heights (ellipsoids to 1:3:6, capsules, rounded cubes and cylinders); this makes it whole.
+constexpr double leak_factor = 1.4;
+
+struct Heights {
+  std::vector<Vector3> reference;  ///< the surface they are measured from
+  std::vector<double> z;           ///< at each vertex; length
+};
+
+/// Of `points` above their own low-pass, in the metric of `metric`.
+Heights heights_above(const std::vector<Vector3>& points, const std::vector<Vector3>& metric,
+                      const std::vector<Triangle>& triangles, double cutoff, SurfaceLowPass& filter,
+                      const Execution& execution) {
+  const std::vector<Vector3> low = filter.filter(metric, points, cutoff, execution);
+  const std::vector<Vector3> normals = vertex_normals(low, triangles);
+  Heights heights;
+  heights.reference.reserve(points.size());
+  heights.z.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    heights.z.push_back((points[i] - low[i]).dot(normals[i]));
+    heights.reference.emplace_back(points[i] - heights.z.back() * normals[i]);
   }
-  const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
-  const std::vector<Vector3>& u = quadrature.directions;
-  const std::vector<double> radii = surface.radii(u, execution);
-  const HarmonicFit low = fit_harmonics(surface, degree, execution);
-  const std::vector<RadialJet> jets = low.surface.jets(u, Derivatives::First, execution);
+  return heights;
+}
 
-  // A few ten thousand terms: not worth threads.
-  std::vector<double> heights(u.size());
-  std::vector<double> areas(u.size());
-  double area = 0.0;
-  double mean = 0.0;
-  double mean_radius = 0.0;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    heights[i] = radii[i] - jets[i].radius;
-    areas[i] = quadrature.weights[i] * area_element(jets[i]);
-    area += areas[i];
-    mean += areas[i] * heights[i];
-    mean_radius += areas[i] * radii[i];
-  }
-  mean /= area;
-  mean_radius /= area;
-
-  Roughness result;
-  result.degree = low.report.degree;
+/// Means over the area of the reference surface.
+struct HeightMoments {
+  double sa = 0.0;
   double second = 0.0;
   double third = 0.0;
   double fourth = 0.0;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const double z = heights[i] - mean;
-    const double share = areas[i] / area;
-    result.sa += share * std::abs(z);
-    second += share * z * z;
-    third += share * z * z * z;
-    fourth += share * z * z * z * z;
+};
+
+HeightMoments moments_of(const Heights& heights, const std::vector<Triangle>& triangles) {
+  const std::vector<double> areas = vertex_areas({heights.reference, triangles});
+  double area = 0.0;
+  double mean = 0.0;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    area += areas[i];
+    mean += areas[i] * heights.z[i];
   }
-  result.sq = std::sqrt(second);
-  if (result.sq > smallest_roughness * mean_radius) {
-    result.ssk = third / (second * result.sq);
-    result.sku = fourth / (second * second);
+  mean /= area;
+  HeightMoments moments;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const double z = heights.z[i] - mean;
+    const double weight = areas[i] / area;
+    moments.sa += weight * std::abs(z);
+    moments.second += weight * z * z;
+    moments.third += weight * z * z * z;
+    moments.fourth += weight * z * z * z * z;
   }
-  return result;
+  return moments;
 }
 
-double printed_sdq(const RadialSurface& surface, int rings, const Execution& execution) {
-  if (rings < 1) {
-    throw Error(ErrorCode::InvalidInput,
-                "The number of parallels is " + std::to_string(rings) + "; give 1 or more.");
+}  // namespace
+
+double least_cutoff(const IndexedMesh& mesh) {
+  double area = 0.0;
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3& a = mesh.points[index(t[0])];
+    const Vector3& b = mesh.points[index(t[1])];
+    const Vector3& c = mesh.points[index(t[2])];
+    const double of_face = triangle_area(a, b, c);
+    area += of_face;
+    sum += of_face * ((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3.0;
   }
-  struct Sums {
-    double slope = 0.0;
-    double area = 0.0;
-    Sums& operator+=(const Sums& other) {
-      slope += other.slope;
-      area += other.area;
-      return *this;
-    }
-  };
-  const auto count = static_cast<std::size_t>(rings);
-  const double step = pi / rings;
-  const Sums sums =
-      execution.parallel_sum(count, 4, Sums(), [&](std::size_t begin, std::size_t end) {
-        Sums part;
-        std::vector<Vector3> directions(2 * count);
-        std::vector<RadialJet> jets(2 * count);
-        for (std::size_t ring = begin; ring < end; ++ring) {
-          const double theta = (static_cast<double>(ring) + 0.5) * step;
-          for (std::size_t k = 0; k < 2 * count; ++k) {
-            const double phi = (static_cast<double>(k) + 0.5) * step;
-            directions[k] = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                             std::cos(theta)};
-          }
-          surface.evaluate(directions.data(), directions.size(), Derivatives::First, jets.data());
-          for (std::size_t k = 0; k < 2 * count; ++k) {
-            const double phi = (static_cast<double>(k) + 0.5) * step;
-            const Vector3 south(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi),
-                                -std::sin(theta));
-            const Vector3 east(-std::sin(phi), std::cos(phi), 0.0);
-            const double r_theta = jets[k].gradient.dot(south);
-            const double r_phi = std::sin(theta) * jets[k].gradient.dot(east);
-            part.slope += r_theta * r_theta + r_phi * r_phi;
-            part.area += std::sin(theta) * area_element(jets[k]);
-          }
-        }
-        return part;
-      });
-  return std::sqrt(sums.slope / sums.area);
+  return edges_per_cutoff * sum / area;
+}
+
+Roughness surface_roughness(const IndexedMesh& mesh, double cutoff, const Execution& execution) {
+  const double least = least_cutoff(mesh);
+  if (!(cutoff > 0.0) || cutoff < least) {
+    throw Error(ErrorCode::InvalidInput,
+                "The cut-off length of roughness is " + format_number(cutoff, 4) +
+                    ", but the edges of this mesh are so long that it must be " +
+                    format_number(least, 4) + " or more; give a larger cut-off or a denser mesh.");
+  }
+  SurfaceLowPass filter(mesh.triangles, mesh.points.size());
+  const Heights first = heights_above(mesh.points, mesh.points, mesh.triangles, cutoff, filter,
+                                      execution.part(0.0, 0.33));
+  const Heights second = heights_above(mesh.points, first.reference, mesh.triangles, cutoff, filter,
+                                       execution.part(0.33, 0.67));
+  // What the filter takes off a surface without short waves is the form that leaks.
+  const Heights leaked = heights_above(second.reference, second.reference, mesh.triangles, cutoff,
+                                       filter, execution.part(0.67, 1.0));
+
+  const HeightMoments moments = moments_of(second, mesh.triangles);
+  Roughness result;
+  result.cutoff = cutoff;
+  result.sa = moments.sa;
+  result.sq = std::sqrt(moments.second);
+  result.form_leak = leak_factor * std::sqrt(moments_of(leaked, mesh.triangles).second);
+  if (result.sq > smallest_roughness * cutoff) {
+    result.ssk = moments.third / (moments.second * result.sq);
+    result.sku = moments.fourth / (moments.second * moments.second);
+  }
+  return result;
 }
 
 }  // namespace wscvt

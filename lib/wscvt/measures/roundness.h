@@ -2,25 +2,33 @@
 #pragma once
 
 #include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 
 /// Roundness after Wadell (1932, "Volume, shape, and roundness of rock particles", J. Geol. 40,
-/// 443-451): mean radius of curvature of the corners over the radius R of the largest inscribed
-/// sphere. In three dimensions, with curvature in place of fitted circles as in Zhao and Wang
-/// (2016, "3D quantitative shape analysis on form, roundness, and compactness with micro-CT",
-/// Powder Technology), this library reads it as: corners are the points whose larger principal
-/// curvature k (positive where convex) exceeds 1/R, and
-///   roundness = (1 / (R A_c)) integral over the corners of (1 / k) dA,   A_c their area.
-/// So every corner's radius lies below R and a sphere has 1. Curvature depends on how much detail
-/// the surface holds: name its degree beside the figure.
+/// 443-451): mean radius of the corners over the radius R of the largest inscribed sphere. In two
+/// dimensions Zheng and Hryciw (2015, Geotechnique 65, 494-506) fit circles to the corners of an
+/// outline; in three, Nie et al. (2018, "A new roundness index based on local curvature", Powder
+/// Technol. 335, 58-66) read curvature, and so does this library.
 ///
-/// `inscribed_radius` > 0 in the length of the surface. Integrated at `polar_nodes` Gauss-Legendre
-/// nodes in cos(theta) times twice as many azimuths. Throws Error(InvalidInput) for a radius or
-/// number of nodes that is not positive.
-Roundness wadell_roundness(const SphereSurface& surface, double inscribed_radius, int polar_nodes,
+/// Convention: corners are the points whose larger principal curvature k exceeds 1.05 / R. The mean
+/// over them weights each radius 1/k by the turn k dA that it makes:
+///   V = A_c / (R integral over the corners of k dA),   A_c their area.
+/// Another weight gives another number: an ellipsoid 1 : 2 : 6 has 0.54 by turn, 0.61 by area. A
+/// rounded cube of edge radius a has V = a / R by any of them. Turn is conserved when curvature is
+/// read in balls of radius s (ball_curvatures), which spreads a corner over the ball, so V(s) grows
+/// linearly with s: V = V(s) - 2 (V(1.5 s) - V(s)), and not lower than V(s) - 0.7 (s / R) (1 -
+/// V(s)). With corners on less than 1 % of the area roundness is 1.
+///
+/// `ball` is s / R in (0, 1]; where 2.5 mean edges of the mesh are longer, s is that. The radius s
+/// / 4 is the smallest that is told from sharper ones to within 0.03 R (measured on cubes of edge
+/// radius 0.02 to 1 at 1,000 to 20,000 vertices). s / R above 1 leaves roundness a NaN. At most
+/// 10,000 places are read, chosen at random by a fixed seed. Works on any closed body.
+///
+/// Throws Error(InvalidInput) for an inscribed radius or a ball that is not positive.
+Roundness wadell_roundness(const IndexedMesh& mesh, double inscribed_radius, double ball,
                            const Execution& execution);
 
 }  // namespace wscvt

@@ -6,6 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/principal_axes.h"
@@ -79,27 +80,52 @@ VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
       });
 }
 
-/// Integral of |grad_Omega r|^2 dOmega about `centre`, face by face.
-double gradient_square(const IndexedMesh& mesh, const Vector3& centre, const Execution& execution) {
-  return execution.parallel_sum(
-      mesh.triangles.size(), descriptor_block, 0.0, [&](std::size_t begin, std::size_t end) {
-        double part = 0.0;
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = mesh.triangles[f];
-          const Vector3 a = mesh.points[t[0]] - centre;
-          const Vector3 b = mesh.points[t[1]] - centre;
-          const Vector3 c = mesh.points[t[2]] - centre;
-          const Vector3 doubled_area = doubled_area_normal(a, b, c);
-          const double area = 0.5 * doubled_area.norm();
-          const Vector3 radius = a + b + c;
-          const double length = radius.norm();
-          if (!(area > 0.0) || !(length > 0.0)) continue;
-          const double cosine =
-              std::clamp(doubled_area.dot(radius) / (2.0 * area * length), smallest_cosine, 1.0);
-          part += area * (1.0 - cosine * cosine) / cosine;
-        }
-        return part;
-      });
+/// Change of Sdq when its clip is halved from which on a reader is told.
+constexpr double told_clip_change = 0.02;
+
+/// Integral of |grad_Omega r|^2 dOmega, with either clip, and what of it comes from clipped faces.
+struct GradientSquares {
+  double whole = 0.0;
+  double clipped = 0.0;
+  double with_half_clip = 0.0;
+
+  GradientSquares& operator+=(const GradientSquares& other) {
+    whole += other.whole;
+    clipped += other.clipped;
+    with_half_clip += other.with_half_clip;
+    return *this;
+  }
+};
+
+/// About `centre`, face by face.
+GradientSquares gradient_squares(const IndexedMesh& mesh, const Vector3& centre,
+                                 const Execution& execution) {
+  return execution.parallel_sum(mesh.triangles.size(), descriptor_block, GradientSquares(),
+                                [&](std::size_t begin, std::size_t end) {
+                                  GradientSquares part;
+                                  for (std::size_t f = begin; f < end; ++f) {
+                                    const Triangle& t = mesh.triangles[f];
+                                    const Vector3 a = mesh.points[t[0]] - centre;
+                                    const Vector3 b = mesh.points[t[1]] - centre;
+                                    const Vector3 c = mesh.points[t[2]] - centre;
+                                    const Vector3 doubled_area = doubled_area_normal(a, b, c);
+                                    const double area = 0.5 * doubled_area.norm();
+                                    const Vector3 radius = a + b + c;
+                                    const double length = radius.norm();
+                                    if (!(area > 0.0) || !(length > 0.0)) continue;
+                                    const double cosine =
+                                        doubled_area.dot(radius) / (2.0 * area * length);
+                                    const auto square = [area, cosine](double clip) {
+                                      const double q = std::clamp(cosine, clip, 1.0);
+                                      return area * (1.0 - q * q) / q;
+                                    };
+                                    const double whole = square(smallest_cosine);
+                                    part.whole += whole;
+                                    if (cosine < smallest_cosine) part.clipped += whole;
+                                    part.with_half_clip += square(0.5 * smallest_cosine);
+                                  }
+                                  return part;
+                                });
 }
 
 }  // namespace
@@ -130,8 +156,22 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   result.principal_axes = principal_axes(mesh, result.centroid, result.inertia_tensor, execution);
   result.aspect_ratio = result.inertia_semi_axes[0] / result.inertia_semi_axes[2];
 
-  result.sdq = std::sqrt(gradient_square(mesh, result.centroid, execution) / moments.area);
+  const GradientSquares squares = gradient_squares(mesh, result.centroid, execution);
+  result.sdq = std::sqrt(squares.whole / moments.area);
+  result.sdq_half_clip = std::sqrt(squares.with_half_clip / moments.area);
+  if (squares.whole > 0.0) result.sdq_clipped_share = squares.clipped / squares.whole;
   return result;
+}
+
+std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& descriptors) {
+  const double change = descriptors.sdq_half_clip / descriptors.sdq - 1.0;
+  if (!(change > told_clip_change)) return {};
+  return "Walls of " + grain +
+         " stand along rays from its centre, so its Sdq (invariant form) is " +
+         "what the smallest cosine of " + format_number(smallest_cosine) +
+         " makes of them: " + format_percent(descriptors.sdq_clipped_share) +
+         " of its square comes from there, and with half that cosine Sdq is " +
+         format_percent(change) + " larger. Do not compare it with that of other grains.";
 }
 
 double relative_error_percent(double value, double reference) {

@@ -68,7 +68,7 @@ struct RemeshResult {
   std::variant<OnScanReport, AsPublishedReport> method;
   SeriesCoefficients coefficients;  ///< as published of a scan, on the scan if asked for
   /// Rms distance from the scan to the remesh; length. Over the samples of `distances`, or over
-  /// 10,000 points of the scan where those were not asked for.
+  /// 5,000 points of the scan where those were not asked for.
   double rms_distance = 0.0;
   std::vector<SuggestedSetting> suggestions;  ///< if the remesh is not accurate; see is_inaccurate
   std::optional<MeshDistances> distances;     ///< between remesh and scan; if asked for

@@ -92,11 +92,14 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+/// Of the population that the values are a sample of, so it divides by one less than their number;
+/// not a number for a single value.
 double deviation_of(const std::vector<double>& values) {
   const double mean = mean_of(values);
   double sum = 0.0;
   for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size()));
+  return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1))
+                           : std::numeric_limits<double>::quiet_NaN();
 }
 
 double first_of(const std::vector<double>& values) { return quantile(values, 0.0); }
@@ -128,8 +131,8 @@ Histogram histogram_of(const std::vector<double>& values) {
 }
 
 std::vector<std::vector<std::string>> table_of(const SampleSummary& summary) {
-  std::vector<std::vector<std::string>> rows = {
-      {"of the grains", "mean", "std. dev.", "smallest", "10 %", "50 %", "90 %", "largest"}};
+  std::vector<std::vector<std::string>> rows = {{"of the grains", "mean", "std. dev. (n - 1)",
+                                                 "smallest", "10 %", "50 %", "90 %", "largest"}};
   for (const SampleDistribution& one : summary.distributions) {
     if (one.values.empty()) continue;
     rows.push_back(

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/feret_diameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/direction_search.h"
+#include "wscvt/measures/planar_hull.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr const char* diameter_stage = "Measuring diameters";
+
+/// Up to so many points every pair is tried.
+constexpr std::size_t most_pairs_of = 4000;
+
+constexpr std::size_t planes = 128;
+constexpr std::size_t lines = 128;
+
+struct Pair {
+  Vector3 from = Vector3::Zero();
+  Vector3 to = Vector3::Zero();
+  double square = -1.0;
+};
+
+Pair farthest_of_all(const std::vector<Vector3>& points) {
+  Pair best;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double square = (points[i] - points[k]).squaredNorm();
+      if (square > best.square) best = {points[k], points[i], square};
+    }
+  }
+  return best;
+}
+
+/// From either end to the point farthest from it, while that is farther.
+Pair moved_apart(Pair pair, const std::vector<Vector3>& points) {
+  for (bool farther = true; farther;) {
+    farther = false;
+    std::swap(pair.from, pair.to);
+    for (const Vector3& p : points) {
+      const double square = (p - pair.from).squaredNorm();
+      if (!(square > pair.square)) continue;
+      pair.to = p;
+      pair.square = square;
+      farther = true;
+    }
+  }
+  return pair;
+}
+
+double width_along(const std::vector<Vector3>& points, const Vector3& direction) {
+  double lowest = direction.dot(points.front());
+  double highest = lowest;
+  for (const Vector3& p : points) {
+    lowest = std::min(lowest, direction.dot(p));
+    highest = std::max(highest, direction.dot(p));
+  }
+  return highest - lowest;
+}
+
+/// Where faces are cut by planes across a direction.
+class Sections {
+ public:
+  Sections(const IndexedMesh& mesh, const Vector3& normal)
+      : mesh_(mesh), normal_(normal), x_(normal.unitOrthogonal()), y_(normal.cross(x_)) {
+    heights_.reserve(mesh.points.size());
+    for (const Vector3& p : mesh.points) heights_.push_back(normal.dot(p));
+    // Not the points: those of no face count for nothing.
+    lowest_ = highest_ = heights_[index(mesh.triangles.front()[0])];
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::int32_t v : t) {
+        lowest_ = std::min(lowest_, heights_[index(v)]);
+        highest_ = std::max(highest_, heights_[index(v)]);
+      }
+    }
+  }
+
+  double spacing() const { return (highest_ - lowest_) / static_cast<double>(planes); }
+  double height(std::size_t plane) const {
+    return lowest_ + (static_cast<double>(plane) + 0.5) * spacing();
+  }
+  Vector3 in_space(const Vector2& p) const { return p.x() * x_ + p.y() * y_; }
+  Vector2 in_plane(const Vector3& v) const { return {x_.dot(v), y_.dot(v)}; }
+
+  /// Ends of the segments in which faces meet the plane, two by two.
+  std::vector<Vector2> cut(double height) const {
+    std::vector<Vector2> ends;
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) add(f, height, ends);
+    return ends;
+  }
+
+  /// The same for all planes at once.
+  std::vector<std::vector<Vector2>> cut_all() const {
+    std::vector<std::vector<Vector2>> result(planes);
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+      const Triangle& t = mesh_.triangles[f];
+      const auto [low, high] =
+          std::minmax({heights_[index(t[0])], heights_[index(t[1])], heights_[index(t[2])]});
+      const double first = std::ceil((low - lowest_) / spacing() - 0.5);
+      for (auto plane = static_cast<std::size_t>(std::max(first, 0.0));
+           plane < planes && height(plane) <= high; ++plane) {
+        add(f, height(plane), result[plane]);
+      }
+    }
+    return result;
+  }
+
+ private:
+  void add(std::size_t face, double height, std::vector<Vector2>& ends) const {
+    const Triangle& t = mesh_.triangles[face];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = index(t[k]);
+      const std::size_t b = index(t[following(k)]);
+      // Half open: a face is crossed by two of its edges or by none.
+      if ((heights_[a] < height) == (heights_[b] < height)) continue;
+      const double part = (height - heights_[a]) / (heights_[b] - heights_[a]);
+      ends.push_back(in_plane(mesh_.points[a] + part * (mesh_.points[b] - mesh_.points[a])));
+    }
+  }
+
+  const IndexedMesh& mesh_;
+  Vector3 normal_;
+  Vector3 x_;
+  Vector3 y_;
+  std::vector<double> heights_;
+  double lowest_ = 0.0;
+  double highest_ = 0.0;
+};
+
+FarthestPair diameter_of(std::vector<Vector2> ends) { return farthest_pair(planar_hull(ends)); }
+
+/// The longest chord of a section along `along`, on lines across it.
+double longest_chord(const std::vector<Vector2>& ends, const Vector2& along) {
+  const Vector2 across(along.y(), -along.x());
+  if (ends.empty()) return 0.0;
+  double first = std::numeric_limits<double>::infinity();
+  double last = -first;
+  for (const Vector2& p : ends) {
+    first = std::min(first, across.dot(p));
+    last = std::max(last, across.dot(p));
+  }
+  const double spacing = (last - first) / static_cast<double>(lines);
+  if (!(spacing > 0.0)) return 0.0;
+  std::vector<double> low(lines, std::numeric_limits<double>::infinity());
+  std::vector<double> high(lines, -std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+    double from = across.dot(ends[i]);
+    double to = across.dot(ends[i + 1]);
+    double from_height = along.dot(ends[i]);
+    double to_height = along.dot(ends[i + 1]);
+    if (from > to) {
+      std::swap(from, to);
+      std::swap(from_height, to_height);
+    }
+    const double start = std::ceil((from - first) / spacing - 0.5);
+    for (auto line = static_cast<std::size_t>(std::max(start, 0.0)); line < lines; ++line) {
+      const double place = first + (static_cast<double>(line) + 0.5) * spacing;
+      if (!(place <= to) || !(to > from)) break;
+      const double height = from_height + (place - from) / (to - from) * (to_height - from_height);
+      low[line] = std::min(low[line], height);
+      high[line] = std::max(high[line], height);
+    }
+  }
+  double longest = 0.0;
+  for (std::size_t line = 0; line < lines; ++line) {
+    if (high[line] > low[line]) longest = std::max(longest, high[line] - low[line]);
+  }
+  return longest;
+}
+
+}  // namespace
+
+FeretDiameters feret_diameters(const IndexedMesh& mesh, const std::vector<Vector3>& hull,
+                               const Execution& execution) {
+  if (hull.size() < 4 || mesh.triangles.empty()) {
+    throw Error(ErrorCode::InvalidInput,
+                "A body of " + std::to_string(hull.size()) +
+                    " points has no diameters; give a closed mesh and the points of its hull.");
+  }
+  // About a point of the mesh, so that nothing cancels far from the origin.
+  const Vector3 origin = hull.front();
+  std::vector<Vector3> points(hull);
+  for (Vector3& p : points) p -= origin;
+  IndexedMesh local = mesh;
+  for (Vector3& p : local.points) p -= origin;
+
+  const Eigen::Matrix3d frame = frame_of(points);
+  const std::vector<Vector3> extremes = extreme_points(points, frame, diameter_stage, execution);
+  FeretDiameters result;
+  execution.report(0.1, diameter_stage);
+  const Pair ends =
+      moved_apart(farthest_of_all(points.size() <= most_pairs_of ? points : extremes), points);
+  result.largest = std::sqrt(ends.square);
+  const DirectionMinimum narrowest = smallest_over_directions(
+      [&extremes](const Vector3& direction) { return width_along(extremes, direction); }, frame,
+      diameter_stage, execution);
+  result.smallest = width_along(points, narrowest.direction);
+
+  const Sections sections(local, (ends.to - ends.from).normalized());
+  const std::vector<std::vector<Vector2>> cuts = sections.cut_all();
+  FarthestPair widest;
+  double at = sections.height(0);
+  for (std::size_t plane = 0; plane < planes; ++plane) {
+    execution.report(0.8, diameter_stage);
+    const FarthestPair tried = diameter_of(cuts[plane]);
+    if (!(tried.distance > widest.distance)) continue;
+    widest = tried;
+    at = sections.height(plane);
+  }
+  for (double step = 0.5 * sections.spacing(); step > 1e-3 * sections.spacing(); step *= 0.5) {
+    execution.report(0.9, diameter_stage);
+    for (const double height : {at - step, at + step}) {
+      const FarthestPair tried = diameter_of(sections.cut(height));
+      if (!(tried.distance > widest.distance)) continue;
+      widest = tried;
+      at = height;
+    }
+  }
+  result.width_across = widest.distance;
+  if (!(widest.distance > 0.0)) return result;
+  const Vector2 chord = (widest.to - widest.from) / widest.distance;
+  const Vector2 along(-chord.y(), chord.x());
+  for (const std::vector<Vector2>& cut : cuts) {
+    result.thickness_across = std::max(result.thickness_across, longest_chord(cut, along));
+  }
+  return result;
+}
+
+double mean_curvature_integral(const IndexedMesh& mesh, const Execution& execution) {
+  const HalfEdges edges = link_half_edges(mesh.triangles, mesh.points.size(), execution);
+  const auto normal_of = [&mesh](std::size_t face) {
+    const Triangle& t = mesh.triangles[face];
+    return Vector3(doubled_area_normal(mesh.points[index(t[0])], mesh.points[index(t[1])],
+                                       mesh.points[index(t[2])])
+                       .stableNormalized());
+  };
+  constexpr std::size_t block = 4096;
+  return execution.parallel_sum(
+      mesh.triangles.size(), block, 0.0, [&](std::size_t begin, std::size_t end) {
+        double part = 0.0;
+        for (std::size_t f = begin; f < end; ++f) {
+          const Vector3 normal = normal_of(f);
+          for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t opposite = edges.opposite[3 * f + k];
+            if (opposite < 0) continue;
+            const Vector3 other = normal_of(face_of(opposite));
+            const Triangle& t = mesh.triangles[f];
+            const Vector3 edge = mesh.points[index(t[following(k)])] - mesh.points[index(t[k])];
+            const double length = edge.norm();
+            if (!(length > 0.0)) continue;
+            const double sine = normal.cross(other).dot(edge) / length;
+            // Each edge comes twice, once from either side.
+            part += 0.25 * length * std::atan2(sine, normal.dot(other));
+          }
+        }
+        return part;
+      });
+}
+
+}  // namespace wscvt

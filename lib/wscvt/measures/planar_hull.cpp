@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/planar_hull.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace wscvt {
+
+namespace {
+
+double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
+std::vector<Vector2> planar_hull(std::vector<Vector2>& points) {
+  std::sort(points.begin(), points.end(), [](const Vector2& a, const Vector2& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  std::vector<Vector2> hull;
+  hull.reserve(points.size() + 1);
+  const auto add = [&hull](const Vector2& p, std::size_t least) {
+    while (hull.size() >= least + 2 &&
+           !(cross(hull.back() - hull[hull.size() - 2], p - hull.back()) > 0.0)) {
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  };
+  for (const Vector2& p : points) add(p, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (auto p = points.rbegin() + 1; p < points.rend(); ++p) add(*p, lower);
+  if (hull.size() > 1) hull.pop_back();  // the first again
+  return hull;
+}
+
+Rectangle smallest_rectangle(const std::vector<Vector2>& hull) {
+  const std::size_t n = hull.size();
+  Rectangle best;
+  if (n < 3) return best;
+  double least = std::numeric_limits<double>::infinity();
+  // The farthest corners along a side, across it and against it move on as the side does.
+  std::size_t right = 1;
+  std::size_t top = 1;
+  std::size_t left = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2 edge = hull[(i + 1) % n] - hull[i];
+    const double length = edge.norm();
+    if (!(length > 0.0)) continue;
+    const Vector2 along = edge / length;
+    const Vector2 across(-along.y(), along.x());
+    const auto follow = [&](std::size_t& k, const Vector2& direction) {
+      while (direction.dot(hull[(k + 1) % n] - hull[k]) > 0.0) k = (k + 1) % n;
+    };
+    follow(right, along);
+    if (i == 0) top = right;
+    follow(top, across);
+    if (i == 0) left = top;
+    follow(left, -along);
+    Rectangle tried;
+    tried.side = along;
+    tried.length = along.dot(hull[right] - hull[left]);
+    tried.width = across.dot(hull[top] - hull[i]);
+    if (tried.area() < least) {
+      least = tried.area();
+      best = tried;
+    }
+  }
+  return best;
+}
+
+FarthestPair farthest_pair(const std::vector<Vector2>& hull) {
+  FarthestPair best;
+  if (hull.empty()) return best;
+  best.from = best.to = hull.front();
+  double square = 0.0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double tried = (hull[i] - hull[k]).squaredNorm();
+      if (!(tried > square)) continue;
+      square = tried;
+      best.from = hull[k];
+      best.to = hull[i];
+    }
+  }
+  best.distance = std::sqrt(square);
+  return best;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace wscvt {
+
+using Vector2 = Eigen::Vector2d;
+
+/// The corners of the convex hull of points in a plane, counter-clockwise (Andrew 1979, "Another
+/// efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9, 216-219); points
+/// on its sides are left out, up to rounding. Sorts `points`.
+std::vector<Vector2> planar_hull(std::vector<Vector2>& points);
+
+/// A rectangle about points in a plane.
+struct Rectangle {
+  Vector2 side = Vector2::UnitX();  ///< unit vector along `length`
+  double length = 0.0;
+  double width = 0.0;
+  double area() const { return length * width; }
+};
+
+/// The rectangle of least area about a convex polygon (Freeman and Shapira 1975, Commun. ACM 18,
+/// 409-413: one of its sides lies on one of the polygon's). Of no area for fewer than three
+/// corners.
+Rectangle smallest_rectangle(const std::vector<Vector2>& hull);
+
+/// The largest distance between two corners of a convex polygon, and the corners.
+struct FarthestPair {
+  Vector2 from = Vector2::Zero();
+  Vector2 to = Vector2::Zero();
+  double distance = 0.0;
+};
+FarthestPair farthest_pair(const std::vector<Vector2>& hull);
+
+}  // namespace wscvt

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/measures/feret_diameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/distance_bodies.h"
+#include "support/expect_error.h"
+#include "support/seeds.h"
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+namespace {
+
+FeretDiameters diameters(const IndexedMesh& mesh) {
+  return feret_diameters(mesh, mesh.points, Execution(1));
+}
+
+TEST(FeretDiameters, OfAnEllipsoidAreItsAxes) {
+  const Vector3 axes(0.5, 0.8, 1.3);
+  const IndexedMesh mesh =
+      test::transformed(test::scaled(test::sphere(4), axes),
+                        test::random_rotation(test::announced(8)), {100, -200, 50});
+  const FeretDiameters d = diameters(mesh);
+  // Vertices lie on it; between them it is 1e-3 deep.
+  EXPECT_NEAR(d.largest, 2.6, 3e-3);
+  EXPECT_NEAR(d.smallest, 1.0, 3e-3);
+  EXPECT_NEAR(d.width_across, 1.6, 5e-3);
+  EXPECT_NEAR(d.thickness_across, 1.0, 5e-3);
+}
+
+TEST(FeretDiameters, OfABoxAreItsDiagonalAndItsShortestEdge) {
+  for (const std::uint64_t pose : {1, 2, 3}) {
+    SCOPED_TRACE(::testing::Message() << "pose " << pose);
+    const IndexedMesh mesh =
+        test::transformed(test::box(1, 2, 4), test::random_rotation(pose), {7, 8, 9});
+    const FeretDiameters d = diameters(mesh);
+    EXPECT_NEAR(d.largest, std::sqrt(21.0), 1e-9);
+    EXPECT_NEAR(d.smallest, 1.0, 1e-3);
+    // Across the diagonal, in the planes through the middle: from an edge of length 1 to the other.
+    EXPECT_LT(d.width_across, d.largest);
+    EXPECT_GE(d.width_across, d.thickness_across);
+    EXPECT_GE(d.thickness_across, 0.99);
+  }
+}
+
+TEST(FeretDiameters, TheSmallestOfATetrahedronLiesBetweenTwoEdges) {
+  const IndexedMesh mesh =
+      test::transformed(test::tetrahedron(2.0), test::random_rotation(test::announced(4)));
+  const FeretDiameters d = diameters(mesh);
+  EXPECT_NEAR(d.largest, 2.0, 1e-9);
+  EXPECT_NEAR(d.smallest, std::sqrt(2.0), 1e-3 * std::sqrt(2.0));
+}
+
+TEST(FeretDiameters, ChordsEndOnTheBodyAndNotOnItsShadow) {
+  // A Z of three bars: its shadow along the longest diameter is wider than any chord across that.
+  // Two spheres of radius 1 and a thin rod between: chords across the axis are those of one ball.
+  const IndexedMesh mesh =
+      test::joined(test::sphere(3), test::moved(test::sphere(3), 1.0, {6, 0, 0}));
+  const FeretDiameters apart = diameters(mesh);
+  EXPECT_NEAR(apart.largest, 8.0, 0.02);
+  EXPECT_NEAR(apart.width_across, 2.0, 0.02);
+  // Balls off the diameter's line to either side: the shadow is wider by their offset.
+  IndexedMesh bent = test::joined(mesh, test::moved(test::sphere(3), 0.8, {2.0, 0.9, 0}));
+  bent = test::joined(bent, test::moved(test::sphere(3), 0.8, {4.0, -0.9, 0}));
+  const FeretDiameters d = diameters(bent);
+  const double shadow = 2.0 * (0.9 + 0.8);
+  EXPECT_LT(d.width_across, shadow - 0.5);
+}
+
+TEST(FeretDiameters, OfManyPointsAreThoseOfAll) {
+  // More than 2,000 and more than 4,000 points; the two extreme ones are the last.
+  IndexedMesh mesh = test::sphere(5);
+  mesh.points[mesh.points.size() - 1] *= 1.05;
+  mesh.points[mesh.points.size() - 2] = -mesh.points[mesh.points.size() - 1] / 1.05 * 1.05;
+  const FeretDiameters d = diameters(mesh);
+  EXPECT_NEAR(d.largest, 2.1, 1e-9);
+  EXPECT_NEAR(d.smallest, 2.0, 2e-3);
+}
+
+TEST(FeretDiameters, RefuseWhatHasNone) {
+  EXPECT_ERROR(feret_diameters(test::box(1, 1, 1), {{0, 0, 0}}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(feret_diameters({}, test::box(1, 1, 1).points, Execution(1)), InvalidInput);
+}
+
+TEST(MeanCurvatureIntegral, OfABoxIsPiTimesTheSumOfItsEdges) {
+  EXPECT_NEAR(mean_curvature_integral(test::box(1, 2, 4), Execution(1)), test::pi * 7.0, 1e-12);
+  // However it is cut into faces, and in any pose.
+  EXPECT_NEAR(mean_curvature_integral(
+                  test::transformed(test::subdivided(test::box(1, 2, 4), 3),
+                                    test::random_rotation(test::announced(6)), {50, 0, -9}),
+                  Execution(2)),
+              test::pi * 7.0, 1e-9);
+}
+
+TEST(MeanCurvatureIntegral, OfABallIsFourPiTimesItsRadius) {
+  EXPECT_NEAR(
+      mean_curvature_integral(test::moved(test::sphere(4), 3.0, Vector3::Zero()), Execution(1)),
+      12.0 * test::pi, 0.01 * 12.0 * test::pi);
+}
+
+TEST(MeanCurvatureIntegral, OfATorusIsTwoPiSquaredTimesItsMajorRadius) {
+  // Hollows count as negative: of the tube alone it would be larger on the outside only.
+  EXPECT_NEAR(mean_curvature_integral(test::torus(3.0, 1.0, 96), Execution(1)),
+              2.0 * test::pi * test::pi * 3.0, 0.01 * 60.0);
+}
+
+}  // namespace
+}  // namespace wscvt
