@@ -86,9 +86,9 @@ double ellipsoid_area(double c, double b, double a) {
                                  std::ellint_1(modulus, angle) * cosine * cosine);
 }
 
-/// Mean radius of curvature by turn (roundness.h) over the ellipsoid's points that are corners, over
-/// the radius of its inscribed sphere; by its own parameters and the textbook curvatures: with h = 1 / |x / a^2|,
-/// K = h^4 / (a b c)^2 and H = h^3 (a^2 + b^2 + c^2 - |x|^2) / (2 (a b c)^2).
+/// Mean radius of curvature by turn (roundness.h) over the ellipsoid's points that are corners,
+/// over the radius of its inscribed sphere; by its own parameters and the textbook curvatures: with
+/// h = 1 / |x / a^2|, K = h^4 / (a b c)^2 and H = h^3 (a^2 + b^2 + c^2 - |x|^2) / (2 (a b c)^2).
 double ellipsoid_roundness(const Vector3& axes) {
   constexpr int side = 1000;
   const double inscribed = axes.minCoeff();
