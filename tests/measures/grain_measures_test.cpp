@@ -23,7 +23,6 @@ TEST(GrainMeasures, TellsAFoldByTheSolidAngleOfTheSheetsBeyondTheFirst) {
   const GrainMeasures measures = measure_grain({"rim", test::overhanging_rim(10)}, std::nullopt,
                                                DetailedOptions(), Execution(1));
   const std::vector<std::string> sentences = remarks(measures);
-  ASSERT_EQ(sentences.size(), 1U);
   const std::string before = "'rim' folds over itself: sheets beyond the first fill ";
   const auto found = std::find_if(sentences.begin(), sentences.end(), [&](const std::string& one) {
     return one.find(before) != std::string::npos;

@@ -54,6 +54,8 @@ TEST(PlanarHull, LeavesOutWhatLiesOnItsSides) {
   EXPECT_EQ(planar_hull(line).size(), 2U);
   std::vector<Vector2> one = {{3, 4}};
   EXPECT_EQ(planar_hull(one).size(), 1U);
+  std::vector<Vector2> none;
+  EXPECT_TRUE(planar_hull(none).empty());
 }
 
 TEST(SmallestRectangle, IsNoLargerThanAnyOtherAndHoldsAll) {

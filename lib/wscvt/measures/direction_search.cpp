@@ -2,23 +2,16 @@
 #include "wscvt/measures/direction_search.h"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 namespace wscvt {
 
-namespace {
-
-constexpr int thinning_directions = 2000;
-
-}  // namespace
-
-std::vector<Vector3> extreme_points(const std::vector<Vector3>& points,
-                                    const Eigen::Matrix3d& frame, const char* stage,
-                                    const Execution& execution) {
-  if (points.size() <= static_cast<std::size_t>(thinning_directions)) return points;
+std::vector<Vector3> extreme_points(const std::vector<Vector3>& points, int directions,
+                                    const char* stage, const Execution& execution) {
+  if (points.size() <= static_cast<std::size_t>(directions)) return points;
   std::vector<std::size_t> extremes;
-  for (const Vector3& u : fibonacci_lattice(thinning_directions)) {
+  for (const Vector3& direction : fibonacci_lattice(directions)) {
     execution.report(0.0, stage);
-    const Vector3 direction = frame * u;
     std::size_t farthest = 0;
     double reach = direction.dot(points[0]);
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -44,7 +37,23 @@ Eigen::Matrix3d frame_of(const std::vector<Vector3>& points) {
   mean += points.front();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (const Vector3& p : points) second += (p - mean) * (p - mean).transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second).eigenvectors();
+  Eigen::Matrix3d frame = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second).eigenvectors();
+  // Signs that turn with the body as well: towards where it reaches farther.
+  for (int k = 0; k < 2; ++k) {
+    double third = 0.0;
+    for (const Vector3& p : points) third += std::pow(frame.col(k).dot(p - mean), 3);
+    if (third < 0.0) frame.col(k) = -frame.col(k);
+  }
+  frame.col(2) = frame.col(0).cross(frame.col(1));
+  return frame;
+}
+
+std::vector<Vector3> in_frame(const std::vector<Vector3>& points, const Vector3& origin,
+                              const Eigen::Matrix3d& frame) {
+  std::vector<Vector3> result;
+  result.reserve(points.size());
+  for (const Vector3& p : points) result.emplace_back(frame.transpose() * (p - origin));
+  return result;
 }
 
 }  // namespace wscvt

@@ -21,13 +21,15 @@ struct DirectionMinimum {
 };
 
 /// Follows a function of directions downhill from `start` with steps from `first` down to `last`
-/// radians: to the best of eight neighbours, and where none is better with half the step and the
-/// eight turned, so that a valley with a kink along it is followed as well.
+/// radians: to the best of eight neighbours, and where none is better to one of eight between them,
+/// since a valley with a kink along its floor is narrow; then with half the step.
 template <class Function>
 DirectionMinimum descend(const Function& function, DirectionMinimum start, double first,
                          double last) {
   constexpr double golden_angle = 2.399963229728653;
+  constexpr int stars = 2;
   double turn = 0.0;
+  int failed = 0;
   for (double step = first; step > last;) {
     const Vector3 across = start.direction.unitOrthogonal();
     const Vector3 beyond = start.direction.cross(across);
@@ -43,57 +45,89 @@ DirectionMinimum descend(const Function& function, DirectionMinimum start, doubl
     turn += golden_angle;
     if (best.value < start.value) {
       start = best;
-    } else {
+      failed = 0;
+    } else if (++failed == stars) {
       step *= 0.5;
+      failed = 0;
     }
   }
   return start;
 }
 
-/// The smallest value of a function that is the same for a direction and its opposite: on a lattice
-/// of 250 of them, then downhill from the eight best, the three best of these to 1e-7 radians. The
-/// lattice stands in `frame`: one that turns with the body makes the result turn with it.
-template <class Function>
-DirectionMinimum smallest_over_directions(const Function& function, const Eigen::Matrix3d& frame,
-                                          const char* stage, const Execution& execution) {
-  constexpr int lattice = 500;
-  constexpr std::size_t followed = 8;
-  constexpr std::size_t finished = 3;
-  constexpr double spacing = 0.16;  // of the lattice, radians
-  constexpr double coarse = 0.01;
-  constexpr double fine = 1e-7;
+/// The smallest value of a function that is the same for a direction and its opposite. `coarse` and
+/// `medium` are cheaper functions near it, of fewer points: on a lattice of 500 directions, then
+/// downhill from the lattice's own minima, the 32 best of them at most, by `coarse`; from the six
+/// best of these by `medium`, and from the three best of those by `function` itself, to 1e-6
+/// radians. For a result that turns with a body, give functions of the body in its own frame
+/// (frame_of).
+template <class Coarse, class Medium, class Function>
+DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& medium,
+                                          const Function& function, const char* stage,
+                                          const Execution& execution) {
+  constexpr int lattice = 1000;
+  constexpr double spacing = 0.112;  // of the lattice, radians
+  constexpr std::size_t followed = 32;
+  constexpr std::size_t finished = 6;
+  constexpr std::size_t compared = 3;
+  constexpr double coarse_step = 0.01;
+  constexpr double medium_step = 1e-3;
+  constexpr double last_step = 1e-6;
   const auto by_value = [](const DirectionMinimum& a, const DirectionMinimum& b) {
     return a.value < b.value;
   };
-  std::vector<DirectionMinimum> found;
-  for (const Vector3& u : fibonacci_lattice(lattice)) {
-    if (u.z() < 0.0) continue;
+  std::vector<DirectionMinimum> all;
+  for (const Vector3& direction : fibonacci_lattice(lattice)) {
+    if (direction.z() < 0.0) continue;
     execution.report(0.0, stage);
-    const Vector3 direction = frame * u;
-    found.push_back({direction, function(direction)});
+    all.push_back({direction, coarse(direction)});
   }
-  std::stable_sort(found.begin(), found.end(), by_value);
-  found.resize(followed);
+  // Where no near direction is better: the best alone would all lie in one valley.
+  const double near = std::cos(1.7 * spacing);
+  std::vector<DirectionMinimum> found;
+  for (const DirectionMinimum& one : all) {
+    const bool beaten = std::any_of(all.begin(), all.end(), [&](const DirectionMinimum& other) {
+      return other.value < one.value && std::abs(other.direction.dot(one.direction)) > near;
+    });
+    if (!beaten) found.push_back(one);
+  }
+  const auto keep = [&](std::size_t count) {
+    std::stable_sort(found.begin(), found.end(), by_value);
+    found.resize(std::min(count, found.size()));
+  };
+  keep(followed);
   for (DirectionMinimum& one : found) {
     execution.report(0.3, stage);
-    one = descend(function, one, spacing, coarse);
+    one = descend(coarse, one, spacing, coarse_step);
   }
-  std::stable_sort(found.begin(), found.end(), by_value);
-  found.resize(finished);
-  for (DirectionMinimum& one : found) {
-    execution.report(0.6, stage);
-    one = descend(function, one, coarse, fine);
-  }
-  return *std::min_element(found.begin(), found.end(), by_value);
+  const auto follow_by = [&](const auto& next, double first, double last) {
+    for (DirectionMinimum& one : found) {
+      execution.report(0.6, stage);
+      one = descend(next, {one.direction, next(one.direction)}, first, last);
+    }
+  };
+  keep(finished);
+  follow_by(medium, 2.0 * coarse_step, medium_step);
+  keep(compared);
+  follow_by(function, 4.0 * medium_step, last_step);
+  keep(1);
+  return found.front();
 }
 
-/// The points that lie farthest in each of 2,000 directions of a lattice that stands in `frame`, or
-/// all points where they are fewer. Reports `stage` once a direction.
-std::vector<Vector3> extreme_points(const std::vector<Vector3>& points,
-                                    const Eigen::Matrix3d& frame, const char* stage,
-                                    const Execution& execution);
+/// The points that lie farthest in each of `directions` directions of a lattice, or all points
+/// where they are fewer. Reports `stage` once a direction.
+std::vector<Vector3> extreme_points(const std::vector<Vector3>& points, int directions,
+                                    const char* stage, const Execution& execution);
 
-/// Axes of a point set's second moments: they turn with the points.
+/// Directions for extreme points to measure by, and for those to begin a search with.
+inline constexpr int thinning_directions = 2000;
+inline constexpr int coarse_directions = 200;
+
+/// Axes of a point set's second moments, which turn with the points: the right-handed ones whose
+/// first two look to where the points reach farther.
 Eigen::Matrix3d frame_of(const std::vector<Vector3>& points);
+
+/// The points as `frame` sees them, about `origin`.
+std::vector<Vector3> in_frame(const std::vector<Vector3>& points, const Vector3& origin,
+                              const Eigen::Matrix3d& frame);
 
 }  // namespace wscvt

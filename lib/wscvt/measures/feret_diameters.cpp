@@ -189,22 +189,21 @@ FeretDiameters feret_diameters(const IndexedMesh& mesh, const std::vector<Vector
                     " points has no diameters; give a closed mesh and the points of its hull.");
   }
   // About a point of the mesh, so that nothing cancels far from the origin.
-  const Vector3 origin = hull.front();
-  std::vector<Vector3> points(hull);
-  for (Vector3& p : points) p -= origin;
-  IndexedMesh local = mesh;
-  for (Vector3& p : local.points) p -= origin;
-
-  const Eigen::Matrix3d frame = frame_of(points);
-  const std::vector<Vector3> extremes = extreme_points(points, frame, diameter_stage, execution);
+  const Eigen::Matrix3d frame = frame_of(hull);
+  const std::vector<Vector3> points = in_frame(hull, hull.front(), frame);
+  const IndexedMesh local = {in_frame(mesh.points, hull.front(), frame), mesh.triangles};
+  const std::vector<Vector3> extremes =
+      extreme_points(points, thinning_directions, diameter_stage, execution);
   FeretDiameters result;
   execution.report(0.1, diameter_stage);
   const Pair ends =
       moved_apart(farthest_of_all(points.size() <= most_pairs_of ? points : extremes), points);
   result.largest = std::sqrt(ends.square);
+  const auto width_of = [](const std::vector<Vector3>& some) {
+    return [&some](const Vector3& direction) { return width_along(some, direction); };
+  };
   const DirectionMinimum narrowest = smallest_over_directions(
-      [&extremes](const Vector3& direction) { return width_along(extremes, direction); }, frame,
-      diameter_stage, execution);
+      width_of(extremes), width_of(extremes), width_of(points), diameter_stage, execution);
   result.smallest = width_along(points, narrowest.direction);
 
   const Sections sections(local, (ends.to - ends.from).normalized());

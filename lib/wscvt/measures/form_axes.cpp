@@ -57,7 +57,7 @@ BoxAlong::Box settled(const BoxAlong& about, BoxAlong::Box box) {
     smaller = false;
     for (std::size_t k = 1; k < 3; ++k) {
       const DirectionMinimum other =
-          descend(volume, {box.axes[k], volume(box.axes[k])}, 0.01, 1e-7);
+          descend(volume, {box.axes[k], volume(box.axes[k])}, 1e-3, 1e-6);
       if (!(other.value < (1.0 - 1e-9) * box.volume)) continue;
       box = about.box(other.direction);
       smaller = true;
@@ -81,14 +81,17 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points, const Execution& 
                                              "there is no box about it; remove it.");
   }
   check_scan_size(points);
-  std::vector<Vector3> local(points);
-  for (Vector3& p : local) p -= points.front();
-  const Eigen::Matrix3d frame = frame_of(local);
-  const std::vector<Vector3> extremes = extreme_points(local, frame, box_stage, execution);
-  const BoxAlong about(extremes);
+  const std::vector<Vector3> local = in_frame(points, points.front(), frame_of(points));
+  const std::vector<Vector3> extremes =
+      extreme_points(local, thinning_directions, box_stage, execution);
+  const std::vector<Vector3> few =
+      extreme_points(extremes, coarse_directions, box_stage, execution);
+  const BoxAlong about(local);
+  const auto volume_about = [](const std::vector<Vector3>& some) {
+    return [box = BoxAlong(some)](const Vector3& direction) { return box.box(direction).volume; };
+  };
   const DirectionMinimum smallest = smallest_over_directions(
-      [&about](const Vector3& direction) { return about.box(direction).volume; }, frame, box_stage,
-      execution);
+      volume_about(few), volume_about(extremes), volume_about(local), box_stage, execution);
   const BoxAlong::Box box = settled(about, about.box(smallest.direction));
 
   std::array<double, 3> edges{};

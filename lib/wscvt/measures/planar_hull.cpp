@@ -18,6 +18,7 @@ std::vector<Vector2> planar_hull(std::vector<Vector2>& points) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
   std::vector<Vector2> hull;
+  if (points.empty()) return hull;
   hull.reserve(points.size() + 1);
   const auto add = [&hull](const Vector2& p, std::size_t least) {
     while (hull.size() >= least + 2 &&

@@ -24,7 +24,7 @@ constexpr double edges_per_ball = 2.5;
 
 /// Patches of this share of the ball's radius: the search takes the same time on dense scans, and
 /// their own size widens the ball by a few per cent.
-constexpr double patch_share = 0.2;
+constexpr double patch_share = 0.125;
 
 constexpr std::size_t most_places = 10000;
 
