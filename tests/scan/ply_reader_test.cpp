@@ -155,6 +155,32 @@ TEST(PlyReader, ReadsWindowsAndOldMacintoshLines) {
   }
 }
 
+TEST(PlyReader, ItsLastLineNeedsNoEndHoweverShortItIs) {
+  // The shortest records that there are: a digit a line.
+  const std::string points = header_of("ascii",
+                                       "element vertex 3\nproperty float x\nproperty float y\n"
+                                       "property float z\nelement flag 4\nproperty uchar f\n") +
+                             "0 1 2\n3 4 5\n6 7 8\n1\n0\n1\n0";
+  for (const std::string end : {"", "\n", "\r\n", "\n\n"}) {
+    const IndexedMesh mesh = read(points + end);
+    ASSERT_EQ(mesh.points.size(), 3U);
+    EXPECT_EQ(mesh.points[2], Vector3(6, 7, 8));
+  }
+  // A line less is one too few.
+  EXPECT_NE(refusal(points.substr(0, points.size() - 2)), "");
+  // The last of the vertices, and the last of the faces, likewise.
+  const std::string vertices =
+      header_of("ascii", "element vertex 2\nproperty int x\nproperty int y\nproperty int z\n") +
+      "1 2 3\n4 5 6";
+  EXPECT_EQ(read(vertices).points, (std::vector<Vector3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(read(header_of("ascii",
+                           "element vertex 3\nproperty int x\nproperty int y\nproperty int z\n"
+                           "element face 1\nproperty list uchar int vertex_index\n") +
+                 "1 2 3\n4 5 6\n7 8 0\n3 0 1 2")
+                .triangles,
+            (std::vector<Triangle>{{0, 1, 2}}));
+}
+
 TEST(PlyReader, BelievesNoCount) {
   const std::string vertex = "property float x\nproperty float y\nproperty float z\n";
   const std::string four = "0 0 0\n0 0 1\n0 1 0\n1 0 0\n";
