@@ -15,7 +15,7 @@ namespace wscvt {
 /// is no roughness to speak of, and Ssk and Sku are 0.
 ///
 /// `cutoff` > 0, length: waves longer than that are form. Throws Error(InvalidInput) for a cut-off
-/// that is not positive, or less than three times mean_edge(mesh): such edges do not carry the
+/// that is not positive, or less than least_cutoff(mesh): such edges do not carry the
 /// waves.
 Roughness surface_roughness(const IndexedMesh& mesh, double cutoff, const Execution& execution);
 
