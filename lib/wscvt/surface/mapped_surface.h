@@ -8,17 +8,10 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/cube_map.h"
+#include "wscvt/surface/mesh_place.h"
 #include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
-
-/// The point of a mesh at a place on it.
-inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
-  // From a corner, so that on a large offset only what is small is multiplied.
-  const auto& [a, b, c] = mesh.triangles[place.triangle];
-  const Vector3& p = mesh.points[a];
-  return p + place.weights[1] * (mesh.points[b] - p) + place.weights[2] * (mesh.points[c] - p);
-}
 
 /// A scan spread over the unit sphere, one to one (sphere_map.h): every direction u has one place
 /// on the mesh, x(u). Within the spherical triangle of a face with corners at the directions a, b,

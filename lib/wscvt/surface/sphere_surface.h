@@ -23,12 +23,6 @@ struct PrincipalCurvatures {
   double minimum = 0.0;
 };
 
-/// A place on a triangle mesh: a triangle and barycentric weights >= 0 of its corners, sum 1.
-struct MeshPlace {
-  std::int32_t triangle = -1;
-  Vector3 weights = Vector3::Zero();
-};
-
 /// What a surface is like in a direction, in numbers that do not hang on coordinates. Of a radial
 /// surface they are had without the coordinates' derivatives.
 struct LocalShape {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// A place on a triangle mesh: a triangle and barycentric weights >= 0 of its corners, sum 1.
+struct MeshPlace {
+  std::int32_t triangle = -1;
+  Vector3 weights = Vector3::Zero();
+};
+
+/// The point of a mesh at a place on it.
+inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
+  // From a corner, so that on a large offset only what is small is multiplied.
+  const auto& [a, b, c] = mesh.triangles[place.triangle];
+  const Vector3& p = mesh.points[a];
+  return p + place.weights[1] * (mesh.points[b] - p) + place.weights[2] * (mesh.points[c] - p);
+}
+
+}  // namespace wscvt
