@@ -72,7 +72,10 @@ TEST(WorkerThreads, AnExceptionEndsTheLoopAndLeavesTheThreads) {
     EXPECT_THROW(workers.for_each(1000000,
                                   [&](std::size_t index) {
                                     ++ran;
-                                    if (index == 5) throw std::runtime_error("here");
+                                    if (index != 5) return;
+                                    // Others are at the loop by then.
+                                    while (wanted > 0 && ran < 1000) std::this_thread::yield();
+                                    throw std::runtime_error("here");
                                   }),
                  std::runtime_error);
     EXPECT_LT(ran, 1000000);
