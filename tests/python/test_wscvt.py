@@ -216,6 +216,23 @@ def test_progress_tells_and_cancels(scan):
         wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: 1 / 0)
 
 
+def test_handlers_of_signals_run_within_the_work():
+    # A timer's handler that is called only when the work is done is called once.
+    code = ("import signal, wscvt\n"
+            "calls = []\n"
+            "def handler(*_):\n"
+            "    calls.append(1)\n"
+            "    if len(calls) == 3: raise RuntimeError('the third call')\n"
+            "signal.signal(signal.SIGALRM, handler)\n"
+            "signal.setitimer(signal.ITIMER_REAL, 0.02, 0.02)\n"
+            "wscvt.create('ellipsoid', nodes=200000)\n"
+            "signal.setitimer(signal.ITIMER_REAL, 0.0)\n"
+            "print('to the end')\n")
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert "the third call" in ended.stderr
+    assert "to the end" not in ended.stdout
+
+
 def test_ctrl_c_ends_the_work():
     code = ("import os, signal, threading, wscvt\n"
             "threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
@@ -255,6 +272,20 @@ def test_create_and_describe_know_an_ellipsoid():
     assert shape["descriptors"]["axis_l_box"] == pytest.approx(2.0, rel=1e-2)
     larger = wscvt.describe(1.1 * made.vertices, made.faces, (made.vertices, made.faces))
     assert larger["descriptors"]["volume"]["error_percent"] == pytest.approx(33.1, abs=1e-6)
+
+
+def test_create_cuts_the_series_where_told(tmp_path):
+    # Degrees 0, 1 and 2, each with a size of its own.
+    file = tmp_path / "series.dat"
+    file.write_text("0 0 10 0\n1 0 0.5 0\n1 1 0.1 0.2\n2 0 0.4 0\n2 1 0 0.1\n2 2 0.3 0\n")
+    shapes = [wscvt.create("harmonics", coefficients_file=str(file), coefficient_degree=degree,
+                           nodes=200).vertices for degree in (0, 1, 2, -1)]
+    radii = np.linalg.norm(shapes[0], axis=1)
+    np.testing.assert_allclose(radii, 10.0 / math.sqrt(4.0 * math.pi), rtol=1e-9)
+    np.testing.assert_array_equal(shapes[2], shapes[3])
+    for a, b in [(0, 1), (1, 2)]:
+        assert np.abs(np.linalg.norm(shapes[a], axis=1).max() -
+                      np.linalg.norm(shapes[b], axis=1).max()) > 0.01
 
 
 def test_the_readme_works(scan, tmp_path, monkeypatch, capsys):
