@@ -65,13 +65,14 @@ class LabelVolumeOfAFile : public testing::Test {
       volume->next_row();
     }
   }
-  /// The file without its last bytes is refused, however many they are.
-  void expect_cut_is_refused(const std::string& name, std::size_t least_left) const {
+  /// The file without its last bytes is refused, however many they are, by itself or by its header.
+  void expect_cut_is_refused(const std::string& name, std::size_t least_left,
+                             const std::string& header = "") const {
     const std::uintmax_t size = fs::file_size(path(name));
     for (std::uintmax_t left = size - 1; left >= least_left; left -= 1 + left / 9) {
       SCOPED_TRACE(name + " of " + std::to_string(left) + " bytes");
       fs::resize_file(path(name), left);
-      EXPECT_ERROR(read(name), InputOutput);
+      EXPECT_ERROR(read(header.empty() ? name : header), InputOutput);
     }
   }
 
@@ -268,7 +269,9 @@ TEST_F(LabelVolumeOfAFile, EachAxisHasItsOwnDirectionAndStepInEveryFormat) {
       EXPECT_LT((placed.point(middle) - (origin + axes * voxel)).norm(), 1e-5);
     }
     // Sizes that are told take the place of all that: along x, y and z, from the origin on.
-    const VolumeGeometry told = open_volume(path(name), steps)->geometry();
+    VolumeChoice choice;
+    choice.voxel_size = steps;
+    const VolumeGeometry told = open_volume(path(name), choice)->geometry();
     EXPECT_EQ(told.point({1, 1, 1}), steps);
     EXPECT_EQ(told.point({0, 0, 0}), Vector3(0, 0, 0));
   }
@@ -302,7 +305,7 @@ TEST_F(LabelVolumeOfAFile, ReadsMetaImage) {
                                  "ElementType = MET_UINT\nBinaryDataByteOrderMSB = True\n"
                                  "ElementDataFile = a.raw\n");
   expect_labels("a.mhd");
-  expect_cut_is_refused("a.raw", 0 + 1);
+  expect_cut_is_refused("a.raw", 1, "a.mhd");
 }
 
 TEST_F(LabelVolumeOfAFile, ReadsVtiInAllItsForms) {
@@ -360,7 +363,7 @@ TEST_F(LabelVolumeOfAFile, ReadsRawFilesByTheirDescription) {
   expect_labels("a.json");
   EXPECT_EQ(geometry("a.json").unit, "um");
   EXPECT_LT((geometry("a.json").point({1.5, 0.5, 0.5}) - Vector3(1.5, 2.0, 3.0)).norm(), 1e-15);
-  expect_cut_is_refused("a.raw", 1);
+  expect_cut_is_refused("a.raw", 1, "a.json");
   for (const char* wrong : {"", "[]", "{}", R"({"dimensions": [7, 5], "type": "uint16"})",
                             R"({"dimensions": [7, 5, 3], "type": "float16"})",
                             R"({"dimensions": [7, 5, 3], "type": "uint8", "endian": "big"})",
@@ -518,7 +521,7 @@ TEST_F(LabelVolumeOfAFile, RefusesWhatIsWrongWithAHeaderOrCut) {
     expect_cut_is_refused("a.nrrd", 1);
   }
   EXPECT_ERROR(open_volume(path("not_there.nrrd")), InputOutput);
-  EXPECT_ERROR(open_volume(path("a.ply")), InputOutput);
+  EXPECT_ERROR(open_volume(path("a.ply")), InvalidInput);
 }
 
 TEST_F(LabelVolumeOfAFile, HoldsLabelsUpToTheLargest) {
