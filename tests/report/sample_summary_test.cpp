@@ -122,12 +122,10 @@ TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
   const auto all =
       nlohmann::ordered_json::parse(summary_json(summarise_table(path_))).at("distributions");
   const std::map<std::string, double> expected = {
-      {"equivalent_radius", 2.0},  {"volume", 3.0},
-      {"aspect_ratio", 0.25},      {"elongation", 0.3125},
-      {"flatness", 0.8},           {"sphericity", 0.875},
-      {"volume_error", 10.0},      {"area_error", 20.0},
-      {"sphericity_error", -50.0}, {"rms_distance", 1.5},
-      {"edge_ratio", 1.5},         {"smallest_angle", 33.0}};
+      {"equivalent_radius", 2.0}, {"volume", 3.0},      {"aspect_ratio", 0.25},
+      {"elongation", 0.3125},     {"flatness", 0.8},    {"sphericity", 0.875},
+      {"volume_error", 10.0},     {"area_error", 20.0}, {"sphericity_error", -50.0},
+      {"rms_distance", 1.5},      {"edge_ratio", 1.5},  {"smallest_angle", 33.0}};
   for (const auto& [key, value] : expected) {
     EXPECT_NEAR(all.at(key).at("median").get<double>(), value, 1e-12) << key;
   }

@@ -225,7 +225,8 @@ TEST_F(MeshIo, ReadsBinaryStlWithATailAndSaysHowMuchOfACutOneIsThere) {
   for (const char* header : {"made", "solid exported by SolidWorks", "SOLID"}) {
     std::string named = bytes;
     named.replace(0, 80, std::string(header).append(80 - std::string(header).size(), ' '));
-    for (const std::string& tail : {std::string("\r\n"), std::string(37, '\0'), std::string(49, 'x')}) {
+    for (const std::string& tail :
+         {std::string("\r\n"), std::string(37, '\0'), std::string(49, 'x')}) {
       std::ofstream(path("b.stl"), std::ios::binary) << named << tail;
       EXPECT_EQ(read_mesh(path("b.stl")).points, read_mesh(path("a.stl")).points) << header;
     }
