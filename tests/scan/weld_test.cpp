@@ -71,15 +71,15 @@ TEST(Weld, BoxHoldsEveryCornerOfEveryFaceAndNothingElse) {
   // the first and the last face, faces at the ends of the blocks, and each of the three corners. A
   // point that no face has is farther still.
   IndexedMesh mesh;
-  constexpr std::size_t faces = 40000;  // three blocks
-  for (std::size_t f = 0; f < faces; ++f) {
+  constexpr std::size_t face_count = 40000;  // three blocks
+  for (std::size_t f = 0; f < face_count; ++f) {
     const auto first = static_cast<std::int32_t>(mesh.points.size());
     for (int k = 0; k < 3; ++k) mesh.points.emplace_back(0.25 * k, 1.0 - 0.5 * k, 0.125 * k);
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
   mesh.points.emplace_back(1e9, -1e9, 1e9);
   for (const std::size_t face :
-       {std::size_t{0}, std::size_t{16383}, std::size_t{16384}, faces - 1}) {
+       {std::size_t{0}, std::size_t{16383}, std::size_t{16384}, face_count - 1}) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         for (const double place : {-7.5, 8.5}) {
