@@ -240,10 +240,10 @@ TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
   EXPECT_EQ(told.rfind("Walls of the grain stand along rays", 0), 0U) << told;
   EXPECT_NE(told.find("0.05"), std::string::npos) << told;
   // A ball has no walls.
-  const ShapeDescriptors ball = describe_shape(test::sphere(3), Execution(1));
-  EXPECT_EQ(ball.sdq_clipped_share, 0.0);
-  EXPECT_EQ(ball.sdq_half_clip, ball.sdq);
-  EXPECT_EQ(sdq_clip_sentence("the grain", ball), "");
+  const ShapeDescriptors sphere = describe_shape(test::sphere(3), Execution(1));
+  EXPECT_EQ(sphere.sdq_clipped_share, 0.0);
+  EXPECT_EQ(sphere.sdq_half_clip, sphere.sdq);
+  EXPECT_EQ(sdq_clip_sentence("the grain", sphere), "");
 }
 
 }  // namespace
