@@ -36,7 +36,7 @@ std::uint64_t digest_of(const IndexedMesh& mesh) {
   return hash;
 }
 
-struct Case {
+struct DigestCase {
   std::string scan;
   int nodes = 0;
   std::string kind;  ///< key of a weighting or of a sampling
@@ -44,13 +44,13 @@ struct Case {
 };
 
 /// Those of one scan.
-std::vector<Case> cases_of(const std::string& scan) {
+std::vector<DigestCase> cases_of(const std::string& scan) {
   std::ifstream file(WSCVT_MESHES_DIR "/../tests/remesh/as_published_digests.txt");
-  std::vector<Case> cases;
+  std::vector<DigestCase> cases;
   std::string line;
   while (std::getline(file, line)) {
     std::istringstream words(line);
-    Case one;
+    DigestCase one;
     if (words >> one.scan >> one.nodes >> one.kind >> one.digest && one.scan == scan) {
       cases.push_back(one);
     }
@@ -58,7 +58,7 @@ std::vector<Case> cases_of(const std::string& scan) {
   return cases;
 }
 
-RemeshOptions options_of(const Case& one) {
+RemeshOptions options_of(const DigestCase& one) {
   AsPublishedOptions published;
   for (const auto& row : enumerators<Weighting>()) {
     if (row.key == one.kind) published.weighting = row.value;
@@ -83,9 +83,9 @@ TEST_P(AsPublishedDigests, AreThoseOfVersion2) {
                                  "/../../shared/grains/";
   if (!std::filesystem::exists(folder + scan)) GTEST_SKIP() << scan << " is not here.";
   const IndexedMesh mesh = read_mesh(folder + scan);
-  const std::vector<Case> cases = cases_of(scan);
+  const std::vector<DigestCase> cases = cases_of(scan);
   ASSERT_EQ(cases.size(), 21U);
-  for (const Case& one : cases) {
+  for (const DigestCase& one : cases) {
     std::ostringstream digest;
     digest << std::hex << digest_of(remesh(mesh, options_of(one)).mesh);
     EXPECT_EQ(digest.str(), one.digest) << scan << " " << one.nodes << " " << one.kind;
