@@ -277,7 +277,8 @@ def test_create_and_describe_know_an_ellipsoid():
 def test_create_cuts_the_series_where_told(tmp_path):
     # Degrees 0, 1 and 2, each with a size of its own.
     file = tmp_path / "series.dat"
-    file.write_text("0 0 10 0\n1 0 0.5 0\n1 1 0.1 0.2\n2 0 0.4 0\n2 1 0 0.1\n2 2 0.3 0\n")
+    file.write_text("0 0 10 0\n1 -1 -0.1 0.2\n1 0 0.5 0\n1 1 0.1 0.2\n"
+                    "2 -2 0.3 0\n2 -1 0 0.1\n2 0 0.4 0\n2 1 0 0.1\n2 2 0.3 0\n")
     shapes = [wscvt.create("harmonics", coefficients_file=str(file), coefficient_degree=degree,
                            nodes=200).vertices for degree in (0, 1, 2, -1)]
     radii = np.linalg.norm(shapes[0], axis=1)
