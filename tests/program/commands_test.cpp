@@ -247,9 +247,9 @@ TEST_F(Commands, CreateRefusesWhatIsNoSurface) {
                   {"ellipsoid grain.ply --semi-axes 1 1", 2, "--semi-axes"},
                   {"superellipsoid grain.ply --polar-exponent 3", 2, "from 0.1 to 2"},
                   {"ellipsoid grain.ply --points", 2, "--points"},
-                  {"harmonics grain.ply", 2, ".dat or .json"},
+                  {"harmonics grain.ply", 2, ".dat, .sh or .json"},
                   {"harmonics grain.ply --coefficients no.json", 1, "no.json"},
-                  {"harmonics grain.ply --coefficients no.txt", 2, ".dat or .json"},
+                  {"harmonics grain.ply --coefficients no.txt", 2, ".dat, .sh or .json"},
                   {"ellipsoid grain.vtk", 2, ".ply"}},
                  {"grain.ply"});
 }
