@@ -56,7 +56,7 @@ for step in "$@"; do
       # of seeds and nodes, which keep references to what they are given: minutes instead of an hour.
       configure asan-ubsan
       cmake --build --preset asan-ubsan -j "$jobs" --target \
-        replay_mesh_file replay_coefficient_file replay_soup replay_remesh \
+        replay_mesh_file replay_coefficient_file replay_soup replay_remesh replay_volume_file \
         base_tests sphere_tests scan_tests exchange_tests tessellation_tests nodes_tests
       ctest --preset asan-ubsan -j "$jobs" -R '^replay_'
       ctest --preset asan-ubsan -j "$jobs" -L '^(base|sphere|scan|exchange|tessellation|nodes)$' ;;
