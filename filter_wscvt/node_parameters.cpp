@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "node_parameters.h"
 
+#include <cmath>
 #include <string>
 
 #include "wscvt/base/error.h"
@@ -131,7 +132,10 @@ AsPublishedOptions as_published_options(const CheckedValues& values) {
     case AnyPlacement::Default:
       break;
   }
-  if (values.real("EdgeRatio") != OnScanOptions().edge_ratio) {
+  // MeshLab's window of 2020.09 rounds a parameter to two digits when a script is edited there, so
+  // 1.105 comes back as 1.11: a value so near is the default.
+  constexpr double rounding = 0.006;
+  if (std::abs(values.real("EdgeRatio") - OnScanOptions().edge_ratio) > rounding) {
     refuse_value("EdgeRatio", typed_text(values.real("EdgeRatio")), Method::OnScan);
   }
   return options;
