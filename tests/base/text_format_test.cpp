@@ -93,8 +93,10 @@ TEST(TextFormat, CsvQuotesWhatNeedsIt) {
     const std::string doubled(sign == '"' ? 2 : 1, sign);
     for (const std::string before : {"", "a"}) {
       for (const std::string after : {"", "b"}) {
+        // A cell that begins with a carriage return is kept from being a formula.
+        const std::string guard = before.empty() && sign == '\r' ? "'" : "";
         EXPECT_EQ(csv_record({before + sign + after, "c"}),
-                  "\"" + before + doubled + after + "\",c\r\n");
+                  "\"" + guard + before + doubled + after + "\",c\r\n");
       }
     }
   }

@@ -326,11 +326,12 @@ TEST(MeshCheck, RefusesWhatEnclosesNothing) {
   expect_mentions(refusal({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}}}), {"1 face", "one place"});
 
   // Flat, near and far: a square of four vertices, covered on both sides along either diagonal.
-  for (const Vector3& offset : {Vector3(0, 0, 0), Vector3(1e6, 2e6, -3e6)}) {
-    const IndexedMesh flat{{{0, 0, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 0}},
-                           {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
-    expect_mentions(refusal(moved(flat, 1.0, offset)), {"no volume", "flat"});
-  }
+  const IndexedMesh flat{{{0, 0, 0}, {1, 0, 1}, {1, 1, 1}, {0, 1, 0}},
+                         {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+  expect_mentions(refusal(flat), {"no volume", "flat"});
+  // Where single precision comes in steps of a quarter it may have been its rounding.
+  const Vector3 far(1e6, 2e6, -3e6);
+  expect_mentions(refusal(moved(flat, 1.0, far)), {"no volume", "single precision"});
 }
 
 TEST(MeshCheck, DropsFacesWithoutAFinitePositionAndClosesTheHole) {

@@ -144,9 +144,10 @@ TEST(StlReader, TellsBinaryByItsSize) {
   const IndexedMesh mesh = read_content(read_stl, content);
   EXPECT_EQ(mesh.points, (std::vector<Vector3>{{3, 4, 5}, {6, 7, 8}, {9, 10, 11}}));
   expect_refusal(read_stl, content.substr(0, content.size() - 1), "cut off");
-  expect_refusal(read_stl, "grain" + content.substr(5, content.size() - 6), "declares 1 triangles");
+  expect_refusal(read_stl, "grain" + content.substr(5, content.size() - 6),
+                 "announces 1 triangles");
   expect_refusal(read_stl, std::string(84, '\0'), "no triangles");
-  expect_refusal(read_stl, std::string(80, 'a') + "\xff\xff\xff\xff", "declares 4294967295");
+  expect_refusal(read_stl, std::string(80, 'a') + "\xff\xff\xff\xff", "announces 4294967295");
 }
 
 TEST(StlReader, SaysWhatIsWrong) {

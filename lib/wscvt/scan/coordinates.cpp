@@ -82,21 +82,31 @@ void check_scan_size(const Vector3& extents) {
           " units.");
 }
 
-std::string precision_warning(const IndexedMesh& mesh) {
+namespace {
+
+/// Whether a mesh's faces have corners that it holds, its edges a length and its points a place.
+bool is_measurable(const IndexedMesh& mesh) {
   const auto count = static_cast<std::int64_t>(mesh.points.size());
   for (const Triangle& t : mesh.triangles) {
     for (const std::int32_t v : t) {
-      if (v < 0 || v >= count) return "";
+      if (v < 0 || v >= count) return false;
     }
   }
+  return mean_edge(mesh) > 0.0 && std::all_of(mesh.points.begin(), mesh.points.end(),
+                                              [](const Vector3& p) { return p.allFinite(); });
+}
+
+std::string lost(std::size_t faces) {
+  return faces == 0 ? "" : "; " + std::to_string(faces) + " faces have two corners at one point";
+}
+
+}  // namespace
+
+std::string single_precision_warning(const IndexedMesh& mesh) {
+  if (!is_measurable(mesh)) return "";
   double largest = 0.0;
   for (const Vector3& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   const double edge = mean_edge(mesh);
-  if (!(edge > 0.0) || !std::isfinite(largest)) return "";
-
-  const auto lost = [&](std::size_t faces) {
-    return faces == 0 ? "" : "; " + std::to_string(faces) + " faces have two corners at one point";
-  };
   // The step of floats as large as the largest coordinate, 24 binary digits below it.
   const double float_step = std::ldexp(1.0, std::ilogb(largest) - 23);
   if (float_step > coarse_step * edge && all_coordinates(mesh.points, [](double value) {
@@ -108,6 +118,13 @@ std::string precision_warning(const IndexedMesh& mesh) {
            ". Move the scan to the origin before it is saved in single precision, or save it in "
            "double.";
   }
+  return "";
+}
+
+std::string precision_warning(const IndexedMesh& mesh) {
+  const std::string far = single_precision_warning(mesh);
+  if (!far.empty() || !is_measurable(mesh)) return far;
+  const double edge = mean_edge(mesh);
   // Scans on a lattice, of voxels, come in coarse steps too, but lose no faces.
   const double power_of_ten = std::pow(10.0, std::floor(-std::log10(coarse_step * edge)));
   if (!std::isfinite(power_of_ten) || !all_coordinates(mesh.points, [&](double value) {

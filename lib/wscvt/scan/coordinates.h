@@ -27,4 +27,7 @@ void check_scan_size(const Vector3& extents);
 /// Empty too when an index does not fit, which check_mesh refuses.
 std::string precision_warning(const IndexedMesh& mesh);
 
+/// Of these the sentence on coordinates in single precision far from the origin, or nothing.
+std::string single_precision_warning(const IndexedMesh& mesh);
+
 }  // namespace wscvt
