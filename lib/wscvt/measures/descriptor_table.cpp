@@ -105,6 +105,16 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& d) {
   return rows;
 }
 
+namespace {
+
+/// The label of two rows. Where they differ it is by the cut-off lengths in brackets, which have a
+/// row of their own.
+std::string shared_label(const std::string& one, const std::string& other) {
+  return one == other ? one : one.substr(0, one.find(" (")) + " (each at its cut-off)";
+}
+
+}  // namespace
+
 std::vector<DescriptorComparison> compare_descriptors(const std::vector<DescriptorValue>& reference,
                                                       const std::vector<DescriptorValue>& values) {
   if (reference.size() != values.size()) {
@@ -134,7 +144,8 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
     const double error = from.on_ratio_scale && !near_zero
                              ? relative_error_percent(to.value, from.value)
                              : not_a_number;
-    rows.push_back({from.key, from.label, from.unit, from.value, to.value, error});
+    rows.push_back(
+        {from.key, shared_label(from.label, to.label), from.unit, from.value, to.value, error});
   }
   return rows;
 }
