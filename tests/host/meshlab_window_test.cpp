@@ -439,14 +439,14 @@ TEST(Window, ApplyDuringARunIsRefusedAndTheRunGoesOn) {
     meshlab.type(nodes);
     meshlab.apply(everyday_title);
   };
-  apply_with("100000");
+  apply_with("20000");
   QThread::msleep(300);
   meshlab.apply(everyday_title);
   meshlab.expect_failure("applied_twice.png");
   EXPECT_TRUE(meshlab.wait_for_log("is still running; wait until it is done"))
       << meshlab.log().toStdString();
   ASSERT_TRUE(meshlab.wait_for_log(everyday_title + " in ")) << meshlab.log().toStdString();
-  EXPECT_TRUE(meshlab.wait_for_nodes(100000)) << meshlab.log().toStdString();
+  EXPECT_TRUE(meshlab.wait_for_nodes(20000)) << meshlab.log().toStdString();
   // The advice: once it is done.
   apply_with("300");
   EXPECT_TRUE(meshlab.wait_for_nodes(300)) << meshlab.log().toStdString();
