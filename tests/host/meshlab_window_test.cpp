@@ -434,7 +434,7 @@ TEST(Window, ApplyDuringARunIsRefusedAndTheRunGoesOn) {
   ASSERT_TRUE(meshlab.open_filter(everyday_title)) << meshlab.log().toStdString();
   // The first field is that of the number of nodes; a run of so many takes some seconds.
   const auto apply_with = [&](const QString& nodes) {
-    meshlab.click(everyday_title, 0.6, meshlab.place(everyday_title).height() - 306);
+    meshlab.click(everyday_title, 0.6, meshlab.place(everyday_title).height() - 148);
     meshlab.press("ctrl+a");
     meshlab.type(nodes);
     meshlab.apply(everyday_title);
