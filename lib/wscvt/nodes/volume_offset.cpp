@@ -4,15 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
-
-double mesh_volume(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles) {
-  double six = 0.0;
-  for (const auto& [a, b, c] : triangles) six += six_volumes(points[a], points[b], points[c]);
-  return six / 6.0;
-}
 
 double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                         double volume) {
@@ -32,7 +27,8 @@ double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle
     double slope = 0.0;
     for (const Vector3& g : gradient) slope += g.norm();
     if (!(slope > 0.0)) break;
-    const double missing = volume - mesh_volume(points, triangles);
+    const double missing =
+        volume - mesh_sums(points, triangles, Vector3::Zero(), Execution(1)).volume();
     if (std::abs(missing) <= rounding * std::abs(volume)) break;
     const double distance = missing / slope;
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -13,7 +13,4 @@ namespace wscvt {
 double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                         double volume);
 
-/// Volume of a closed, outward mesh.
-double mesh_volume(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles);
-
 }  // namespace wscvt

@@ -2,6 +2,7 @@
 #include "wscvt/remesh/prepared_grain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh/as_published.h"
 #include "wscvt/remesh/on_scan.h"
@@ -73,6 +75,12 @@ void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget&
                   std::string(harmonic_degree_option.key) + ", or use the method on-scan.");
 }
 
+/// Of a closed, outward mesh about the origin; length.
+double equivalent_radius(const IndexedMesh& mesh, const Execution& execution) {
+  const double volume = mesh_sums(mesh.points, mesh.triangles, Vector3::Zero(), execution).volume();
+  return std::cbrt(3.0 * volume / (4.0 * pi));
+}
+
 /// Makes the method ready that the options hold. This is where it is chosen.
 void choose_method(const RemeshOptions& options, const Execution& execution, PreparedGrain& grain) {
   const bool with_curvatures = options.measures.node_curvatures;
@@ -122,8 +130,11 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
   const auto* on_scan = std::get_if<OnScanOptions>(&options.method);
   // 40,962 points, whose chords lose 0.02 % of the volume; as a scan four times as many.
   const int frequency = on_scan == nullptr ? 64 : 128;
-  grain.scan = normalize(mesh_of_surface(scaled, frequency, execution.part(0.0, 0.3)),
-                         Vector3::Zero(), 1.0, execution.part(0.3, 0.5));
+  IndexedMesh samples = mesh_of_surface(scaled, frequency, execution.part(0.0, 0.3));
+  // Fitted nodes get the volume of their scan, so the scan gets the surface's: its equivalent
+  // radius is 1 then, as that of any scan.
+  const double radius = on_scan == nullptr ? 1.0 : equivalent_radius(samples, execution);
+  grain.scan = normalize(std::move(samples), Vector3::Zero(), radius, execution.part(0.3, 0.5));
   grain.scan.unit = unit;
   grain.input.volume = integrals.volume;
   grain.input.area = integrals.area;
