@@ -13,7 +13,6 @@
 #include "progress_line.h"
 #include "signals.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 

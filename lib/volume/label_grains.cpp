@@ -6,7 +6,6 @@
 
 #include "volume/volume_parts.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {

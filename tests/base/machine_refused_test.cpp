@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/expect_error.h"
+#include "wscvt/base/error.h"
 
 namespace wscvt {
 namespace {

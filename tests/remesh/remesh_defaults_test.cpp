@@ -74,8 +74,7 @@ TEST(RemeshDefaults, AHandfulOfNodesGoesRoundALongGrain) {
 
 TEST(RemeshDefaults, FourNodesOnABallAreARegularTetrahedron) {
   const RemeshResult result = remeshed(test::sphere(4), 4);
-  // The fit reads the facets of the ball's mesh, which have no symmetry of a tetrahedron.
-  EXPECT_NEAR(result.quality.edge_length.minimum / result.quality.edge_length.maximum, 1.0, 0.05);
+  EXPECT_NEAR(result.quality.edge_length.minimum / result.quality.edge_length.maximum, 1.0, 0.02);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "support/read_content.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/error.h"
 #include "wscvt/scan/byte_reader.h"
 #include "wscvt/scan/obj_reader.h"
 #include "wscvt/scan/off_reader.h"

@@ -13,7 +13,7 @@
 #include "support/expect_error.h"
 #include "support/made_volume.h"
 #include "volume/label_table.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {

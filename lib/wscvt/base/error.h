@@ -27,6 +27,14 @@ class Error : public std::runtime_error {
   ErrorCode code_;
 };
 
+/// What the machine refuses, such as room on a disk or another open file: an Error(InputOutput)
+/// that says nothing about the grain. The same call may go well later. Memory that is refused is a
+/// std::bad_alloc.
+class MachineRefused : public Error {
+ public:
+  explicit MachineRefused(const std::string& sentence) : Error(ErrorCode::InputOutput, sentence) {}
+};
+
 /// Throws Error(InvalidInput) with the sentence.
 [[noreturn]] inline void refuse(const std::string& sentence) {
   throw Error(ErrorCode::InvalidInput, sentence);

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "wscvt/base/error.h"
+
 namespace wscvt {
 
 namespace {

@@ -3,17 +3,7 @@
 
 #include <string>
 
-#include "wscvt/base/error.h"
-
 namespace wscvt {
-
-/// What the machine refuses, such as room on a disk or another open file: an Error(InputOutput)
-/// that says nothing about the grain. The same call may go well later. Memory that is refused is a
-/// std::bad_alloc.
-class MachineRefused : public Error {
- public:
-  explicit MachineRefused(const std::string& sentence) : Error(ErrorCode::InputOutput, sentence) {}
-};
 
 /// Throws the error of a file that could not be opened for reading, by the number that the system
 /// gave (errno). Error(InputOutput) where this file is not there or is not to be read;

@@ -17,7 +17,7 @@
 #include <system_error>
 #include <utility>
 
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/error.h"
 
 namespace wscvt {
 

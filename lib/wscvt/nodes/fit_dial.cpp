@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/nodes/scan_nodes_options.h"
+
 namespace wscvt {
 
 FitDial fit_dial(double ratio) {

@@ -23,11 +23,6 @@ struct FitDial {
   bool polishes = false;          ///< whether nodes are moved one by one after a round
 };
 
-/// The least and the most that may be asked for, and the default.
-inline constexpr double least_edge_ratio = 1.08;
-inline constexpr double most_edge_ratio = 1.7;
-inline constexpr double default_edge_ratio = 1.105;
-
 /// `ratio` in [least_edge_ratio, most_edge_ratio], which is not checked.
 FitDial fit_dial(double ratio);
 

@@ -2,10 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <vector>
-
-#include "wscvt/nodes/fit_dial.h"
 
 namespace wscvt {
 
@@ -15,6 +11,11 @@ enum class CellWeighting {
   Curvature,      ///< WSCVT-C: smaller cells where the surface bends
   ErrorAdaptive,  ///< cells that let flat triangles err alike everywhere
 };
+
+/// The least and the most mean edge ratio that may be asked for, and the default.
+inline constexpr double least_edge_ratio = 1.08;
+inline constexpr double most_edge_ratio = 1.7;
+inline constexpr double default_edge_ratio = 1.105;
 
 /// How nodes are placed on a scan.
 struct ScanNodesOptions {
@@ -38,15 +39,11 @@ struct ScanNodesReport {
   int fit_flips = 0;
   int relocations = 0;
   int polished = 0;
-  double mean_edge_ratio = 0.0;  ///< reached
-  double rms_distance = 0.0;     ///< of the scan's samples from the result; equivalent radii
-  double volume_offset = 0.0;    ///< the last, along the normals; equivalent radii
+  double mean_edge_ratio = 0.0;             ///< reached
+  double volume_offset = 0.0;               ///< the last, along the normals; equivalent radii
   std::size_t mended_intersections = 0;     ///< pairs of triangles that met and were parted
   std::size_t self_intersections = 0;       ///< pairs left
   std::size_t scan_self_intersections = 0;  ///< pairs of the scan, counted where any are left
-  /// 0, or a number of nodes above that tried which should be enough for the body's thin parts.
-  int enough_nodes = 0;
-  std::vector<std::string> notes;  ///< sentences for the log
 };
 
 }  // namespace wscvt

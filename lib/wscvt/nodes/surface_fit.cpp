@@ -57,7 +57,6 @@ class SurfaceFit {
       ++report_.rounds;
     }
     mend();
-    report_.rms = std::sqrt(state_.mean_square);
     return report_;
   }
 

@@ -13,7 +13,6 @@ struct SurfaceFitReport {
   int relocations = 0;
   int polished = 0;  ///< moves of single nodes
   int mending = 0;   ///< passes that mended small angles in the end
-  double rms = 0.0;  ///< root mean square distance of the samples; length
 };
 
 /// Fits a mesh to the samples of a scan: nodes move, edges are flipped and nodes relocated while

@@ -100,11 +100,6 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
                        "together than " +
                        nodes + " can follow. Use more nodes.");
   }
-  const int enough = report->nodes.enough_nodes;
-  if (enough > 0) {
-    warnings.push_back(nodes + " are too few for the thin parts of this grain. Use at least " +
-                       std::to_string(enough) + " nodes.");
-  }
 }
 
 void warn_of_fit(const RemeshResult& result, Sentences& warnings) {

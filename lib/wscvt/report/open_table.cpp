@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/error.h"
 
 // Streams of the standard library can neither lock a file nor take its end off.
 namespace wscvt {

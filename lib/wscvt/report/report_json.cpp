@@ -92,13 +92,10 @@ Json json_of(const OnScanReport& report) {
           {"fit_rounds", nodes.fit_rounds},
           {"fit_flips", nodes.fit_flips},
           {"fit_relocations", nodes.relocations},
-          {"fit_rms_distance", nodes.rms_distance},
           {"volume_offset", nodes.volume_offset},
           {"mean_edge_ratio", nodes.mean_edge_ratio},
           {"mended_intersections", nodes.mended_intersections},
-          {"self_intersections", nodes.self_intersections},
-          {"enough_nodes", nodes.enough_nodes},
-          {"notes", nodes.notes}};
+          {"self_intersections", nodes.self_intersections}};
 }
 
 Json json_of(const HarmonicFitReport& fit, double equivalent_radius) {

@@ -169,7 +169,6 @@ void append_method(const OnScanReport& report, const RemeshResult& result,
                                 (nodes.mended_intersections > 0
                                      ? ", " + std::to_string(nodes.mended_intersections) + " mended"
                                      : std::string())));
-  for (const std::string& note : nodes.notes) lines.push_back(line("Note", note));
 }
 
 void append_method(const AsPublishedReport& report, const RemeshResult& result,

@@ -6,6 +6,7 @@
 #include <istream>
 #include <utility>
 
+#include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/scan/text_fields.h"
 
