@@ -9,7 +9,6 @@ void to_input_units(double unit, const Vector3& centre, RemeshResult& result) {
   if (auto* report = std::get_if<AsPublishedReport>(&result.method)) scale(report->fit, unit);
   if (auto* report = std::get_if<OnScanReport>(&result.method)) {
     report->nodes.volume_offset *= unit;
-    report->nodes.rms_distance *= unit;
   }
   for (double& coefficient : result.coefficients.radius) coefficient *= unit;
   for (std::vector<double>& coordinate : result.coefficients.map) {
