@@ -366,9 +366,9 @@ py::object describe(const Points& vertices, const py::object& faces, const py::o
   return parsed(descriptor_json(measures));
 }
 
-}  // namespace
+// What the module holds.
 
-PYBIND11_MODULE(_wscvt, module) {
+void define_error(py::module_& module) {
   static py::handle error_type =
       py::register_exception<Error>(module, "Error", PyExc_RuntimeError).inc_ref();
   error_type.attr("__module__") = "wscvt";
@@ -389,8 +389,9 @@ PYBIND11_MODULE(_wscvt, module) {
                       "nodes.");
     }
   });
-  module.attr("__version__") = wscvt::version();
+}
 
+void define_remesh_class(py::module_& module) {
   py::class_<Remesh> remesh_class(
       module, "Remesh",
       "A remesh of N nodes: vertices (N, 3) float64 and faces (m, 3) int32, m = 2 N - 4 without "
@@ -427,7 +428,9 @@ PYBIND11_MODULE(_wscvt, module) {
         for (const std::string& line : report_lines(one.result)) text += line + "\n";
         return text;
       });
+}
 
+void define_options(py::module_& module) {
   module.def(
       "options",
       [](const std::string& method) {
@@ -450,6 +453,9 @@ PYBIND11_MODULE(_wscvt, module) {
     for_each_method_option(published, dict);
     return dict.choices_;
   });
+}
+
+void define_work(py::module_& module) {
   module.def(
       "remesh", &remesh, py::arg("vertices"), py::arg("faces"), py::kw_only(),
       py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("source") = "",
@@ -476,6 +482,9 @@ PYBIND11_MODULE(_wscvt, module) {
       "Size, form, roundness, roughness and orientation of a closed mesh, as the dictionary "
       "of a JSON report; with reference=(vertices, faces) errors and distances against that. "
       "Arrays as for remesh; lengths in the unit of the mesh.");
+}
+
+void define_files(py::module_& module) {
   module.def(
       "read_mesh",
       [](const std::string& path) {
@@ -492,4 +501,15 @@ PYBIND11_MODULE(_wscvt, module) {
       },
       py::arg("path"), py::arg("vertices"), py::arg("faces"),
       "Writes a PLY, STL, OBJ or OFF file, by its ending, whole or not at all.");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_wscvt, module) {
+  module.attr("__version__") = wscvt::version();
+  define_error(module);
+  define_remesh_class(module);
+  define_options(module);
+  define_work(module);
+  define_files(module);
 }

@@ -22,7 +22,7 @@ namespace wscvt {
 namespace {
 
 MappedSurface mapped_body(const IndexedMesh& mesh) {
-  return MappedSurface(mesh, map_to_sphere(mesh, {}, Execution(1)).directions, Execution(1));
+  return MappedSurface(mesh, map_to_sphere(mesh, Execution(1)).directions, Execution(1));
 }
 
 TEST(HarmonicMap, AnEllipsoidIsOfDegreeOne) {

@@ -68,8 +68,7 @@ struct Fan {
   std::vector<ReferenceTriangle> references;
   VertexFan fan;
 
-  Fan(std::mt19937_64& engine, double size, double weight = 0.0)
-      : fan(weight), angle_weight(weight) {
+  Fan(std::mt19937_64& engine, double size) {
     std::uniform_real_distribution<double> share(0.0, 1.0);
     const Eigen::Matrix3d rotation = test::random_rotation(engine());
     const int count = 4 + static_cast<int>(engine() % 5);
@@ -103,17 +102,13 @@ struct Fan {
       const double dirichlet = 0.5 * (c[0] * (q - r).squaredNorm() + c[1] * (r - p).squaredNorm() +
                                       c[2] * (p - q).squaredNorm());
       const double ratio = references[i].area / area;
-      sum += dirichlet * (1.0 + 2.0 * angle_weight * ratio + ratio * ratio);
+      sum += dirichlet * (1.0 + ratio * ratio);
     }
     return sum;
   }
 
   Vector3 middle;
-  double angle_weight;
 };
-
-/// Without a weight of the angles, with a small and with a large one.
-double weight_of_round(int round) { return std::array{0.0, 0.7, 30.0}[round % 3]; }
 
 TEST(VertexFan, EnergyIsTheSymmetricDirichletEnergy) {
   std::mt19937_64 engine(test::announced(2));
@@ -122,7 +117,7 @@ TEST(VertexFan, EnergyIsTheSymmetricDirichletEnergy) {
   int outside = 0;
   for (int round = 0; round < 100; ++round) {
     const double size = round % 2 == 0 ? 0.5 : 0.01;
-    const Fan fan(engine, size, weight_of_round(round));
+    const Fan fan(engine, size);
     for (int k = 0; k < 10; ++k) {
       const Vector3 p =
           (fan.middle + size * Vector3(off(engine), off(engine), off(engine))).normalized();
@@ -151,7 +146,7 @@ TEST(VertexFan, ImproveGoesToTheLeastEnergyInAFewStepsOfNewton) {
   for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE(round);
     const double size = round % 2 == 0 ? 0.5 : 0.01;
-    const Fan fan(engine, size, weight_of_round(round));
+    const Fan fan(engine, size);
     Vector3 p = fan.middle;
     double way = 1.0;
     int steps = 0;

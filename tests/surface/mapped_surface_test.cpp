@@ -20,7 +20,7 @@ namespace wscvt {
 namespace {
 
 MappedSurface mapped(const IndexedMesh& mesh) {
-  return MappedSurface(mesh, map_to_sphere(mesh, {}, Execution(1)).directions, Execution(1));
+  return MappedSurface(mesh, map_to_sphere(mesh, Execution(1)).directions, Execution(1));
 }
 
 TEST(MappedSurface, LocatesWhatItEvaluates) {

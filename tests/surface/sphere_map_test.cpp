@@ -22,9 +22,7 @@
 namespace wscvt {
 namespace {
 
-SphereMap map_of(const IndexedMesh& mesh) {
-  return map_to_sphere(mesh, SphereMapOptions{}, Execution(1));
-}
+SphereMap map_of(const IndexedMesh& mesh) { return map_to_sphere(mesh, Execution(1)); }
 
 /// One to one: all triangles counter-clockwise, and the sphere covered once.
 void expect_bijective(const IndexedMesh& mesh, const SphereMap& map, const std::string& what) {
@@ -41,17 +39,10 @@ void expect_bijective(const IndexedMesh& mesh, const SphereMap& map, const std::
   }
   EXPECT_EQ(turned, 0U) << what;
   EXPECT_NEAR(angles, 4.0 * test::pi, 1e-9) << what;
-  std::vector<std::int32_t> order = map.collapse_order;
-  std::sort(order.begin(), order.end());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    ASSERT_EQ(order[i], static_cast<std::int32_t>(i)) << what;
-  }
-  ASSERT_EQ(order.size(), mesh.points.size()) << what;
 }
 
-std::string refusal(const IndexedMesh& mesh, const SphereMapOptions& options = {}) {
-  return test::refusal(ErrorCode::InvalidInput,
-                       [&] { map_to_sphere(mesh, options, Execution(1)); });
+std::string refusal(const IndexedMesh& mesh) {
+  return test::refusal(ErrorCode::InvalidInput, [&] { map_to_sphere(mesh, Execution(1)); });
 }
 
 TEST(SphereMap, CoversTheSphereOnce) {
@@ -130,35 +121,15 @@ TEST(SphereMap, DoesNotDependOnTheUnitOfLength) {
   const SphereMap one = map_of(body);
   const SphereMap other = map_of(test::scaled(body, Vector3::Constant(1024.0)));
   EXPECT_EQ(one.directions, other.directions);
-  EXPECT_EQ(one.collapse_order, other.collapse_order);
 }
 
 TEST(SphereMap, SameBytesOnAnyNumberOfThreads) {
   const IndexedMesh body = test::lumpy(5);
-  const SphereMap one = map_to_sphere(body, {}, Execution(1));
-  const SphereMap two = map_to_sphere(body, {}, Execution(2));
+  const SphereMap one = map_to_sphere(body, Execution(1));
+  const SphereMap two = map_to_sphere(body, Execution(2));
   EXPECT_EQ(one.directions, two.directions);
-  EXPECT_EQ(one.collapse_order, two.collapse_order);
   EXPECT_EQ(one.report.mean_angle_distortion, two.report.mean_angle_distortion);
   EXPECT_EQ(one.report.energy, two.report.energy);
-}
-
-TEST(SphereMap, OrderBeginsWithASpreadSubset) {
-  const IndexedMesh body = test::sphere(5);
-  const SphereMap map = map_of(body);
-  // With N vertices on the sphere the farthest point of it is about sqrt(4 pi / N) away, twice that
-  // where they are spread as loosely as a collapse leaves them.
-  for (const std::size_t count : {10U, 100U, 1000U}) {
-    double farthest = 0.0;
-    for (const Vector3& p : body.points) {
-      double nearest = 2.0;
-      for (std::size_t i = 0; i < count; ++i) {
-        nearest = std::min(nearest, (p - body.points[map.collapse_order[i]]).norm());
-      }
-      farthest = std::max(farthest, nearest);
-    }
-    EXPECT_LT(farthest, 2.0 * std::sqrt(4.0 * test::pi / static_cast<double>(count))) << count;
-  }
 }
 
 TEST(SphereMap, RefusesNeedlesWithAdviceThatWorks) {
@@ -166,7 +137,7 @@ TEST(SphereMap, RefusesNeedlesWithAdviceThatWorks) {
   constexpr double height = 1000.0;
   const IndexedMesh needles = test::scaled(test::bicone(1000), Vector3(1.0, 1.0, height));
   try {
-    map_to_sphere(needles, {}, Execution(1));
+    map_to_sphere(needles, Execution(1));
     ADD_FAILURE() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
@@ -179,7 +150,7 @@ TEST(SphereMap, RefusesNeedlesWithAdviceThatWorks) {
     p /= std::hypot(p.x(), p.y()) + std::abs(p.z());
     p.z() *= height;
   }
-  const SphereMap map = map_to_sphere(even, {}, Execution(1));
+  const SphereMap map = map_to_sphere(even, Execution(1));
   EXPECT_EQ(map.directions.size(), even.points.size());
 }
 
@@ -187,7 +158,7 @@ TEST(SphereMap, StopsWhenAskedTo) {
   const IndexedMesh body = test::sphere(5);
   std::set<std::string> stages;
   double last = 0.0;
-  map_to_sphere(body, {}, Execution(1, [&](double fraction, const std::string& stage) {
+  map_to_sphere(body, Execution(1, [&](double fraction, const std::string& stage) {
                   EXPECT_GE(fraction, last);
                   last = fraction;
                   stages.insert(stage);
@@ -197,9 +168,8 @@ TEST(SphereMap, StopsWhenAskedTo) {
   EXPECT_GE(stages.size(), 2U);
   for (const double stop : {0.0, 0.2, 0.6}) {
     try {
-      map_to_sphere(body, {}, Execution(1, [&](double fraction, const std::string&) {
-                      return fraction < stop;
-                    }));
+      map_to_sphere(
+          body, Execution(1, [&](double fraction, const std::string&) { return fraction < stop; }));
       ADD_FAILURE() << "not cancelled";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::Cancelled);
@@ -241,38 +211,6 @@ TEST(SphereMap, RefusesWhatIsNoSphere) {
   }
   touching.points.pop_back();
   EXPECT_NE(refusal(touching).find("touches itself"), std::string::npos);
-}
-
-TEST(SphereMap, AWeightOfTheAnglesKeepsThemAtTheCostOfTheAreas) {
-  const IndexedMesh rod = test::bent_grain_mesh(test::bent_grain("rod"), 3000);
-  SphereMapReport before = map_to_sphere(rod, SphereMapOptions(), Execution(1)).report;
-  SphereMapOptions options;
-  for (const double weight : {3.0, 30.0}) {
-    options.angle_weight = weight;
-    const SphereMapReport report = map_to_sphere(rod, options, Execution(1)).report;
-    EXPECT_LT(report.mean_angle_distortion, 0.9 * before.mean_angle_distortion);
-    EXPECT_LT(report.smallest_area_ratio, before.smallest_area_ratio);
-    before = report;
-  }
-}
-
-TEST(SphereMap, RefusesOptionsOutOfRange) {
-  const IndexedMesh mesh = test::sphere(1);
-  SphereMapOptions options;
-  options.level_growth = 1.0;
-  EXPECT_NE(refusal(mesh, options).find("1.1 to 10"), std::string::npos);
-  options = {};
-  options.coarse_sweeps = -1;
-  EXPECT_NE(refusal(mesh, options).find("0 to 1000"), std::string::npos);
-  options = {};
-  options.fine_sweeps = 1001;
-  EXPECT_NE(refusal(mesh, options).find("0 to 1000"), std::string::npos);
-  options = {};
-  options.tolerance = std::nan("");
-  EXPECT_NE(refusal(mesh, options).find("0 or more"), std::string::npos);
-  options = {};
-  options.angle_weight = -1.0;
-  EXPECT_NE(refusal(mesh, options).find("0 to 1000"), std::string::npos);
 }
 
 }  // namespace

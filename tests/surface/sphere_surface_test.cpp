@@ -89,7 +89,7 @@ TEST(SphereSurface, DerivativesAreThoseOfThePosition) {
 TEST(SphereSurface, DerivativesOfAMappedScanAreThoseWithinAFace) {
   // So few faces that hardly a step leaves one; where it does nothing can be said.
   const IndexedMesh mesh = test::box(1, 2, 3);
-  const MappedSurface surface(mesh, map_to_sphere(mesh, {}, Execution(1)).directions, Execution(1));
+  const MappedSurface surface(mesh, map_to_sphere(mesh, Execution(1)).directions, Execution(1));
   const double step = 1e-5;
   int compared = 0;
   for (const Vector3& u : random_directions(200, test::announced(10))) {

@@ -20,7 +20,7 @@ SeriesCoefficients scan_harmonics(const IndexedMesh& scan, int degree, const Exe
     coefficients.radius = fit_harmonics(rays, degree, execution).surface.coefficients();
     return coefficients;
   }
-  SphereMap map = map_to_sphere(scan, SphereMapOptions(), execution.part(0.0, 0.8));
+  SphereMap map = map_to_sphere(scan, execution.part(0.0, 0.8));
   const MappedSurface mapped(scan, std::move(map.directions), execution.part(0.8, 0.9));
   coefficients.map = fit_harmonic_map(mapped, degree, execution.part(0.9, 1.0)).map.coefficients();
   return coefficients;

@@ -57,7 +57,7 @@ double VertexFan::energy(const Vector3& p) const {
     const double dirichlet = 0.5 * (t.opposite_edge + t.cotangent_q * (p - t.r).squaredNorm() +
                                     t.cotangent_r * square_q);
     const double s = t.area_square / area_square;
-    sum += dirichlet * (1.0 + 2.0 * weighted_ratio(s) + s);
+    sum += dirichlet * (1.0 + s);
   }
   return sum;
 }
@@ -83,22 +83,20 @@ double VertexFan::improve(Vector3& p) const {
         0.5 * (t.opposite_edge + t.cotangent_q * from_r.squaredNorm() + t.cotangent_r * square_q);
     const double inverse = 1.0 / area;
     const double s = t.area_square * inverse * inverse;
-    // The energy is D f(A) with f = 1 + 2 root + s, f' = -2 (root + s) / A and
-    // f'' = (4 root + 6 s) / A^2.
-    const double root = weighted_ratio(s);
-    const double f = 1.0 + 2.0 * root + s;
+    // The energy is D f(A) with f = 1 + s, f' = -2 s / A and f'' = 6 s / A^2.
+    const double f = 1.0 + s;
     before += dirichlet * f;
     const double a1 = 0.5 * t.normal.dot(e1);
     const double a2 = 0.5 * t.normal.dot(e2);
     const double d1 = gradient_d.dot(e1);
     const double d2 = gradient_d.dot(e2);
-    const double along_area = 2.0 * (root + s) * dirichlet * inverse;
+    const double along_area = 2.0 * s * dirichlet * inverse;
     g1 += f * d1 - along_area * a1;
     g2 += f * d2 - along_area * a2;
     radial += f * gradient_d.dot(p) - along_area * area;
     isotropic += f * (t.cotangent_q + t.cotangent_r);
-    const double square = 3.0 * along_area * inverse - 2.0 * root * dirichlet * inverse * inverse;
-    const double mixed = 2.0 * (root + s) * inverse;
+    const double square = 3.0 * along_area * inverse;
+    const double mixed = 2.0 * s * inverse;
     h11 += square * a1 * a1 - 2.0 * mixed * d1 * a1;
     h12 += square * a1 * a2 - mixed * (d1 * a2 + d2 * a1);
     h22 += square * a2 * a2 - 2.0 * mixed * d2 * a2;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
@@ -25,14 +24,8 @@ ReferenceTriangle reference_triangle(const Vector3& a, const Vector3& b, const V
 /// sphere (Smith and Schaefer 2015, "Bijective parameterization with free boundaries", eq. 6): the
 /// sum of D (1 + A_ref^2 / A^2) with D = (1/2) sum of cot l^2 and A = det(p, q, r) / 2. As A goes
 /// to zero the energy goes to infinity, so a descent turns no triangle over.
-///
-/// An angle weight w >= 0 adds 2 w A_ref D / A, which is least where angles are kept, however large
-/// the triangle becomes (Hormann and Greiner 2000, "MIPS: an efficient global parametrization
-/// method"); an isometry still has the least energy.
 class VertexFan {
  public:
-  explicit VertexFan(double angle_weight = 0.0) : angle_weight_(angle_weight) {}
-
   void clear() { triangles_.clear(); }
 
   /// Adds the triangle (vertex, q, r); `cotangents` at the vertex, at q and at r, `area_square` of
@@ -57,12 +50,6 @@ class VertexFan {
     double area_square;
     double certain;  ///< A^2 above this times |p - q|^2 is positive beyond rounding
   };
-  /// A_ref / A by its square, times the weight.
-  double weighted_ratio(double square) const {
-    return angle_weight_ > 0.0 ? angle_weight_ * std::sqrt(square) : 0.0;
-  }
-
-  double angle_weight_;
   std::vector<FanTriangle> triangles_;
 };
 

@@ -26,25 +26,24 @@ constexpr std::size_t insertions_a_report = 4096;
 /// A neighbour of more is left to the sweeps: each insertion into its ring would go round it.
 constexpr std::int32_t largest_inserted_valence = 32;
 
-void check_options(const SphereMapOptions& options) {
-  require_in_range(options.level_growth, level_growth_option);
-  require_in_range(options.coarse_sweeps, coarse_sweeps_option);
-  require_in_range(options.fine_sweeps, fine_sweeps_option);
-  require_in_range(options.tolerance, map_tolerance_option);
-  require_in_range(options.angle_weight, angle_weight_option);
-}
-
+/// The map is optimised as a whole once a level has so many times the vertices of the one before.
+constexpr double level_growth = 1.5;
+/// Sweeps over all vertices at most, at levels of up to so many vertices; there are none above,
+/// where they change nothing.
+constexpr int coarse_sweeps = 40;
+constexpr int fine_sweeps = 10;
+constexpr std::size_t coarse_vertices = 4000;
+constexpr std::size_t fine_vertices = 30000;
+/// A level is done when four sweeps lower the energy by less than this share.
+constexpr double level_tolerance = 2e-4;
 /// A vertex that moves by less than the root of this of its edges' length is still.
 constexpr double still = 1e-5;
 
 /// Puts the vertices of a collapsed mesh on the sphere, one after another.
 class Embedding {
  public:
-  Embedding(MeshCollapse& mesh, const SphereMapOptions& options)
-      : mesh_(mesh),
-        options_(options),
-        directions_(mesh.points().size(), Vector3::Zero()),
-        fan_(options.angle_weight) {
+  explicit Embedding(MeshCollapse& mesh)
+      : mesh_(mesh), directions_(mesh.points().size(), Vector3::Zero()) {
     const Vector3 corners[4] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       const auto v = static_cast<std::int32_t>(i);
@@ -67,11 +66,11 @@ class Embedding {
       const std::size_t count = mesh_.vertex_count();
       if (static_cast<double>(count) >= next_level || mesh_.collapses() == 0) {
         set_area_unit();
-        const int sweeps = count <= options_.coarse_vertices ? options_.coarse_sweeps
-                           : count <= options_.fine_vertices ? options_.fine_sweeps
-                                                             : 0;
+        const int sweeps = count <= coarse_vertices ? coarse_sweeps
+                           : count <= fine_vertices ? fine_sweeps
+                                                    : 0;
         optimise(sweeps, execution);
-        next_level = options_.level_growth * static_cast<double>(count);
+        next_level = level_growth * static_cast<double>(count);
       }
       if (count % insertions_a_report == 0) {
         execution.report(1.0 - static_cast<double>(mesh_.collapses()) / static_cast<double>(total),
@@ -81,7 +80,6 @@ class Embedding {
   }
 
   std::vector<Vector3>& directions() { return directions_; }
-  std::vector<std::int32_t>& order() { return order_; }
   SphereMapReport& report() { return report_; }
 
  private:
@@ -107,7 +105,7 @@ class Embedding {
     load_fan(v);
     fan_.improve(directions_[v]);
     fan_.improve(directions_[v]);
-    if (mesh_.vertex_count() > options_.fine_vertices) return;
+    if (mesh_.vertex_count() > fine_vertices) return;
     mesh_.visit_outgoing(v, [&](std::int32_t h) {
       const std::int32_t u = target_of(mesh_.triangles(), h);
       if (mesh_.valence(u) > largest_inserted_valence) return;
@@ -226,7 +224,7 @@ class Embedding {
       ++report_.sweeps;
       if (sweep % 4 == 0) {
         const double after = energy();
-        if (before - after < options_.tolerance * after) break;
+        if (before - after < level_tolerance * after) break;
         before = after;
       }
       execution.report(
@@ -248,13 +246,12 @@ class Embedding {
           0.5 * (r.cotangents[0] * (b - a).squaredNorm() + r.cotangents[1] * b.squaredNorm() +
                  r.cotangents[2] * a.squaredNorm());
       const double ratio = area_unit_ * r.area / area;
-      sum += dirichlet * (1.0 + 2.0 * options_.angle_weight * ratio + ratio * ratio);
+      sum += dirichlet * (1.0 + ratio * ratio);
     }
     return sum;
   }
 
   MeshCollapse& mesh_;
-  const SphereMapOptions& options_;
   std::vector<Vector3> directions_;
   std::vector<std::int32_t> order_;
   SphereMapReport report_;
@@ -367,16 +364,13 @@ void measure_distortion(const std::vector<Vector3>& points, const std::vector<Tr
 
 }  // namespace
 
-SphereMap map_to_sphere(const IndexedMesh& mesh, const SphereMapOptions& options,
-                        const Execution& execution) {
-  check_options(options);
+SphereMap map_to_sphere(const IndexedMesh& mesh, const Execution& execution) {
   MeshCollapse collapse(mesh, execution);
   collapse.collapse_to(4, execution.part(0.0, 0.4));
-  Embedding embedding(collapse, options);
+  Embedding embedding(collapse);
   embedding.run(execution.part(0.4, 1.0));
   SphereMap result;
   result.directions = std::move(embedding.directions());
-  result.collapse_order = std::move(embedding.order());
   result.report = embedding.report();
   result.report.vertices = mesh.points.size();
   result.report.triangles = mesh.triangles.size();
