@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "completion.h"
 
-#include <string_view>
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "wscvt/remesh/remesh_options.h"
 
@@ -9,7 +12,8 @@ namespace wscvt::program {
 
 namespace {
 
-/// A case of bash for every option whose values have names.
+/// A case of bash for every option whose values have names. An option of both methods has a case
+/// with the values of both.
 class ChoiceCases {
  public:
   explicit ChoiceCases(const CLI::App& command) : command_(command) {}
@@ -25,18 +29,30 @@ class ChoiceCases {
     if (option == nullptr) return;
     std::string names = name;
     for (const std::string& letter : option->get_snames()) names += "|-" + letter;
-    std::string choices;
+    auto [place, is_new] = values_.emplace(names, std::vector<std::string>());
+    if (is_new) order_.push_back(names);
+    std::vector<std::string>& values = place->second;
     for (const auto& row : enumerators<Enumeration>()) {
-      choices.append(choices.empty() ? "" : " ").append(row.key);
+      const std::string key(row.key);
+      if (std::find(values.begin(), values.end(), key) == values.end()) values.push_back(key);
     }
-    cases_ += "    " + names + ") words=\"" + choices + "\" ;;\n";
   }
 
-  const std::string& text() const { return cases_; }
+  std::string text() const {
+    std::string cases;
+    for (const std::string& names : order_) {
+      std::string values;
+      for (const std::string& value : values_.at(names))
+        values += (values.empty() ? "" : " ") + value;
+      cases += "    " + names + ") words=\"" + values + "\" ;;\n";
+    }
+    return cases;
+  }
 
  private:
   const CLI::App& command_;
-  std::string cases_;
+  std::map<std::string, std::vector<std::string>> values_;
+  std::vector<std::string> order_;
 };
 
 /// "--nodes --method ...", without those that only old scripts use.
@@ -55,6 +71,7 @@ std::string options_of(const CLI::App& app) {
 
 std::string bash_completion(const CLI::App& program) {
   const RemeshOptions options;
+  const AsPublishedOptions published;
   std::string commands;
   std::string command_cases;
   for (const CLI::App* command : program.get_subcommands({})) {
@@ -63,6 +80,7 @@ std::string bash_completion(const CLI::App& program) {
   }
   ChoiceCases choices(*program.get_subcommand("remesh"));
   for_each_option(options, choices);
+  for_each_method_option(published, choices);
   return "# bash completion of wscvt; wscvt --completion writes it\n"
          "_wscvt() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} words=\n"

@@ -45,7 +45,13 @@ TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("wscvt describe a.ply --ref"), Words());
   Words weightings;
   for (const auto& row : enumerators<CellWeighting>()) weightings.emplace(row.key);
+  for (const auto& row : enumerators<Weighting>()) weightings.emplace(row.key);
   EXPECT_EQ(completed("wscvt remesh --weighting ''"), weightings);
+  // Both methods' values: those of the method on the scan are other ones.
+  Words placements;
+  for (const auto& row : enumerators<ScanPlacement>()) placements.emplace(row.key);
+  for (const auto& row : enumerators<PublishedPlacement>()) placements.emplace(row.key);
+  EXPECT_EQ(completed("wscvt remesh --placement ''"), placements);
   EXPECT_EQ(completed("wscvt a.ply b.ply -w er"), Words{"error-adaptive"});
   EXPECT_EQ(completed("wscvt remesh scan"), Words()) << "files are bash's own";
   EXPECT_EQ(completed("wscvt remesh --js"), Words()) << "that name is of old scripts";
