@@ -74,7 +74,10 @@ void BatchGrains::begin(std::size_t first) {
 
 GrainScan BatchGrains::read(std::size_t grain, const Execution& execution) {
   const Place& place = places_[grain];
-  if (place.volume < 0) return {read_mesh(names_[grain], execution), {}};
+  if (place.volume < 0) {
+    MeshFile file = read_mesh_file(names_[grain], execution);
+    return {std::move(file.mesh), std::move(file.warnings)};
+  }
   LabelGrain label = volumes_[static_cast<std::size_t>(place.volume)]->read(place.grain, execution);
   if (label.mesh.points.empty()) {
     throw Error(ErrorCode::InvalidInput,

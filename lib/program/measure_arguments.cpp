@@ -35,8 +35,11 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
     }
   });
   Work work(common);
+  std::vector<std::string> warnings;
   const auto read = [&](const std::string& path, double begin, double end) {
-    return NamedMesh{path, read_mesh(path, work.execution().part(begin, end))};
+    MeshFile file = read_mesh_file(path, work.execution().part(begin, end));
+    warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
+    return NamedMesh{path, std::move(file.mesh)};
   };
   NamedMesh grain = read(arguments.grain, 0.0, 0.5 * reading_share);
   std::optional<NamedMesh> compared;
@@ -49,7 +52,8 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
       write_report(path, measures, origin_of(arguments.grain), execution);
     });
   }
-  work.print(remarks(measures), descriptor_lines(measures));
+  for (std::string& remark : remarks(measures)) warnings.push_back(std::move(remark));
+  work.print(warnings, descriptor_lines(measures));
 }
 
 }  // namespace wscvt::program

@@ -89,15 +89,16 @@ int run(const RemeshArguments& arguments) {
       (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
 
   Work work(common);
-  IndexedMesh scan = read_mesh(arguments.scan, work.execution().part(0.0, reading_share));
+  MeshFile file = read_mesh_file(arguments.scan, work.execution().part(0.0, reading_share));
   if (!simulation.grids.empty()) {
     checked([&] {
-      check_grid_of(scan, options, simulation.options,
+      check_grid_of(file.mesh, options, simulation.options,
                     work.execution().part(reading_share, reading_share));
     });
   }
-  const RemeshResult result =
-      remesh(std::move(scan), options, work.execution().part(reading_share, 1.0));
+  RemeshResult result =
+      remesh(std::move(file.mesh), options, work.execution().part(reading_share, 1.0));
+  result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
 
   const ReportOrigin origin = origin_of(arguments.scan);
   const SimulationFrame frame = simulation_frame(result.original, simulation.options.frame);

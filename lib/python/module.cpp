@@ -366,6 +366,16 @@ py::object describe(const Points& vertices, const py::object& faces, const py::o
   return parsed(descriptor_json(measures));
 }
 
+/// The mesh of a file, whose warnings become Python's.
+IndexedMesh warned(wscvt::MeshFile file) {
+  for (const std::string& warning : file.warnings) {
+    if (PyErr_WarnEx(PyExc_UserWarning, wscvt::readable(warning).c_str(), 1) != 0) {
+      throw py::error_already_set();
+    }
+  }
+  return std::move(file.mesh);
+}
+
 // What the module holds.
 
 void define_error(py::module_& module) {
@@ -488,7 +498,7 @@ void define_files(py::module_& module) {
   module.def(
       "read_mesh",
       [](const std::string& path) {
-        const IndexedMesh mesh = wscvt::read_mesh(path);
+        const IndexedMesh mesh = warned(wscvt::read_mesh_file(path));
         return std::make_pair(array_of(mesh.points), array_of(mesh.triangles));
       },
       py::arg("path"),

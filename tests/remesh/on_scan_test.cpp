@@ -12,6 +12,7 @@
 #include "grains/handled_body.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
+#include "support/voxel_body.h"
 #include "wscvt/base/error.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
@@ -259,6 +260,21 @@ TEST(OnScan, WhatIsNotAccurateIsSaidWithSettingsThatHelp) {
   const RemeshResult enough = remesh(box, options_of(800));
   EXPECT_FALSE(is_inaccurate(enough));
   EXPECT_TRUE(enough.suggestions.empty());
+}
+
+// The steps' area is not the grain's, so a remesh that misses them is not inaccurate.
+TEST(OnScan, AScanInVoxelStepsIsToldAsSuchAndNoSettingThatFollowsThemIsSuggested) {
+  const double radius = 12.0;
+  const IndexedMesh steps =
+      test::voxel_ellipsoid(Vector3::Constant(radius), Vector3(13.1, 12.7, 13.4), 27);
+  const RemeshResult result = remesh(steps, options_of(300));
+  EXPECT_TRUE(says(result.warnings, "The scan is made of the faces of voxels"));
+  EXPECT_FALSE(says(result.warnings, "not accurate"));
+  EXPECT_TRUE(result.suggestions.empty());
+  // The reason: a ball's steps have 1.5 times its area, the remesh is nearer to it than half way.
+  const double area = 4.0 * test::pi * radius * radius;
+  EXPECT_GT(result.original.area, 1.4 * area);
+  EXPECT_LT(result.remesh.area, 1.2 * area);
 }
 
 }  // namespace

@@ -98,6 +98,8 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
       {[](RemeshResult& r) { as_published(r).overhang_fraction = 0.01; }, {}},
       {[](RemeshResult& r) { as_published(r).overhang_fraction = 0.011; }, {"Overhangs", "1.1 %"}},
       {[](RemeshResult& r) { r.input.components = 3; }, {"3 separate bodies"}},
+      {[](RemeshResult& r) { r.input.has_voxel_steps = true; },
+       {"The scan is made of the faces of voxels", "wscvt extract"}},
       {[](RemeshResult& r) {
          r.input.components = 2;
          r.input.inner_components = 1;

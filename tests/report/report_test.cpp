@@ -388,6 +388,15 @@ TEST(Report, HoldsTheMassPropertiesOfBothBodies) {
   }
 }
 
+TEST(Report, JsonSaysWhetherTheScanIsInVoxelSteps) {
+  RemeshResult result = example();
+  for (const bool steps : {false, true}) {
+    result.input.has_voxel_steps = steps;
+    const auto json = nlohmann::json::parse(report_json(result));
+    EXPECT_EQ(json.at("input").at("voxel_steps").get<bool>(), steps);
+  }
+}
+
 TEST(Report, JsonStaysValidWithNumbersAndBytesItCannotHold) {
   RemeshResult result = example();
   result.remesh.sdq = std::numeric_limits<double>::quiet_NaN();

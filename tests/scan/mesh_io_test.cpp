@@ -228,8 +228,16 @@ TEST_F(MeshIo, ReadsBinaryStlWithATailAndSaysHowMuchOfACutOneIsThere) {
     for (const std::string& tail :
          {std::string("\r\n"), std::string(37, '\0'), std::string(49, 'x')}) {
       std::ofstream(path("b.stl"), std::ios::binary) << named << tail;
-      EXPECT_EQ(read_mesh(path("b.stl")).points, read_mesh(path("a.stl")).points) << header;
+      const MeshFile file = read_mesh_file(path("b.stl"));
+      EXPECT_EQ(file.mesh.points, read_mesh(path("a.stl")).points) << header;
+      ASSERT_EQ(file.warnings.size(), 1U) << header;
+      EXPECT_EQ(file.warnings[0].find("\"" + path("b.stl") + "\" has " +
+                                      std::to_string(tail.size()) + " bytes behind"),
+                0U)
+          << file.warnings[0];
     }
+    std::ofstream(path("b.stl"), std::ios::binary) << named;
+    EXPECT_TRUE(read_mesh_file(path("b.stl")).warnings.empty());
     for (const std::size_t left : {named.size() - 1, named.size() - 50, named.size() - 251}) {
       std::ofstream(path("b.stl"), std::ios::binary) << named.substr(0, left);
       const std::string held = std::to_string((left - 84) / 50);

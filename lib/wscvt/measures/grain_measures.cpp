@@ -7,6 +7,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/voxel_steps.h"
 
 namespace wscvt {
 
@@ -87,6 +88,7 @@ void append_remarks(const MeasuredGrain& grain, std::vector<std::string>& senten
                         grain.name + "' was measured.");
   }
   const MeshCheckReport& report = grain.checked.report;
+  if (report.has_voxel_steps) sentences.push_back(voxel_steps_advice("'" + grain.name + "'"));
   const double mended = report.flap_area_share + report.filled_area_share;
   if (mended > 0.0) {
     sentences.push_back("Holes and non-manifold edges of '" + grain.name +

@@ -6,6 +6,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/scan/closing_advice.h"
+#include "wscvt/scan/voxel_steps.h"
 
 namespace wscvt {
 
@@ -44,6 +45,7 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
                        " of the bounding box is filled. Check the result against the scan.");
   }
   const MeshCheckReport& input = result.input;
+  if (input.has_voxel_steps) warnings.push_back(voxel_steps_advice("The scan"));
   const std::size_t bodies = input.components - input.inner_components;
   if (input.components > input.inner_components + 1) {
     warnings.push_back("The scan has " + std::to_string(bodies) +
@@ -121,7 +123,7 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
   // Of nodes on the scan the series only decides the cells.
   if (options.placement != PublishedPlacement::Series) return;
   const double residual = fit.residual / result.input.equivalent_radius;
-  if (residual > residual_warning_limit) {
+  if (residual > residual_warning_limit && !result.input.has_voxel_steps) {
     warnings.push_back("The SH surface is " + format_percent(residual) +
                        " of the equivalent radius (rms) off the scan. " +
                        (fit.limit == DegreeLimit::None ? "Raise --degree, or use" : "Use") +
@@ -225,6 +227,7 @@ void warn_of_search(const RemeshResult& result, Sentences& warnings) {
 bool is_inaccurate(const RemeshResult& result) {
   const auto* on_scan = std::get_if<OnScanOptions>(&result.options.method);
   if (on_scan != nullptr && on_scan->placement == ScanPlacement::ContactFit) return false;
+  if (result.input.has_voxel_steps) return false;
   return result.rms_distance > distance_warning_limit * result.input.equivalent_radius ||
          std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
 }

@@ -20,7 +20,8 @@ inline constexpr double distance_warning_limit = 0.01;
 inline constexpr double area_warning_limit = 0.02;
 
 /// Whether the remesh is farther from the scan than either limit. What a contact fit is fitted to
-/// is not the scan's shape, so it is never inaccurate.
+/// is not the scan's shape, so it is never inaccurate; nor is the remesh of a scan in voxel steps,
+/// from which it should differ.
 bool is_inaccurate(const RemeshResult& result);
 
 /// What the user of a result ought to know, a sentence or more each, the scan's faults first. The

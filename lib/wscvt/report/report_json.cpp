@@ -65,7 +65,8 @@ Json json_of(const MeshCheckReport& input) {
           {"used_faces", input.faces},
           {"genus", input.genus},
           {"centroid", json_of(input.centroid)},
-          {"equivalent_radius", input.equivalent_radius}};
+          {"equivalent_radius", input.equivalent_radius},
+          {"voxel_steps", input.has_voxel_steps}};
 }
 
 Json json_of(const CutHandle& handle) {

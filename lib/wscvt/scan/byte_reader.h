@@ -54,6 +54,10 @@ class ByteReader {
   /// Number of the line read last, from 1.
   std::size_t line_number() const { return line_number_; }
 
+  /// Notes what is odd about the file and does no harm: "path" + what.
+  void warn(const std::string& what) { warnings_.push_back("\"" + path_ + "\" " + what); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   /// Throws Error(InputOutput): "path" + what.
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -72,6 +76,7 @@ class ByteReader {
   std::uintmax_t unread_;  ///< in the stream
   std::size_t line_number_ = 0;
   char line_end_ = '\n';
+  std::vector<std::string> warnings_;
   Execution execution_;
 };
 

@@ -23,6 +23,7 @@
 #include "wscvt/scan/manifold_edges.h"
 #include "wscvt/scan/touching_vertices.h"
 #include "wscvt/scan/usable_scan.h"
+#include "wscvt/scan/voxel_steps.h"
 #include "wscvt/scan/weld.h"
 
 namespace wscvt {
@@ -280,6 +281,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.filled_area_share = filled.area / report.area;
   judge_mending(options, boundary_edges, filled.widest / diagonal, report);
   judge_others(mesh, others, options, execution, report);
+  report.has_voxel_steps = has_voxel_steps(mesh);
   result.mesh = std::move(mesh);
   execution.report(1.0, stage);
   return result;

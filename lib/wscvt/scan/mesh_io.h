@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
@@ -19,6 +20,15 @@ namespace wscvt {
 /// short, names vertices it does not hold or has only faces of less than three corners, or when the
 /// extension is not known, and Error(Cancelled).
 IndexedMesh read_mesh(const std::string& path, const Execution& execution = Execution(1));
+
+/// A mesh as its file holds it.
+struct MeshFile {
+  IndexedMesh mesh;
+  std::vector<std::string> warnings;  ///< of what is odd about the file, a sentence each
+};
+
+/// The same with what is odd about the file and does no harm, such as bytes behind its end.
+MeshFile read_mesh_file(const std::string& path, const Execution& execution = Execution(1));
 
 /// Whether the extension of a path is that of one of the formats.
 bool is_mesh_file(const std::string& path);

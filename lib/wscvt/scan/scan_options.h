@@ -82,6 +82,7 @@ struct MeshCheckReport {
   double area = 0.0;                   ///< length^2
   Vector3 centroid = Vector3::Zero();  ///< of the volume, in the input's coordinates
   double equivalent_radius = 0.0;      ///< (3 V / 4 pi)^(1/3), length
+  bool has_voxel_steps = false;        ///< the mesh kept is the faces of voxels
 };
 
 /// A closed, oriented, connected 2-manifold and how it was obtained.

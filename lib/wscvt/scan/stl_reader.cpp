@@ -45,6 +45,12 @@ IndexedMesh read_binary(ByteReader& reader) {
                 std::to_string(held) + "; it is no STL file" + export_again);
   }
   if (triangles == 0) reader.fail("holds no triangles" + std::string(export_again));
+  if (reader.remaining() > expected) {
+    const std::uintmax_t more = reader.remaining() - expected;
+    reader.warn("has " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
+                " behind its last triangle, which were left out. If triangles are missing, export "
+                "it again from the program it came from.");
+  }
   reader.skip(header_size);
   IndexedMesh mesh;
   mesh.points.reserve(3 * triangles);
