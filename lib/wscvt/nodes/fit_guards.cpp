@@ -19,11 +19,13 @@ constexpr double loose_margin = 0.1;
 /// Triangles with fewer samples are judged by those about their corners.
 constexpr std::size_t enough_samples = 4;
 constexpr std::size_t enough_to_agree = 3;
+constexpr std::size_t guarded_block = 1024;
 
 class GuardedMove {
  public:
-  GuardedMove(FitState& state, std::vector<Vector3> step)
+  GuardedMove(FitState& state, std::vector<Vector3> step, const Execution& execution)
       : state_(state),
+        execution_(execution),
         mesh_(state.mesh),
         step_(std::move(step)),
         old_(mesh_.points),
@@ -35,12 +37,16 @@ class GuardedMove {
         old_sharpness_(mesh_.triangles.size()),
         loose_(mesh_.triangles.size(), 0) {
     const std::vector<Vector3> about = state_.node_normals();
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      old_sharpness_[t] = mesh_.sharpness(t);
-      old_normals_[t] = state_.unit_normal(t);
-      outward_[t] = outward_of(t, about);
-      loose_[t] = !state_.round.late && old_normals_[t].dot(outward_[t]) < least_agreement ? 1 : 0;
-    }
+    const auto look = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        old_sharpness_[t] = mesh_.sharpness(t);
+        old_normals_[t] = state_.unit_normal(t);
+        outward_[t] = outward_of(t, about);
+        loose_[t] =
+            !state_.round.late && old_normals_[t].dot(outward_[t]) < least_agreement ? 1 : 0;
+      }
+    };
+    execution_.parallel_for(mesh_.triangles.size(), guarded_block, look);
   }
 
   void run() {
@@ -106,23 +112,27 @@ class GuardedMove {
     }
   }
 
+  bool is_spoilt(std::size_t t) const {
+    const Vector3& normal = normals_[t];
+    const double after = normal.dot(outward_[t]);
+    const double before = old_normals_[t].dot(outward_[t]);
+    if (loose_[t] != 0) return after < before - loose_margin;
+    return normal.dot(old_normals_[t]) < most_step_turn ||
+           mesh_.sharpness(t) > std::max(state_.round.sharpness_limit, old_sharpness_[t]) + 1e-9 ||
+           (after < least_agreement && after < before);
+  }
+
   bool mark_spoilt() {
-    bool any = false;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      normals_[t] = state_.unit_normal(t);
-      const Vector3& normal = normals_[t];
-      const double after = normal.dot(outward_[t]);
-      const double before = old_normals_[t].dot(outward_[t]);
-      bool spoilt = false;
-      if (loose_[t] != 0) {
-        spoilt = after < before - loose_margin;
-      } else {
-        spoilt =
-            normal.dot(old_normals_[t]) < most_step_turn ||
-            mesh_.sharpness(t) > std::max(state_.round.sharpness_limit, old_sharpness_[t]) + 1e-9 ||
-            (after < least_agreement && after < before);
+    std::vector<char> spoilt(mesh_.triangles.size());
+    execution_.parallel_for(spoilt.size(), guarded_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        normals_[t] = state_.unit_normal(t);
+        spoilt[t] = is_spoilt(t) ? 1 : 0;
       }
-      if (!spoilt) continue;
+    });
+    bool any = false;
+    for (std::size_t t = 0; t < spoilt.size(); ++t) {
+      if (spoilt[t] == 0) continue;
       mark(t);
       any = true;
     }
@@ -153,17 +163,15 @@ class GuardedMove {
     state_.build_hash();
     bool any = false;
     none_meet_ = true;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      for (const std::int32_t u : state_.hash.meeting(mesh_, static_cast<std::int32_t>(t))) {
-        none_meet_ = false;
-        const auto at = [&](std::size_t f) {
-          const auto& [a, b, c] = mesh_.triangles[f];
-          return std::array<Vector3, 3>{old_[a], old_[b], old_[c]};
-        };
-        if (triangles_cross(mesh_.triangles[t], at(t), mesh_.triangles[u], at(u))) continue;
-        any = mark_free(t) || any;
-        any = mark_free(u) || any;
-      }
+    for (const auto& [t, u] : state_.hash.pairs(mesh_, execution_)) {
+      none_meet_ = false;
+      const auto at = [&](std::int32_t f) {
+        const auto& [a, b, c] = mesh_.triangles[f];
+        return std::array<Vector3, 3>{old_[a], old_[b], old_[c]};
+      };
+      if (triangles_cross(mesh_.triangles[t], at(t), mesh_.triangles[u], at(u))) continue;
+      any = mark_free(t) || any;
+      any = mark_free(u) || any;
     }
     return any;
   }
@@ -174,15 +182,13 @@ class GuardedMove {
     for (int round = 0; round < most_rounds; ++round) {
       state_.build_hash();
       bool any = false;
-      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        for (const std::int32_t u : state_.hash.meeting(mesh_, static_cast<std::int32_t>(t))) {
-          for (const std::size_t f : {t, static_cast<std::size_t>(u)}) {
-            for (const std::int32_t v : mesh_.triangles[f]) {
-              if (shares_[v] == 0.0) continue;
-              shares_[v] = 0.0;
-              mesh_.points[v] = old_[v];
-              any = true;
-            }
+      for (const auto& [t, u] : state_.hash.pairs(mesh_, execution_)) {
+        for (const std::int32_t f : {t, u}) {
+          for (const std::int32_t v : mesh_.triangles[f]) {
+            if (shares_[v] == 0.0) continue;
+            shares_[v] = 0.0;
+            mesh_.points[v] = old_[v];
+            any = true;
           }
         }
       }
@@ -191,6 +197,7 @@ class GuardedMove {
   }
 
   FitState& state_;
+  const Execution& execution_;
   EditMesh& mesh_;
   std::vector<Vector3> step_;
   std::vector<Vector3> old_;
@@ -206,8 +213,8 @@ class GuardedMove {
 
 }  // namespace
 
-void move_nodes(FitState& state, std::vector<Vector3> step) {
-  GuardedMove(state, std::move(step)).run();
+void move_nodes(FitState& state, std::vector<Vector3> step, const Execution& execution) {
+  GuardedMove(state, std::move(step), execution).run();
 }
 
 }  // namespace wscvt

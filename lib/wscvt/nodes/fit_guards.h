@@ -11,6 +11,7 @@ namespace wscvt {
 /// nodes of triangles that it would turn over, make sharp, turn against the scan, fold, or drive
 /// through others. Triangles that stand against the scan already, as in the walls of a notch in a
 /// rim, may do what makes them no worse. Builds `state.hash` anew; samples are to be placed after.
-void move_nodes(FitState& state, std::vector<Vector3> step);
+/// The same on any number of threads.
+void move_nodes(FitState& state, std::vector<Vector3> step, const Execution& execution);
 
 }  // namespace wscvt

@@ -83,11 +83,13 @@ class Relocations {
   }
 
   int run() {
-    removals_ = find_removals();
+    const std::vector<Insertion> insertions = find_insertions();
+    if (insertions.empty()) return 0;
+    removals_ = find_removals(insertions.front().gain / relocation_gain);
     if (removals_.empty()) return 0;
     int done = 0;
     std::size_t first = 0;
-    for (const Insertion& insertion : find_insertions()) {
+    for (const Insertion& insertion : insertions) {
       if (done >= static_cast<int>(most_)) break;
       const Quad quad = quad_of(insertion.t, insertion.c);
       if (quad.h < 0 || is_locked(quad)) continue;
@@ -140,7 +142,8 @@ class Relocations {
     return off * off;
   }
 
-  std::vector<Removal> find_removals() const {
+  /// The cheapest removals, of those that cost less than `most`.
+  std::vector<Removal> find_removals(double most) const {
     std::vector<std::pair<double, std::int32_t>> candidates;
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
       const auto v = static_cast<std::int32_t>(i);
@@ -157,7 +160,7 @@ class Relocations {
     std::vector<Removal> removals(kept);
     execution_.parallel_for(kept, candidate_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        removals[i] = cheapest_removal(candidates[i].second);
+        removals[i] = cheapest_removal(candidates[i].second, most);
       }
     });
     removals.erase(std::remove_if(removals.begin(), removals.end(),
@@ -167,10 +170,11 @@ class Relocations {
     return removals;
   }
 
-  Removal cheapest_removal(std::int32_t v) const {
+  Removal cheapest_removal(std::int32_t v, double most) const {
     const NodeRing ring = ring_of(mesh_, v);
     const std::vector<std::int32_t> pool = state_.pool(ring.triangles);
     Removal best;
+    best.cost = most;
     best.v = v;
     double before = 0.0;
     for (const std::int32_t t : ring.triangles) before += face_errors_[t];
@@ -253,13 +257,11 @@ class Relocations {
 
   std::vector<Insertion> find_insertions() const {
     std::vector<Insertion> insertions;
-    const double least = relocation_gain * std::max(removals_.front().cost, 0.0);
     for (std::size_t h = 0; h < mesh_.opposite.size(); ++h) {
       const std::size_t t = h / 3;
       const std::size_t u = face_of(mesh_.opposite[h]);
       if (u < t) continue;
       const double errors = face_errors_[t] + face_errors_[u];
-      if (errors <= least) continue;
       insertions.push_back(
           {errors, static_cast<std::int32_t>(t), mesh_.apex(static_cast<std::int32_t>(h))});
     }

@@ -17,8 +17,8 @@ constexpr std::size_t placed_samples_block = 2048;
 constexpr double turned_distance = 2.0;
 
 /// The nearest triangle that looks as the sample does, from star to star of the nearest nodes.
-std::int32_t first_face(const EditMesh& mesh, const FitSample& sample, std::int32_t node,
-                        double edge) {
+std::int32_t first_face(const EditMesh& mesh, const std::vector<Vector3>& normals,
+                        const FitSample& sample, std::int32_t node, double edge) {
   constexpr int most_stars = 100;
   std::int32_t face = -1;
   double best = 1e300;
@@ -26,9 +26,7 @@ std::int32_t first_face(const EditMesh& mesh, const FitSample& sample, std::int3
     std::int32_t next = -1;
     mesh.around(node, [&](std::int32_t h) {
       const std::size_t t = face_of(h);
-      const auto& [a, b, c] = mesh.triangles[t];
-      const double cosine =
-          unit_normal_of(mesh.points[a], mesh.points[b], mesh.points[c]).dot(sample.normal);
+      const double cosine = normals[t].dot(sample.normal);
       const double turned = turned_distance * edge * std::max(0.0, face_agreement - cosine);
       if (turned * turned >= best) return;
       const TrianglePlace place = nearest_in_triangle(sample.point, mesh, t);
@@ -53,10 +51,12 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
                    const Execution& execution)
     : mesh(std::move(start)), samples(std::move(scan_samples)), dial(fit_dial) {
   edge = mean_edge_length(mesh);
+  std::vector<Vector3> normals(mesh.triangles.size());
+  for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = unit_normal(t);
   execution.parallel_for(samples.size(), placed_samples_block,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t s = begin; s < end; ++s) {
-                             samples[s].face = first_face(mesh, samples[s], near[s], edge);
+                             samples[s].face = first_face(mesh, normals, samples[s], near[s], edge);
                            }
                          });
   place_samples(execution);

@@ -45,6 +45,24 @@ constexpr double ring_diagonal = 1.17;
 constexpr std::size_t equation_block = 1024;
 constexpr std::size_t system_block = 512;
 
+/// A symmetric matrix, row by row from the diagonal on.
+using Symmetric = Eigen::Matrix<double, 6, 1>;
+void add_square(Symmetric& to, double weight, const Vector3& v) {
+  const Vector3 w = weight * v;
+  to[0] += w[0] * v[0];
+  to[1] += w[0] * v[1];
+  to[2] += w[0] * v[2];
+  to[3] += w[1] * v[1];
+  to[4] += w[1] * v[2];
+  to[5] += w[2] * v[2];
+}
+template <class Column>
+Matrix3 whole(const Column& s) {
+  Matrix3 result;
+  result << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
+  return result;
+}
+
 /// What a triangle adds to the normal equations.
 struct FaceSystem {
   std::array<Matrix3, 3> own;   ///< of each corner with itself
@@ -212,6 +230,8 @@ class FitEquations {
     const Vector3& pb = mesh_.points[b];
     const Vector3& pc = mesh_.points[c];
     const Vector3 normal = unit_normal_of(pa, pb, pc);
+    // Of each corner with itself, then of corner k with corner k + 1.
+    Eigen::Matrix<double, 6, 6> sums = Eigen::Matrix<double, 6, 6>::Zero();
     FaceSystem& face = faces_[t];
     const double share = state_.share();
     for (const std::int32_t s : state_.of[t]) {
@@ -222,22 +242,27 @@ class FitEquations {
       const double agreement = sample.normal.dot(normal);
       const Vector3 u = agreement < 0.0 ? normal : Vector3((sample.normal + normal).normalized());
       const double off = u.dot(r);
-      Matrix3 metric = weight * u * u.transpose();
+      Symmetric metric = Symmetric::Zero();
+      add_square(metric, weight, u);
       Vector3 pull = weight * off * u;
       if (place.region != 0) {
         const Vector3 beyond = r - off * u;
         const double squared = beyond.squaredNorm();
         if (squared > 1e-20) {
-          metric += weight * rim_pull / squared * beyond * beyond.transpose();
+          add_square(metric, weight * rim_pull / squared, beyond);
           pull += weight * rim_pull * beyond;
         }
       }
       const Vector3& w = place.weights;
-      for (std::size_t k = 0; k < 3; ++k) {
-        face.own[k] += w[k] * w[k] * metric;
-        face.pair[k] += w[k] * w[following(k)] * metric;
+      for (int k = 0; k < 3; ++k) {
+        sums.col(k) += w[k] * w[k] * metric;
+        sums.col(3 + k) += w[k] * w[(k + 1) % 3] * metric;
         face.pull[k] -= w[k] * pull;
       }
+    }
+    for (int k = 0; k < 3; ++k) {
+      face.own[k] = whole(sums.col(k));
+      face.pair[k] = whole(sums.col(3 + k));
     }
   }
 
@@ -322,7 +347,7 @@ class FitEquations {
   void add_cell(std::size_t i) {
     const NodeShape& shape = shapes_[i];
     const Vector3& x = mesh_.points[i];
-    Matrix3 quadric = Matrix3::Zero();
+    Symmetric quadric = Symmetric::Zero();
     Vector3 moment = Vector3::Zero();
     int in_cell = 0;
     const FitSample* nearest = nullptr;
@@ -335,7 +360,7 @@ class FitEquations {
         const double w = sample.place.weights[k];
         if (w <= own_weight) continue;
         if (w >= sample.place.weights.maxCoeff()) {
-          quadric += sample.normal * sample.normal.transpose();
+          add_square(quadric, 1.0, sample.normal);
           moment += sample.normal.dot(x - sample.point) * sample.normal;
           ++in_cell;
         }
@@ -347,7 +372,7 @@ class FitEquations {
         height = std::max(height, shape.normal.dot(sample.point));
       }
     }
-    add_ridge(i, quadric, moment, in_cell);
+    add_ridge(i, whole(quadric), moment, in_cell);
     if (nearest == nullptr) return;
     add_nearest(i, *nearest, std::sqrt(nearest_square));
     const double above = shape.normal.dot(x) - height - support_room * state_.edge;
@@ -360,6 +385,10 @@ class FitEquations {
   void add_ridge(std::size_t i, const Matrix3& quadric, const Vector3& moment, int samples) {
     constexpr int least_samples = 3;
     if (samples < least_samples) return;
+    // The three eigenvalues add up to the samples; the largest is not below any Rayleigh quotient,
+    // and the second not above what that leaves: most cells are seen to be flat without a solver.
+    const Vector3& n = shapes_[i].normal;
+    if (samples - n.dot(quadric * n) <= ridge_begins * samples) return;
     Eigen::SelfAdjointEigenSolver<Matrix3> solver;
     solver.computeDirect(quadric / samples, Eigen::EigenvaluesOnly);
     const double ridge =

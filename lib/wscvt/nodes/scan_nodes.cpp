@@ -20,6 +20,7 @@
 #include "wscvt/nodes/intersection_mending.h"
 #include "wscvt/nodes/node_density.h"
 #include "wscvt/nodes/self_intersections.h"
+#include "wscvt/nodes/space_order.h"
 #include "wscvt/nodes/surface_fit.h"
 #include "wscvt/nodes/volume_offset.h"
 
@@ -94,7 +95,8 @@ void sweep_to_proxy(Coarsening& coarsening, std::size_t nodes, const Execution& 
   }
 }
 
-/// Splits long edges; normals of the new vertices are the means of their edges' ends'.
+/// Splits long edges; normals of the new vertices are the means of their edges' ends'. Splitting
+/// scatters what is near in space over the memory, so that vertices and faces are ordered anew.
 SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, double area, int nodes,
                        EditMesh& split, const Execution& execution) {
   split = scan;
@@ -105,7 +107,14 @@ SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, doubl
     const double length = sum.norm();
     normals.push_back(length > 0.0 ? Vector3(sum / length) : sum);
   }
-  return {{split.points, split.triangles}, std::move(normals)};
+  SampledScan ordered;
+  ordered.normals.reserve(normals.size());
+  for (const std::int32_t v : order_in_space(split.points, split.triangles)) {
+    ordered.normals.push_back(normals[v]);
+  }
+  split.link(execution);
+  ordered.mesh = {split.points, split.triangles};
+  return ordered;
 }
 
 /// Coarsens to exactly `count` vertices.

@@ -105,7 +105,7 @@ class SurfaceFit {
       report_.relocations += relocate_nodes(state_, execution_);
     }
     if (round > 0 && round < dial_.rounds - 1) report_.flips += flip_for_fit(state_);
-    move_nodes(state_, fit_step(state_, execution_));
+    move_nodes(state_, fit_step(state_, execution_), execution_);
     state_.place_samples(execution_);
     if (!dial_.polishes) return;
     state_.list_samples();

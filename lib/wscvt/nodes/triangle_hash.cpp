@@ -34,14 +34,34 @@ bool on_one_side(const std::array<Vector3, 3>& x, const std::array<Vector3, 3>& 
   return (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0);
 }
 
-bool boxes_part(const std::array<Vector3, 3>& x, const std::array<Vector3, 3>& y) {
-  for (int k = 0; k < 3; ++k) {
-    const double low = std::min({y[0][k], y[1][k], y[2][k]});
-    const double high = std::max({y[0][k], y[1][k], y[2][k]});
-    if (low > x[0][k] && low > x[1][k] && low > x[2][k]) return true;
-    if (high < x[0][k] && high < x[1][k] && high < x[2][k]) return true;
+/// Whether the triangles about a vertex lie side by side, seen along the sum of their normals: then
+/// no two of them meet. Where each looks that way the ring turns forwards only, and goes round once
+/// if it comes but once from behind a line to before it.
+bool is_embedded(const EditMesh& mesh, std::int32_t v) {
+  Vector3 sum = Vector3::Zero();
+  mesh.around(v, [&](std::int32_t h) { sum += mesh.normal(face_of(h)); });
+  const Vector3 across = sum.unitOrthogonal();
+  const Vector3& centre = mesh.points[v];
+  bool forwards = true;
+  int rounds = 0;
+  mesh.around(v, [&](std::int32_t h) {
+    forwards = forwards && mesh.normal(face_of(h)).dot(sum) > 0.0;
+    if (across.dot(mesh.points[mesh.target(h)] - centre) < 0.0 &&
+        across.dot(mesh.points[mesh.apex(h)] - centre) >= 0.0) {
+      ++rounds;
+    }
+  });
+  return forwards && rounds == 1;
+}
+
+/// The corner that two triangles share, if it is one; -1 for none, -2 for more.
+std::int32_t only_shared(const Triangle& a, const Triangle& b) {
+  std::int32_t shared = -1;
+  for (const std::int32_t v : a) {
+    if (v != b[0] && v != b[1] && v != b[2]) continue;
+    shared = shared == -1 ? v : -2;
   }
-  return false;
+  return shared;
 }
 
 }  // namespace
@@ -80,14 +100,18 @@ std::size_t TriangleHash::bucket(std::int64_t x, std::int64_t y, std::int64_t z)
   return static_cast<std::size_t>(key ^ (key >> 32)) & mask_;
 }
 
+TriangleHash::Box TriangleHash::box_of(const std::array<Vector3, 3>& corners) {
+  return {corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
+          corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])};
+}
+
 template <class Visit>
-void TriangleHash::visit_cells(const std::array<Vector3, 3>& corners, const Visit& visit) const {
+void TriangleHash::visit_cells(const Box& box, const Visit& visit) const {
   std::array<std::int64_t, 3> low{};
   std::array<std::int64_t, 3> high{};
   for (int k = 0; k < 3; ++k) {
-    const auto [least, most] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
-    low[k] = static_cast<std::int64_t>(std::floor(least / cell_));
-    high[k] = static_cast<std::int64_t>(std::floor(most / cell_));
+    low[k] = static_cast<std::int64_t>(std::floor(box.low[k] / cell_));
+    high[k] = static_cast<std::int64_t>(std::floor(box.high[k] / cell_));
   }
   for (std::int64_t z = low[2]; z <= high[2]; ++z) {
     for (std::int64_t y = low[1]; y <= high[1]; ++y) {
@@ -105,11 +129,13 @@ void TriangleHash::build(const EditMesh& mesh, double cell) {
   mask_ = size - 1;
   heads_.assign(size, -1);
   entries_.clear();
+  boxes_.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) enter(mesh, static_cast<std::int32_t>(t));
 }
 
 void TriangleHash::enter(const EditMesh& mesh, std::int32_t t) {
-  visit_cells(corners_of(mesh, t), [&](std::size_t at) {
+  boxes_[t] = box_of(corners_of(mesh, t));
+  visit_cells(boxes_[t], [&](std::size_t at) {
     const std::int32_t head = heads_[at];
     if (head >= 0 && entries_[head].triangle == t) return true;
     heads_[at] = static_cast<std::int32_t>(entries_.size());
@@ -122,37 +148,60 @@ bool TriangleHash::meets(const EditMesh& mesh, const Triangle& ids,
                          const std::array<Vector3, 3>& corners,
                          const std::vector<std::int32_t>& but, std::int32_t moved) const {
   bool found = false;
-  visit_cells(corners, [&](std::size_t at) {
+  const Box box = box_of(corners);
+  visit_cells(box, [&](std::size_t at) {
     for (std::int32_t e = heads_[at]; e >= 0 && !found; e = entries_[e].next) {
       const std::int32_t t = entries_[e].triangle;
+      if (part(box, boxes_[t])) continue;
       const Triangle& other = mesh.triangles[t];
       if (moved >= 0 && std::find(other.begin(), other.end(), moved) != other.end()) continue;
       if (std::find(but.begin(), but.end(), t) != but.end()) continue;
-      const std::array<Vector3, 3> y = corners_of(mesh, t);
-      found = !boxes_part(corners, y) && triangles_cross(ids, corners, other, y);
+      found = triangles_cross(ids, corners, other, corners_of(mesh, t));
     }
     return !found;
   });
   return found;
 }
 
-std::vector<std::int32_t> TriangleHash::meeting(const EditMesh& mesh, std::int32_t t) const {
-  std::vector<std::int32_t> result;
+void TriangleHash::find_pairs_of(const EditMesh& mesh, const std::vector<char>& embedded,
+                                 std::int32_t t, std::vector<TrianglePair>& found) const {
+  const auto first = static_cast<std::ptrdiff_t>(found.size());
+  const Triangle& corners = mesh.triangles[t];
   const std::array<Vector3, 3> x = corners_of(mesh, t);
-  visit_cells(x, [&](std::size_t at) {
+  visit_cells(boxes_[t], [&](std::size_t at) {
     for (std::int32_t e = heads_[at]; e >= 0; e = entries_[e].next) {
       const std::int32_t u = entries_[e].triangle;
-      if (u <= t) continue;
-      const std::array<Vector3, 3> y = corners_of(mesh, u);
-      if (!boxes_part(x, y) && triangles_cross(mesh.triangles[t], x, mesh.triangles[u], y)) {
-        result.push_back(u);
+      if (u <= t || part(boxes_[t], boxes_[u])) continue;
+      const std::int32_t shared = only_shared(corners, mesh.triangles[u]);
+      if (shared == -2 || (shared >= 0 && embedded[shared] != 0)) continue;
+      if (triangles_cross(corners, x, mesh.triangles[u], corners_of(mesh, u))) {
+        found.emplace_back(t, u);
       }
     }
     return true;
   });
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+  std::sort(found.begin() + first, found.end());
+  found.erase(std::unique(found.begin() + first, found.end()), found.end());
+}
+
+std::vector<TrianglePair> TriangleHash::pairs(const EditMesh& mesh,
+                                              const Execution& execution) const {
+  constexpr std::size_t block = 1024;
+  std::vector<char> embedded(mesh.points.size());
+  execution.parallel_for(embedded.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      embedded[v] = is_embedded(mesh, static_cast<std::int32_t>(v)) ? 1 : 0;
+    }
+  });
+  std::vector<std::vector<TrianglePair>> parts((mesh.triangles.size() + block - 1) / block);
+  execution.parallel_for(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      find_pairs_of(mesh, embedded, static_cast<std::int32_t>(t), parts[begin / block]);
+    }
+  });
+  std::vector<TrianglePair> all;
+  for (const auto& found : parts) all.insert(all.end(), found.begin(), found.end());
+  return all;
 }
 
 }  // namespace wscvt

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/nodes/edit_mesh.h"
+#include "wscvt/nodes/self_intersections.h"
 
 namespace wscvt {
 
@@ -25,22 +27,34 @@ class TriangleHash {
   bool meets(const EditMesh& mesh, const Triangle& ids, const std::array<Vector3, 3>& corners,
              const std::vector<std::int32_t>& but, std::int32_t moved = -1) const;
 
-  /// The triangles above `t` in number that meet it, ascending, each once.
-  std::vector<std::int32_t> meeting(const EditMesh& mesh, std::int32_t t) const;
+  /// All pairs of triangles that meet, the smaller number first, ascending, each once. No triangle
+  /// has moved since `build`. The same on any number of threads.
+  std::vector<TrianglePair> pairs(const EditMesh& mesh, const Execution& execution) const;
 
  private:
   struct Entry {
     std::int32_t triangle;
     std::int32_t next;
   };
+  struct Box {
+    Vector3 low;
+    Vector3 high;
+  };
+  static Box box_of(const std::array<Vector3, 3>& corners);
+  static bool part(const Box& a, const Box& b) {
+    return (a.low.array() > b.high.array()).any() || (b.low.array() > a.high.array()).any();
+  }
   template <class Visit>
-  void visit_cells(const std::array<Vector3, 3>& corners, const Visit& visit) const;
+  void visit_cells(const Box& box, const Visit& visit) const;
+  void find_pairs_of(const EditMesh& mesh, const std::vector<char>& embedded, std::int32_t t,
+                     std::vector<TrianglePair>& found) const;
   std::size_t bucket(std::int64_t x, std::int64_t y, std::int64_t z) const;
 
   double cell_ = 1.0;
   std::size_t mask_ = 0;
   std::vector<std::int32_t> heads_;
   std::vector<Entry> entries_;
+  std::vector<Box> boxes_;  ///< of each triangle as it was entered last
 };
 
 /// Whether two triangles meet elsewhere than in the corners they share by number, in rounded
