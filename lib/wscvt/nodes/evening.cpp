@@ -62,14 +62,14 @@ Vector3 circumcentre_weights(const Vector3& a, const Vector3& b, const Vector3& 
 
 void add_part(CellPart& part, const Vector3& corner, double corner_density, const WeightedPoint& p,
               const WeightedPoint& q, const Vector3& normal) {
-  const double area = 0.5 * (p.position - corner).cross(q.position - corner).dot(normal);
+  const Vector3 to_p = p.position - corner;
+  const Vector3 to_q = q.position - corner;
+  const double area = 0.5 * to_p.cross(to_q).dot(normal);
   const double sum = corner_density + p.density + q.density;
   part.area += area;
-  part.mass += area * sum / 3.0;
+  part.mass += area / 3.0 * sum;
   // The centroid of a linear density, about the corner.
-  part.moment +=
-      area / 12.0 *
-      ((sum + p.density) * (p.position - corner) + (sum + q.density) * (q.position - corner));
+  part.moment += area / 12.0 * ((sum + p.density) * to_p + (sum + q.density) * to_q);
 }
 
 std::array<CellPart, 3> cell_parts(const std::array<Vector3, 3>& x,
@@ -165,6 +165,13 @@ class Evening {
   }
 
  private:
+  template <class Visit>
+  void for_nodes(const Visit& visit) const {
+    execution_.parallel_for(count_, evened_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(i);
+    });
+  }
+
   Vector3 put_on_surface(const Vector3& point, std::int32_t& place) const {
     const TrianglePlace nearest = walk_to_nearest(point, surface_.mesh, place);
     const auto& [a, b, c] = surface_.mesh.triangles[place];
@@ -173,15 +180,15 @@ class Evening {
 
   /// Outward vectors and densities where the nodes are.
   void read_surface() {
-    for (std::size_t i = 0; i < count_; ++i) {
+    for_nodes([&](std::size_t i) {
       const auto& [a, b, c] = surface_.mesh.triangles[places_[i]];
       outward_[i] = surface_vectors_[a] + surface_vectors_[b] + surface_vectors_[c];
-      if (surface_.density.empty()) continue;
+      if (surface_.density.empty()) return;
       const Vector3 w = nearest_in_triangle(nodes_.points[i], surface_.mesh, places_[i]).weights;
       const double density =
           w[0] * surface_.density[a] + w[1] * surface_.density[b] + w[2] * surface_.density[c];
       mass_density_[i] = density * density;
-    }
+    });
   }
 
   void measure_cells() {
@@ -205,9 +212,7 @@ class Evening {
     double area = 0.0;
     for (const CellPart& part : parts_) area += part.area;
     const double mean = area / static_cast<double>(count_);
-    execution_.parallel_for(count_, evened_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) plan_node(i, mean, share_of_last);
-    });
+    for_nodes([&](std::size_t i) { plan_node(i, mean, share_of_last); });
   }
 
   void plan_node(std::size_t i, double mean, double share_of_last) {
@@ -262,15 +267,17 @@ class Evening {
               ? old[i]
               : put_on_surface(old[i] + shares_[i] * (steps_[i] + pushes_[i]), places_[i]);
     };
-    execution_.parallel_for(count_, evened_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) place(i);
-    });
+    for_nodes(place);
     std::vector<char> marked(count_);
+    std::vector<char> spoilt(normals_.size());
     for (int attempt = 0; attempt < most_tries; ++attempt) {
+      execution_.parallel_for(spoilt.size(), cell_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) spoilt[t] = spoils(t, old) ? 1 : 0;
+      });
       std::fill(marked.begin(), marked.end(), 0);
       bool any = false;
-      for (std::size_t t = 0; t < normals_.size(); ++t) {
-        if (!spoils(t, old)) continue;
+      for (std::size_t t = 0; t < spoilt.size(); ++t) {
+        if (spoilt[t] == 0) continue;
         any = true;
         for (const std::int32_t v : nodes_.triangles[t]) marked[v] = 1;
       }
