@@ -199,6 +199,11 @@ int run(const BatchArguments& arguments) {
   });
   if (!arguments.quiet) check_writable("/dev/stdout");
   const std::vector<std::string> files = checked([&] { return grain_files(arguments.inputs); });
+  checked([&] {
+    for (const std::string& file : files) {
+      if (!is_volume(file)) check_mesh_format(file);
+    }
+  });
   BatchGrains inputs(files, arguments.volume, arguments.shard, arguments.quiet);
   const std::vector<std::string>& grains = inputs.names();
   const OutputFolder folder(arguments);

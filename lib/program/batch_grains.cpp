@@ -3,22 +3,67 @@
 
 #include <algorithm>
 
+#include "progress_line.h"
+#include "signals.h"
 #include "volume/label_table.h"
 #include "volume_arguments.h"
+#include "work.h"
 #include "wscvt/base/error.h"
+#include "wscvt/scan/bodies.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
+
+namespace {
+
+/// Of a mesh; none where it cannot be read or split.
+std::vector<MeshBody> bodies_of(const std::string& path, bool quiet) {
+  note_signals();
+  ProgressLine line(!quiet);
+  const Execution execution(1, [&](double fraction, const std::string& stage) {
+    line.show(fraction, stage);
+    return noted_signal() == 0;
+  });
+  try {
+    return split_bodies(read_mesh(path, execution), execution);
+  } catch (const MachineRefused&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    return {};
+  }
+}
+
+}  // namespace
 
 BatchGrains::BatchGrains(const std::vector<std::string>& files, const VolumeOptions& options,
                          const Shard& shard, bool quiet) {
   for (const std::string& path : files) {
     if (is_volume(path)) {
       add_volume(path, options, shard, quiet);
-    } else if (is_of(shard, path)) {
-      names_.push_back(path);
-      places_.push_back({-1, 0});
+    } else {
+      add_mesh(path, options, shard, quiet);
     }
+  }
+}
+
+void BatchGrains::add_mesh(const std::string& path, const VolumeOptions& options,
+                           const Shard& shard, bool quiet) {
+  std::vector<MeshBody> bodies;
+  if (options.parts) bodies = bodies_of(path, quiet);
+  if (bodies.size() < 2) {
+    if (!is_of(shard, path)) return;
+    names_.push_back(path);
+    places_.push_back({Place::File, 0, 0});
+    return;
+  }
+  print({path + ": " + std::to_string(bodies.size()) + " bodies"}, quiet);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const std::string name = path + "/" + std::to_string(k + 1);
+    if (!is_of(shard, name)) continue;
+    names_.push_back(name);
+    places_.push_back({Place::Body, 0, bodies_.size()});
+    bodies_.push_back(std::move(bodies[k].mesh));
   }
 }
 
@@ -26,12 +71,11 @@ void BatchGrains::add_volume(const std::string& path, const VolumeOptions& optio
                              const Shard& shard, bool quiet) {
   std::unique_ptr<LabelGrains> grains = open_grains(path, options, quiet);
   print_notes(*grains, "wscvt batch " + path + " -o OUT", quiet);
-  const auto volume = static_cast<std::ptrdiff_t>(volumes_.size());
   for (std::size_t k = 0; k < grains->taken().size(); ++k) {
     const std::string name = grain_name(path, grains->labels()[grains->taken()[k]].label);
     if (!is_of(shard, name)) continue;
     names_.push_back(name);
-    places_.push_back({volume, k});
+    places_.push_back({Place::Label, volumes_.size(), k});
   }
   paths_.push_back(path);
   volumes_.push_back(std::move(grains));
@@ -64,8 +108,8 @@ bool BatchGrains::is_much_left_out() const {
 void BatchGrains::begin(std::size_t first) {
   std::vector<std::vector<std::size_t>> wanted(volumes_.size());
   for (std::size_t k = first; k < places_.size(); ++k) {
-    if (places_[k].volume < 0) continue;
-    wanted[static_cast<std::size_t>(places_[k].volume)].push_back(places_[k].grain);
+    if (places_[k].kind != Place::Label) continue;
+    wanted[places_[k].volume].push_back(places_[k].grain);
   }
   for (std::size_t volume = 0; volume < volumes_.size(); ++volume) {
     volumes_[volume]->want(wanted[volume]);
@@ -74,11 +118,12 @@ void BatchGrains::begin(std::size_t first) {
 
 GrainScan BatchGrains::read(std::size_t grain, const Execution& execution) {
   const Place& place = places_[grain];
-  if (place.volume < 0) {
+  if (place.kind == Place::Body) return {bodies_[place.grain], {}};
+  if (place.kind == Place::File) {
     MeshFile file = read_mesh_file(names_[grain], execution);
     return {std::move(file.mesh), std::move(file.warnings)};
   }
-  LabelGrain label = volumes_[static_cast<std::size_t>(place.volume)]->read(place.grain, execution);
+  LabelGrain label = volumes_[place.volume]->read(place.grain, execution);
   if (label.mesh.points.empty()) {
     throw Error(ErrorCode::InvalidInput,
                 "The label is in " + std::to_string(label.pieces) +

@@ -23,13 +23,14 @@ struct GrainScan {
 /// The grains that the inputs of a batch name: files of meshes, and the labels of volumes.
 class BatchGrains {
  public:
-  /// Of what grain_files gives. Counts the labels of volumes, with a line on a terminal unless
-  /// quiet. Throws as LabelGrains does.
+  /// Of what grain_files gives. Counts the labels of volumes and, with options.parts, reads the
+  /// meshes and holds the bodies of those that have several; with a line on a terminal unless
+  /// quiet. Throws as LabelGrains does; a mesh that cannot be read fails later, in its row.
   BatchGrains(const std::vector<std::string>& files, const VolumeOptions& options,
               const Shard& shard, bool quiet);
 
   /// Of the part of the sample, in the order of the inputs. A file's is its path, a label's that of
-  /// its volume, a slash and the label.
+  /// its volume, a slash and the label, a body's that of its mesh, a slash and its number, from 1.
   const std::vector<std::string>& names() const { return names_; }
 
   /// The labels of all volumes, and what becomes of each, as a table; empty where there is no
@@ -48,17 +49,21 @@ class BatchGrains {
  private:
   /// What a name stands for.
   struct Place {
-    std::ptrdiff_t volume;  ///< of volumes_; -1: a file
-    std::size_t grain;      ///< of what LabelGrains takes
+    enum Kind { File, Label, Body } kind;
+    std::size_t volume;  ///< of a label, of volumes_
+    std::size_t grain;   ///< of what LabelGrains takes, or of bodies_
   };
 
   void add_volume(const std::string& path, const VolumeOptions& options, const Shard& shard,
                   bool quiet);
+  void add_mesh(const std::string& path, const VolumeOptions& options, const Shard& shard,
+                bool quiet);
 
   std::vector<std::string> names_;
   std::vector<Place> places_;
   std::vector<std::string> paths_;  ///< of the volumes
   std::vector<std::unique_ptr<LabelGrains>> volumes_;
+  std::vector<IndexedMesh> bodies_;
 };
 
 }  // namespace wscvt::program

@@ -25,6 +25,7 @@
 #include "extract_command.h"
 #include "remesh_command.h"
 #include "signals.h"
+#include "split_command.h"
 #include "standard_streams.h"
 #include "wrong_call.h"
 #include "wscvt/base/readable_text.h"
@@ -86,7 +87,7 @@ int run(int argc, char** argv) {
       make_command<program::RemeshArguments>(app),  make_command<program::DescribeArguments>(app),
       make_command<program::CompareArguments>(app), make_command<program::CreateArguments>(app),
       make_command<program::ExtractArguments>(app), make_command<program::BatchArguments>(app),
-      make_command<program::CollectArguments>(app),
+      make_command<program::CollectArguments>(app), make_command<program::SplitArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is

@@ -39,7 +39,8 @@ inline constexpr FlagOption at_border_option = {
     "are taken too, cut as they are; without it they are listed only"};
 inline constexpr FlagOption parts_option = {
     "parts", "parts of a label",
-    "are grains of their own, numbered anew; a part hangs together by faces of voxels"};
+    "are grains of their own, numbered anew; a part hangs together by faces of voxels. So are the "
+    "bodies of a mesh in a batch"};
 inline constexpr NumberOption<std::int64_t> channel_option = {
     "channel", "channel of a file that has several", 1, 1000000};
 inline constexpr NumberOption<std::int64_t> frame_option = {

@@ -109,11 +109,13 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   report.inner_volume_share = inner_volume / report.volume;
   report.dropped_volume_share = outer_volume / (outer_volume + report.volume);
   if (report.dropped_volume_share > options.dropped_volume_limit) {
-    refuse("The mesh falls into " + std::to_string(report.components - report.inner_components) +
-           " separate bodies and the largest holds only " +
-           format_percent(1.0 - report.dropped_volume_share) +
-           " of their volume, so there is no main body; split the mesh, e.g. Filters > Mesh Layer "
-           "> Split in Connected Components, and remesh each body on its own.");
+    refuse(
+        "The mesh falls into " + std::to_string(report.components - report.inner_components) +
+        " separate bodies and the largest holds only " +
+        format_percent(1.0 - report.dropped_volume_share) +
+        " of their volume, so there is no main body. Split the mesh (wscvt split MESH FOLDER; in "
+        "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body on "
+        "its own, or all of them by wscvt batch MESH -o OUT --parts.");
   }
 }
 

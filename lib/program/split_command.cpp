@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "split_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "command.h"
+#include "exit_code.h"
+#include "output_paths.h"
+#include "work.h"
+#include "wrong_call.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/scan/bodies.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr NumberOption<double> smallest_body_option = {
+    "smallest",
+    "volume of the smallest body",
+    0.0,
+    100.0,
+    Ends::Both,
+    "in % of the largest one's; smaller ones, and open ones, which have none, are listed only"};
+
+std::string table_header() {
+  return csv_record({"body", "state", "volume", "pores", "pore_volume", "boundary_edges", "x_min",
+                     "y_min", "z_min", "x_max", "y_max", "z_max", "vertices", "faces", "file"});
+}
+
+/// The row of a body; `file` is empty where it is too small.
+std::string table_row(std::size_t number, const MeshBody& body, const std::string& file) {
+  std::vector<std::string> fields = {
+      std::to_string(number),         file.empty() ? "too small" : "written",
+      format_exact(body.volume),      std::to_string(body.pores),
+      format_exact(body.pore_volume), std::to_string(body.boundary_edges)};
+  Vector3 low = body.mesh.points.front();
+  Vector3 high = low;
+  for (const Vector3& p : body.mesh.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (const Vector3& corner : {low, high}) {
+    for (const double coordinate : corner) fields.push_back(format_exact(coordinate));
+  }
+  fields.push_back(std::to_string(body.mesh.points.size()));
+  fields.push_back(std::to_string(body.mesh.triangles.size()));
+  fields.push_back(file);
+  return csv_record(fields);
+}
+
+std::string summary_of(const std::vector<MeshBody>& bodies, std::size_t written) {
+  std::size_t pores = 0;
+  std::size_t open = 0;
+  for (const MeshBody& body : bodies) {
+    pores += body.pores;
+    if (body.boundary_edges > 0) ++open;
+  }
+  std::string text = std::to_string(bodies.size()) +
+                     (bodies.size() == 1 ? " body: " : " bodies: ") + std::to_string(written) +
+                     " written";
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += ", " + std::to_string(count) + what;
+  };
+  add(bodies.size() - written, " too small");
+  add(open, " open");
+  add(pores, pores == 1 ? " pore in them" : " pores in them");
+  return text;
+}
+
+}  // namespace
+
+CLI::App& add_command(CLI::App& program, SplitArguments& arguments) {
+  CLI::App& app = add_command(
+      program, {"split",
+                "Part a mesh of several bodies into a file for each",
+                {"sample.stl bodies", "sample.stl bodies --smallest 0.1 --format stl"},
+                "FOLDER gets 1.ply, 2.ply, ... in the order of the file, and bodies.csv. A closed "
+                "surface inside a\nbody is a pore, and stays with it. wscvt batch --parts remeshes "
+                "the bodies of a mesh directly."});
+  add_file_argument(app, "mesh", arguments.mesh, "Mesh: PLY, STL, OBJ or OFF")->required();
+  app.add_option("folder", arguments.folder, "Folder for all that is made")
+      ->type_name("FOLDER")
+      ->required();
+  app.add_option("--format", arguments.format,
+                 "Ending of the meshes: ply, stl, obj or off. Default: ply")
+      ->type_name("NAME");
+  add_number(app, "--" + std::string(smallest_body_option.key), arguments.smallest,
+             smallest_body_option);
+  add_threads_argument(app, arguments.common.threads);
+  app.add_flag("--overwrite", arguments.common.overwrite, "Let an output replace the mesh");
+  app.add_flag("-q,--quiet", arguments.common.quiet,
+               "No summary on the standard output, no progress; warnings stay");
+  return app;
+}
+
+int run(const SplitArguments& arguments) {
+  const fs::path folder = arguments.folder;
+  const std::string table = (folder / "bodies.csv").string();
+  checked([&] {
+    check_mesh_format(arguments.mesh);
+    check_format(arguments.format);
+    if (same_file(arguments.mesh, arguments.folder)) {
+      refuse("\"" + arguments.mesh + "\" is the mesh itself; give a folder for what is made.");
+    }
+  });
+  Work work(arguments.common);
+  MeshFile file = read_mesh_file(arguments.mesh, work.execution().part(0.0, 0.5));
+  const std::vector<MeshBody> bodies =
+      split_bodies(std::move(file.mesh), work.execution().part(0.5, 0.9));
+  double largest = 0.0;
+  for (const MeshBody& body : bodies) largest = std::max(largest, body.volume);
+  std::vector<std::string> files;
+  for (const MeshBody& body : bodies) {
+    const bool is_taken = body.volume >= 0.01 * arguments.smallest * largest;
+    files.push_back(is_taken ? std::to_string(files.size() + 1) + "." + arguments.format : "");
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  check_writable(table);
+  for (const std::string& name : files) {
+    if (name.empty() || arguments.common.overwrite) continue;
+    checked([&] {
+      if (!same_file((folder / name).string(), arguments.mesh)) return;
+      refuse("\"" + (folder / name).string() +
+             "\" is the mesh itself; give another folder, or --overwrite to replace it.");
+    });
+  }
+  std::string rows = table_header();
+  std::size_t written = 0;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    rows += table_row(k + 1, bodies[k], files[k]);
+    if (files[k].empty()) continue;
+    work.write((folder / files[k]).string(), [&](const std::string& path, const Execution&) {
+      write_mesh(bodies[k].mesh, path);
+    });
+    ++written;
+  }
+  write_file(table, rows);
+  work.print(file.warnings, {summary_of(bodies, written)});
+  return Done;
+}
+
+}  // namespace wscvt::program

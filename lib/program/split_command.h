@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "common_arguments.h"
+
+namespace wscvt::program {
+
+/// `wscvt split`: the bodies that one file of a mesh holds become files of their own.
+struct SplitArguments {
+  std::string mesh;
+  std::string folder;
+  std::string format = "ply";
+  double smallest = 0.0;  ///< % of the largest body's volume
+  CommonArguments common;
+};
+
+/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+CLI::App& add_command(CLI::App& program, SplitArguments& arguments);
+
+/// Does what the call says; gives the exit code. Throws wscvt::Error.
+int run(const SplitArguments& arguments);
+
+}  // namespace wscvt::program

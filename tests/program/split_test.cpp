@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program on a mesh of several bodies.
+
+#include <string>
+#include <vector>
+
+#include "program_run.h"
+#include "support/flat_json.h"
+#include "support/test_shapes.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Split : public test::ProgramRun {
+ protected:
+  /// A ball with a pore, a crumb, and a smaller ball; as STL, whose corners are points each.
+  void write_sample() {
+    IndexedMesh mesh = test::moved(test::sphere(3), 5.0, {1, 2, 3});
+    mesh = test::joined(mesh, test::moved(test::sphere(1), 0.25, {9, 9, 9}));
+    mesh = test::joined(mesh, test::moved(test::sphere(2), 1.0, {2, 2, 3}));
+    mesh = test::joined(mesh, test::moved(test::sphere(3), 4.0, {-12, 2, 3}));
+    write_mesh(mesh, path("sample.stl"));
+  }
+
+  static double volume(const std::string& file) {
+    return describe_shape(read_mesh(file), Execution(1)).volume;
+  }
+};
+
+TEST_F(Split, WritesAFileABodyAndATable) {
+  write_sample();
+  const Outcome outcome = run("split sample.stl out --smallest 1 --format off");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, "3 bodies: 2 written, 1 too small, 1 pore in them\n");
+  EXPECT_EQ(outcome.errors, "");
+  const auto rows = test::csv_records(content("out/bodies.csv"));
+  ASSERT_EQ(rows.size(), 4U);
+  const std::vector<std::string> first = rows[1];
+  EXPECT_EQ((std::vector<std::string>{first[0], first[1], first[3], first[5], first[14]}),
+            (std::vector<std::string>{"1", "written", "1", "0", "1.off"}));
+  EXPECT_EQ(rows[2][1], "too small");
+  EXPECT_EQ(rows[2][14], "");
+  EXPECT_EQ(rows[3][14], "3.off");
+  EXPECT_NEAR(std::stod(rows[3][6]), -16.0, 1e-5);
+  EXPECT_FALSE(exists("out/2.off"));
+  // Single precision.
+  EXPECT_NEAR(volume(path("out/1.off")), std::stod(first[2]) - std::stod(first[4]), 1e-3);
+  EXPECT_NEAR(volume(path("out/3.off")) / std::stod(rows[3][2]), 1.0, 1e-6);
+  EXPECT_NEAR(std::stod(rows[3][2]) / std::stod(first[2]), 0.512, 1e-5);
+  // Welded.
+  EXPECT_EQ(read_mesh(path("out/3.off")).points.size(), test::sphere(3).points.size());
+}
+
+TEST_F(Split, IsDoneByABatchToo) {
+  write_sample();
+  write_mesh(test::sphere(3), path("alone.ply"));
+  const Outcome outcome = run("batch sample.stl alone.ply no.ply -o out -n 60 --parts");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_NE(outcome.output.find("sample.stl: 3 bodies\n"), std::string::npos) << outcome.output;
+  const auto rows = test::csv_records(content("out/grains.csv"));
+  ASSERT_EQ(rows.size(), 6U);
+  const std::vector<std::string> names = {"sample.stl/1", "sample.stl/2", "sample.stl/3",
+                                          "alone.ply", "no.ply"};
+  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(rows[k + 1][0], names[k]);
+  EXPECT_EQ(rows[3][1], "done");
+  EXPECT_EQ(rows[5][1], "failed");
+  EXPECT_EQ(read_mesh(path("out/3.ply")).points.size(), 60U);
+  EXPECT_NEAR(volume(path("out/3.ply")) / volume(path("out/1.ply")), 0.512, 1e-5);
+  EXPECT_EQ(read_mesh(path("out/alone.ply")).points.size(), 60U);
+  // Without it the bodies are one input, which is refused with what to call.
+  const Outcome whole = run("remesh sample.stl whole.ply -n 60");
+  EXPECT_EQ(whole.exit_code, 1);
+  EXPECT_NE(whole.errors.find("wscvt split MESH FOLDER"), std::string::npos) << whole.errors;
+}
+
+TEST_F(Split, RefusesWhatMakesNoSense) {
+  write_sample();
+  expect_refused("split",
+                 {{"", 2, "mesh is required"},
+                  {"sample.stl", 2, "folder is required"},
+                  {"sample.xyzzy out", 2, "does not end in"},
+                  {"no.stl out", 1, "no.stl"},
+                  {"sample.stl sample.stl", 2, "is the mesh itself"},
+                  {"sample.stl out --format step", 2, "The format of the meshes"},
+                  {"sample.stl out --smallest 101", 2, "0 to 100"}},
+                 {"out/1.ply"});
+  // Nor is a batch begun with a file of no known format.
+  expect_refused("batch", {{"sample.stl more.xyzzy -o out", 2, "does not end in"}},
+                 {"out/grains.csv"});
+  fs::create_directory(path("in"));
+  fs::rename(path("sample.stl"), path("in/1.stl"));
+  expect_refused("split", {{"in/1.stl in --format stl", 2, "is the mesh itself"}},
+                 {"in/bodies.csv", "in/3.stl"});
+  EXPECT_EQ(run("split in/1.stl in --format stl --overwrite").exit_code, 0);
+  EXPECT_TRUE(exists("in/3.stl"));
+}
+
+}  // namespace
+}  // namespace wscvt
