@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -239,8 +240,41 @@ TEST(ScanNodes, AreRefusedOutOfRange) {
   options.curvature_alpha = -3.1;
   EXPECT_ERROR(ScanRemesher(sand(), options, 100, Execution(1)), InvalidInput);
   EXPECT_ERROR(place(sand(), 3), InvalidInput);
-  // A torus has at least seven vertices.
-  EXPECT_ERROR(place(normalized(test::torus(1.0, 0.4, 20)), 6), InvalidInput);
+}
+
+/// The first number in a sentence after some words.
+int number_after(const std::string& sentence, const std::string& words) {
+  const std::size_t at = sentence.find(words);
+  return at == std::string::npos ? 0 : std::atoi(sentence.c_str() + at + words.size());
+}
+
+TEST(ScanNodes, TooFewForAHandleAreRefusedWithANumberThatIsEnough) {
+  const IndexedMesh ring = normalized(test::torus(1.0, 0.4, 20));
+  for (const int count : {4, 6}) {
+    SCOPED_TRACE(count);
+    std::string sentence;
+    try {
+      place(ring, count);
+    } catch (const Error& error) {
+      sentence = error.what();
+    }
+    // Seven, of Moebius's torus (1861) and Csaszar's polyhedron (1949).
+    EXPECT_EQ(number_after(sentence, "has fewer than "), 7) << sentence;
+    const int enough = number_after(sentence, "is " + std::to_string(count) + ". ");
+    ASSERT_GE(enough, 7) << sentence;
+    EXPECT_TRUE(self_intersections(place(ring, enough).mesh).empty());
+  }
+}
+
+TEST(ScanNodes, TooFewToKeepTrianglesApartNameANumberThatIsEnough) {
+  const IndexedMesh flake = normalized(test::scaled(test::sphere(4), Vector3(10.0, 8.0, 0.1)));
+  const ScanNodes few = place(flake, 50);
+  expect_sound(few, 50, 0);
+  ASSERT_GT(few.report.self_intersections, 0u);
+  EXPECT_EQ(few.report.scan_self_intersections, 0u);
+  ASSERT_GT(few.report.enough_nodes, 50);
+  ASSERT_LE(few.report.enough_nodes, 150);
+  EXPECT_TRUE(self_intersections(place(flake, few.report.enough_nodes).mesh).empty());
 }
 
 TEST(ScanNodes, AreStoppedInEveryStage) {

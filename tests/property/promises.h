@@ -15,6 +15,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/envelope.h"
@@ -235,6 +236,48 @@ inline std::string broken_report(const RemeshResult& result) {
   return fields.size() == 3 && fields[0] == fields[1] ? "" : "the rows of the CSV";
 }
 
+/// What the report says of a mesh, measured by plain sums over its triangles.
+inline std::string broken_measures(const RemeshResult& result) {
+  const Vector3 about = result.mesh.points.front();
+  const auto point = [&](std::int32_t v) -> Vector3 {
+    return result.mesh.points[static_cast<std::size_t>(v)] - about;
+  };
+  double volume = 0.0;
+  double area = 0.0;
+  double ratios = 0.0;
+  double angle = 180.0;
+  for (const auto& [a, b, c] : result.mesh.triangles) {
+    volume += point(a).dot(point(b).cross(point(c))) / 6.0;
+    area += 0.5 * (point(b) - point(a)).cross(point(c) - point(a)).norm();
+    const double l[] = {(point(b) - point(c)).norm(), (point(c) - point(a)).norm(),
+                        (point(a) - point(b)).norm()};
+    ratios += *std::max_element(l, l + 3) / *std::min_element(l, l + 3);
+    for (int k = 0; k < 3; ++k) {
+      const double p = l[(k + 1) % 3];
+      const double q = l[(k + 2) % 3];
+      const double cosine = (p * p + q * q - l[k] * l[k]) / (2.0 * p * q);
+      angle = std::min(angle, std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / 3.14159265358979);
+    }
+  }
+  ratios /= static_cast<double>(result.mesh.triangles.size());
+  const auto off = [](double value, double other) {
+    return !(std::abs(value / other - 1.0) < 1e-6);
+  };
+  if (off(result.remesh.volume, volume)) return "the volume in the report";
+  if (off(result.remesh.area, area)) return "the area in the report";
+  if (off(result.quality.edge_ratio.mean, ratios)) return "the edge ratio in the report";
+  // A cosine near 1 has half the digits of its angle.
+  if (!(std::abs(result.quality.smallest_angle - angle) < 1e-3)) return "the smallest angle";
+  const OnScanReport* report = on_scan_report(result);
+  if (report == nullptr) return "";
+  const std::size_t pairs = self_intersections(result.mesh).size();
+  if (report->nodes.self_intersections != pairs) {
+    return std::to_string(pairs) + " pairs that meet, where the report has " +
+           std::to_string(report->nodes.self_intersections);
+  }
+  return "";
+}
+
 inline std::string broken_result(const RemeshResult& result, const RemeshOptions& options) {
   const IndexedMesh& mesh = result.mesh;
   const std::size_t nodes = mesh.points.size();
@@ -277,6 +320,8 @@ inline std::string broken_result(const RemeshResult& result, const RemeshOptions
       const double off = std::abs(result.remesh.volume / result.original.volume - 1.0);
       if (!(off < 1e-9)) return "the volume of fitted nodes, off by " + format_number(off);
     }
+    const std::string mistaken = broken_measures(result);
+    if (!mistaken.empty()) return mistaken;
   }
   if (options.target.percent > 0.0) {
     if (!result.search) return "no record of the search";
@@ -288,7 +333,7 @@ inline std::string broken_result(const RemeshResult& result, const RemeshOptions
   return broken_report(result);
 }
 
-/// Remeshes and looks at every promise; with `twice` on two threads as well.
+/// Remeshes and looks at every promise; with `twice` on two and three threads as well.
 inline std::string broken_remesh(const IndexedMesh& scan, const RemeshOptions& options,
                                  bool twice) {
   double last = 0.0;
@@ -303,9 +348,12 @@ inline std::string broken_remesh(const IndexedMesh& scan, const RemeshOptions& o
     if (!monotone || last != 1.0) return "the progress";
     const std::string broken = broken_result(result, options);
     if (!broken.empty() || !twice) return broken;
-    const RemeshResult two = remesh(scan, options, Execution(2));
-    if (two.mesh.points != result.mesh.points || two.mesh.triangles != result.mesh.triangles) {
-      return "two threads remesh differently from one";
+    for (const int threads : {2, 3}) {
+      const RemeshResult other = remesh(scan, options, Execution(threads));
+      if (other.mesh.points != result.mesh.points ||
+          other.mesh.triangles != result.mesh.triangles) {
+        return std::to_string(threads) + " threads remesh differently from one";
+      }
     }
   } catch (const Error& error) {
     return broken_refusal(error);

@@ -44,6 +44,8 @@ constexpr double fitted_steepness = 1.2;
 /// Samples of few nodes, whose cells are so large that a share for each would scatter: four nodes
 /// on a ball are a tetrahedron within 3 % only with 120.
 constexpr std::size_t fewest_samples = 4000;
+/// Where a number of nodes is too few, up to this many times as many are tried.
+constexpr int most_tried_times = 3;
 /// Below this many vertices a node the cheapest merge is looked for among all.
 constexpr int heap_vertices_a_node = 2;
 
@@ -84,8 +86,8 @@ struct Placing {
   SampledScan split;  ///< the scan with split faces, where it had to be
   EveningSurface surface;
   std::vector<std::int32_t> on_surface;  ///< vertex of the surface for each of the scan
-  EditMesh nodes;
-  std::vector<std::int32_t> clusters;  ///< node for each vertex of the surface
+  EditMesh nodes;                        ///< without triangles where there can't be so few
+  std::vector<std::int32_t> clusters;    ///< node for each vertex of the surface
 };
 
 void sweep_to_proxy(Coarsening& coarsening, std::size_t nodes, const Execution& execution) {
@@ -117,19 +119,42 @@ SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, doubl
   return ordered;
 }
 
-/// Coarsens to exactly `count` vertices.
-void coarsen(Coarsening& coarsening, int count, std::size_t genus, const Execution& execution) {
+/// Coarsens to exactly `count` vertices; false where handles want more.
+bool coarsen(Coarsening& coarsening, int count, const Execution& execution) {
   const auto size = [&] { return static_cast<int>(coarsening.size()); };
   while (size() > heap_vertices_a_node * count) {
     execution.report(0.0, "Coarsening the scan");
     if (coarsening.sweep(heap_vertices_a_node * count) == 0) break;
   }
-  if (coarsening.reduce(count, execution)) return;
+  if (coarsening.reduce(count, execution)) return true;
   coarsening.ignore_shapes();
-  if (coarsening.reduce(count, execution)) return;
-  refuse("A body with " + std::to_string(genus) + " handles cannot be remeshed with " +
-         std::to_string(count) + " nodes. " + std::to_string(size()) +
-         " were enough. Ask for that many or more.");
+  return coarsening.reduce(count, execution);
+}
+
+/// The least number of vertices that a closed surface of a genus can have: V (V - 7) >= 12 (g - 1)
+/// (Heawood 1890; Jungerman and Ringel 1980, Acta Math. 145, 121: but for g = 2, which takes 10).
+int fewest_nodes(std::size_t genus) {
+  if (genus == 0) return 4;
+  if (genus == 2) return 10;
+  return static_cast<int>(std::ceil(0.5 * (7.0 + std::sqrt(1.0 + 48.0 * genus))));
+}
+
+[[noreturn]] void refuse_too_few(int count, std::size_t genus, int enough) {
+  const int fewest = fewest_nodes(genus);
+  const std::string handles = std::to_string(genus) + (genus == 1 ? " handle" : " handles");
+  std::string text =
+      count < fewest
+          ? "No closed mesh with " + handles + " has fewer than " + std::to_string(fewest) +
+                " nodes; the number of nodes is " + std::to_string(count) + "."
+          : std::to_string(count) + " nodes are too few to go round the grain's " + handles + ".";
+  if (enough > 0) {
+    text += " " + std::to_string(enough) + " were tried and are enough: ask for that many or more.";
+  } else {
+    text += " Up to " + std::to_string(most_tried_times * count) +
+            " were tried and are not enough. Ask for more, or let the handles be cut (--handles "
+            "cut, with a longer --max-handle-loop).";
+  }
+  refuse(text);
 }
 
 /// A triangle of the surface for each node: about that vertex of its cluster that is nearest.
@@ -213,7 +238,7 @@ Placing coarsen_to_nodes(const Parts& parts, int node_count, const Execution& ex
   if (!placing.surface.density.empty()) {
     coarsening = Coarsening(placing.surface.mesh, placing.surface.density);
   }
-  coarsen(coarsening, node_count, parts.genus, execution);
+  if (!coarsen(coarsening, node_count, execution)) return placing;
   placing.nodes = coarsening.mesh();
   placing.clusters.resize(placing.surface.mesh.points.size());
   for (std::size_t v = 0; v < placing.clusters.size(); ++v) {
@@ -271,13 +296,35 @@ EditMesh fit(const Parts& parts, const Placing& placing, ScanNodesReport& report
 }  // namespace
 
 ScanNodes ScanRemesher::place(int node_count, const Execution& execution) const {
-  const Parts& parts = *parts_;
   if (node_count < 4) {
     refuse("The number of nodes is " + std::to_string(node_count) + "; give 4 or more.");
   }
+  std::optional<ScanNodes> result = try_to_place(node_count, execution);
+  const Execution more = execution.part(1.0, 1.0);
+  if (!result) refuse_too_few(node_count, parts_->genus, enough_above(node_count, more));
+  ScanNodesReport& report = result->report;
+  if (report.self_intersections == 0) return *std::move(result);
+  report.scan_self_intersections = self_intersections(parts_->scan.mesh, more).size();
+  if (report.scan_self_intersections == 0) report.enough_nodes = enough_above(node_count, more);
+  return *std::move(result);
+}
+
+int ScanRemesher::enough_above(int node_count, const Execution& execution) const {
+  for (const double times : {1.25, 1.6, 2.0, 2.5, static_cast<double>(most_tried_times)}) {
+    const int count = static_cast<int>(std::ceil(times * node_count));
+    const std::optional<ScanNodes> more = try_to_place(count, execution);
+    if (more && more->report.self_intersections == 0) return count;
+  }
+  return 0;
+}
+
+std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
+                                                    const Execution& execution) const {
+  const Parts& parts = *parts_;
   ScanNodes result;
   ScanNodesReport& report = result.report;
   Placing placing = coarsen_to_nodes(parts, node_count, execution.part(0.0, 0.2));
+  if (placing.nodes.triangles.empty()) return std::nullopt;
   report.scan_vertices = parts.scan.mesh.points.size();
   if (!placing.split.mesh.points.empty()) {
     report.split_vertices = placing.split.mesh.points.size() - report.scan_vertices;
@@ -299,10 +346,6 @@ ScanNodes ScanRemesher::place(int node_count, const Execution& execution) const 
   result.cell_areas = voronoi_areas(nodes);
   result.mesh = {std::move(nodes.points), std::move(nodes.triangles)};
   report.self_intersections = self_intersections(result.mesh, execution.part(0.95, 1.0)).size();
-  if (report.self_intersections > 0) {
-    report.scan_self_intersections =
-        self_intersections(parts.scan.mesh, execution.part(0.95, 1.0)).size();
-  }
   return result;
 }
 

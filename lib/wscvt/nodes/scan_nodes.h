@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -41,11 +42,13 @@ class ScanRemesher {
 
   /// Exactly `node_count` nodes, 4 to `most_nodes`. The same bytes on any number of threads. Throws
   /// Error(InvalidInput) where a body with handles cannot be triangulated by so few; the sentence
-  /// says how many were enough. Error(Cancelled).
+  /// says how many were tried and are enough. Error(Cancelled).
   ScanNodes place(int node_count, const Execution& execution) const;
 
  private:
   struct Parts;
+  std::optional<ScanNodes> try_to_place(int node_count, const Execution& execution) const;
+  int enough_above(int node_count, const Execution& execution) const;
   std::unique_ptr<Parts> parts_;
 };
 

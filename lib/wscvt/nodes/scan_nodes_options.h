@@ -44,6 +44,9 @@ struct ScanNodesReport {
   std::size_t mended_intersections = 0;     ///< pairs of triangles that met and were parted
   std::size_t self_intersections = 0;       ///< pairs left
   std::size_t scan_self_intersections = 0;  ///< pairs of the scan, counted where any are left
+  /// Where pairs are left and the scan has none: more nodes that were tried and leave none, up to
+  /// three times as many; 0 if none of those tried did.
+  int enough_nodes = 0;
 };
 
 }  // namespace wscvt

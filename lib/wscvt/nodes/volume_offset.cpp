@@ -9,11 +9,40 @@
 
 namespace wscvt {
 
+namespace {
+
+/// No offset is longer than this many cube roots of the volume: parallel surfaces of a mesh far
+/// from that volume fold over before they hold it.
+constexpr double farthest_offset = 0.1;
+
+MeshSums sums_of(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles) {
+  return mesh_sums(points, triangles, Vector3::Zero(), Execution(1));
+}
+
+/// Scales about the centroid; returns the mean move.
+double scale_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
+                       double volume) {
+  const MeshSums sums = sums_of(points, triangles);
+  if (!(sums.volume() > 0.0)) return 0.0;
+  const double factor = std::cbrt(volume / sums.volume());
+  const Vector3 centroid = sums.centroid();
+  double distances = 0.0;
+  for (Vector3& point : points) {
+    distances += (point - centroid).norm();
+    point = centroid + factor * (point - centroid);
+  }
+  return (factor - 1.0) * distances / static_cast<double>(points.size());
+}
+
+}  // namespace
+
 double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                         double volume) {
   // Newton's method; each step squares what is missing, of a large offset after some.
   constexpr int most_steps = 30;
   constexpr double rounding = 1e-15;
+  const std::vector<Vector3> start = points;
+  const double farthest = farthest_offset * std::cbrt(volume);
   double offset = 0.0;
   std::vector<Vector3> gradient(points.size());
   for (int step = 0; step < most_steps; ++step) {
@@ -26,16 +55,18 @@ double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle
     }
     double slope = 0.0;
     for (const Vector3& g : gradient) slope += g.norm();
-    if (!(slope > 0.0)) break;
-    const double missing =
-        volume - mesh_sums(points, triangles, Vector3::Zero(), Execution(1)).volume();
+    const double missing = volume - sums_of(points, triangles).volume();
     if (std::abs(missing) <= rounding * std::abs(volume)) break;
     const double distance = missing / slope;
+    offset += distance;
+    if (!(std::abs(offset) <= farthest)) {
+      points = start;
+      return scale_to_volume(points, triangles, volume);
+    }
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double length = gradient[i].norm();
       if (length > 0.0) points[i] += distance / length * gradient[i];
     }
-    offset += distance;
   }
   return offset;
 }

@@ -96,12 +96,19 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
   if (report == nullptr) return;
   const std::string nodes = std::to_string(result.mesh.points.size()) + " nodes";
   const std::size_t pairs = report->nodes.self_intersections;
-  if (pairs > 0) {
-    warnings.push_back(std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
-                       " of triangles of the remesh intersect: parts of the grain are closer "
-                       "together than " +
-                       nodes + " can follow. Use more nodes.");
+  if (pairs == 0) return;
+  std::string text = std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
+                     " of triangles of the remesh intersect: ";
+  const std::size_t of_scan = report->nodes.scan_self_intersections;
+  if (of_scan > 0) {
+    text += "so do " + std::to_string(of_scan) + " of the scan. " + envelope_of_flaws_advice();
+  } else {
+    text += "parts of the grain are closer together than " + nodes + " can follow. ";
+    text += report->nodes.enough_nodes > 0
+                ? std::to_string(report->nodes.enough_nodes) + " were tried and leave none."
+                : "Use more nodes.";
   }
+  warnings.push_back(text);
 }
 
 void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
