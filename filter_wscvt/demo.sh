@@ -24,7 +24,7 @@ case $(c++ -dumpversion) in
 esac
 cmake --preset release -DMESHLAB_SOURCE_DIR="$PWD/build/meshlab-source" -DWSCVT_WARNINGS_AS_ERRORS=$strict
 stage=$PWD/build/release/filter_wscvt/stage
-cmake --build --preset release --target wscvt_stage wscvt_program
+cmake --build --preset release --target wscvt_stage wscvt_program wscvt_python
 
 # The file appears under its name when it is whole; what was there until then stays. The folder
 # beside it has one name, so that what a killed run left is found.

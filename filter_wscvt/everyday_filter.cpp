@@ -20,10 +20,13 @@ const std::vector<std::string> everyday_names = {"NodeCount",      "Method",    
 std::string everyday_name() { return "Remeshing: Grain to a Number of Nodes"; }
 
 std::string everyday_help() {
-  return "Turns the scan of a grain into a closed mesh of <b>exactly the number of nodes asked "
-         "for</b> and of even triangles, as a new layer. Set the number; the other defaults suit "
-         "most grains. For contact laws that sum over nodes by area, or use the deepest node, see "
-         "Node placement in the filter with all parameters: Weighted Spherical Centroidal Voronoi";
+  // MeshLab's search finds a filter by the words of its name and of this text.
+  return "Remeshes the scan of a sand or rock grain (a particle) for DEM to <b>exactly the number "
+         "of "
+         "nodes asked for</b>, with even triangles and the same volume. Use it to simplify, "
+         "decimate "
+         "or resample; it is isotropic (CVT, WSCVT). Set the number; the other defaults suit most "
+         "grains. The filter with all parameters is Weighted Spherical Centroidal Voronoi";
 }
 
 ParameterList everyday_parameters() {

@@ -284,8 +284,7 @@ FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers&
   const ParameterList parameters = filter_with_number(static_cast<int>(filter)).parameters;
   FilterOutcome outcome = run_on(filter, parameters, values, layers, progress);
   if (const std::optional<std::string> remark = remark_on_missing(parameters, values)) {
-    // After the empty line with which a log begins.
-    outcome.log.insert(outcome.log.begin() + 1, {*remark, true});
+    outcome.log.push_back({*remark, true});
   }
   return outcome;
 }

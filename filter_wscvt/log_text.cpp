@@ -21,9 +21,11 @@ std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
                             const std::vector<std::string>& lines) {
   constexpr std::size_t longest_line = 4000;
   std::vector<LogLine> log = {{""}};
-  for (const std::string& warning : warnings)
-    log.push_back({warning.substr(0, longest_line), true});
   for (const std::string& line : lines) log.push_back({line.substr(0, longest_line)});
+  // Last, because MeshLab scrolls its log to the end.
+  for (const std::string& warning : warnings) {
+    log.push_back({warning.substr(0, longest_line), true});
+  }
   return log;
 }
 

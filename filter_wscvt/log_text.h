@@ -16,8 +16,8 @@ struct LogLine {
 std::string seconds_line(double seconds);
 
 /// The lines of a log: an empty one, because a host may have left progress text without a line end,
-/// the warnings, then the others. All are cut somewhat before the 4096 characters at which hosts
-/// cut.
+/// the lines, then the warnings: MeshLab scrolls to the end. All are cut somewhat before the 4096
+/// characters at which hosts cut.
 std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
                             const std::vector<std::string>& lines);
 

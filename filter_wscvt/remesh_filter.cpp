@@ -13,10 +13,10 @@ std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Vor
 
 std::string remesh_help() {
   // Three lines: in 2020.09, whose dialog does not scroll, a longer text pushes Apply off the
-  // screen.
-  return "A mesh of <b>exactly the number of nodes asked for</b>. It repairs small faults of the "
-         "scan "
-         "and refuses large ones. See: <i>Wu F., Huang L., Lai Z.</i>, 2022, doi "
+  // screen. MeshLab's search finds a filter by the words of its name and of this text.
+  return "Isotropic CVT of <b>exactly N nodes</b>: simplify, decimate, resample a sand grain or "
+         "particle "
+         "for DEM. WSCVT: <i>Wu F., Huang L., Lai Z.</i>, doi "
          "10.6052/j.issn.1000-4750.2022.07.0614";
 }
 

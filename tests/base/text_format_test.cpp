@@ -26,8 +26,9 @@ TEST(TextFormat, Numbers) {
 TEST(TextFormat, Errors) {
   EXPECT_EQ(format_error(0.66), "+0.660");
   EXPECT_EQ(format_error(-12.34567), "-12.346");
-  EXPECT_EQ(format_error(0.0), "+0.000");
-  EXPECT_EQ(format_error(-2.5e-10), "-2.5e-10");
+  EXPECT_EQ(format_error(0.0), "exact");
+  EXPECT_EQ(format_error(-9.5e-10), "exact");
+  EXPECT_EQ(format_error(-1.2e-9), "-1.2e-09");
   EXPECT_EQ(format_error(0.001), "+0.001");
   EXPECT_EQ(format_error(-0.000999), "-1.0e-03");
   EXPECT_EQ(format_error(not_a_number), "-");

@@ -20,7 +20,7 @@ std::string format_typed(double value);
 std::string format_percent(double share);
 
 /// An error in per cent for reading, with its sign and three decimals, in exponent form below
-/// 0.001; "-" for one that is not finite.
+/// 0.001; "exact" below 1e-9, which is rounding; "-" for one that is not finite.
 std::string format_error(double percent);
 
 /// A number for another program: the shortest text that reads back to the same bits; empty for one

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""run_readme.py SOURCE BINARY FOLDER: runs the commands of README.md word for word, in their order, as
+somebody would after its first command, in FOLDER, which gets links to the project and its build.
+
+Exit code 0 if each command ends with 0, each file that one names after -o, --report, --node-table or
+--sdf, or as the output of wscvt, is there, and the text says nothing of the project that is not run.
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+# What sets up or tests, and so takes minutes; tests/run_all.sh and its step debian12 run these.
+SETUP = {"filter_wscvt/demo.sh", "tests/run_all.sh"}
+
+
+def commands_of(text):
+    return [line[4:].strip() for line in text.splitlines() if line.startswith("    ")]
+
+
+def outputs_of(command):
+    words = command.split()
+    named = [words[i + 1] for i, word in enumerate(words)
+             if word in ("-o", "--report", "--node-table", "--sdf")]
+    meshes = [word for word in words if re.fullmatch(r"[\w./]+\.(ply|stl|obj|off)", word)]
+    if len(meshes) == 2 and " compare " not in command:
+        named.append(meshes[1])
+    return named
+
+
+def main():
+    source, binary, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+    shutil.rmtree(folder, ignore_errors=True)
+    (folder / "build").mkdir(parents=True)
+    for name in ("meshes", "filter_wscvt", "lib", "tests"):
+        (folder / name).symlink_to(source / name)
+    (folder / "build" / "release").symlink_to(binary)
+    commands = [one for one in commands_of((source / "README.md").read_text()) if one not in SETUP]
+    if len(commands) < 6:
+        sys.exit(f"README.md has {len(commands)} commands to run, fewer than 6: {commands}")
+    for command in commands:
+        run = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True,
+                             check=False)
+        missing = [name for name in outputs_of(command) if not (folder / name).exists()]
+        if run.returncode != 0 or missing:
+            sys.exit(f"{command}\nended with {run.returncode}; missing: {missing}\n"
+                     f"{run.stdout}{run.stderr}")
+        print(f"{command}\n{run.stdout[-200:]}")
+
+
+if __name__ == "__main__":
+    main()
