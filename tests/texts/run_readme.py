@@ -6,6 +6,7 @@ somebody would after its first command, in FOLDER, which gets links to the proje
 Exit code 0 if each command ends with 0, each file that one names after -o, --report, --node-table or
 --sdf, or as the output of wscvt, is there, and the text says nothing of the project that is not run.
 """
+import os
 import pathlib
 import re
 import shutil
@@ -41,8 +42,9 @@ def main():
     if len(commands) < 6:
         sys.exit(f"README.md has {len(commands)} commands to run, fewer than 6: {commands}")
     for command in commands:
+        # Debian's programs, Python above all, as a newcomer has them.
         run = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True,
-                             check=False)
+                             check=False, env=dict(os.environ, PATH="/usr/bin:/bin"))
         missing = [name for name in outputs_of(command) if not (folder / name).exists()]
         if run.returncode != 0 or missing:
             sys.exit(f"{command}\nended with {run.returncode}; missing: {missing}\n"
