@@ -30,7 +30,7 @@ endforeach()
 # sample's table and a volume's, which are the program's own.
 set(of_the_project wscvt/base/file_name.h wscvt/base/machine_refused.h wscvt/base/output_file.h wscvt/base/readable_text.h
   wscvt/base/text_format.h
-  wscvt/remesh/option_advice.h wscvt/report/json.h wscvt/report/sample_summary.h wscvt/report/sample_table.h)
+  wscvt/remesh/option_advice.h wscvt/report/json.h wscvt/scan/bodies.h wscvt/report/sample_summary.h wscvt/report/sample_table.h)
 file(GLOB_RECURSE shells ${source_dir}/lib/program/*.h ${source_dir}/lib/program/*.cpp
   ${source_dir}/lib/python/*.cpp ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp)
 foreach(shell ${shells})
