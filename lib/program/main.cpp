@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "batch_command.h"
+#include "call_words.h"
 #include "collect_command.h"
 #include "command.h"
 #include "compare_command.h"
@@ -46,33 +47,6 @@ Command make_command(CLI::App& app) {
   return {&program::add_command(app, *arguments), [arguments] { return run(*arguments); }};
 }
 
-/// What comes before any command.
-bool is_of_the_program(const std::string& word) {
-  return word == "--help" || word == "-h" || word == "--version" || word == "--completion";
-}
-
-/// The words of a call. `wscvt SCAN OUTPUT`, from before there were commands, is a remesh. Throws
-/// CLI::ParseError for a word that is no command and no file.
-std::vector<std::string> words_of(int argc, char** argv, const std::vector<Command>& commands) {
-  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-  const std::string first = words.empty() ? "" : words.front();
-  std::string names;
-  for (const Command& one : commands) {
-    if (one.app->get_name() == first) return words;
-    names += (names.empty() ? "" : &one == &commands.back() ? " or " : ", ") + one.app->get_name();
-  }
-  if (is_of_the_program(first)) return words;
-  // A file has a point for its ending, or a slash.
-  if (first.find_first_of("-./") == std::string::npos) {
-    throw CLI::ParseError(
-        (first.empty() ? "No command is given" : "There is no command \"" + first + "\"") +
-            "; give " + names + ".",
-        CLI::ExitCodes::InvalidError);
-  }
-  words.insert(words.begin(), "remesh");
-  return words;
-}
-
 int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
   app.formatter(std::make_shared<program::HelpFormatter>());
@@ -81,7 +55,7 @@ int run(int argc, char** argv) {
                          "  wscvt remesh --help\n"
                          "  wscvt remesh --help-all\n") +
              program::exit_code_text);
-  app.set_version_flag("--version", std::string("wscvt ") + wscvt::version());
+  app.set_version_flag("-v,--version", std::string("wscvt ") + wscvt::version());
   app.require_subcommand(1);
   const std::vector<Command> commands = {
       make_command<program::RemeshArguments>(app),  make_command<program::DescribeArguments>(app),
@@ -95,7 +69,10 @@ int run(int argc, char** argv) {
   app.add_flag_function("--completion", print_completion,
                         "Print a script that completes commands and options in bash, and exit");
   try {
-    std::vector<std::string> words = words_of(argc, argv, commands);
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.push_back(command.app->get_name());
+    std::vector<std::string> words =
+        program::call_words({argv + std::min(argc, 1), argv + argc}, names);
     std::reverse(words.begin(), words.end());  // as CLI11 wants them
     app.parse(words);
   } catch (const CLI::ParseError& error) {

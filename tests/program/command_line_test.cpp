@@ -260,5 +260,24 @@ TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
   EXPECT_NE(said.find(". Written before that: \"remesh.ply\".\n"), std::string::npos) << said;
 }
 
+TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
+  const auto refusal = [&](const std::string& words) {
+    const Outcome call = run(words);
+    EXPECT_EQ(call.exit_code, 2) << words;
+    return call.errors;
+  };
+  EXPECT_NE(refusal("remsh a.ply b.ply").find("Did you mean remesh?"), std::string::npos);
+  EXPECT_NE(refusal("descirbe a.ply").find("Did you mean describe?"), std::string::npos);
+  EXPECT_EQ(refusal("simplify a.ply b.ply").find("Did you mean"), std::string::npos);
+  EXPECT_NE(refusal("help remsh").find("Did you mean remesh?"), std::string::npos);
+  std::filesystem::create_directory(folder_ / "scans.d");
+  EXPECT_NE(refusal("scans.d out").find("wscvt batch scans.d -o OUT"), std::string::npos);
+  EXPECT_NE(refusal("a.ply b.ply c.ply out -n 300").find("wscvt batch SCANS... -o OUT"),
+            std::string::npos);
+  EXPECT_EQ(run("help batch").output, run("batch --help").output);
+  EXPECT_EQ(run("help").output, run("--help").output);
+  EXPECT_EQ(run("-v").output, run("--version").output);
+}
+
 }  // namespace
 }  // namespace wscvt
