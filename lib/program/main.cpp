@@ -25,6 +25,7 @@
 #include "exit_code.h"
 #include "extract_command.h"
 #include "remesh_command.h"
+#include "segment_command.h"
 #include "signals.h"
 #include "split_command.h"
 #include "standard_streams.h"
@@ -60,8 +61,9 @@ int run(int argc, char** argv) {
   const std::vector<Command> commands = {
       make_command<program::RemeshArguments>(app),  make_command<program::DescribeArguments>(app),
       make_command<program::CompareArguments>(app), make_command<program::CreateArguments>(app),
-      make_command<program::ExtractArguments>(app), make_command<program::BatchArguments>(app),
-      make_command<program::CollectArguments>(app), make_command<program::SplitArguments>(app),
+      make_command<program::SegmentArguments>(app), make_command<program::ExtractArguments>(app),
+      make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
+      make_command<program::SplitArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is

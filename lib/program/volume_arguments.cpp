@@ -7,6 +7,7 @@
 #include "command.h"
 #include "progress_line.h"
 #include "signals.h"
+#include "volume/segmentation.h"
 #include "work.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
@@ -47,25 +48,16 @@ void read_voxel_size(std::string_view text, VolumeChoice& choice) {
   choice.unit = unit;
 }
 
+std::string name_of(std::string_view key) { return "--" + std::string(key); }
+
 }  // namespace
 
-void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::string& heading) {
-  const auto name_of = [](std::string_view key) { return "--" + std::string(key); };
-  add_number(app, name_of(smallest_option.key), options.smallest, smallest_option)->group(heading);
-  add_number(app, name_of(smoothing_option.key), options.smoothing, smoothing_option)
-      ->group(heading);
+void add_choice_arguments(CLI::App& app, VolumeChoice& choice, const std::string& heading) {
   add_typed(app, name_of(voxel_size_option.key),
-            [&options](std::string_view text) { read_voxel_size(text, options.choice); })
+            [&choice](std::string_view text) { read_voxel_size(text, choice); })
       ->description("Size of a voxel, or X,Y,Z, " + range_text(voxel_size_option) +
                     ", with its unit: 12um. Default: what the volume says, or 1")
       ->type_name("SIZE")
-      ->group(heading);
-  add_number(app, name_of(background_option.key), options.background, background_option)
-      ->group(heading);
-  app.add_flag(name_of(at_border_option.key), options.at_border,
-               help_of(options.at_border, at_border_option))
-      ->group(heading);
-  app.add_flag(name_of(parts_option.key), options.parts, help_of(options.parts, parts_option))
       ->group(heading);
   const auto add_place = [&](std::optional<std::int64_t>& place,
                              const NumberOption<std::int64_t>& option) {
@@ -75,13 +67,33 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
         ->type_name("N")
         ->group(heading);
   };
-  add_place(options.choice.channel, channel_option);
-  add_place(options.choice.frame, frame_option);
-  add_typed(app, "--array",
-            [&options](std::string_view text) { options.choice.array = std::string(text); })
+  add_place(choice.channel, channel_option);
+  add_place(choice.frame, frame_option);
+  add_typed(app, "--array", [&choice](std::string_view text) { choice.array = std::string(text); })
       ->description("Which array, or data set by its path, of a file that has several")
       ->type_name("NAME")
       ->group(heading);
+}
+
+void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::string& heading) {
+  add_number(app, name_of(smallest_option.key), options.smallest, smallest_option)->group(heading);
+  add_number(app, name_of(smoothing_option.key), options.smoothing, smoothing_option)
+      ->group(heading);
+  add_number(app, name_of(background_option.key), options.background, background_option)
+      ->group(heading);
+  app.add_flag(name_of(at_border_option.key), options.at_border,
+               help_of(options.at_border, at_border_option))
+      ->group(heading);
+  app.add_flag(name_of(parts_option.key), options.parts, help_of(options.parts, parts_option))
+      ->group(heading);
+  add_typed(
+      app, name_of(separate_option.key),
+      [&options](std::string_view text) { options.separate = from_typed(text, separate_option); })
+      ->description("Of a mask: grains that touch are separated as by wscvt segment; " +
+                    std::string(separate_option.subject) + ", such as 0.75")
+      ->type_name("N")
+      ->group(heading);
+  add_choice_arguments(app, options.choice, heading);
 }
 
 std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,
@@ -120,7 +132,7 @@ void print_notes(const LabelGrains& grains, const std::string& command, bool qui
                 " of all voxels, are left out.";
   std::fprintf(stderr,
                "Warning: %s To take each part as a grain: %s --parts. Grains that touch "
-               "are one part.\n",
+               "are one part: --separate 0.75 parts them too.\n",
                what.c_str(), command.c_str());
 }
 
@@ -138,6 +150,7 @@ Json json_of(const VolumeOptions& options) {
   put(voxel_size_option.key, choice.voxel_size ? wscvt::json_of(*choice.voxel_size) : Json());
   put("unit", choice.unit);
   put(parts_option.key, options.parts);
+  put(separate_option.key, options.separate ? Json(*options.separate) : Json());
   put(channel_option.key, choice.channel ? Json(*choice.channel) : Json());
   put(frame_option.key, choice.frame ? Json(*choice.frame) : Json());
   put("array", choice.array);

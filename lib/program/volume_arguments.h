@@ -14,6 +14,9 @@ namespace wscvt::program {
 /// `options`, which must outlive `app`.
 void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::string& heading);
 
+/// Adds what is taken of a file of voxels, and the size of these, alone.
+void add_choice_arguments(CLI::App& app, VolumeChoice& choice, const std::string& heading);
+
 /// Opens a volume and finds its labels, with a line on a terminal unless quiet. A signal cancels.
 /// Throws as LabelGrains does.
 std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,

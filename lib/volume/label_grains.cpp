@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "volume/itk_filters.h"
+#include "volume/segmentation.h"
 #include "volume/volume_parts.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
@@ -13,6 +15,10 @@ namespace wscvt {
 void check_volume_options(const VolumeOptions& options) {
   require_in_range(options.smallest, smallest_option);
   require_in_range(options.smoothing, smoothing_option);
+  if (options.separate) {
+    require_in_range(*options.separate, separate_option);
+    require_filters();
+  }
   if (options.choice.channel) require_in_range(*options.choice.channel, channel_option);
   if (options.choice.frame) require_in_range(*options.choice.frame, frame_option);
   if (!options.choice.voxel_size) return;
@@ -24,12 +30,16 @@ LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
     : options_(options) {
   check_volume_options(options);
   volume_ = open_volume(path, options.choice);
-  if (options.parts) {
-    volume_ = parts_of(std::move(volume_), options.background, execution.part(0.0, 0.5));
-    options_.background = 0;
+  const bool is_numbered_anew = options.parts || options.separate;
+  const Execution numbering = execution.part(0.0, 0.5);
+  if (options.separate) {
+    volume_ = separated(*volume_, options.background, *options.separate, numbering);
+  } else if (options.parts) {
+    volume_ = parts_of(std::move(volume_), options.background, numbering);
   }
+  if (is_numbered_anew) options_.background = 0;
   labels_ = label_census(*volume_, options_.background,
-                         options.parts ? execution.part(0.5, 1.0) : execution);
+                         is_numbered_anew ? execution.part(0.5, 1.0) : execution);
   if (labels_.empty()) {
     throw Error(ErrorCode::InvalidInput, "\"" + path + "\" holds no label but the background, " +
                                              std::to_string(options.background) +

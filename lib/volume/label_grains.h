@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -25,7 +26,10 @@ struct VolumeOptions {
   bool at_border = false;  ///< also grains that touch the border of the volume, cut as they are
   int smoothing = 20;      ///< passes, see smoothed_surface
   bool parts = false;      ///< each part of a label is a grain, see volume_parts.h
-  VolumeChoice choice;     ///< what is taken of the file, and the size of its voxels
+  /// Of a mask: grains that touch are parted too, see separate_option; the volume is then held, see
+  /// segmentation.h. Nothing: they are not.
+  std::optional<double> separate;
+  VolumeChoice choice;  ///< what is taken of the file, and the size of its voxels
 };
 
 inline constexpr NumberOption<Label> background_option = {"background", "label of what is no grain",

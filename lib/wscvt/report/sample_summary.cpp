@@ -109,27 +109,6 @@ std::string with_unit(const SampleDistribution& one) {
   return one.unit.empty() ? one.label : one.label + ", " + one.unit;
 }
 
-Histogram histogram_of(const std::vector<double>& values) {
-  // Square-root rule, with bins that can be told apart on a page.
-  const auto bins = static_cast<std::size_t>(
-      std::clamp(std::sqrt(static_cast<double>(values.size())), 8.0, 60.0));
-  Histogram histogram{first_of(values), last_of(values), std::vector<std::size_t>(bins, 0)};
-  const double size = std::max(std::abs(histogram.lower), std::abs(histogram.upper));
-  if (!(histogram.upper - histogram.lower > 1e-9 * size)) {
-    // All are equal, but for rounding: a bin about them.
-    const double half = std::max(size * 0.01, 1e-300);
-    histogram.lower -= half;
-    histogram.upper += half;
-  }
-  const double width = (histogram.upper - histogram.lower) / static_cast<double>(bins);
-  for (const double value : values) {
-    const double bin = std::floor((value - histogram.lower) / width);
-    ++histogram
-          .counts[static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(bins - 1)))];
-  }
-  return histogram;
-}
-
 std::vector<std::vector<std::string>> table_of(const SampleSummary& summary) {
   std::vector<std::vector<std::string>> rows = {{"of the grains", "mean", "std. dev. (n - 1)",
                                                  "smallest", "10 %", "50 %", "90 %", "largest"}};
@@ -212,6 +191,27 @@ double quantile(const std::vector<double>& values, double share) {
   const std::size_t above = std::min(below + 1, values.size() - 1);
   const double part = place - static_cast<double>(below);
   return values[below] + part * (values[above] - values[below]);
+}
+
+Histogram histogram_of(const std::vector<double>& values) {
+  // Square-root rule, with bins that can be told apart on a page.
+  const auto bins = static_cast<std::size_t>(
+      std::clamp(std::sqrt(static_cast<double>(values.size())), 8.0, 60.0));
+  Histogram histogram{first_of(values), last_of(values), std::vector<std::size_t>(bins, 0)};
+  const double size = std::max(std::abs(histogram.lower), std::abs(histogram.upper));
+  if (!(histogram.upper - histogram.lower > 1e-9 * size)) {
+    // All are equal, but for rounding: a bin about them.
+    const double half = std::max(size * 0.01, 1e-300);
+    histogram.lower -= half;
+    histogram.upper += half;
+  }
+  const double width = (histogram.upper - histogram.lower) / static_cast<double>(bins);
+  for (const double value : values) {
+    const double bin = std::floor((value - histogram.lower) / width);
+    ++histogram
+          .counts[static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(bins - 1)))];
+  }
+  return histogram;
 }
 
 std::string summary_json(const SampleSummary& summary) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/measures/mesh_quality.h"
+
 namespace wscvt {
 
 /// One number of each grain of a sample that was remeshed.
@@ -42,6 +44,9 @@ SampleSummary summarise_table(const std::string& path);
 /// The value below which a share, 0 to 1, of the values lies, between neighbours by a straight
 /// line; NaN of none. `values` ascend.
 double quantile(const std::vector<double>& values, double share);
+
+/// Bins from the first to the last of values that ascend, as many as a page can show.
+Histogram histogram_of(const std::vector<double>& values);
 
 /// The summary as a JSON document: counts, mean, standard deviation, smallest and largest value,
 /// 10, 50 and 90 % of each distribution, failures.

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segment_command.h"
+
+#include <filesystem>
+#include <memory>
+
+#include "command.h"
+#include "common_arguments.h"
+#include "exit_code.h"
+#include "output_paths.h"
+#include "volume/itk_filters.h"
+#include "volume/label_writer.h"
+#include "volume/segmentation_page.h"
+#include "volume_arguments.h"
+#include "work.h"
+#include "wrong_call.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt::program {
+
+CLI::App& add_command(CLI::App& program, SegmentArguments& arguments) {
+  CLI::App& app = add_command(
+      program,
+      {"segment",
+       "Turn grey values, or a mask, into labelled grains",
+       {"scan.tif labels.nrrd", "mask.tif labels.mha --separate 1.5 --voxel-size 12um"},
+       "Look at the page first: three slices with the outlines over the scan. Then wscvt batch\n"
+       "remeshes the labels."});
+  add_file_argument(app, "scan", arguments.scan,
+                    "Grey values whose grains are bright, or a mask: files as wscvt extract takes")
+      ->required();
+  add_file_argument(app, "labels", arguments.labels, "Labels that are made: .nrrd or .mha")
+      ->required();
+  add_number(app, "--separate", arguments.options.separate, separate_option);
+  add_typed(app, "--threshold",
+            [&arguments](std::string_view text) {
+              arguments.options.threshold = from_typed(text, threshold_option);
+            })
+      ->description(
+          "Grey value from which on a voxel is material. Default: half way between the two peaks "
+          "of the histogram")
+      ->type_name("N");
+  add_number(app, "--smallest", arguments.options.smallest, smallest_kept_option);
+  add_choice_arguments(app, arguments.choice, "Options");
+  add_file_argument(app, "--report", arguments.page,
+                    "The page, .html. Default: the labels' name with that ending");
+  add_threads_argument(app, arguments.threads);
+  app.add_flag("-q,--quiet", arguments.quiet, "No lines on the standard output, no progress");
+  return app;
+}
+
+int run(const SegmentArguments& arguments) {
+  const std::string page =
+      arguments.page.empty()
+          ? std::filesystem::path(arguments.labels).replace_extension(".html").string()
+          : arguments.page;
+  const std::unique_ptr<LabelVolume> scan = checked([&] {
+    require_filters();
+    check_label_file(arguments.labels);
+    if (report_format(page) != ReportFormat::Page) {
+      refuse("\"" + page + "\" is to hold a page; give a name that ends in .html.");
+    }
+    check_output_paths({{"the scan", arguments.scan}},
+                       {{"the labels", arguments.labels}, {"the page", page}}, false);
+    return open_volume(arguments.scan, arguments.choice);
+  });
+  CommonArguments common;
+  common.threads = arguments.threads;
+  common.quiet = arguments.quiet;
+  Work work(common);
+  const Segmentation result = segment(*scan, arguments.options, work.execution().part(0.0, 0.9));
+  const auto grains = static_cast<Label>(result.grains.size());
+  work.write(arguments.labels, [&](const std::string& path, const Execution& execution) {
+    write_labels(path, *result.labels, grains, execution);
+  });
+  work.write(page, [&](const std::string& path, const Execution& execution) {
+    write_file(path, segmentation_html(*scan, result, origin_of(arguments.scan), execution));
+  });
+  std::vector<std::string> lines = scan->notes();
+  for (std::string& line : segmentation_lines(result)) lines.push_back(std::move(line));
+  lines.push_back("Look at \"" + page + "\" first. Then: wscvt batch " + arguments.labels +
+                  " -o out -n 500");
+  work.print({}, lines);
+  return Done;
+}
+
+}  // namespace wscvt::program

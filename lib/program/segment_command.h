@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+
+#include "volume/segmentation.h"
+
+namespace wscvt::program {
+
+/// `wscvt segment`: grey values, or a mask, become labelled grains.
+struct SegmentArguments {
+  std::string scan;
+  std::string labels;
+  std::string page;  ///< empty: beside the labels
+  SegmentationOptions options;
+  VolumeChoice choice;
+  int threads = 0;  ///< 0: all
+  bool quiet = false;
+};
+
+/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+CLI::App& add_command(CLI::App& program, SegmentArguments& arguments);
+
+/// Does what the call says; gives the exit code. Throws wscvt::Error.
+int run(const SegmentArguments& arguments);
+
+}  // namespace wscvt::program

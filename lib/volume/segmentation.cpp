@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/segmentation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "volume/grey_threshold.h"
+#include "volume/itk_filters.h"
+#include "volume/volume_parts.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Labels that are held.
+class HeldVolume : public LabelVolume {
+ public:
+  HeldVolume(const VolumeGeometry& geometry, std::vector<Label> labels)
+      : LabelVolume(geometry), labels_(std::move(labels)) {}
+
+  const std::vector<Label>& next_row() override {
+    const auto begin = labels_.begin() + static_cast<std::ptrdiff_t>(next_);
+    row_.assign(begin, begin + geometry().counts[0]);
+    next_ += row_.size();
+    return row_;
+  }
+  void rewind() override { next_ = 0; }
+
+ private:
+  std::vector<Label> labels_;
+  std::vector<Label> row_;
+  std::size_t next_ = 0;
+};
+
+/// A volume whose labels 0, 1, 2, ... have other numbers.
+class RenumberedVolume : public LabelVolume {
+ public:
+  RenumberedVolume(std::unique_ptr<LabelVolume> volume, std::vector<Label> numbers)
+      : LabelVolume(volume->geometry()), volume_(std::move(volume)), numbers_(std::move(numbers)) {}
+
+  const std::vector<Label>& next_row() override {
+    row_ = volume_->next_row();
+    for (Label& label : row_) label = numbers_[label];
+    return row_;
+  }
+  void rewind() override { volume_->rewind(); }
+
+ private:
+  std::unique_ptr<LabelVolume> volume_;
+  std::vector<Label> numbers_;
+  std::vector<Label> row_;
+};
+
+/// Calls take(labels) for each row of a volume, from its beginning.
+template <class Take>
+void for_each_row(LabelVolume& volume, const Execution& execution, const Take& take) {
+  const VoxelCounts& counts = volume.geometry().counts;
+  volume.rewind();
+  for (std::int32_t z = 0; z < counts[2]; ++z) {
+    execution.report(static_cast<double>(z) / counts[2], "Reading the volume");
+    for (std::int32_t y = 0; y < counts[1]; ++y) take(volume.next_row());
+  }
+}
+
+std::size_t voxels_of(const VoxelCounts& counts) {
+  return static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]) *
+         static_cast<std::size_t>(counts[2]);
+}
+
+/// The least and the largest value of a volume, and whether it has no others.
+struct Values {
+  Label least = std::numeric_limits<Label>::max();
+  Label largest = 0;
+  bool are_two = true;
+};
+
+Values values_of(LabelVolume& volume, const Execution& execution) {
+  Values values;
+  bool is_first = true;
+  for_each_row(volume, execution, [&](const std::vector<Label>& row) {
+    if (is_first) values.least = values.largest = row.front();
+    is_first = false;
+    for (const Label value : row) {
+      if (value == values.least || value == values.largest) continue;
+      // A second value, or one that is none of two.
+      if (values.least != values.largest) values.are_two = false;
+      values.least = std::min(values.least, value);
+      values.largest = std::max(values.largest, value);
+    }
+  });
+  if (values.least == values.largest) {
+    refuse("All voxels of the volume are " + std::to_string(values.least) +
+           ": there is nothing to separate. Check the channel, the frame or the array.");
+  }
+  return values;
+}
+
+/// The voxels of which `is_material` holds, as 1.
+template <class IsMaterial>
+std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& execution,
+                                  const IsMaterial& is_material) {
+  std::vector<std::uint8_t> mask;
+  mask.reserve(voxels_of(volume.geometry().counts));
+  for_each_row(volume, execution, [&](const std::vector<Label>& row) {
+    for (const Label value : row) mask.push_back(is_material(value) ? 1 : 0);
+  });
+  return mask;
+}
+
+/// The material among grey values; sets `threshold` to what parted them, if it was not given.
+std::vector<std::uint8_t> material_of(LabelVolume& scan, const Values& values,
+                                      std::optional<double>& threshold,
+                                      const Execution& execution) {
+  constexpr double most = std::numeric_limits<std::uint16_t>::max();
+  // Values of 16 bits stand for themselves.
+  const bool is_short = values.largest <= most;
+  const double base = is_short ? 0.0 : values.least;
+  const double step = is_short ? 1.0 : (values.largest - base) / most;
+  std::vector<std::uint16_t> grey;
+  grey.reserve(voxels_of(scan.geometry().counts));
+  for_each_row(scan, execution.part(0.0, 0.2), [&](const std::vector<Label>& row) {
+    for (const Label value : row) {
+      grey.push_back(static_cast<std::uint16_t>((value - base) / step));
+    }
+  });
+  grey = median_of(grey, scan.geometry().counts, execution.part(0.2, 1.0));
+  if (!threshold) {
+    std::vector<std::uint64_t> counts(static_cast<std::size_t>(most) + 1, 0);
+    for (const std::uint16_t value : grey) ++counts[value];
+    const auto is_some = [](std::uint64_t count) { return count > 0; };
+    if (std::count_if(counts.begin(), counts.end(), is_some) < 2) {
+      refuse("All voxels are of one grey value once they are smoothed; give --threshold.");
+    }
+    threshold = base + step * level_between_peaks(counts);
+  }
+  const double level = (*threshold - base) / step;
+  std::vector<std::uint8_t> mask(grey.size());
+  for (std::size_t k = 0; k < grey.size(); ++k) mask[k] = grey[k] >= level ? 1 : 0;
+  return mask;
+}
+
+std::uint64_t count_of(const std::vector<std::uint8_t>& mask) {
+  return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
+}
+
+/// Its parts, those that touch separated.
+std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
+                                           const VolumeGeometry& geometry, double depth,
+                                           const Execution& execution) {
+  const Vector3 spacing = geometry.axes.colwise().norm();
+  const double voxel = std::cbrt(spacing.prod());
+  std::vector<Label> basins = basins_of(mask, geometry.counts, {spacing[0], spacing[1], spacing[2]},
+                                        depth * voxel, execution.part(0.0, 0.9));
+  mask = {};
+  return parts_of(std::make_unique<HeldVolume>(geometry, std::move(basins)), 0,
+                  execution.part(0.9, 1.0));
+}
+
+/// Finds the grains, numbered from 1, and gives one number more to all that are too small.
+void drop_small(Segmentation& result, std::int64_t smallest, const Execution& execution) {
+  const std::vector<LabelExtent> all = label_census(*result.labels, 0, execution);
+  std::vector<Label> numbers(all.size() + 1, 0);  // parts are numbered without gaps
+  for (const LabelExtent& part : all) {
+    result.material += part.voxels;
+    if (static_cast<std::int64_t>(part.voxels) < smallest) {
+      result.dropped += part.voxels;
+      continue;
+    }
+    result.grains.push_back(part);
+    result.grains.back().label = static_cast<Label>(result.grains.size());
+    numbers[part.label] = result.grains.back().label;
+  }
+  if (result.grains.empty()) {
+    refuse("No grain is left of " + std::to_string(all.size()) + " parts of material from " +
+           format_number(result.threshold) + " on, the smallest that is kept having " +
+           std::to_string(smallest) + " voxels. Give another --threshold, or a lower --smallest.");
+  }
+  for (std::size_t part = 1; part < numbers.size(); ++part) {
+    if (numbers[part] == 0) numbers[part] = static_cast<Label>(result.grains.size() + 1);
+  }
+  result.labels = std::make_unique<RenumberedVolume>(std::move(result.labels), std::move(numbers));
+}
+
+/// What `work` gives. Throws MachineRefused, which says how much was needed, for want of memory.
+template <class Work>
+auto with_memory(const VoxelCounts& counts, const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    constexpr double bytes_a_voxel = 25e-9;
+    throw MachineRefused(
+        "There is not enough memory to separate the grains of a volume of this size, about " +
+        format_number(bytes_a_voxel * static_cast<double>(voxels_of(counts)), 2) +
+        " GB. Cut the volume into parts, or halve its resolution.");
+  }
+}
+
+Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
+                       const Execution& execution) {
+  if (options.threshold) require_in_range(*options.threshold, threshold_option);
+  require_in_range(options.separate, separate_option);
+  require_in_range(options.smallest, smallest_kept_option);
+  require_filters();
+  const VolumeGeometry& geometry = scan.geometry();
+  const Values values = values_of(scan, execution.part(0.0, 0.1));
+  Segmentation result;
+  result.is_mask = values.are_two;
+  result.voxels = voxels_of(geometry.counts);
+  std::optional<double> threshold = options.threshold;
+  if (result.is_mask && !threshold) threshold = values.largest;
+  std::vector<std::uint8_t> mask;
+  const Execution reading = execution.part(0.1, 0.4);
+  if (result.is_mask) {
+    mask = mask_of(scan, reading, [&](Label value) { return value >= *threshold; });
+  } else {
+    mask = material_of(scan, values, threshold, reading);
+  }
+  result.threshold = *threshold;
+  const std::uint64_t open = count_of(mask);
+  fill_holes(mask, geometry.counts, execution.part(0.4, 0.5));
+  result.filled = count_of(mask) - open;
+  result.labels =
+      parts_of_mask(std::move(mask), geometry, options.separate, execution.part(0.5, 0.95));
+  drop_small(result, options.smallest, execution.part(0.95, 1.0));
+  return result;
+}
+
+}  // namespace
+
+Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
+                     const Execution& execution) {
+  return with_memory(scan.geometry().counts, [&] { return segmented(scan, options, execution); });
+}
+
+std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double depth,
+                                       const Execution& execution) {
+  require_filters();
+  require_in_range(depth, separate_option);
+  std::optional<Label> material;
+  const auto is_material = [&](Label value) {
+    if (value == background) return false;
+    if (material && *material != value) {
+      refuse("The volume has the labels " + std::to_string(*material) + " and " +
+             std::to_string(value) +
+             ", and --separate is for a mask, which has one. Leave it out.");
+    }
+    material = value;
+    return true;
+  };
+  std::unique_ptr<LabelVolume> parts = with_memory(mask.geometry().counts, [&] {
+    std::vector<std::uint8_t> voxels = mask_of(mask, execution.part(0.0, 0.2), is_material);
+    fill_holes(voxels, mask.geometry().counts, execution.part(0.2, 0.3));
+    return parts_of_mask(std::move(voxels), mask.geometry(), depth, execution.part(0.3, 1.0));
+  });
+  for (const std::string& note : mask.notes()) parts->add_note(note);
+  return parts;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "volume/segmentation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "grains/packing.h"
+#include "support/cancelled_runs.h"
+#include "support/tiff_pages.h"
+#include "support/volume_folder.h"
+#include "volume/grey_threshold.h"
+#include "volume/label_grains.h"
+#include "volume/label_writer.h"
+#include "volume/segmentation_page.h"
+#include "wscvt/measures/descriptors.h"
+
+namespace wscvt {
+namespace {
+
+using test::MadeVolume;
+
+std::vector<Label> all_of(LabelVolume& volume) {
+  std::vector<Label> labels;
+  const VoxelCounts& counts = volume.geometry().counts;
+  volume.rewind();
+  for (int row = 0; row < counts[1] * counts[2]; ++row) {
+    const std::vector<Label>& next = volume.next_row();
+    labels.insert(labels.end(), next.begin(), next.end());
+  }
+  return labels;
+}
+
+class SegmentationOfAFile : public test::VolumeFolder {
+ protected:
+  void write_made(const std::string& spacings = "1 1 1") const {
+    write("a.nrrd",
+          test::nrrd(made_, "spacings: " + spacings + "\nspace units: \"mm\" \"mm\" \"mm\"\n"));
+  }
+  Segmentation segmented(const SegmentationOptions& options = {}, int threads = 1) const {
+    return segment(*open_volume(path("a.nrrd")), options, Execution(threads));
+  }
+  /// Labels, what was dropped as 0.
+  static std::vector<Label> kept(const Segmentation& found) {
+    std::vector<Label> labels = all_of(*found.labels);
+    for (Label& label : labels) label = label > found.grains.size() ? 0 : label;
+    return labels;
+  }
+  static Vector3 middle_of(const LabelExtent& grain) {
+    return 0.5 * Vector3(grain.begin[0] + grain.end[0], grain.begin[1] + grain.end[1],
+                         grain.begin[2] + grain.end[2]);
+  }
+};
+
+class SegmentationOfAPacking : public SegmentationOfAFile {
+ protected:
+  /// Grains of all sizes in contact, as a scan or as a mask.
+  void pack(const Vector3& spacing, bool is_mask) {
+    test::PackingOptions options;
+    options.count = 12;
+    options.smallest = 9.0;
+    options.largest = 15.0;
+    options.box = {66.0, 64.0, 66.0};
+    grains_ = test::packing(options);
+    voxels_ = test::voxels_of(grains_, options.box, spacing);
+    made_ = MadeVolume(voxels_.counts);
+    made_.labels = is_mask ? voxels_.truth : test::grey_values(voxels_, {});
+    if (is_mask) {
+      for (Label& label : made_.labels) label = label == 0 ? 0 : 255;
+    }
+    write_made(std::to_string(spacing[0]) + " " + std::to_string(spacing[1]) + " " +
+               std::to_string(spacing[2]));
+  }
+  test::PackingFound score(const Segmentation& found) const {
+    return test::found_in(kept(found), grains_, voxels_);
+  }
+
+  std::vector<test::PackedGrain> grains_;
+  test::PackedVoxels voxels_;
+};
+
+TEST_F(SegmentationOfAPacking, FindsTheGrainsOfAScanAtAnyNumberOfThreads) {
+  pack({1.0, 1.0, 1.0}, false);
+  // They do touch: parts alone are fewer.
+  SegmentationOptions parts;
+  parts.separate = 1e9;
+  EXPECT_LT(segmented(parts).grains.size(), grains_.size() / 2);
+  const Segmentation found = segmented();
+  const test::PackingFound met = score(found);
+  EXPECT_EQ(met.one_to_one, grains_.size());
+  EXPECT_EQ(met.labels, grains_.size());
+  EXPECT_LT(std::abs(met.volume_bias), 0.02);
+  EXPECT_NEAR(found.threshold, 110.0, 1.5) << "half way between 60 and 160";
+  EXPECT_FALSE(found.is_mask);
+  const std::vector<Label> labels = all_of(*found.labels);
+  for (const int threads : {2, 5}) {
+    EXPECT_EQ(all_of(*segmented({}, threads).labels), labels) << threads;
+  }
+  // Each grain is of one part, numbered as they begin, and its extent is told.
+  const std::vector<LabelExtent> again = label_census(*found.labels, 0, Execution(1));
+  Label next = 1;
+  for (const Label label : labels) {
+    ASSERT_LE(label, next);
+    if (label == next) ++next;
+  }
+  ASSERT_EQ(found.grains.size(), grains_.size());
+  for (std::size_t k = 0; k < found.grains.size(); ++k) {
+    EXPECT_EQ(again[k].pieces, 1U);
+    EXPECT_EQ(found.grains[k].label, again[k].label);
+    EXPECT_EQ(found.grains[k].voxels, again[k].voxels);
+    EXPECT_EQ(found.grains[k].begin, again[k].begin);
+  }
+}
+
+TEST_F(SegmentationOfAPacking, FindsTheGrainsOfLongVoxels) {
+  pack({0.8, 1.0, 1.5}, false);
+  EXPECT_EQ(score(segmented()).one_to_one, grains_.size());
+}
+
+TEST_F(SegmentationOfAPacking, TakesMasksAsTheyAre) {
+  pack({1.0, 1.0, 1.0}, true);
+  const Segmentation found = segmented();
+  EXPECT_TRUE(found.is_mask);
+  EXPECT_EQ(score(found).one_to_one, grains_.size());
+  const std::vector<Label> labels = all_of(*found.labels);
+  const auto mask = made_.labels;
+  std::size_t material = 0;
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    EXPECT_TRUE(labels[k] != 0 || mask[k] == 0) << k;  // holes are filled
+    material += mask[k] != 0 ? 1 : 0;
+  }
+  EXPECT_EQ(found.material, material + found.filled);
+
+  // The same of one bit, and as extract and batch take it.
+  const auto width = static_cast<std::size_t>(made_.counts[0]);
+  const std::size_t row_bytes = (width + 7) / 8;
+  std::vector<std::string> pages;
+  for (std::size_t k = 0; k < mask.size(); k += width) {
+    if (k % (width * static_cast<std::size_t>(made_.counts[1])) == 0) pages.emplace_back();
+    std::string row(row_bytes, '\0');
+    for (std::size_t x = 0; x < width; ++x) {
+      if (mask[k + x] != 0) row[x / 8] = static_cast<char>(row[x / 8] | 0x80 >> x % 8);
+    }
+    pages.back() += row;
+  }
+  test::TiffPages one_bit;
+  one_bit.width = made_.counts[0];
+  one_bit.height = made_.counts[1];
+  one_bit.bits = 1;
+  test::write_tiff(path("one_bit.tif"), one_bit, pages);
+  const std::unique_ptr<LabelVolume> volume = open_volume(path("one_bit.tif"));
+  EXPECT_EQ(all_of(*segment(*volume, {}, Execution(1)).labels), labels);
+
+  VolumeOptions options;
+  options.separate = 0.75;
+  options.smallest = 1;
+  const LabelGrains grains(path("one_bit.tif"), options, Execution(1));
+  EXPECT_EQ(grains.labels().size(), found.grains.size());
+  EXPECT_EQ(grains.left_out(), 0.0);
+  ASSERT_FALSE(grains.notes().empty());
+  EXPECT_NE(grains.notes()[0].find("Voxel size"), std::string::npos);
+}
+
+TEST_F(SegmentationOfAFile, MeasuresNecksInLengths) {
+  // Two balls of 12 in contact along z, and one that is a peanut of 9 and a shallow neck along x.
+  const Vector3 spacing(1.0, 1.5, 2.5);
+  made_ = MadeVolume({70, 30, 28});
+  const auto ball = [&](const Vector3& middle, double radius) {
+    made_.fill(
+        1, [&](const Vector3& p) { return (p.cwiseProduct(spacing) - middle).norm() < radius; });
+  };
+  ball({15.0, 22.0, 18.0}, 12.0);
+  ball({15.0, 22.0, 41.0}, 12.5);
+  ball({42.0, 22.0, 35.0}, 9.0);
+  ball({44.5, 22.0, 35.0}, 9.0);
+  write_made("1 1.5 2.5");
+  const Segmentation found = segmented();
+  ASSERT_EQ(found.grains.size(), 3U);
+  std::vector<Vector3> middles;
+  for (const LabelExtent& grain : found.grains) {
+    middles.push_back(middle_of(grain).cwiseProduct(spacing));
+  }
+  EXPECT_LT((middles[0] - Vector3(15.0, 22.0, 18.0)).norm(), 2.0);
+  EXPECT_LT((middles[1] - Vector3(43.2, 22.0, 35.0)).norm(), 2.0);
+  EXPECT_LT((middles[2] - Vector3(15.0, 22.0, 41.0)).norm(), 2.0);
+  // Deeper than the neck, in voxels of 3.75^(1/3), is none.
+  SegmentationOptions deep;
+  deep.separate = 12.0 / 1.55;
+  EXPECT_EQ(segmented(deep).grains.size(), 2U);
+}
+
+TEST_F(SegmentationOfAFile, FillsHolesDropsSpecksAndKnowsTheBorder) {
+  made_ = MadeVolume({60, 40, 30});
+  const std::int64_t ball = made_.fill_ball(200, {14, 14, 14}, 10.0);
+  const std::int64_t hole = made_.fill_ball(50, {13, 15, 14}, 4.0);
+  const std::int64_t cut = made_.fill_box(200, {40, 20, 10}, {60, 36, 25});
+  made_.fill_box(50, {55, 25, 15}, {60, 30, 20});  // an open pit: it is no hole
+  const std::int64_t speck = made_.fill_box(200, {30, 5, 20}, {34, 9, 24});
+  for (Label& label : made_.labels) label = label == 0 ? 50 : label;
+  write_made();
+  const Segmentation found = segmented();
+  ASSERT_EQ(found.grains.size(), 2U);
+  EXPECT_EQ(found.filled, static_cast<std::uint64_t>(hole));
+  EXPECT_EQ(found.dropped, static_cast<std::uint64_t>(speck));
+  EXPECT_EQ(found.grains[0].voxels, static_cast<std::uint64_t>(ball));
+  EXPECT_EQ(found.grains[1].voxels, static_cast<std::uint64_t>(cut - 125));
+  EXPECT_EQ(found.material, static_cast<std::uint64_t>(ball + cut - 125 + speck));
+  EXPECT_EQ(found.voxels, made_.labels.size());
+  const std::vector<Label> labels = all_of(*found.labels);
+  EXPECT_EQ(std::count(labels.begin(), labels.end(), 3), speck) << "one number for all dropped";
+  EXPECT_EQ(segmentation_lines(found)[0], "2 grains, 1 of them at the border");
+  SegmentationOptions options;
+  options.smallest = speck;
+  EXPECT_EQ(segmented(options).grains.size(), 3U);
+  options.smallest = ball + cut;
+  EXPECT_ERROR(segmented(options), InvalidInput);
+}
+
+TEST_F(SegmentationOfAFile, SmoothsNoiseAwayAndTakesAnyRangeOfValues) {
+  // Values beyond 16 bits, with single voxels that are off, as a detector has.
+  made_ = MadeVolume({30, 28, 26});
+  const std::int64_t ball = made_.fill_ball(1, {15, 14, 13}, 9.0);
+  for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+    const bool is_off = k % 101 == 0;
+    made_.labels[k] = (made_.labels[k] != 0) != is_off ? 3000000000U : 2999000000U;
+    made_.labels[k] += static_cast<Label>(k * 7919 % 100000);
+  }
+  write("a.nrrd", "NRRD0004\ntype: uint32\ndimension: 3\nencoding: raw\nendian: little\nsizes: " +
+                      made_.size_text() + "\n\n" + made_.bytes<std::uint32_t>());
+  const Segmentation found = segmented();
+  ASSERT_EQ(found.grains.size(), 1U);
+  EXPECT_EQ(found.material, found.grains[0].voxels) << "no specks";
+  EXPECT_EQ(found.filled, 0U);
+  EXPECT_NEAR(static_cast<double>(found.material), static_cast<double>(ball),
+              0.03 * static_cast<double>(ball));
+  EXPECT_NEAR(found.threshold, 2999550000.0, 1e5);
+  SegmentationOptions options;
+  options.threshold = 3000200000.0;
+  EXPECT_ERROR(segmented(options), InvalidInput);
+}
+
+TEST_F(SegmentationOfAFile, RefusesWhatItCannotDo) {
+  made_ = MadeVolume({9, 8, 7});
+  std::fill(made_.labels.begin(), made_.labels.end(), 7);
+  write_made();
+  EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { segmented(); }).find("are 7"),
+            std::string::npos);
+  made_.fill_box(9, {2, 2, 2}, {6, 6, 6});
+  made_.fill_box(8, {2, 2, 2}, {4, 4, 4});
+  write_made();
+  const std::unique_ptr<LabelVolume> labels = open_volume(path("a.nrrd"));
+  EXPECT_NE(
+      test::refusal(ErrorCode::InvalidInput, [&] { separated(*labels, 7, 0.75, Execution(1)); })
+          .find("8 and 9"),
+      std::string::npos);
+  SegmentationOptions options;
+  options.separate = 0.0;
+  EXPECT_ERROR(segmented(options), InvalidInput);
+  options = {};
+  options.smallest = 0;
+  EXPECT_ERROR(segmented(options), InvalidInput);
+  EXPECT_ERROR(check_label_file("labels.tif"), InvalidInput);
+}
+
+TEST_F(SegmentationOfAPacking, IsStopped) {
+  pack({1.5, 1.5, 1.5}, false);
+  const auto run = [&](const Execution& execution) {
+    segment(*open_volume(path("a.nrrd")), {}, execution);
+  };
+  for (const char* stage : {"Smoothing grey values", "Filling holes", "Measuring distances",
+                            "Separating grains", "Counting labels"}) {
+    SCOPED_TRACE(stage);
+    test::expect_to_be_stopped(run, stage, 1);
+  }
+}
+
+TEST(GreyThreshold, LiesBetweenThePeaksWhateverTheirShares) {
+  const auto bell = [](double x, double middle, double width) {
+    const double d = (x - middle) / width;
+    return std::exp(-0.5 * d * d) / width;
+  };
+  for (const double share : {0.05, 0.3, 0.7, 0.95}) {
+    for (const double scale : {1.0, 40.0}) {
+      std::vector<std::uint64_t> counts;
+      for (int k = 0; k < static_cast<int>(300 * scale); ++k) {
+        const double density =
+            (1.0 - share) * bell(k / scale, 60.0, 5.0) + share * bell(k / scale, 160.0, 12.0);
+        counts.push_back(static_cast<std::uint64_t>(1e6 * density));
+      }
+      EXPECT_NEAR(level_between_peaks(counts), 110.0 * scale, 1.0 * scale)
+          << share << " at " << scale;
+    }
+  }
+  std::vector<std::uint64_t> two(12, 0);
+  two[3] = 5;
+  two[10] = 1;
+  EXPECT_EQ(otsu_level(two), 10.0);
+  EXPECT_EQ(level_between_peaks(two), 6.5);
+}
+
+class LabelWriter : public test::VolumeFolder {};
+
+TEST_F(LabelWriter, WritesWhatIsReadAgain) {
+  for (const bool is_long : {false, true}) {
+    made_.labels[17] = is_long ? 70000 : 65535;
+    write("a.nrrd",
+          "NRRD0004\ntype: uint32\ndimension: 3\nencoding: raw\nendian: little\nsizes: " +
+              made_.size_text() +
+              "\nspace dimension: 3\nspace directions: (0.5,0.1,0) (-0.2,1.25,0) (0,0.3,2)\n"
+              "space origin: (7,-3,0.125)\nspace units: \"mm\" \"mm\" \"mm\"\n\n" +
+              made_.bytes<std::uint32_t>());
+    const std::unique_ptr<LabelVolume> volume = open_volume(path("a.nrrd"));
+    for (const std::string name : {"b.nrrd", "b.mha"}) {
+      write_labels(path(name), *volume, is_long ? 70000 : 65535, Execution(1));
+      expect_made(name);
+      const VolumeGeometry found = geometry(name);
+      EXPECT_LT((found.axes - volume->geometry().axes).norm(), 1e-14) << name;
+      EXPECT_LT((found.corner - volume->geometry().corner).norm(), 1e-14) << name;
+      EXPECT_EQ(found.unit, "mm") << name;
+      EXPECT_TRUE(found.has_size);
+    }
+    write_labels(path("c.nrrd"), *volume, 126, Execution(1));
+    std::vector<Label> wanted = made_.labels;
+    for (Label& label : wanted) label = label > 126 ? 0 : label;
+    EXPECT_EQ(labels_of("c.nrrd"), wanted);
+  }
+}
+
+TEST_F(SegmentationOfAFile, ShowsSlicesWithOutlines) {
+  // A long box, a cube and a speck; voxels three times as long along z.
+  made_ = MadeVolume({40, 30, 20});
+  for (Label& label : made_.labels) label = 10;
+  made_.fill_box(90, {4, 10, 6}, {24, 20, 14});
+  made_.fill_box(90, {27, 8, 5}, {37, 22, 15});
+  made_.fill_box(90, {19, 24, 9}, {22, 27, 12});
+  made_.at(0, 0, 0) = 11;  // not a mask
+  write_made("1 1 3");
+  const Segmentation found = segmented();
+  ASSERT_EQ(found.grains.size(), 2U);
+  const std::unique_ptr<LabelVolume> scan = open_volume(path("a.nrrd"));
+  const std::vector<Picture> pictures = outlined_slices(*scan, found, Execution(1));
+  ASSERT_EQ(pictures.size(), 3U);
+  // 60 along z is the longest, 600 pixels.
+  const std::vector<std::array<int, 2>> sizes = {{400, 300}, {400, 600}, {300, 600}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(pictures[k].width, sizes[k][0]);
+    EXPECT_EQ(pictures[k].height, sizes[k][1]);
+    ASSERT_EQ(pictures[k].pixels.size(), static_cast<std::size_t>(sizes[k][0]) * sizes[k][1]);
+  }
+  const auto colour = [&](std::size_t picture, double x, double y) {
+    const Picture& of = pictures[picture];
+    return of.pixels[static_cast<std::size_t>(y) * of.width + static_cast<std::size_t>(x)];
+  };
+  const auto is_grey = [](const Colour& c) { return c[0] == c[1] && c[1] == c[2]; };
+  EXPECT_EQ(colour(0, 100, 150), (Colour{255, 255, 255})) << "in the box";
+  EXPECT_EQ(colour(0, 250, 50), (Colour{0, 0, 0}));
+  EXPECT_FALSE(is_grey(colour(0, 41, 150))) << "its outline";
+  EXPECT_FALSE(is_grey(colour(0, 150, 198)));
+  EXPECT_TRUE(is_grey(colour(0, 36, 150)));
+  EXPECT_NE(colour(0, 41, 150), colour(0, 271, 150)) << "another grain's";
+  const Colour red = colour(0, 205, 255);
+  EXPECT_GT(red[0], 2 * red[1]) << "dropped";
+  // Across y, z runs down; across x, y runs to the right.
+  EXPECT_EQ(colour(1, 100, 300), (Colour{255, 255, 255}));
+  EXPECT_FALSE(is_grey(colour(1, 100, 181)));
+  EXPECT_TRUE(is_grey(colour(1, 100, 176)));
+  EXPECT_FALSE(is_grey(colour(2, 101, 300)));
+  EXPECT_TRUE(is_grey(colour(2, 96, 300)));
+
+  const std::string page = segmentation_html(*scan, found, {"a.nrrd", ""}, Execution(1));
+  for (const char* part : {"Grains of a scan: 2", "a.nrrd", "0 of them at the border", ", mm",
+                           "smallest", "data:image/png"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
