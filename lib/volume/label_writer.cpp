@@ -18,9 +18,9 @@ namespace wscvt {
 namespace {
 
 /// Packs what it is given, as gzip or zlib.
-class Packer {
+class LabelPacker {
  public:
-  explicit Packer(bool is_gzip) {
+  explicit LabelPacker(bool is_gzip) {
     constexpr int gzip_bits = 31;
     constexpr int zlib_bits = 15;
     if (deflateInit2(&stream_, Z_BEST_SPEED, Z_DEFLATED, is_gzip ? gzip_bits : zlib_bits, 8,
@@ -28,9 +28,9 @@ class Packer {
       throw std::bad_alloc();
     }
   }
-  Packer(const Packer&) = delete;
-  Packer& operator=(const Packer&) = delete;
-  ~Packer() { deflateEnd(&stream_); }
+  LabelPacker(const LabelPacker&) = delete;
+  LabelPacker& operator=(const LabelPacker&) = delete;
+  ~LabelPacker() { deflateEnd(&stream_); }
 
   void add(const std::string& bytes, bool is_last) {
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
@@ -51,7 +51,7 @@ class Packer {
   std::string packed_;
 };
 
-std::string joined(const Vector3& values, const char* between) {
+std::string listed(const Vector3& values, const char* between) {
   return format_exact(values[0]) + between + format_exact(values[1]) + between +
          format_exact(values[2]);
 }
@@ -61,7 +61,7 @@ std::string count_text(const VoxelCounts& counts) {
          std::to_string(counts[2]);
 }
 
-Vector3 first_middle(const VolumeGeometry& geometry) {
+Vector3 place_of_first(const VolumeGeometry& geometry) {
   return geometry.point(Vector3::Constant(0.5));
 }
 
@@ -69,8 +69,8 @@ std::string nrrd_header(const VolumeGeometry& geometry, bool is_short) {
   std::string text = std::string("NRRD0004\ntype: ") + (is_short ? "uint16" : "uint32") +
                      "\ndimension: 3\nsizes: " + count_text(geometry.counts) +
                      "\nencoding: gzip\nendian: little\nspace dimension: 3\nspace directions:";
-  for (Eigen::Index k = 0; k < 3; ++k) text += " (" + joined(geometry.axes.col(k), ",") + ")";
-  text += "\nspace origin: (" + joined(first_middle(geometry), ",") + ")\n";
+  for (Eigen::Index k = 0; k < 3; ++k) text += " (" + listed(geometry.axes.col(k), ",") + ")";
+  text += "\nspace origin: (" + listed(place_of_first(geometry), ",") + ")\n";
   if (!geometry.unit.empty()) {
     const std::string quoted = '"' + geometry.unit + '"';
     text += "space units: " + quoted + " " + quoted + " " + quoted + "\n";
@@ -82,14 +82,14 @@ std::string meta_image_header(const VolumeGeometry& geometry, bool is_short, std
   const Vector3 lengths = geometry.axes.colwise().norm();
   std::string matrix;
   for (Eigen::Index k = 0; k < 3; ++k) {
-    matrix += " " + joined(geometry.axes.col(k) / lengths[k], " ");
+    matrix += " " + listed(geometry.axes.col(k) / lengths[k], " ");
   }
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
          "CompressedData = True\nCompressedDataSize = " +
          std::to_string(packed) + "\nTransformMatrix =" + matrix +
-         "\nOffset = " + joined(first_middle(geometry), " ") +
+         "\nOffset = " + listed(place_of_first(geometry), " ") +
          (geometry.unit.empty() ? "" : "\nDistanceUnits = " + geometry.unit) +
-         "\nElementSpacing = " + joined(lengths, " ") +
+         "\nElementSpacing = " + listed(lengths, " ") +
          "\nDimSize = " + count_text(geometry.counts) +
          "\nElementType = " + (is_short ? "MET_USHORT" : "MET_UINT") +
          "\nElementDataFile = LOCAL\n";
@@ -110,7 +110,7 @@ void write_labels(const std::string& path, LabelVolume& volume, Label largest,
   const bool is_short = largest <= std::numeric_limits<std::uint16_t>::max();
   const VolumeGeometry& geometry = volume.geometry();
   const int bytes = is_short ? 2 : 4;
-  Packer packer(is_nrrd);
+  LabelPacker packer(is_nrrd);
   volume.rewind();
   for (std::int32_t z = 0; z < geometry.counts[2]; ++z) {
     execution.report(static_cast<double>(z) / geometry.counts[2], "Writing labels");

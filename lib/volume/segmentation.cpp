@@ -143,7 +143,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const Values& values,
   return mask;
 }
 
-std::uint64_t count_of(const std::vector<std::uint8_t>& mask) {
+std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
   return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
 }
 
@@ -220,9 +220,9 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
     mask = material_of(scan, values, threshold, reading);
   }
   result.threshold = *threshold;
-  const std::uint64_t open = count_of(mask);
+  const std::uint64_t open = material_count(mask);
   fill_holes(mask, geometry.counts, execution.part(0.4, 0.5));
-  result.filled = count_of(mask) - open;
+  result.filled = material_count(mask) - open;
   result.labels =
       parts_of_mask(std::move(mask), geometry, options.separate, execution.part(0.5, 0.95));
   drop_small(result, options.smallest, execution.part(0.95, 1.0));

@@ -17,7 +17,7 @@ namespace wscvt {
 namespace {
 
 /// A slice across an axis: the values of the scan and the labels, rows along `down`.
-struct Slice {
+struct ShownSlice {
   std::size_t axis;
   std::size_t right;
   std::size_t down;
@@ -27,15 +27,15 @@ struct Slice {
 };
 
 /// Reads the slices' parts of each row of a volume, into the member of each that `of` gives.
-void read_slices(LabelVolume& volume, std::vector<Slice>& slices, std::vector<Label> Slice::*of,
-                 const Execution& execution) {
+void read_slices(LabelVolume& volume, std::vector<ShownSlice>& slices,
+                 std::vector<Label> ShownSlice::*of, const Execution& execution) {
   const VoxelCounts& counts = volume.geometry().counts;
   volume.rewind();
   for (std::int32_t z = 0; z < counts[2]; ++z) {
     execution.report(static_cast<double>(z) / counts[2], "Drawing slices");
     for (std::int32_t y = 0; y < counts[1]; ++y) {
       const std::vector<Label>& row = volume.next_row();
-      for (Slice& slice : slices) {
+      for (ShownSlice& slice : slices) {
         std::vector<Label>& taken = slice.*of;
         if (slice.axis == 0) {
           taken.push_back(row[static_cast<std::size_t>(slice.place)]);
@@ -48,9 +48,9 @@ void read_slices(LabelVolume& volume, std::vector<Slice>& slices, std::vector<La
 }
 
 /// The values between which a picture goes from black to white: all but a few of each end.
-std::pair<double, double> shown_range(const std::vector<Slice>& slices) {
+std::pair<double, double> shown_range(const std::vector<ShownSlice>& slices) {
   std::vector<double> values;
-  for (const Slice& slice : slices) {
+  for (const ShownSlice& slice : slices) {
     values.insert(values.end(), slice.values.begin(), slice.values.end());
   }
   std::sort(values.begin(), values.end());
@@ -62,8 +62,8 @@ std::pair<double, double> shown_range(const std::vector<Slice>& slices) {
 constexpr std::array<Colour, 6> outline_colours = {
     {{255, 220, 0}, {0, 220, 255}, {255, 90, 255}, {60, 230, 60}, {255, 150, 30}, {120, 160, 255}}};
 
-Picture picture_of(const Slice& slice, const VolumeGeometry& geometry, double pixel, Label grains,
-                   const std::pair<double, double>& range) {
+Picture picture_of(const ShownSlice& slice, const VolumeGeometry& geometry, double pixel,
+                   Label grains, const std::pair<double, double>& range) {
   const auto count = [&](std::size_t axis) { return geometry.counts[axis]; };
   const auto length = [&](std::size_t axis) {
     return geometry.axes.col(static_cast<Eigen::Index>(axis)).norm();
@@ -101,7 +101,7 @@ Picture picture_of(const Slice& slice, const VolumeGeometry& geometry, double pi
   return picture;
 }
 
-std::size_t at_border(const Segmentation& segmentation) {
+std::size_t grains_at_border(const Segmentation& segmentation) {
   const VoxelCounts& counts = segmentation.labels->geometry().counts;
   return static_cast<std::size_t>(
       std::count_if(segmentation.grains.begin(), segmentation.grains.end(),
@@ -137,7 +137,7 @@ std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
   const std::size_t count = segmentation.grains.size();
   std::vector<std::string> lines = {
       std::to_string(count) + (count == 1 ? " grain, " : " grains, ") +
-      std::to_string(at_border(segmentation)) + " of them at the border"};
+      std::to_string(grains_at_border(segmentation)) + " of them at the border"};
   lines.push_back(
       (segmentation.is_mask
            ? "The volume is a mask; its material is "
@@ -154,11 +154,11 @@ std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
 std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
                                      const Execution& execution) {
   const VolumeGeometry& geometry = scan.geometry();
-  std::vector<Slice> slices = {{2, 0, 1, geometry.counts[2] / 2, {}, {}},
-                               {1, 0, 2, geometry.counts[1] / 2, {}, {}},
-                               {0, 1, 2, geometry.counts[0] / 2, {}, {}}};
-  read_slices(scan, slices, &Slice::values, execution.part(0.0, 0.5));
-  read_slices(*segmentation.labels, slices, &Slice::labels, execution.part(0.5, 1.0));
+  std::vector<ShownSlice> slices = {{2, 0, 1, geometry.counts[2] / 2, {}, {}},
+                                    {1, 0, 2, geometry.counts[1] / 2, {}, {}},
+                                    {0, 1, 2, geometry.counts[0] / 2, {}, {}}};
+  read_slices(scan, slices, &ShownSlice::values, execution.part(0.0, 0.5));
+  read_slices(*segmentation.labels, slices, &ShownSlice::labels, execution.part(0.5, 1.0));
   double longest = 0.0;
   for (Eigen::Index k = 0; k < 3; ++k) {
     longest = std::max(longest,
@@ -167,7 +167,7 @@ std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segm
   constexpr double pixels = 600.0;
   const std::pair<double, double> range = shown_range(slices);
   std::vector<Picture> pictures;
-  for (const Slice& slice : slices) {
+  for (const ShownSlice& slice : slices) {
     pictures.push_back(picture_of(slice, geometry, longest / pixels,
                                   static_cast<Label>(segmentation.grains.size()), range));
   }
