@@ -20,8 +20,9 @@ void note_signals() {
   action.sa_handler = note;
   sigemptyset(&action.sa_mask);
   // No restart: a wait for a pipe that nobody reads ends too.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    // The limit of the time of work sends its signal every second, until it is heard.
+    action.sa_flags = number == SIGXCPU ? 0 : static_cast<int>(SA_RESETHAND);
     struct sigaction before {};
     // Whoever started the program with a signal ignored (nohup, a shell's background) meant it.
     if (sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;

@@ -3,8 +3,9 @@
 
 namespace wscvt::program {
 
-/// From now on the first SIGINT (Ctrl-C) or SIGTERM is noted instead of ending the program, so that
-/// nothing half written stays behind; a second one ends it.
+/// From now on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (a terminal that is closed) is noted
+/// instead of ending the program, so that nothing half written stays behind; a second one ends it.
+/// So is every SIGXCPU (the limit of the time of work, ulimit -t).
 void note_signals();
 
 /// From now on a file that grows beyond the limit of the machine (ulimit -f) is an error of

@@ -234,6 +234,8 @@ TEST_F(OutputFile, KnowsOneFileByItsNames) {
   EXPECT_TRUE(same_file(path("not there"), path("./not there")));
   EXPECT_TRUE(same_file("not there", "./not there"));
   EXPECT_FALSE(same_file(path("report.txt"), path("other.txt")));
+  std::ofstream(path("other.txt")) << "on the same disk";
+  EXPECT_FALSE(same_file(path("report.txt"), path("other.txt")));
   EXPECT_FALSE(same_file("", ""));
 }
 

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "support/cancelled_runs.h"
 #include "support/expect_error.h"
@@ -55,6 +57,28 @@ TEST(DistanceGrid, OfABoxIsItsClosedForm) {
     EXPECT_GT(grid.origin[k], -half[k] - 5 * 0.17 - 1e-9);
     EXPECT_GE(last, half[k] + 4 * 0.17 - 1e-9);
     EXPECT_LT(last, half[k] + 5 * 0.17 + 1e-9);
+  }
+}
+
+TEST(DistanceGrid, ReachesFourCellsBeyondEveryPoint) {
+  // A tetrahedron of which each point in turn is the last, and the outermost on some side.
+  const std::array<Vector3, 4> corners = {Vector3(-1.3, 0.1, 0.0), Vector3(1.7, -0.2, 0.1),
+                                          Vector3(0.2, 2.1, -0.9), Vector3(0.1, -1.2, 1.1)};
+  IndexedMesh mesh;
+  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  for (std::size_t first = 0; first < 4; ++first) {
+    mesh.points.clear();
+    for (std::size_t k = 0; k < 4; ++k) mesh.points.push_back(corners[(first + k) % 4]);
+    if (first % 2 == 1) std::swap(mesh.points[0], mesh.points[1]);  // or it is inside out
+    const DistanceGrid grid = distance_grid(mesh, {0.4}, Execution(1));
+    for (int k = 0; k < 3; ++k) {
+      const double last =
+          grid.origin[k] + 0.4 * static_cast<double>(grid.counts[static_cast<std::size_t>(k)] - 1);
+      for (const Vector3& p : mesh.points) {
+        EXPECT_LE(grid.origin[k], p[k] - 4 * 0.4 + 1e-9);
+        EXPECT_GE(last, p[k] + 4 * 0.4 - 1e-9);
+      }
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -102,6 +103,33 @@ TEST(RockableShape, HoldsTheBodyByItsPublishedForm) {
     EXPECT_LT((shape.vertices[i] + shape.radius * nodes.normals[i] - mesh.points[i]).norm(), 1e-12);
     EXPECT_LE(((shape.vertices[i] - shape.centre).cwiseAbs() - shape.extent).maxCoeff(),
               1e-12 - shape.radius);
+  }
+}
+
+TEST(RockableShape, ItsBoxHoldsEveryCorner) {
+  // Each corner of an octahedron is alone on its side; each in turn is the last.
+  const Vector3 axes(1.0, 0.8, 0.5);
+  for (int first = 0; first < 6; ++first) {
+    IndexedMesh mesh;
+    mesh.points.resize(6);
+    std::array<std::int32_t, 6> place{};  // of the corner 2 k + side
+    for (int i = 0; i < 6; ++i) {
+      const int corner = (first + i) % 6;
+      place[static_cast<std::size_t>(corner)] = i;
+      mesh.points[static_cast<std::size_t>(i)] =
+          (corner % 2 == 0 ? 1.0 : -1.0) * axes[corner / 2] * Vector3::Unit(corner / 2);
+    }
+    for (std::size_t octant = 0; octant < 8; ++octant) {
+      Triangle t = {place[octant & 1U], place[2 + (octant >> 1U & 1U)],
+                    place[4 + (octant >> 2U & 1U)]};
+      const auto turns = (octant & 1U) + (octant >> 1U & 1U) + (octant >> 2U & 1U);
+      if (turns % 2 == 1) std::swap(t[1], t[2]);
+      mesh.triangles.push_back(t);
+    }
+    const MassProperties mass = mass_properties(describe_shape(mesh, Execution(1)));
+    const ReadShape shape = read_shape(rockable_shape("octahedron", node_table(mesh), mass));
+    EXPECT_LT(shape.centre.norm(), 1e-12);
+    EXPECT_LT((shape.extent - axes).norm(), 1e-12);
   }
 }
 

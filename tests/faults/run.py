@@ -146,8 +146,10 @@ class Build:
             sys.exit(configured.stdout)
 
     def run(self, command, seconds):
+        # Tests print bytes of files, too.
         return subprocess.run(command, env=self.environment, cwd=self.source, timeout=seconds,
-                              text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                              text=True, errors="replace", stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT)
 
     def make(self, targets):
         return self.run(["cmake", "--build", str(self.binaries), "--target"] + targets, 3600)

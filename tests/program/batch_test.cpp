@@ -191,6 +191,16 @@ TEST_F(Batch, GoesOnWhereItWasKilled) {
   }
 }
 
+TEST_F(Batch, AFailureBeforeItGoesOnCounts) {
+  write_scans(2);
+  std::ofstream(folder_ / "broken.ply") << "no mesh";
+  const std::string first = std::string("batch -o out") + options_ + "broken.ply " + scan(0);
+  EXPECT_EQ(run(first).exit_code, 3);
+  EXPECT_EQ(run(first + " " + scan(1)).exit_code, 3);
+  EXPECT_EQ(column("out/grains.csv", "status"),
+            (std::vector<std::string>{"failed", "done", "done"}));
+}
+
 TEST_F(Batch, GoesOnOnlyWithWhatItBeganWith) {
   write_scans(3);
   ASSERT_EQ(run("batch " + scan(0) + " " + scan(1) + " -o out" + options_).exit_code, 0);

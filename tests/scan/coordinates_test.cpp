@@ -53,6 +53,16 @@ TEST(Coordinates, LatticesAreNotSuspected) {
   EXPECT_EQ(precision_warning(IndexedMesh()), "");
 }
 
+TEST(Coordinates, EveryPointCountsForTheSize) {
+  for (const double far : {1e61, -1e61}) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::vector<Vector3> points(4, Vector3(1.0, 2.0, 3.0));
+      points[i].y() = far;
+      EXPECT_ERROR(check_scan_size(points), InvalidInput);
+    }
+  }
+}
+
 TEST(Coordinates, SizeIsThatOfTheBoxWhereverItIs) {
   const auto box_at = [](double size, const Vector3& place) {
     return test::transformed(test::box(size, 0.5 * size, 0.0), Eigen::Matrix3d::Identity(), place)

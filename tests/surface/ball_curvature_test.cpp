@@ -118,6 +118,21 @@ TEST(BallCurvature, ReadsOnlyWhatHangsTogetherInTheBall) {
     EXPECT_NEAR(k.maximum, 0.0, 1e-9);
     EXPECT_NEAR(k.minimum, 0.0, 1e-9);
   }
+  // Bent along x, one side is hollow by as much as the other bulges: together they would be flat.
+  IndexedMesh bent = mesh;
+  for (Vector3& p : bent.points) p.z() += 0.25 * p.x() * p.x();
+  const SurfacePatches of_bent = surface_patches(bent, 0.0);
+  std::size_t looked_at = 0;
+  for (const BallCentre& place : all_places(of_bent)) {
+    if (std::abs(place.point.x()) > 0.1 || std::abs(place.point.y()) > 0.5) continue;
+    ++looked_at;
+    const bool is_upper = of_bent.patches[index(place.patch)].normal.z() > 0.0;
+    const PrincipalCurvatures k = ball_curvatures(of_bent, {place}, 0.5, Execution(1)).front();
+    // A parabola's curvature falls from its vertex on: by a tenth within the ball.
+    EXPECT_NEAR(is_upper ? k.minimum : k.maximum, is_upper ? -0.5 : 0.5, 0.05);
+    EXPECT_NEAR(is_upper ? k.maximum : k.minimum, 0.0, 1e-7);  // but for the fit's ridge
+  }
+  EXPECT_GT(looked_at, 20U);
 }
 
 TEST(BallCurvature, IsZeroWhereTheBallHoldsTooLittle) {

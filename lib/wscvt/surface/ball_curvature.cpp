@@ -84,8 +84,8 @@ PrincipalCurvatures fit_normals(const SurfacePatches& patches, const std::vector
   tangents.col(1) = n.cross(tangents.col(0));
   const Eigen::Matrix2d s =
       tangents.transpose() * (squares - positions * positions.transpose() / weights) * tangents;
-  const Eigen::Matrix2d p =
-      tangents.transpose() * (products - positions * normals.transpose() / weights) * tangents;
+  // The mean of the normals is along n, and needs no taking off.
+  const Eigen::Matrix2d p = tangents.transpose() * products * tangents;
   // Least squares for the symmetric matrix (a b; b c) that takes positions to normals.
   const double trace = s.trace();
   Eigen::Matrix3d equations;
