@@ -433,6 +433,12 @@ void define_remesh_class(py::module_& module) {
       .def_property_readonly("warnings", [](const Remesh& one) { return one.result.warnings; })
       .def_property_readonly(
           "report", [](const Remesh& one) { return parsed(report_json(one.result, one.origin)); })
+      .def("__repr__",
+           [](const Remesh& one) {
+             return "<wscvt.Remesh of " + std::to_string(one.result.mesh.points.size()) +
+                    " nodes and " + std::to_string(one.result.mesh.triangles.size()) + " faces, " +
+                    std::to_string(one.result.warnings.size()) + " warnings>";
+           })
       .def("__str__", [](const Remesh& one) {
         std::string text;
         for (const std::string& line : report_lines(one.result)) text += line + "\n";
@@ -470,7 +476,9 @@ void define_work(py::module_& module) {
       "remesh", &remesh, py::arg("vertices"), py::arg("faces"), py::kw_only(),
       py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("source") = "",
       "Remeshes a dense scan to exactly N nodes. vertices: (n, 3) float64, any unit of length; "
-      "faces: (m, 3) whole numbers counted from 0, or None for points with points=True. "
+      "faces: (m, 3) whole numbers counted from 0, or None for points with points=True. A path, or "
+      "a "
+      "mesh of trimesh or PyVista, takes the place of both: remesh('scan.ply', 500). "
       "Options by name: see options(). threads: 0 takes all; they change no result. "
       "progress(fraction, stage) is called in between; False, or an exception, cancels. "
       "source: what the report names as the scan. Raises Error, and TypeError for options "

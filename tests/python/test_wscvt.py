@@ -74,6 +74,34 @@ def test_inputs_of_other_libraries(scan):
 
 
 
+class TrimeshLike:
+    def __init__(self, vertices, faces):
+        self.vertices, self.faces = vertices, faces
+
+
+class PyVistaLike:
+    def __init__(self, vertices, faces):
+        self.points, self.regular_faces = vertices, faces
+        self.faces = np.hstack([np.full((len(faces), 1), 3), faces]).ravel()  # as PyVista's
+        self.vertices = None
+
+
+def test_a_mesh_may_be_a_path_or_an_object(scan, tmp_path):
+    vertices, faces = scan
+    expected = wscvt.remesh(vertices, faces, nodes=60)
+    path = MESHES / "sand_7228.ply"
+    for result in [wscvt.remesh(vertices, faces, 60), wscvt.remesh(path, 60),
+                   wscvt.remesh(str(path), nodes=60), wscvt.remesh(TrimeshLike(*scan), 60),
+                   wscvt.remesh(PyVistaLike(*scan), np.int64(60))]:
+        np.testing.assert_array_equal(result.vertices, expected.vertices)
+    assert wscvt.remesh(path, 60).report["source"] == "sand_7228.ply"
+    assert repr(expected).startswith("<wscvt.Remesh of 60 nodes and 116 faces, ")
+    wscvt.write_mesh(tmp_path / "small.ply", expected)
+    np.testing.assert_array_equal(wscvt.read_mesh(tmp_path / "small.ply")[0], expected.vertices)
+    assert wscvt.describe(tmp_path / "small.ply")["descriptors"]["volume"] == pytest.approx(
+        wscvt.describe(expected.vertices, expected.faces)["descriptors"]["volume"])
+
+
 @pytest.mark.parametrize("method", ["on-scan", "as-published"])
 def test_every_option_reaches_the_report(method):
     report = wscvt.create("ellipsoid", nodes=60, method=method).report["options"]
