@@ -21,6 +21,7 @@
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
@@ -53,7 +54,9 @@ class OutputFolder {
   }
 
   std::string mesh(const std::string& grain) const {
-    return (folder_ / fs::path(grain).stem()).string() + ending_;
+    fs::path name = fs::path(grain).filename();
+    if (ending_of(grain) == ".gz") name = name.stem();
+    return (folder_ / name.stem()).string() + ending_;
   }
   std::string table() const { return file("grains", ".csv"); }
   /// The same for every part: what a volume holds.
@@ -153,10 +156,7 @@ void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
             [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
       ->description("Only the I-th of N parts of the grains, by their names")
       ->type_name("I/N");
-  app.add_option("--format", arguments.format,
-                 "Ending of the meshes: ply, stl, obj or off. "
-                 "Default: ply")
-      ->type_name("NAME");
+  add_format_argument(app, arguments.format);
   app.add_flag("--seconds", arguments.seconds,
                "A column of the table for how long each grain took; it differs from run to run");
   add_remesh_arguments(app, arguments.options);
@@ -201,7 +201,7 @@ int run(const BatchArguments& arguments) {
   const std::vector<std::string> files = checked([&] { return grain_files(arguments.inputs); });
   checked([&] {
     for (const std::string& file : files) {
-      if (!is_volume(file)) check_mesh_format(file);
+      if (!is_volume(file)) check_mesh_format(file, MeshUse::Read);
     }
   });
   BatchGrains inputs(files, arguments.volume, arguments.shard, arguments.quiet);

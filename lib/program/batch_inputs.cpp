@@ -23,12 +23,13 @@ namespace fs = std::filesystem;
 void add_folder(const std::string& folder, std::vector<std::string>& files) {
   const std::size_t before = files.size();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (is_mesh_file(entry.path().string()) && !entry.is_directory())
-      files.push_back(entry.path().string());
+    const std::string file = entry.path().string();
+    if (is_mesh_file(file) && !entry.is_directory() && !is_volume(file)) files.push_back(file);
   }
   if (files.size() == before) {
     refuse("The folder \"" + folder +
-           "\" holds no .ply, .stl, .obj, .off or .tif file; check its name.");
+           "\" holds no mesh, such as .ply or .stl, and no .tif or .png slices; check its name. "
+           "Tables, points and volumes have to be named.");
   }
   std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
 }

@@ -4,7 +4,6 @@
 #include "command.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 
@@ -12,9 +11,21 @@ void add_threads_argument(CLI::App& app, int& threads) {
   add_number(app, "-t,--threads", threads, threads_option);
 }
 
+void add_format_argument(CLI::App& app, std::string& format) {
+  app.add_option("--format", format,
+                 "Ending of the meshes: " + mesh_extensions(MeshUse::Write) +
+                     ", without its point. Default: ply")
+      ->type_name("NAME");
+}
+
 void check_format(const std::string& format) {
-  if (is_mesh_file("mesh." + format)) return;
-  refuse("The format of the meshes is \"" + format + "\"; give --format ply, stl, obj or off.");
+  if (is_mesh_format("mesh." + format, MeshUse::Write)) return;
+  refuse("The format of the meshes is \"" + format + "\"; give --format one of " +
+         mesh_extensions(MeshUse::Write) + ", without its point.");
+}
+
+std::string mesh_argument_text(const std::string& what, MeshUse use) {
+  return what + ": " + mesh_extensions(use);
 }
 
 CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,

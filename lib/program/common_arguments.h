@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/scan/mesh_io.h"
+
 namespace wscvt::program {
 
 /// What every command that works on a grain takes.
@@ -21,8 +23,14 @@ void add_common_arguments(CLI::App& app, CommonArguments& arguments);
 /// Adds the number of threads alone.
 void add_threads_argument(CLI::App& app, int& threads);
 
-/// Throws wscvt::Error(InvalidInput) for an ending that no mesh has, given by --format.
+/// Adds --format, the ending of many meshes.
+void add_format_argument(CLI::App& app, std::string& format);
+
+/// Throws wscvt::Error(InvalidInput) for an ending that no mesh is written with.
 void check_format(const std::string& format);
+
+/// What help says of a mesh that is read or written: "Scan: .ply, .stl or .obj".
+std::string mesh_argument_text(const std::string& what, MeshUse use);
 
 /// Adds one file; it is empty where it is not given.
 CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,

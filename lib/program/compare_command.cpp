@@ -12,7 +12,8 @@ CLI::App& add_command(CLI::App& program, CompareArguments& arguments) {
                             "Measure a grain against another: errors of shape, distances",
                             {"remesh.ply scan.ply", "remesh.ply scan.ply --report difference.html"},
                             "Both must stand in the same place: nothing is moved to fit."});
-  add_file_argument(app, "grain", arguments.measure.grain, "Closed mesh: PLY, STL, OBJ or OFF")
+  add_file_argument(app, "grain", arguments.measure.grain,
+                    mesh_argument_text("Closed mesh", MeshUse::Read))
       ->required();
   add_file_argument(app, "reference", arguments.reference,
                     "The original, which errors and distances are taken against")

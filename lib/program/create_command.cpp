@@ -60,7 +60,8 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
   add_choice(app, "surface", arguments.surface.kind)
       ->required()
       ->description(help_of_choices<decltype(arguments.surface.kind)>());
-  add_file_argument(app, "output", arguments.output, "Mesh: PLY, STL, OBJ or OFF")->required();
+  add_file_argument(app, "output", arguments.output, mesh_argument_text("Mesh", MeshUse::Write))
+      ->required();
   add_semi_axes(app, arguments.surface.semi_axes);
   add_number(app, "--" + std::string(polar_exponent_option.key), arguments.surface.polar_exponent,
              polar_exponent_option);
@@ -84,7 +85,7 @@ int run(const CreateArguments& arguments) {
   checked([&] {
     check_options(arguments.options);
     check_grain_surface(arguments.surface);
-    check_mesh_format(arguments.output);
+    check_mesh_format(arguments.output, MeshUse::Write);
     check_output_paths({{"the file of the coefficients", arguments.surface.coefficients_file}},
                        outputs, common.overwrite);
     for (const std::string& report : common.reports) check_remesh_report(report);

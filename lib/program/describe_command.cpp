@@ -11,7 +11,8 @@ CLI::App& add_command(CLI::App& program, DescribeArguments& arguments) {
       add_command(program, {"describe",
                             "Measure the shape of a grain: size, form, roundness, roughness",
                             {"grain.ply", "grain.stl --report grain.html --report grains.csv"}});
-  add_file_argument(app, "grain", arguments.measure.grain, "Closed mesh: PLY, STL, OBJ or OFF")
+  add_file_argument(app, "grain", arguments.measure.grain,
+                    mesh_argument_text("Closed mesh", MeshUse::Read))
       ->required();
   add_measure_arguments(app, arguments.measure);
   return app;

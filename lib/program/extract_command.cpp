@@ -99,9 +99,7 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
       ->type_name("OUT")
       ->required();
   add_volume_arguments(app, arguments.options, "Options");
-  app.add_option("--format", arguments.format,
-                 "Ending of the meshes: ply, stl, obj or off. Default: ply")
-      ->type_name("NAME");
+  add_format_argument(app, arguments.format);
   // Until version 2 it did what batch does.
   app.add_flag_function("--remesh",
                         [](std::int64_t) {

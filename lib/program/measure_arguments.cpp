@@ -26,8 +26,8 @@ void add_measure_arguments(CLI::App& app, MeasureArguments& arguments) {
 void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference) {
   const CommonArguments& common = arguments.common;
   checked([&] {
-    check_mesh_format(arguments.grain);
-    if (reference) check_mesh_format(*reference);
+    check_mesh_format(arguments.grain, MeshUse::Read);
+    if (reference) check_mesh_format(*reference, MeshUse::Read);
     check_output_paths({{"the grain", arguments.grain}, {"the reference", reference.value_or("")}},
                        named_reports(common.reports), common.overwrite);
     for (const std::string& report : common.reports) {

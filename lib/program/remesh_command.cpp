@@ -33,8 +33,10 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
        "What a report prints as an option is what one types: \"weighting\": \"wscvt-c\" is "
        "--weighting=wscvt-c.",
        true});
-  add_file_argument(app, "scan", arguments.scan, "Scan: PLY, STL, OBJ or OFF")->required();
-  add_file_argument(app, "output", arguments.output, "Remesh: PLY, STL, OBJ or OFF")->required();
+  add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
+      ->required();
+  add_file_argument(app, "output", arguments.output, mesh_argument_text("Remesh", MeshUse::Write))
+      ->required();
   add_remesh_arguments(app, arguments.options);
   add_simulation_arguments(app, arguments.simulation);
   add_common_arguments(app, arguments.common);
@@ -74,8 +76,8 @@ int run(const RemeshArguments& arguments) {
   checked([&] {
     check_options(arguments.options);
     check_simulation_arguments(simulation);
-    check_mesh_format(arguments.scan);
-    check_mesh_format(arguments.output);
+    check_mesh_format(arguments.scan, MeshUse::Read);
+    check_mesh_format(arguments.output, MeshUse::Write);
     check_coefficients_path(arguments.coefficients);
     check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
     for (const std::string& report : common.reports) check_remesh_report(report);

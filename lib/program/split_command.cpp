@@ -85,13 +85,12 @@ CLI::App& add_command(CLI::App& program, SplitArguments& arguments) {
                 "FOLDER gets 1.ply, 2.ply, ... in the order of the file, and bodies.csv. A closed "
                 "surface inside a\nbody is a pore, and stays with it. wscvt batch --parts remeshes "
                 "the bodies of a mesh directly."});
-  add_file_argument(app, "mesh", arguments.mesh, "Mesh: PLY, STL, OBJ or OFF")->required();
+  add_file_argument(app, "mesh", arguments.mesh, mesh_argument_text("Mesh", MeshUse::Read))
+      ->required();
   app.add_option("folder", arguments.folder, "Folder for all that is made")
       ->type_name("FOLDER")
       ->required();
-  app.add_option("--format", arguments.format,
-                 "Ending of the meshes: ply, stl, obj or off. Default: ply")
-      ->type_name("NAME");
+  add_format_argument(app, arguments.format);
   add_number(app, "--" + std::string(smallest_body_option.key), arguments.smallest,
              smallest_body_option);
   add_threads_argument(app, arguments.common.threads);
@@ -105,7 +104,7 @@ int run(const SplitArguments& arguments) {
   const fs::path folder = arguments.folder;
   const std::string table = (folder / "bodies.csv").string();
   checked([&] {
-    check_mesh_format(arguments.mesh);
+    check_mesh_format(arguments.mesh, MeshUse::Read);
     check_format(arguments.format);
     if (same_file(arguments.mesh, arguments.folder)) {
       refuse("\"" + arguments.mesh + "\" is the mesh itself; give a folder for what is made.");

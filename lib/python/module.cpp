@@ -510,15 +510,20 @@ void define_files(py::module_& module) {
         return std::make_pair(array_of(mesh.points), array_of(mesh.triangles));
       },
       py::arg("path"),
-      "Vertices (n, 3) float64 and faces (m, 3) int32 of a PLY, STL, OBJ or OFF file, as they are: "
-      "nothing is repaired, and of STL each corner is a vertex.");
+      ("Vertices (n, 3) float64 and faces (m, 3) int32 of a file that ends in " +
+       wscvt::mesh_extensions(wscvt::MeshUse::Read) +
+       ", also packed by gzip, as they are: nothing is repaired, and of STL each corner is a "
+       "vertex. Of the last three there are no faces. What is odd about a file is a UserWarning.")
+          .c_str());
   module.def(
       "write_mesh",
       [](const std::string& path, const Points& vertices, const py::object& faces) {
         wscvt::write_mesh(mesh_of(vertices, faces), path);
       },
       py::arg("path"), py::arg("vertices"), py::arg("faces"),
-      "Writes a PLY, STL, OBJ or OFF file, by its ending, whole or not at all.");
+      ("Writes a file by its ending, " + wscvt::mesh_extensions(wscvt::MeshUse::Write) +
+       ", whole or not at all.")
+          .c_str());
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "volume/label_volume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "volume/image_stack.h"
 #include "volume/volume_formats.h"
@@ -11,6 +13,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/scan/mesh_io.h"
+#include "wscvt/scan/text_fields.h"
 
 namespace wscvt {
 
@@ -60,6 +63,23 @@ bool is_stack(const std::string& folder) {
   return has_slices;
 }
 
+/// Whether an old VTK file holds a mesh: both have the same ending.
+bool holds_mesh(const std::string& path) {
+  std::error_code error;
+  if (ending_of(path) != ".vtk" || !fs::is_regular_file(path, error)) return false;
+  std::ifstream file(path, std::ios::binary);
+  constexpr int most_lines = 5;
+  constexpr std::streamsize longest = 300;
+  std::array<char, longest> line{};
+  for (int k = 0; k < most_lines && file.getline(line.data(), longest); ++k) {
+    TextFields fields(line.data());
+    if (lower_case(fields.next()) != "dataset") continue;
+    const std::string kind = lower_case(fields.next());
+    return kind == "polydata" || kind == "unstructured_grid";
+  }
+  return false;
+}
+
 /// What is the same for all formats.
 void check_opened(LabelVolume& volume, const std::string& path) {
   const VolumeGeometry& geometry = volume.geometry();
@@ -79,7 +99,8 @@ void check_opened(LabelVolume& volume, const std::string& path) {
 
 bool is_volume(const std::string& path) {
   std::error_code error;
-  return fs::is_directory(path, error) ? is_stack(path) : format_of(path) != nullptr;
+  if (fs::is_directory(path, error)) return is_stack(path);
+  return format_of(path) != nullptr && !holds_mesh(path);
 }
 
 std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice) {

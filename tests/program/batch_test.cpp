@@ -253,7 +253,7 @@ TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
     EXPECT_TRUE(fs::is_empty(folder_ / "out2"));
   }
   EXPECT_EQ(run("batch scans -o out2 --shard 3/2").exit_code, 2);
-  EXPECT_EQ(run("batch scans -o out2 --format vtk").exit_code, 2);
+  EXPECT_EQ(run("batch scans -o out2 --format step").exit_code, 2);
 }
 
 TEST_F(Batch, PartsAreStableAndJoinToTheWhole) {

@@ -87,7 +87,7 @@ TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
                   {sand_ + " remesh.ply --coefficients ./report.json", 2, "two names"},
                   {sand_ + " remesh.ply --coefficients g.txt", 2, "in .json"},
                   {sand_ + " o.xyz", 2, "o.xyz"},
-                  {"scan.xyz remesh.ply", 2, "scan.xyz"},
+                  {"scan.step remesh.ply", 2, "scan.step"},
                   {sand_ + " remesh.ply --report x.txt", 2, "x.txt"},
                   {sand_ + " remesh.ply --sdf x.txt", 2, "x.txt"},
                   {sand_ + " remesh.ply --node-table x.txt", 2, "x.txt"},
@@ -140,11 +140,11 @@ TEST_F(CommandLine, WritesWhereItsPathsLead) {
 
 TEST_F(CommandLine, ChecksItsPathsBeforeTheWork) {
   // A million nodes would take long.
-  for (const std::string bad : {"remesh.vtk", "remesh.ply --report no/folder/report.json",
+  for (const std::string bad : {"remesh.step", "remesh.ply --report no/folder/report.json",
                                 "no/folder/remesh.ply", "remesh.ply --coefficients ."}) {
     SCOPED_TRACE(bad);
     const Outcome outcome = run("missing.ply " + bad + " -n 1000000");
-    EXPECT_EQ(outcome.exit_code, bad == "remesh.vtk" ? 2 : 1);
+    EXPECT_EQ(outcome.exit_code, bad == "remesh.step" ? 2 : 1);
     EXPECT_EQ(outcome.errors.find("missing.ply"), std::string::npos) << outcome.errors;
   }
 }

@@ -250,7 +250,7 @@ TEST_F(Commands, CreateRefusesWhatIsNoSurface) {
                   {"harmonics grain.ply", 2, ".dat, .sh or .json"},
                   {"harmonics grain.ply --coefficients no.json", 1, "no.json"},
                   {"harmonics grain.ply --coefficients no.txt", 2, ".dat, .sh or .json"},
-                  {"ellipsoid grain.vtk", 2, ".ply"}},
+                  {"ellipsoid grain.xyz", 2, ".ply"}},
                  {"grain.ply"});
 }
 

@@ -255,7 +255,7 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
                   {"sample.nrrd out --voxel-size 1,2", 2, "three with commas"},
                   {"sample.nrrd out --voxel-size 1,2,3,4", 2, "three with commas"},
                   {"sample.nrrd out --background -1", 2, "0 or more"},
-                  {"sample.nrrd out --format vtk", 2, "--format ply"},
+                  {"sample.nrrd out --format step", 2, "The format of the meshes"},
                   {"sample.ply out", 2, "no volume by its ending"},
                   {"missing.nrrd out", 1, "missing.nrrd"},
                   {"cut.nrrd out", 1, "bytes of voxels"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program on a mesh of several bodies.
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,29 @@ TEST_F(Split, IsDoneByABatchToo) {
   const Outcome whole = run("remesh sample.stl whole.ply -n 60");
   EXPECT_EQ(whole.exit_code, 1);
   EXPECT_NE(whole.errors.find("wscvt split MESH FOLDER"), std::string::npos) << whole.errors;
+}
+
+// Endings that scans, tables and volumes share are told apart by what they hold, or by being named.
+TEST_F(Split, ABatchTellsMeshesFromTablesAndVolumesInAFolder) {
+  fs::create_directory(path("scans"));
+  const IndexedMesh body = test::scaled(test::sphere(3), Vector3(3, 4, 5));
+  write_mesh(body, path("scans/mesh.vtk"));
+  std::ofstream(path("scans/table.csv")) << "grain,status\n";
+  std::ofstream(path("scans/volume.vtk"))
+      << "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n";
+  EXPECT_EQ(run("batch scans -o out -n 40 --format ascii.stl").exit_code, 0);
+  EXPECT_EQ(test::csv_records(content("out/grains.csv")).size(), 2U);
+  EXPECT_EQ(content("out/mesh.ascii.stl").rfind("solid grain\n", 0), 0U);
+  // Points have to be named, and asked for.
+  std::ofstream points(path("points.csv"));
+  points << "x,y,z\n";
+  for (const Vector3& p : body.points) points << p.x() << "," << p.y() << "," << p.z() << "\n";
+  points.close();
+  const Outcome plain = run("remesh points.csv remesh.msh -n 40");
+  EXPECT_EQ(plain.exit_code, 1);
+  EXPECT_NE(plain.errors.find("--points"), std::string::npos) << plain.errors;
+  EXPECT_EQ(run("remesh points.csv remesh.msh -n 40 --points").exit_code, 0);
+  EXPECT_EQ(content("remesh.msh").rfind("$MeshFormat\n4.1 0 8\n", 0), 0U);
 }
 
 TEST_F(Split, RefusesWhatMakesNoSense) {

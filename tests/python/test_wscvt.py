@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -326,3 +327,17 @@ def test_the_readme_works(scan, tmp_path, monkeypatch, capsys):
     vertices, faces = wscvt.read_mesh("remesh.stl")
     assert len(faces) == 996
     assert len(capsys.readouterr().out.splitlines()) == 2
+
+
+def test_what_is_odd_about_a_file_is_a_warning(scan, tmp_path):
+    file = tmp_path / "tail.stl"
+    wscvt.write_mesh(str(file), *scan)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        whole = wscvt.read_mesh(str(file))
+    with open(file, "ab") as stream:
+        stream.write(b"\r\n")
+    with pytest.warns(UserWarning, match="2 bytes behind its last triangle"):
+        tail = wscvt.read_mesh(str(file))
+    np.testing.assert_array_equal(tail[0], whole[0])
+    assert ".pcd" in wscvt.read_mesh.__doc__ and ".msh" in wscvt.write_mesh.__doc__

@@ -321,7 +321,7 @@ TEST_F(MeshIo, ReportsAndStopsWithinAFile) {
 TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {
   EXPECT_NE(refusal(path("nothing.ply")).find("cannot be opened"), std::string::npos);
   // Names of no format are wrong arguments.
-  for (const char* name : {"a.vtk", "ply", ".ply"}) {
+  for (const char* name : {"a.step", "ply", ".ply"}) {
     SCOPED_TRACE(name);
     EXPECT_ERROR(read_mesh(path(name)), InvalidInput);
   }
@@ -351,7 +351,7 @@ TEST_F(MeshIo, RefusesWhereItCannotWrite) {
   EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("taken.ply")), InputOutput);
   EXPECT_TRUE(fs::is_directory(path("taken.ply")));
   EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("no/such/folder/a.ply")), InputOutput);
-  EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("a.vtk")), InvalidInput);
+  EXPECT_ERROR(write_mesh(test::box(1, 1, 1), path("a.step")), InvalidInput);
 }
 
 TEST_F(MeshIo, LeavesNothingBeside) {

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/exchange/node_table.h"
 
+#include <sstream>
 #include <utility>
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/scan/text_writers.h"
 
 namespace wscvt {
 
 namespace {
-
-std::string data_array(const std::string& type, const std::string& attributes,
-                       const std::string& numbers) {
-  return "<DataArray type=\"" + type + "\" " + attributes + " format=\"ascii\">\n" + numbers +
-         "</DataArray>\n";
-}
 
 std::string lines_of(const std::vector<Vector3>& vectors) {
   std::string text;
@@ -49,29 +45,13 @@ std::string nodes_csv(const NodeTable& nodes) {
 std::string nodes_vtp(const NodeTable& nodes) {
   std::string areas;
   for (const double area : nodes.areas) areas += format_exact(area) + "\n";
-  std::string corners;
-  std::string ends;
-  for (std::size_t t = 0; t < nodes.mesh.triangles.size(); ++t) {
-    const Triangle& corner = nodes.mesh.triangles[t];
-    corners += std::to_string(corner[0]) + " " + std::to_string(corner[1]) + " " +
-               std::to_string(corner[2]) + "\n";
-    ends += std::to_string(3 * (t + 1)) + "\n";
-  }
-  return "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-         "<PolyData>\n<Piece NumberOfPoints=\"" +
-         std::to_string(nodes.mesh.points.size()) +
-         "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-         std::to_string(nodes.mesh.triangles.size()) +
-         "\">\n<PointData Normals=\"normal\" Scalars=\"area\">\n" +
-         data_array("Float64", "Name=\"normal\" NumberOfComponents=\"3\"",
-                    lines_of(nodes.normals)) +
-         data_array("Float64", "Name=\"area\"", areas) + "</PointData>\n<Points>\n" +
-         data_array("Float64", "Name=\"Points\" NumberOfComponents=\"3\"",
-                    lines_of(nodes.mesh.points)) +
-         "</Points>\n<Polys>\n" + data_array("Int64", "Name=\"connectivity\"", corners) +
-         data_array("Int64", "Name=\"offsets\"", ends) +
-         "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+  std::ostringstream text;
+  write_vtp(text, nodes.mesh,
+            "<PointData Normals=\"normal\" Scalars=\"area\">\n" +
+                vtk_data_array("Float64", "Name=\"normal\" NumberOfComponents=\"3\"",
+                               lines_of(nodes.normals)) +
+                vtk_data_array("Float64", "Name=\"area\"", areas) + "</PointData>\n");
+  return text.str();
 }
 
 }  // namespace wscvt

@@ -12,11 +12,12 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <optional>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/error.h"
@@ -24,10 +25,16 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/scan/byte_reader.h"
+#include "wscvt/scan/gzip_content.h"
+#include "wscvt/scan/legacy_vtk_reader.h"
 #include "wscvt/scan/obj_reader.h"
 #include "wscvt/scan/off_reader.h"
+#include "wscvt/scan/pcd_reader.h"
 #include "wscvt/scan/ply_reader.h"
+#include "wscvt/scan/point_text_reader.h"
 #include "wscvt/scan/stl_reader.h"
+#include "wscvt/scan/text_writers.h"
+#include "wscvt/scan/vtp_reader.h"
 
 namespace wscvt {
 
@@ -35,26 +42,8 @@ namespace {
 
 using LibraryPoint = CGAL::Simple_cartesian<double>::Point_3;
 
-enum class Format { Ply, Stl, Obj, Off };
-
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
-}
-
-std::optional<Format> known_format(const std::string& path) {
-  static const std::map<std::string, Format> formats{
-      {".ply", Format::Ply}, {".stl", Format::Stl}, {".obj", Format::Obj}, {".off", Format::Off}};
-  const auto found = formats.find(ending_of(path));
-  return found == formats.end() ? std::nullopt : std::optional(found->second);
-}
-
-Format format_of(const std::string& path) {
-  const std::optional<Format> format = known_format(path);
-  if (!format) {
-    refuse("\"" + path +
-           "\" does not end in .ply, .stl, .obj or .off; convert the mesh to one of these.");
-  }
-  return *format;
 }
 
 template <class Number>
@@ -69,7 +58,7 @@ void write_points(std::ostream& stream, const std::vector<Vector3>& points) {
   }
 }
 
-void write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
+bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
   const std::string type = coordinates == PlyCoordinates::Double ? "double" : "float";
   stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.points.size();
   for (const char* name : {" x", " y", " z"}) stream << "\nproperty " << type << name;
@@ -87,25 +76,7 @@ void write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coo
     }
     stream.write(reinterpret_cast<const char*>(face.data()), face.size());
   }
-}
-
-IndexedMesh mesh_as(ByteReader& reader, Format format) {
-  switch (format) {
-    case Format::Ply:
-      return read_ply(reader);
-    case Format::Stl:
-      return read_stl(reader);
-    case Format::Obj:
-      return read_obj(reader);
-    case Format::Off:
-      break;
-  }
-  return read_off(reader);
-}
-
-MeshFile read_as(ByteReader& reader, Format format) {
-  IndexedMesh mesh = mesh_as(reader, format);
-  return {std::move(mesh), reader.warnings()};
+  return true;
 }
 
 /// Number of points that single precision puts where another, different one is.
@@ -129,29 +100,107 @@ std::size_t fallen_together(const std::vector<Vector3>& points) {
   return count;
 }
 
-bool write_as(std::ostream& stream, Format format, const IndexedMesh& mesh,
-              PlyCoordinates coordinates) {
-  if (format == Format::Ply) {
-    write_ply(stream, mesh, coordinates);
-    return true;
-  }
+std::vector<LibraryPoint> library_points(const IndexedMesh& mesh) {
   std::vector<LibraryPoint> points;
   points.reserve(mesh.points.size());
   for (const Vector3& p : mesh.points) points.emplace_back(p.x(), p.y(), p.z());
-  const auto digits = CGAL::parameters::stream_precision(17);
-  switch (format) {
-    case Format::Stl:
-      CGAL::IO::set_binary_mode(stream);
-      return CGAL::IO::write_STL(stream, points, mesh.triangles);
-    case Format::Obj:
-      stream.precision(17);  // the library forgets the parameter here
-      return CGAL::IO::write_OBJ(stream, points, mesh.triangles);
-    case Format::Off:
-      return CGAL::IO::write_OFF(stream, points, mesh.triangles, digits);
-    case Format::Ply:
-      break;
+  return points;
+}
+
+bool write_stl(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
+  CGAL::IO::set_binary_mode(stream);
+  return CGAL::IO::write_STL(stream, library_points(mesh), mesh.triangles);
+}
+
+bool write_obj(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
+  stream.precision(17);  // the library forgets it where it is a parameter
+  return CGAL::IO::write_OBJ(stream, library_points(mesh), mesh.triangles);
+}
+
+bool write_off(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
+  return CGAL::IO::write_OFF(stream, library_points(mesh), mesh.triangles,
+                             CGAL::parameters::stream_precision(17));
+}
+
+/// A writer that leaves no choice.
+template <void (*Write)(std::ostream&, const IndexedMesh&)>
+bool write_by(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
+  Write(stream, mesh);
+  return true;
+}
+
+void write_plain_vtp(std::ostream& stream, const IndexedMesh& mesh) { write_vtp(stream, mesh); }
+
+struct Format {
+  std::string_view extension;
+  IndexedMesh (*read)(ByteReader& reader);  ///< null: it is only written
+  /// Null: it is only read.
+  bool (*write)(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates);
+  bool has_faces = true;  ///< else points alone
+};
+
+/// Its files end as those of binary STL do, whose readers take both.
+constexpr std::string_view text_stl = ".ascii.stl";
+
+constexpr Format formats[] = {
+    {".ply", read_ply, write_ply},
+    {".stl", read_stl, write_stl},
+    {text_stl, nullptr, write_by<write_stl_text>},
+    {".obj", read_obj, write_obj},
+    {".off", read_off, write_off},
+    {".vtp", read_vtp, write_by<write_plain_vtp>},
+    {".vtk", read_legacy_vtk, write_by<write_legacy_vtk>},
+    {".vtu", nullptr, write_by<write_vtu>},
+    {".msh", nullptr, write_by<write_gmsh>},
+    {".inp", nullptr, write_by<write_abaqus>},
+    {".xyz", read_point_text, nullptr, false},
+    {".csv", read_point_text, nullptr, false},
+    {".pcd", read_pcd, nullptr, false},
+};
+
+bool is_of(const Format& format, MeshUse use) {
+  return use == MeshUse::Read ? format.read != nullptr : format.write != nullptr;
+}
+
+/// Null where there is none. What is read may be packed.
+const Format* known_format(const std::string& path, MeshUse use) {
+  std::string extension = ending_of(path);
+  constexpr std::string_view packed = ".gz";
+  if (use == MeshUse::Write && extension == ".stl") {
+    const std::string before = ending_of(path.substr(0, path.size() - extension.size()));
+    if (before + extension == text_stl) extension = text_stl;
   }
-  return false;
+  if (use == MeshUse::Read && extension == packed) {
+    extension = ending_of(path.substr(0, path.size() - packed.size()));
+  }
+  const auto* const found = std::find_if(
+      std::begin(formats), std::end(formats),
+      [&](const Format& format) { return format.extension == extension && is_of(format, use); });
+  return found == std::end(formats) ? nullptr : found;
+}
+
+const Format& format_of(const std::string& path, MeshUse use) {
+  const Format* const format = known_format(path, use);
+  if (format == nullptr) {
+    refuse("\"" + path + "\" does not end in " + mesh_extensions(use) +
+           (use == MeshUse::Read ? "; convert the mesh to one of these."
+                                 : "; give a name that does."));
+  }
+  return *format;
+}
+
+MeshFile read_as(ByteReader& reader, const Format& format) {
+  IndexedMesh mesh = format.read(reader);
+  return {std::move(mesh), reader.warnings()};
+}
+
+/// What is at hand as a text.
+MeshFile read_content(std::string content, const std::string& path, const Format& format,
+                      const Execution& execution) {
+  const std::size_t size = content.size();
+  std::istringstream stream(std::move(content));
+  ByteReader reader(stream, size, path, execution);
+  return read_as(reader, format);
 }
 
 }  // namespace
@@ -166,7 +215,7 @@ IndexedMesh read_mesh(const std::string& path, const Execution& execution) {
 }
 
 MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
-  const Format format = format_of(path);
+  const Format& format = format_of(path, MeshUse::Read);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   const bool is_pipe = std::filesystem::is_fifo(status);
@@ -181,8 +230,10 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
     std::stringstream content;
     content.exceptions(std::ios::badbit);  // or memory that is refused would be the pipe's end
     content << file.rdbuf();
-    ByteReader reader(content, content.str().size(), path, execution);
-    return read_as(reader, format);
+    return read_content(content.str(), path, format, execution);
+  }
+  if (is_gzip(path)) {
+    return read_content(gzip_content(path, execution), path, format, execution);
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) refuse_to_open(path, error.value());
@@ -190,21 +241,38 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
   return read_as(reader, format);
 }
 
-bool is_mesh_file(const std::string& path) { return known_format(path).has_value(); }
+bool is_mesh_format(const std::string& path, MeshUse use) {
+  return known_format(path, use) != nullptr;
+}
 
-void check_mesh_format(const std::string& path) { format_of(path); }
+void check_mesh_format(const std::string& path, MeshUse use) { format_of(path, use); }
+
+std::string mesh_extensions(MeshUse use) {
+  std::string text;
+  const Format* last = nullptr;
+  for (const Format& format : formats) {
+    if (!is_of(format, use)) continue;
+    if (last != nullptr) text += (text.empty() ? "" : ", ") + std::string(last->extension);
+    last = &format;
+  }
+  return text + " or " + std::string(last->extension);
+}
+
+bool is_mesh_file(const std::string& path) {
+  const Format* const format = known_format(path, MeshUse::Read);
+  return format != nullptr && format->has_faces;
+}
 
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
-  const Format format = format_of(path);
-  const std::size_t lost = format == Format::Stl ? fallen_together(mesh.points) : 0;
+  const Format& format = format_of(path, MeshUse::Write);
+  const std::size_t lost = format.write == write_stl ? fallen_together(mesh.points) : 0;
   if (lost > 0) {
-    fail(path, "cannot hold this mesh: STL keeps seven digits of a coordinate, in which " +
+    fail(path, "cannot hold this mesh: binary STL keeps seven digits of a coordinate, in which " +
                    std::to_string(lost) +
                    " vertices fall together with others; write PLY, OBJ or OFF, or move the mesh "
                    "to the origin first.");
   }
-  write_file(path,
-             [&](std::ostream& stream) { return write_as(stream, format, mesh, coordinates); });
+  write_file(path, [&](std::ostream& stream) { return format.write(stream, mesh, coordinates); });
 }
 
 }  // namespace wscvt

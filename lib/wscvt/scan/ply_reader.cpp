@@ -391,13 +391,7 @@ class Body {
   void add_polygon(const Element& element, std::uint64_t record, bool strip) {
     corners_.clear();
     const auto end_strip = [&] {
-      for (std::size_t i = 2; i < corners_.size(); ++i) {
-        // Every second triangle of a strip turns the other way.
-        const std::size_t odd = i % 2;
-        const Triangle t{corners_[i - 2 + odd], corners_[i - 1 - odd], corners_[i]};
-        // Strips are joined by triangles without area.
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.triangles.push_back(t);
-      }
+      add_strip(corners_.data(), corners_.size(), mesh_.triangles);
       corners_.clear();
     };
     for (const double item : items_) {

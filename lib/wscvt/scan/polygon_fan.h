@@ -20,4 +20,17 @@ void add_fan(const Index* corners, std::size_t count, std::vector<Triangle>& tri
   }
 }
 
+/// Adds the triangles of a strip, whose every second one turns the other way. Those without three
+/// different corners, which join strips, are passed over.
+template <class Index>
+void add_strip(const Index* corners, std::size_t count, std::vector<Triangle>& triangles) {
+  for (std::size_t i = 2; i < count; ++i) {
+    const std::size_t odd = i % 2;
+    const Triangle t{static_cast<std::int32_t>(corners[i - 2 + odd]),
+                     static_cast<std::int32_t>(corners[i - 1 - odd]),
+                     static_cast<std::int32_t>(corners[i])};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+  }
+}
+
 }  // namespace wscvt

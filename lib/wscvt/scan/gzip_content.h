@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "wscvt/base/execution.h"
+
+namespace wscvt {
+
+/// Whether a file begins as gzip does.
+bool is_gzip(const std::string& path);
+
+/// What a gzip file holds. Throws Error(InputOutput) when it cannot be read, is cut or damaged;
+/// Error(Cancelled).
+std::string gzip_content(const std::string& path, const Execution& execution);
+
+}  // namespace wscvt
