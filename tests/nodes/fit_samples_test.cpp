@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/nodes/fit_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/fit_bodies.h"
+#include "wscvt/measures/face_boxes.h"
+
+namespace wscvt {
+namespace {
+
+/// Area of a mesh's faces from `begin` to `end`.
+double area_of_faces(const IndexedMesh& mesh, std::size_t begin, std::size_t end) {
+  double area = 0.0;
+  for (std::size_t t = begin; t < end; ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    area += 0.5 * doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).norm();
+  }
+  return area;
+}
+
+TEST(FitSamples, LieOnTheScanOneInEachShareOfItsArea) {
+  const IndexedMesh body = test::scaled(test::lumpy(3), Vector3(2.0, 1.0, 0.7));
+  constexpr std::size_t count = 3000;
+  const std::vector<FitSample> samples = draw_fit_samples(test::sampled(body), count, 1e9);
+  ASSERT_EQ(samples.size(), count);
+  const FaceBoxes boxes(body, Execution(1), "boxes");
+  const double area = area_of_faces(body, 0, body.triangles.size());
+  std::size_t face = 0;
+  double up_to = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FitSample& sample = samples[i];
+    ASSERT_LT(boxes.distance(sample.point), 1e-12);
+    ASSERT_NEAR(sample.normal.norm(), 1.0, 1e-12);
+    ASSERT_EQ(sample.spacing, 1.0);
+    // The share [i, i + 1) of the area is that of a face or some, one of which holds the sample.
+    const double share = area / static_cast<double>(count);
+    while (face + 1 < body.triangles.size() &&
+           up_to + area_of_faces(body, face, face + 1) < static_cast<double>(i) * share) {
+      up_to += area_of_faces(body, face, face + 1);
+      ++face;
+    }
+    double nearest = 1e300;
+    double reached = up_to;
+    for (std::size_t t = face; t < body.triangles.size() && nearest > 1e-20; ++t) {
+      if (reached > static_cast<double>(i + 1) * share) break;
+      const auto& [a, b, c] = body.triangles[t];
+      nearest = std::min(
+          nearest, nearest_in_triangle(sample.point, body.points[a], body.points[b], body.points[c])
+                       .squared_distance);
+      reached += area_of_faces(body, t, t + 1);
+    }
+    ASSERT_LT(nearest, 1e-20) << i;
+  }
+}
+
+TEST(FitSamples, NameTheCornerThatIsNearestInTheirFace) {
+  const IndexedMesh ball = test::sphere(2);
+  for (const FitSample& sample : draw_fit_samples(test::sampled(ball), 2000, 1e9)) {
+    double nearest = 1e300;
+    for (const Vector3& p : ball.points) nearest = std::min(nearest, (p - sample.point).norm());
+    // Faces are nearly equilateral, where the largest weight is about that of the nearest corner.
+    ASSERT_LT((ball.points[static_cast<std::size_t>(sample.face)] - sample.point).norm(),
+              1.3 * nearest);
+  }
+}
+
+TEST(FitSamples, HaveNormalsOfVerticesOnFineFacesAndTheirOwnOnCoarseOnes) {
+  const IndexedMesh ball = test::sphere(2);
+  const double face = area_of_faces(ball, 0, ball.triangles.size()) / 320.0;
+  double fine = 0.0;
+  double coarse = 0.0;
+  for (const FitSample& sample : draw_fit_samples(test::sampled(ball), 1000, 100.0 * face)) {
+    fine = std::max(fine, (sample.normal - sample.point.normalized()).norm());
+  }
+  const FaceBoxes boxes(ball, Execution(1), "boxes");
+  for (const FitSample& sample : draw_fit_samples(test::sampled(ball), 1000, 0.5 * face)) {
+    coarse = std::max(coarse, (sample.normal - sample.point.normalized()).norm());
+    // Flat over its face: a small step along the face stays on it.
+    const Vector3 aside = 1e-3 * sample.normal.unitOrthogonal();
+    EXPECT_LT(boxes.distance(sample.point + aside), 1e-3);
+  }
+  // The chord's sagitta: faces of .28 turn their normals by a tenth from corner to middle.
+  EXPECT_LT(fine, 0.03);
+  EXPECT_GT(coarse, 0.1);
+}
+
+TEST(FitSamples, LeaveOutFacesOfNoArea) {
+  IndexedMesh ball = test::sphere(1);
+  const std::size_t sound = ball.triangles.size();
+  ball.triangles.insert(ball.triangles.begin(),
+                        {ball.triangles[3][0], ball.triangles[3][0], ball.triangles[3][1]});
+  ball.triangles.push_back({ball.triangles[7][0], ball.triangles[7][1], ball.triangles[7][1]});
+  const SampledScan scan = {ball,
+                            vertex_normals(test::sphere(1).points, test::sphere(1).triangles)};
+  for (const FitSample& sample : draw_fit_samples(scan, 5 * sound, 1.0)) {
+    ASSERT_TRUE(sample.point.allFinite());
+    ASSERT_NEAR(sample.normal.norm(), 1.0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
