@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wscvt/base/pi.h"
 #include "wscvt/nodes/fit_flips.h"
@@ -23,11 +24,14 @@ constexpr double most_evenness = 2.0;
 /// is so near. Stiffened wherever the wanted ratio is missed it would cost a tenth of the distance
 /// on sharp bodies.
 constexpr double far_off_ratio = 0.02;
-constexpr double stiffest_evenness = 5.0;
+constexpr double stiffest_evenness = 8.0;
 /// How strongly the evenness answers to a mean ratio that is off the wanted one.
 constexpr double steering = 0.5;
 /// Degrees: no angle of the result is smaller.
 constexpr double smallest_angle = 30.0;
+/// Larger angles, those that the late rounds keep, are mended for where the mean square distance
+/// grows no further than by this: rims of thin bodies have no room for them.
+constexpr double most_mending_cost = 1.02;
 /// Angles pay from this much above it on, early and late.
 constexpr double early_margin = 1.0;
 constexpr double late_margin = 0.5;
@@ -90,7 +94,8 @@ class SurfaceFit {
     now.least_angle = dial_.least_angle;
     now.early_sharpness = cosine_of_degrees(dial_.early_angle);
     now.sharpness_limit = now.late ? cosine_of_degrees(dial_.least_angle) : now.early_sharpness;
-    now.goal_cosine = cosine_of_degrees(smallest_angle + (now.late ? late_margin : early_margin));
+    now.goal_cosine =
+        cosine_of_degrees(dial_.least_angle + (now.late ? late_margin : early_margin));
     const double part = std::min(1.0, static_cast<double>(round) / std::max(1, first_late));
     double price = std::pow(last_price, part);
     if (now.late) price *= std::pow(late_growth, round - first_late);
@@ -113,34 +118,43 @@ class SurfaceFit {
     state_.place_samples(execution_);
   }
 
-  bool has_small_angles() const {
-    const double limit = cosine_of_degrees(smallest_angle);
+  bool has_angles_below(double degrees) const {
+    const double limit = cosine_of_degrees(degrees);
     for (std::size_t t = 0; t < state_.mesh.triangles.size(); ++t) {
       if (state_.mesh.sharpness(t) > limit) return true;
     }
     return false;
   }
 
-  /// Small angles that are left: dearer and dearer, and from the third pass on at any price.
   void mend() {
+    if (dial_.least_angle > smallest_angle && has_angles_below(dial_.least_angle)) {
+      FitState kept = state_;
+      mend_below(dial_.least_angle);
+      if (state_.mean_square > most_mending_cost * kept.mean_square) state_ = std::move(kept);
+    }
+    mend_below(smallest_angle);
+  }
+
+  /// Small angles that are left: dearer and dearer, and from the third pass on at any price.
+  void mend_below(double degrees) {
     constexpr int most_passes = 10;
     constexpr int passes_of_polish = 3;
     constexpr int first_forced = 2;
     constexpr double growth = 4.0;
     state_.round.late = true;
-    for (int pass = 0; pass < most_passes && has_small_angles(); ++pass) {
+    for (int pass = 0; pass < most_passes && has_angles_below(degrees); ++pass) {
       execution_.report(1.0, "Fitting the nodes");
       state_.list_samples();
       state_.edge = mean_edge_length(state_.mesh);
       state_.build_hash();
       state_.round.price = growth * std::max(state_.round.price, state_.mean_square);
-      state_.round.goal_cosine = cosine_of_degrees(smallest_angle + mending_margin);
+      state_.round.goal_cosine = cosine_of_degrees(degrees + mending_margin);
       report_.flips += flip_for_fit(state_);
       if (pass < passes_of_polish) report_.polished += polish_nodes(state_, 3);
       if (pass >= first_forced) {
         state_.place_samples(execution_);
         state_.list_samples();
-        mend_angles(state_, smallest_angle);
+        mend_angles(state_, degrees);
       }
       state_.place_samples(execution_);
       ++report_.mending;
