@@ -77,6 +77,49 @@ TEST(Coarsening, FollowsADensity) {
   EXPECT_NEAR(static_cast<double>(upper), 150.0, 12.0);
 }
 
+TEST(Coarsening, PinchesNoTubeOfThreeSides) {
+  // A ring whose tube is a prism: three of its edges go round it and bound no face.
+  IndexedMesh ring;
+  constexpr int around = 30;
+  for (int i = 0; i < around; ++i) {
+    const double at = 2.0 * 3.141592653589793 * i / around;
+    for (int k = 0; k < 3; ++k) {
+      const double turn = 2.0 * 3.141592653589793 * k / 3.0 + 0.02 * i;
+      const double out = 1.0 + 0.2 * std::cos(turn);
+      ring.points.emplace_back(out * std::cos(at), out * std::sin(at), 0.2 * std::sin(turn));
+      const auto v = [&](int j, int l) {
+        return static_cast<std::int32_t>(3 * ((i + j) % around) + (k + l) % 3);
+      };
+      ring.triangles.push_back({v(0, 0), v(1, 0), v(0, 1)});
+      ring.triangles.push_back({v(1, 0), v(1, 1), v(0, 1)});
+    }
+  }
+  ASSERT_EQ(test::bad_edges(ring), 0u);
+  Coarsening coarsening(editable(ring), {});
+  coarsening.ignore_shapes();
+  ASSERT_TRUE(coarsening.reduce(15, Execution(1)));
+  EXPECT_EQ(coarsening.mesh().triangles.size(), 30u);  // one handle
+  EXPECT_EQ(test::bad_edges({coarsening.mesh().points, coarsening.mesh().triangles}), 0u);
+}
+
+TEST(Coarsening, TurnsNoFaceAgainstTheScan) {
+  const IndexedMesh plate = test::transformed(test::subdivided(test::box(2.0, 1.8, 0.1), 5),
+                                              test::random_rotation(3), Vector3::Zero());
+  Coarsening coarsening(editable(plate), {});
+  while (coarsening.size() > 400 && coarsening.sweep(400) > 0) {
+  }
+  ASSERT_TRUE(coarsening.reduce(200, Execution(1)));
+  const EditMesh& mesh = coarsening.mesh();
+  int against = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vector3 outward =
+        coarsening.vectors()[a] + coarsening.vectors()[b] + coarsening.vectors()[c];
+    if (mesh.normal(t).dot(outward) < 0.0) ++against;
+  }
+  EXPECT_EQ(against, 0);
+}
+
 TEST(Coarsening, GoesDownToATetrahedronAndNoFurther) {
   Coarsening coarsening(editable(test::sphere(2)), {});
   if (!coarsening.reduce(4, Execution(1))) {

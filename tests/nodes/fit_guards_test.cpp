@@ -22,7 +22,7 @@ TEST(FitGuards, LetShortStepsPassAndShortenLongOnes) {
   std::vector<Vector3> step = still(state);
   const Vector3 tangent = before[7].unitOrthogonal();
   step[7] = 0.1 * state.edge * tangent;
-  step[100] = 9.0 * state.edge * before[100];
+  step[100] = state.edge * before[100];
   move_nodes(state, step, Execution(1));
   EXPECT_LT((state.mesh.points[7] - before[7] - step[7]).norm(), 1e-15);
   const double moved = (state.mesh.points[100] - before[100]).norm();
@@ -60,6 +60,21 @@ TEST(FitGuards, TurnNoTriangleFar) {
     EXPECT_GE(state.unit_normal(t).dot(normals[t]), 0.3 - 1e-9);
     EXPECT_GE(state.unit_normal(t).dot(state.sample_normals[t].normalized()), 0.2 - 1e-9);
     EXPECT_LE(state.mesh.sharpness(t), state.round.sharpness_limit + 1e-8);
+  }
+}
+
+TEST(FitGuards, LetNoTriangleTurnAwayFromTheScanStepByStep) {
+  const IndexedMesh ball = test::sphere(3);
+  FitState state = test::fit_state(ball, test::editable(test::sphere(2)));
+  state.round.sharpness_limit = 0.999;
+  const std::vector<Vector3> outward = state.sample_normals;
+  std::vector<Vector3> step = still(state);
+  step[40] = 0.3 * state.edge * state.mesh.points[40];
+  const double start = state.mesh.points[40].norm();
+  for (int i = 0; i < 30; ++i) move_nodes(state, step, Execution(1));
+  EXPECT_GT(state.mesh.points[40].norm(), start + state.edge);
+  for (std::size_t t = 0; t < outward.size(); ++t) {
+    EXPECT_GE(state.unit_normal(t).dot(outward[t].normalized()), 0.2 - 1e-9);
   }
 }
 

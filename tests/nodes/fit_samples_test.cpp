@@ -88,6 +88,26 @@ TEST(FitSamples, HaveNormalsOfVerticesOnFineFacesAndTheirOwnOnCoarseOnes) {
   EXPECT_GT(coarse, 0.1);
 }
 
+TEST(FitSamples, AreSpreadEvenlyOverAFace) {
+  const IndexedMesh body = test::scaled(test::tetrahedron(1.0), Vector3(1.0, 2.0, 0.6));
+  std::vector<Vector3> sums(4, Vector3::Zero());
+  std::vector<int> counts(4, 0);
+  for (const FitSample& sample : draw_fit_samples(test::sampled(body), 4000, 1e9)) {
+    for (std::size_t t = 0; t < 4; ++t) {
+      const auto& [a, b, c] = body.triangles[t];
+      const TrianglePlace place =
+          nearest_in_triangle(sample.point, body.points[a], body.points[b], body.points[c]);
+      if (place.squared_distance > 1e-20) continue;
+      sums[t] += place.weights;
+      ++counts[t];
+    }
+  }
+  for (std::size_t t = 0; t < 4; ++t) {
+    EXPECT_GT(counts[t], 300);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(sums[t][k] / counts[t], 1.0 / 3.0, 0.01);
+  }
+}
+
 TEST(FitSamples, LeaveOutFacesOfNoArea) {
   IndexedMesh ball = test::sphere(1);
   const std::size_t sound = ball.triangles.size();

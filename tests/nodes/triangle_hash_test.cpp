@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -29,6 +30,30 @@ TEST(TriangleHash, FindsThePairsThatExactPredicatesFind) {
     hash.build(mesh, cell);
     EXPECT_EQ(hash.pairs(mesh, Execution(2)), exact);
   }
+}
+
+TEST(TriangleHash, FindsPairsWithinTheFansOfVertices) {
+  // Nodes shaken by their edges: fans fold over and wind twice.
+  IndexedMesh shaken = test::sphere(2);
+  constexpr int seed = 8;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-0.25, 0.25);
+  for (Vector3& p : shaken.points) p += Vector3(uniform(random), uniform(random), uniform(random));
+  const std::vector<TrianglePair> exact = self_intersections(shaken);
+  const auto share_one = [&](const TrianglePair& pair) {
+    int shared = 0;
+    for (const std::int32_t v : shaken.triangles[pair.first]) {
+      const Triangle& other = shaken.triangles[pair.second];
+      shared += static_cast<int>(std::count(other.begin(), other.end(), v));
+    }
+    return shared == 1;
+  };
+  ASSERT_GT(std::count_if(exact.begin(), exact.end(), share_one), 20);
+  const EditMesh mesh(shaken.points, shaken.triangles, Execution(1));
+  TriangleHash hash;
+  hash.build(mesh, 0.3);
+  EXPECT_EQ(hash.pairs(mesh, Execution(1)), exact);
 }
 
 TEST(TriangleHash, AsksOfATriangleThatIsNotThereYet) {
