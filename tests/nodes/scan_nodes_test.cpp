@@ -18,6 +18,7 @@
 #include "wscvt/measures/face_boxes.h"
 #include "wscvt/nodes/edit_mesh.h"
 #include "wscvt/nodes/self_intersections.h"
+#include "wscvt/surface/curvature.h"
 
 namespace wscvt {
 namespace {
@@ -228,6 +229,72 @@ TEST(ScanNodes, AreMoreWhereTheSurfaceBendsByTheLawOfTheWeighting) {
   EXPECT_LT(near_tips(place(body, 300, options)), even);
   options.weighting = CellWeighting::ErrorAdaptive;
   EXPECT_GT(near_tips(place(body, 300, options)), 1.1 * static_cast<double>(even));
+}
+
+/// ln of the largest curvature at every vertex of a smooth surface.
+std::vector<double> log_curvatures(const IndexedMesh& surface) {
+  std::vector<double> logs;
+  for (const PrincipalCurvatures& k : quadric_fit_curvatures(surface, 2, Execution(2))) {
+    logs.push_back(std::log(std::max(std::abs(k.maximum), std::abs(k.minimum))));
+  }
+  return logs;
+}
+
+/// Slope of ln density of nodes against ln curvature of the surface where they are.
+double slope_of_law(const IndexedMesh& surface, const std::vector<double>& logs,
+                    const ScanNodes& nodes) {
+  double x_sum = 0.0;
+  double y_sum = 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+  for (std::size_t i = 0; i < nodes.mesh.points.size(); ++i) {
+    std::size_t nearest = 0;
+    for (std::size_t v = 1; v < surface.points.size(); ++v) {
+      if ((surface.points[v] - nodes.mesh.points[i]).squaredNorm() <
+          (surface.points[nearest] - nodes.mesh.points[i]).squaredNorm()) {
+        nearest = v;
+      }
+    }
+    const double x = logs[nearest];
+    const double y = -std::log(nodes.cell_areas[i]);
+    x_sum += x;
+    y_sum += y;
+    xx += x * x;
+    xy += x * y;
+  }
+  const auto count = static_cast<double>(nodes.mesh.points.size());
+  return (xy - x_sum * y_sum / count) / (xx - x_sum * x_sum / count);
+}
+
+TEST(ScanNodes, KeepTheLawBetweenDensityAndCurvature) {
+  // Smooth lumps, as a series of low degree has them; the scan itself tells their curvature.
+  const IndexedMesh body = normalized(test::scaled(test::lumpy(4), Vector3(1.3, 1.0, 0.8)));
+  const std::vector<double> logs = log_curvatures(body);
+  const std::vector<double> areas = vertex_areas(body);
+  double area = 0.0;
+  double mean = 0.0;
+  double square = 0.0;
+  for (std::size_t v = 0; v < logs.size(); ++v) {
+    area += areas[v];
+    mean += areas[v] * logs[v];
+    square += areas[v] * logs[v] * logs[v];
+  }
+  mean /= area;
+  const double deviation = std::sqrt(square / area - mean * mean);
+  ScanNodesOptions options;
+  const auto slope = [&](CellWeighting weighting, bool fitted) {
+    options.weighting = weighting;
+    options.fitted = fitted;
+    return slope_of_law(body, logs, place(body, 400, options));
+  };
+  // Eqs. 11 to 14: a cell is 1 + (3.118 / pi) x of the mean one, x three deviations to 1.
+  const double of_paper = 3.118 / pi / (3.0 * deviation);
+  EXPECT_NEAR(slope(CellWeighting::Curvature, false), of_paper, 0.12 * of_paper);
+  EXPECT_NEAR(slope(CellWeighting::ErrorAdaptive, false), 2.0 / 3.0, 0.1);
+  EXPECT_NEAR(slope(CellWeighting::Area, false), 0.0, 0.05);
+  // The fit draws nodes to ridges, also those of equal cells: by .25 here.
+  EXPECT_NEAR(slope(CellWeighting::Curvature, true), of_paper + 0.15, 0.1 * of_paper);
+  EXPECT_NEAR(slope(CellWeighting::ErrorAdaptive, true), 2.0 / 3.0 + 0.15, 0.1);
 }
 
 TEST(ScanNodes, AreRefusedOutOfRange) {
