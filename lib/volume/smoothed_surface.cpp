@@ -54,23 +54,56 @@ std::set<Edge> doubled_edges(const Groups& neighbours) {
   return doubled;
 }
 
-/// One step of diffusion on the lattice's edges, the vertices kept in their cells.
-void diffuse(const std::vector<VoxelCounts>& corners, const Groups& neighbours, double step,
-             std::vector<Vector3>& points, std::vector<Vector3>& moved) {
-  constexpr double half_a_voxel = 0.5;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    Vector3 sum = Vector3::Zero();
-    for (std::size_t k = neighbours.starts[v]; k < neighbours.starts[v + 1]; ++k) {
-      sum += points[index(neighbours.items[k])];
+/// Diffusion on the lattice's edges. What moves is how far each vertex is from its corner of the
+/// lattice, at most half a voxel: single precision keeps a ten-millionth of that, and takes a third
+/// of the time of places in double precision.
+class Diffusion {
+ public:
+  Diffusion(const std::vector<VoxelCounts>& corners, const Groups& neighbours)
+      : neighbours_(neighbours),
+        away_(corners.size(), Four::Zero()),
+        moved_(corners.size()),
+        mean_(corners.size()) {
+    for (std::size_t v = 0; v < corners.size(); ++v) {
+      VoxelCounts sum{};
+      for (std::size_t k = neighbours.starts[v]; k < neighbours.starts[v + 1]; ++k) {
+        const VoxelCounts& other = corners[index(neighbours.items[k])];
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += other[axis] - corners[v][axis];
+      }
+      const float share =
+          1.0F / static_cast<float>(neighbours.starts[v + 1] - neighbours.starts[v]);
+      mean_[v] = Four(static_cast<float>(sum[0]), static_cast<float>(sum[1]),
+                      static_cast<float>(sum[2]), 1.0F) *
+                 share;
     }
-    const auto count = static_cast<double>(neighbours.starts[v + 1] - neighbours.starts[v]);
-    const Vector3 corner(corners[v][0], corners[v][1], corners[v][2]);
-    moved[v] = (points[v] + step * (sum / count - points[v]))
-                   .cwiseMax(corner - Vector3::Constant(half_a_voxel))
-                   .cwiseMin(corner + Vector3::Constant(half_a_voxel));
   }
-  points.swap(moved);
-}
+
+  /// One step, the vertices kept in their cells.
+  void run(float step) {
+    const Four half_a_voxel = Four::Constant(0.5F);
+    for (std::size_t v = 0; v < away_.size(); ++v) {
+      Four sum = Four::Zero();
+      for (std::size_t k = neighbours_.starts[v]; k < neighbours_.starts[v + 1]; ++k) {
+        sum += away_[index(neighbours_.items[k])];
+      }
+      const Four to_mean = sum * mean_[v][3] + mean_[v] - away_[v];
+      moved_[v] = (away_[v] + step * to_mean).max(-half_a_voxel).min(half_a_voxel);
+    }
+    away_.swap(moved_);
+  }
+
+  /// How far a vertex is from its corner.
+  Vector3 away(std::size_t vertex) const { return away_[vertex].head<3>().cast<double>(); }
+
+ private:
+  using Four = Eigen::Array4f;  ///< three coordinates, for which the processor has no operations
+
+  const Groups& neighbours_;
+  std::vector<Four> away_;
+  std::vector<Four> moved_;
+  /// The mean of the neighbours' corners, from the own one; the last: 1 over their number.
+  std::vector<Four> mean_;
+};
 
 /// The voxel inside a face; twice its middle, in whole numbers.
 std::tuple<int, int, int> voxel_inside(const VoxelSurface& surface, const VoxelFace& face) {
@@ -170,18 +203,19 @@ IndexedMesh smoothed_surface(const VoxelSurface& surface, int passes,
                              const VolumeGeometry& geometry) {
   // Taubin's: what varies more slowly than the pass band of 0.1 stays, as 1 / step + 1 / back =
   // 0.1.
-  constexpr double step = 0.6307;
-  constexpr double back = -0.6732;
+  constexpr float step = 0.6307F;
+  constexpr float back = -0.6732F;
   const Groups neighbours = neighbours_of(surface);
+  Diffusion diffusion(surface.corners, neighbours);
+  for (int pass = 0; pass < passes; ++pass) {
+    diffusion.run(step);
+    diffusion.run(back);
+  }
   IndexedMesh mesh;
   mesh.points.reserve(surface.corners.size());
-  for (const VoxelCounts& corner : surface.corners) {
-    mesh.points.emplace_back(corner[0], corner[1], corner[2]);
-  }
-  std::vector<Vector3> moved(mesh.points.size());
-  for (int pass = 0; pass < passes; ++pass) {
-    diffuse(surface.corners, neighbours, step, mesh.points, moved);
-    diffuse(surface.corners, neighbours, back, mesh.points, moved);
+  for (std::size_t v = 0; v < surface.corners.size(); ++v) {
+    const VoxelCounts& corner = surface.corners[v];
+    mesh.points.push_back(Vector3(corner[0], corner[1], corner[2]) + diffusion.away(v));
   }
   const std::set<Edge> doubled = doubled_edges(neighbours);
   FaceSplitter(surface, doubled, mesh).run();

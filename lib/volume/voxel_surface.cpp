@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -179,16 +180,21 @@ class FaceMaker {
   void fill_layer(std::int32_t z) {
     const std::array<CornerRings, 256>& rings = all_corner_rings();
     for (std::size_t j = 0; j <= height_; ++j) {
-      // Of the four voxels about the corner, in each slice; `before` is one row earlier.
+      // Of the four voxels before or behind the corner along x, two in each slice; `before` is one
+      // row earlier.
       const std::size_t before = j * (width_ + 2);
       const std::size_t behind = before + width_ + 2;
+      const auto four_at = [&](std::size_t i) {
+        return static_cast<unsigned>(below_[before + i] | below_[behind + i] << 2 |
+                                     here_[before + i] << 4 | here_[behind + i] << 6);
+      };
+      unsigned earlier = four_at(0);
       for (std::size_t i = 0; i <= width_; ++i) {
-        const auto pattern = [&](const Slice& slice) {
-          return static_cast<unsigned>(slice[before + i] | slice[before + i + 1] << 1 |
-                                       slice[behind + i] << 2 | slice[behind + i + 1] << 3);
-        };
-        const unsigned inside = pattern(below_) | pattern(here_) << 4;
+        const unsigned later = four_at(i + 1);
+        const unsigned inside = earlier | later << 1;
+        earlier = later;
         top_.inside[corner(i, j)] = static_cast<std::uint8_t>(inside);
+        if (rings[inside].rings == 0) continue;
         top_.first_vertex[corner(i, j)] = static_cast<std::int32_t>(surface_.corners.size());
         for (int ring = 0; ring < rings[inside].rings; ++ring) {
           surface_.corners.push_back({box_.begin[0] + static_cast<std::int32_t>(i),
@@ -218,6 +224,7 @@ class FaceMaker {
   /// Faces between the two slices.
   void make_faces_across_z() {
     for (std::size_t j = 0; j < height_; ++j) {
+      if (std::memcmp(&below_[voxel(0, j)], &here_[voxel(0, j)], width_) == 0) continue;
       for (std::size_t i = 0; i < width_; ++i) {
         if (below_[voxel(i, j)] == here_[voxel(i, j)]) continue;
         // The voxels lie behind their first corner, and before the others: bits 1 and 0.
@@ -236,6 +243,8 @@ class FaceMaker {
     const std::size_t last_i = axis == 0 ? width_ + 1 : width_;
     const std::size_t last_j = axis == 0 ? height_ : height_ + 1;
     for (std::size_t j = 0; j < last_j; ++j) {
+      const std::uint8_t* const row = &below_[voxel(0, j)];
+      if (std::memcmp(row - step, row, last_i) == 0) continue;
       for (std::size_t i = 0; i < last_i; ++i) {
         const std::size_t behind = voxel(i, j);
         if (below_[behind - step] == below_[behind]) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that claim to be meshes. The first byte names the reader: p PLY, s STL, o OBJ, any other
-// OFF.
+// Files that claim to be meshes. The first byte names the reader: p PLY, s STL, o OBJ, k and v
+// VTK's older files and those in XML, x points as text, c PCD, any other OFF.
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
@@ -9,10 +9,14 @@
 #include "fuzz/promise.h"
 #include "wscvt/base/error.h"
 #include "wscvt/scan/byte_reader.h"
+#include "wscvt/scan/legacy_vtk_reader.h"
 #include "wscvt/scan/obj_reader.h"
 #include "wscvt/scan/off_reader.h"
+#include "wscvt/scan/pcd_reader.h"
 #include "wscvt/scan/ply_reader.h"
+#include "wscvt/scan/point_text_reader.h"
 #include "wscvt/scan/stl_reader.h"
+#include "wscvt/scan/vtp_reader.h"
 
 namespace {
 
@@ -26,6 +30,14 @@ IndexedMesh read(char format, ByteReader& reader) {
       return read_stl(reader);
     case 'o':
       return read_obj(reader);
+    case 'k':
+      return read_legacy_vtk(reader);
+    case 'v':
+      return read_vtp(reader);
+    case 'x':
+      return read_point_text(reader);
+    case 'c':
+      return read_pcd(reader);
     default:
       return read_off(reader);
   }
@@ -47,9 +59,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 "an index does not fit");
       }
     }
-    // A byte holds a coordinate at most, a corner, or a digit of one.
-    promise(mesh.points.size() <= content.size(), "more points than bytes");
-    promise(mesh.triangles.size() <= content.size(), "more triangles than bytes");
+    // A byte holds a coordinate at most, a corner, or a digit of one; packed, up to 1100 of them.
+    const std::size_t most = content.size() * (data[0] == 'v' || data[0] == 'c' ? 1100 : 1);
+    promise(mesh.points.size() <= most, "more points than bytes");
+    promise(mesh.triangles.size() <= most, "more triangles than bytes");
   } catch (const Error& error) {
     promise(error.code() == ErrorCode::InputOutput, error.what());
     promise(std::string(error.what()).size() > 20, "no sentence");

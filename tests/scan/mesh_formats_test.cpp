@@ -211,6 +211,11 @@ TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
                      "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n1 2 3 4 5 6 7 8 "
                      "9 1 2 3\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n",
                  "cells of type 10");
+  expect_refusal("a.vtk",
+                 head +
+                     "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 2 3\n"
+                     "OFFSETS double\n0 3\n",
+                 "no whole numbers");
   expect_refusal("a.vtp", "<html>", "not the XML of a .vtp");
   expect_refusal("a.vtp", "<VTKFile type=\"ImageData\"><ImageData>", "ImageData");
   expect_refusal("a.vtp", "<VTKFile type=\"PolyData\"><PolyData>", "no piece");

@@ -183,6 +183,9 @@ class LegacyVtkReader {
     const std::string line(fields.rest());
     TextFields rest(line);
     const NamedType& type = type_in(rest);
+    if (type.type == VtkType::Float || type.type == VtkType::Double) {
+      reader_.fail_line("announces corners that are no whole numbers" + std::string(export_again));
+    }
     return numbers<std::int64_t>(type.type, type.size, count);
   }
 

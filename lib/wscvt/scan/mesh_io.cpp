@@ -46,17 +46,31 @@ using LibraryPoint = CGAL::Simple_cartesian<double>::Point_3;
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
 }
 
-template <class Number>
-void write_points(std::ostream& stream, const std::vector<Vector3>& points) {
-  std::array<unsigned char, 3 * sizeof(Number)> vertex{};
-  for (const Vector3& p : points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      boost::endian::endian_store<Number, sizeof(Number), boost::endian::order::little>(
-          vertex.data() + sizeof(Number) * k, static_cast<Number>(p[static_cast<Eigen::Index>(k)]));
-    }
-    stream.write(reinterpret_cast<const char*>(vertex.data()), vertex.size());
+/// Bytes that are put together before they are written: a stream takes ten times as long for each
+/// vertex.
+class Bytes {
+ public:
+  explicit Bytes(std::ostream& stream) : stream_(stream) { bytes_.reserve(room); }
+  template <class Number>
+  void add(Number number) {
+    if (bytes_.size() + sizeof(Number) > room) flush();
+    bytes_.resize(bytes_.size() + sizeof(Number));
+    boost::endian::endian_store<Number, sizeof(Number), boost::endian::order::little>(
+        reinterpret_cast<unsigned char*>(bytes_.data() + bytes_.size() - sizeof(Number)), number);
   }
-}
+
+  /// Writes what is left.
+  void flush() {
+    stream_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    bytes_.clear();
+  }
+
+ private:
+  static constexpr std::size_t room = std::size_t{1} << 16;
+
+  std::ostream& stream_;
+  std::vector<char> bytes_;
+};
 
 bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
   const std::string type = coordinates == PlyCoordinates::Double ? "double" : "float";
@@ -64,18 +78,21 @@ bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coo
   for (const char* name : {" x", " y", " z"}) stream << "\nproperty " << type << name;
   stream << "\nelement face " << mesh.triangles.size()
          << "\nproperty list uchar int vertex_indices\nend_header\n";
-  if (coordinates == PlyCoordinates::Double) {
-    write_points<double>(stream, mesh.points);
-  } else {
-    write_points<float>(stream, mesh.points);
-  }
-  std::array<unsigned char, 13> face{3};
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      boost::endian::store_little_s32(face.data() + 1 + 4 * k, t[k]);
+  Bytes bytes(stream);
+  for (const Vector3& p : mesh.points) {
+    for (const double coordinate : p) {
+      if (coordinates == PlyCoordinates::Double) {
+        bytes.add(coordinate);
+      } else {
+        bytes.add(static_cast<float>(coordinate));
+      }
     }
-    stream.write(reinterpret_cast<const char*>(face.data()), face.size());
   }
+  for (const Triangle& t : mesh.triangles) {
+    bytes.add(std::uint8_t{3});
+    for (const std::int32_t v : t) bytes.add(v);
+  }
+  bytes.flush();
   return true;
 }
 
