@@ -75,6 +75,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--counts", type=int, nargs=3, default=[2000, 2000, 1000])
     parser.add_argument("--cells", type=int, nargs=3, default=[20, 25, 10])
+    parser.add_argument("--threads", type=int, default=0, help="0: all")
     parser.add_argument("--remesh", action="store_true", help="to 500 nodes, as published")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True)
@@ -89,10 +90,12 @@ def main():
                     "500", "--method", "as-published"]
         start = time.time()
         child = subprocess.run(
-            call, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (LIMIT, LIMIT)))
+            call + ["-t", str(arguments.threads)] if arguments.threads else call, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (LIMIT, LIMIT)))
         used = resource.getrusage(resource.RUSAGE_CHILDREN)
-        print(f"exit code {child.returncode}, {time.time() - start:.0f} s, processor time "
-              f"{used.ru_utime + used.ru_stime:.0f} s, peak {used.ru_maxrss / 1024:.0f} MiB")
+        seconds = time.time() - start
+        print(f"exit code {child.returncode}, {seconds:.2f} s, {voxels[1:].size / seconds:.0f} grains and "
+              f"{np.prod(arguments.counts) / seconds / 1e6:.0f} million voxels a second, processor time "
+              f"{used.ru_utime + used.ru_stime:.2f} s, peak {used.ru_maxrss / 1024:.0f} MiB")
         grains = np.prod(arguments.cells)
         meshes = list(out.glob("*.ply"))
         print(f"{len(meshes)} meshes of {grains} grains, "

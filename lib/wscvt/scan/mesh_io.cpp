@@ -50,26 +50,27 @@ using LibraryPoint = CGAL::Simple_cartesian<double>::Point_3;
 /// vertex.
 class Bytes {
  public:
-  explicit Bytes(std::ostream& stream) : stream_(stream) { bytes_.reserve(room); }
+  explicit Bytes(std::ostream& stream) : stream_(stream), bytes_(std::size_t{1} << 16) {}
+
   template <class Number>
   void add(Number number) {
-    if (bytes_.size() + sizeof(Number) > room) flush();
-    bytes_.resize(bytes_.size() + sizeof(Number));
+    if (used_ + sizeof(Number) > bytes_.size()) flush();
     boost::endian::endian_store<Number, sizeof(Number), boost::endian::order::little>(
-        reinterpret_cast<unsigned char*>(bytes_.data() + bytes_.size() - sizeof(Number)), number);
+        bytes_.data() + used_, number);
+    used_ += sizeof(Number);
   }
 
   /// Writes what is left.
   void flush() {
-    stream_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
-    bytes_.clear();
+    stream_.write(reinterpret_cast<const char*>(bytes_.data()),
+                  static_cast<std::streamsize>(used_));
+    used_ = 0;
   }
 
  private:
-  static constexpr std::size_t room = std::size_t{1} << 16;
-
   std::ostream& stream_;
-  std::vector<char> bytes_;
+  std::vector<unsigned char> bytes_;
+  std::size_t used_ = 0;
 };
 
 bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
