@@ -181,7 +181,7 @@ class Hdf5Volume : public LabelVolume {
     if (next_ % rows == 0) read_slice(next_ / rows, rows * row_bytes);
     row_.resize(static_cast<std::size_t>(geometry().counts[0]));
     labels_of(
-        slice_.data() + next_ % rows * row_bytes, type_, row_,
+        slice_.data() + next_ % rows * row_bytes, type_, is_grey(), row_,
         {path_, static_cast<std::int64_t>(next_ % rows), static_cast<std::int64_t>(next_ / rows)});
     ++next_;
     return row_;

@@ -74,9 +74,10 @@ class Census {
     const auto [place, is_new] = places_.emplace(label, labels_.size());
     if (!is_new) return place->second;
     if (labels_.size() == most_labels) {
-      throw Error(ErrorCode::InvalidInput,
-                  "The volume has more than " + std::to_string(most_labels) +
-                      " labels: it seems to hold grey values. Segment it, and give the labels.");
+      throw Error(
+          ErrorCode::InvalidInput,
+          "The volume has more than " + std::to_string(most_labels) +
+              " labels: it seems to hold grey values. Make labels of them by wscvt segment.");
     }
     LabelExtent extent;
     extent.label = label;

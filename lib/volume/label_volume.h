@@ -60,17 +60,26 @@ class LabelVolume {
   /// 4294967295.
   virtual const std::vector<Label>& next_row() = 0;
 
+  /// Rows hold grey values from now on, any numbers, as the codes of grey_code.
+  void read_grey_values() { is_grey_ = true; }
+
   /// Back to the first row.
   virtual void rewind() = 0;
 
  protected:
   explicit LabelVolume(VolumeGeometry geometry);
+  bool is_grey() const { return is_grey_; }
 
  private:
+  bool is_grey_ = false;
   VolumeGeometry geometry_;
   std::vector<std::string> notes_;
   std::map<Label, std::string> names_;
 };
+
+/// A grey value as 32 bits whose order is that of the values, and back. NaN is the least.
+Label grey_code(float value);
+float grey_value(Label code);
 
 /// Whether a name is one of a volume: it ends as the formats below do, or is a folder with TIFF
 /// files and no meshes.

@@ -140,7 +140,7 @@ class PngStack : public LabelVolume {
                             static_cast<std::int64_t>(next_slice_) - 1};
     ++next_row_;
     if (image_.channels == 1) {
-      labels_of(packed, type, row_, place);
+      labels_of(packed, type, is_grey(), row_, place);
       return row_;
     }
     const auto channels = static_cast<std::size_t>(image_.channels);
@@ -148,7 +148,7 @@ class PngStack : public LabelVolume {
     for (std::size_t k = 0; k < voxels_.size(); ++k) {
       voxels_[k] = packed[(k / size * channels + channel_) * size + k % size];
     }
-    labels_of(voxels_.data(), type, row_, place);
+    labels_of(voxels_.data(), type, is_grey(), row_, place);
     return row_;
   }
 

@@ -71,32 +71,58 @@ std::size_t voxels_of(const VoxelCounts& counts) {
          static_cast<std::size_t>(counts[2]);
 }
 
-/// The least and the largest value of a volume, and whether it has no others.
-struct Values {
-  Label least = std::numeric_limits<Label>::max();
-  Label largest = 0;
+/// What the grey values of a volume are like; those that are not finite are looked over.
+struct GreyRange {
+  float least = std::numeric_limits<float>::max();
+  float largest = std::numeric_limits<float>::lowest();
   bool are_two = true;
+  bool are_whole = true;
+  /// Between these lie all but a thousandth at each end, and a quarter of what lies between beyond.
+  float lower = 0.0F;
+  float upper = 0.0F;
+  double equal_neighbours = 0.0;  ///< share of the neighbours along x that are equal
 };
 
-Values values_of(LabelVolume& volume, const Execution& execution) {
-  Values values;
-  bool is_first = true;
+GreyRange range_of(LabelVolume& volume, const Execution& execution) {
+  GreyRange range;
+  std::vector<float> sample;
+  std::uint64_t count = 0;
+  std::uint64_t equal = 0;
+  std::optional<float> other;
   for_each_row(volume, execution, [&](const std::vector<Label>& row) {
-    if (is_first) values.least = values.largest = row.front();
-    is_first = false;
-    for (const Label value : row) {
-      if (value == values.least || value == values.largest) continue;
-      // A second value, or one that is none of two.
-      if (values.least != values.largest) values.are_two = false;
-      values.least = std::min(values.least, value);
-      values.largest = std::max(values.largest, value);
+    float before = std::numeric_limits<float>::quiet_NaN();
+    for (const Label code : row) {
+      const float value = grey_value(code);
+      if (!std::isfinite(value)) continue;
+      if (value == before) ++equal;
+      constexpr std::uint64_t sampled = 61;  // does not go with the rows
+      if (count++ % sampled == 0) sample.push_back(value);
+      if (value == before) continue;
+      before = value;
+      if (count > 1 && value != sample.front()) {
+        if (other && value != *other) range.are_two = false;
+        other = value;
+      }
+      range.least = std::min(range.least, value);
+      range.largest = std::max(range.largest, value);
+      range.are_whole = range.are_whole && value == std::floor(value);
     }
   });
-  if (values.least == values.largest) {
-    refuse("All voxels of the volume are " + std::to_string(values.least) +
-           ": there is nothing to separate. Check the channel, the frame or the array.");
+  if (!(range.least < range.largest)) {
+    refuse(count == 0 ? "The volume holds no number."
+                      : "All voxels of the volume are " + format_number(range.least) +
+                            ": there is nothing to separate. Check the channel, the frame or the "
+                            "array.");
   }
-  return values;
+  range.equal_neighbours = static_cast<double>(equal) / static_cast<double>(count);
+  std::sort(sample.begin(), sample.end());
+  const float first = sample[sample.size() / 1000];
+  const float last = sample[sample.size() - 1 - sample.size() / 1000];
+  // All but a thousandth may be of one value.
+  const float beyond = first < last ? 0.25F * (last - first) : range.largest - range.least;
+  range.lower = std::max(range.least, first - beyond);
+  range.upper = std::min(range.largest, last + beyond);
+  return range;
 }
 
 /// The voxels of which `is_material` holds, as 1.
@@ -112,19 +138,23 @@ std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& executio
 }
 
 /// The material among grey values; sets `threshold` to what parted them, if it was not given.
-std::vector<std::uint8_t> material_of(LabelVolume& scan, const Values& values,
+std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                       std::optional<double>& threshold,
                                       const Execution& execution) {
   constexpr double most = std::numeric_limits<std::uint16_t>::max();
-  // Values of 16 bits stand for themselves.
-  const bool is_short = values.largest <= most;
-  const double base = is_short ? 0.0 : values.least;
-  const double step = is_short ? 1.0 : (values.largest - base) / most;
+  // Whole numbers of 16 bits stand for themselves; of others a few that are far off do not take the
+  // steps from the rest.
+  const bool is_short = range.are_whole && double{range.largest} - range.least <= most;
+  const double base = is_short ? range.least : range.lower;
+  const double step = is_short ? 1.0 : (range.upper - base) / most;
   std::vector<std::uint16_t> grey;
   grey.reserve(voxels_of(scan.geometry().counts));
   for_each_row(scan, execution.part(0.0, 0.2), [&](const std::vector<Label>& row) {
-    for (const Label value : row) {
-      grey.push_back(static_cast<std::uint16_t>((value - base) / step));
+    for (const Label code : row) {
+      // What is no number lies outside of what was scanned.
+      const float value = code == 0 ? range.least : grey_value(code);
+      grey.push_back(
+          static_cast<std::uint16_t>(std::clamp(std::round((value - base) / step), 0.0, most)));
     }
   });
   grey = median_of(grey, scan.geometry().counts, execution.part(0.2, 1.0));
@@ -206,18 +236,20 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
   require_in_range(options.smallest, smallest_kept_option);
   require_filters();
   const VolumeGeometry& geometry = scan.geometry();
-  const Values values = values_of(scan, execution.part(0.0, 0.1));
+  scan.read_grey_values();
+  const GreyRange range = range_of(scan, execution.part(0.0, 0.1));
   Segmentation result;
-  result.is_mask = values.are_two;
+  result.is_mask = range.are_two;
+  result.is_flat = !range.are_two && range.equal_neighbours > 0.9;
   result.voxels = voxels_of(geometry.counts);
   std::optional<double> threshold = options.threshold;
-  if (result.is_mask && !threshold) threshold = values.largest;
+  if (result.is_mask && !threshold) threshold = range.largest;
   std::vector<std::uint8_t> mask;
   const Execution reading = execution.part(0.1, 0.4);
   if (result.is_mask) {
-    mask = mask_of(scan, reading, [&](Label value) { return value >= *threshold; });
+    mask = mask_of(scan, reading, [&](Label code) { return grey_value(code) >= *threshold; });
   } else {
-    mask = material_of(scan, values, threshold, reading);
+    mask = material_of(scan, range, threshold, reading);
   }
   result.threshold = *threshold;
   const std::uint64_t open = material_count(mask);

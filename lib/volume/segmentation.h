@@ -50,6 +50,7 @@ struct Segmentation {
   std::unique_ptr<LabelVolume> labels;
   std::vector<LabelExtent> grains;  ///< by their labels
   bool is_mask = false;             ///< it has two values, and was neither smoothed nor parted
+  bool is_flat = false;             ///< most neighbours are equal, as in a volume of labels
   double threshold = 0.0;           ///< that was taken
   std::uint64_t voxels = 0;         ///< of the volume
   std::uint64_t material = 0;       ///< voxels of grains, those that were dropped too
@@ -57,11 +58,11 @@ struct Segmentation {
   std::uint64_t filled = 0;         ///< voxels of holes, which count as material
 };
 
-/// Reads a scan, which may be read again afterwards: the median of each voxel and its 26
-/// neighbours; the threshold; holes inside the material filled; its parts separated. A volume of
-/// two values is a mask, whose larger value is the material. Throws Error: InvalidInput for options
-/// out of range, without ITK, for a volume of one value, and where no grain is left; Cancelled, and
-/// what the volume throws.
+/// Reads a scan, which gives grey values from then on (see LabelVolume) and may be read again: the
+/// median of each voxel and its 26 neighbours; the threshold; holes inside the material filled; its
+/// parts separated. A volume of two values is a mask, whose larger value is the material. Throws
+/// Error: InvalidInput for options out of range, without ITK, for a volume of one value, and where
+/// no grain is left; Cancelled, and what the volume throws.
 Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
                      const Execution& execution);
 

@@ -51,12 +51,15 @@ void read_slices(LabelVolume& volume, std::vector<ShownSlice>& slices,
 std::pair<double, double> shown_range(const std::vector<ShownSlice>& slices) {
   std::vector<double> values;
   for (const ShownSlice& slice : slices) {
-    values.insert(values.end(), slice.values.begin(), slice.values.end());
+    for (const Label code : slice.values) {
+      if (std::isfinite(grey_value(code))) values.push_back(grey_value(code));
+    }
   }
   std::sort(values.begin(), values.end());
   constexpr double left_out = 0.002;
   const double least = quantile(values, left_out);
-  return {least, std::max(quantile(values, 1.0 - left_out), least + 1.0)};
+  const double largest = quantile(values, 1.0 - left_out);
+  return {least, largest > least ? largest : least + 1.0};
 }
 
 constexpr std::array<Colour, 6> outline_colours = {
@@ -83,7 +86,9 @@ Picture picture_of(const ShownSlice& slice, const VolumeGeometry& geometry, doub
   };
   for (int v = 0; v < picture.height; ++v) {
     for (int u = 0; u < picture.width; ++u) {
-      const double share = (slice.values[voxel(u, v)] - range.first) / (range.second - range.first);
+      const float value = grey_value(slice.values[voxel(u, v)]);
+      const double share =
+          std::isnan(value) ? 0.0 : (value - range.first) / (range.second - range.first);
       const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
       Colour colour = {grey, grey, grey};
       const Label here = label(u, v);
@@ -115,6 +120,11 @@ double share_of(std::uint64_t part, std::uint64_t all) {
 /// What hints at a segmentation that is wrong: sentences.
 std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   std::vector<std::string> doubts;
+  if (segmentation.is_flat) {
+    doubts.push_back(
+        "Most voxels have the value of their neighbour: these may be labels already, "
+        "which wscvt batch and extract take as they are.");
+  }
   constexpr double much = 0.05;
   if (share_of(segmentation.dropped, segmentation.material) > much) {
     doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
@@ -123,7 +133,8 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   }
   std::uint64_t largest = 0;
   for (const LabelExtent& grain : segmentation.grains) largest = std::max(largest, grain.voxels);
-  if (segmentation.grains.size() > 2 && 2 * largest > segmentation.material) {
+  constexpr double most = 0.75;
+  if (segmentation.grains.size() > 2 && share_of(largest, segmentation.material) > most) {
     doubts.push_back("One grain has " + format_percent(share_of(largest, segmentation.material)) +
                      " of the material: it may be several. Give a smaller --separate, or a higher "
                      "--threshold.");
@@ -157,6 +168,7 @@ std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segm
   std::vector<ShownSlice> slices = {{2, 0, 1, geometry.counts[2] / 2, {}, {}},
                                     {1, 0, 2, geometry.counts[1] / 2, {}, {}},
                                     {0, 1, 2, geometry.counts[0] / 2, {}, {}}};
+  scan.read_grey_values();
   read_slices(scan, slices, &ShownSlice::values, execution.part(0.0, 0.5));
   read_slices(*segmentation.labels, slices, &ShownSlice::labels, execution.part(0.5, 1.0));
   double longest = 0.0;

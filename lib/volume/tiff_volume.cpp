@@ -116,7 +116,7 @@ class TiffStack : public LabelVolume {
     if (in_band == 0) read_band();
     row_.resize(page_.width);
     unpack_row(band_.data() + in_band * row_bytes_);
-    labels_of(voxels_.data(), page_.type, row_,
+    labels_of(voxels_.data(), page_.type, is_grey(), row_,
               {file_->path(), next_row_, static_cast<std::int64_t>(next_slice_) - 1});
     ++next_row_;
     return row_;

@@ -5,6 +5,7 @@
 #include <array>
 #include <boost/endian/conversion.hpp>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <type_traits>
@@ -52,8 +53,17 @@ const std::vector<TypeNames>& type_names() {
   refuse_volume(place.path,
                 "holds " + format_number(value, 10) + " at the voxel (" + std::to_string(x) + ", " +
                     std::to_string(place.y) + ", " + std::to_string(place.z) +
-                    "), counted from 0. Labels are whole numbers from 0 to 4294967295. Segment "
-                    "the image, and save the labels.");
+                    "), counted from 0. Labels are whole numbers from 0 to 4294967295. Make "
+                    "labels of the image by wscvt segment.");
+}
+
+template <class Value, boost::endian::order Order>
+void load_grey_row(const char* bytes, std::vector<Label>& row) {
+  constexpr double most = std::numeric_limits<float>::max();
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const auto value = static_cast<double>(load<Value, Order>(bytes + i * sizeof(Value)));
+    row[i] = grey_code(static_cast<float>(std::clamp(value, -most, most)));
+  }
 }
 
 template <class Value, boost::endian::order Order>
@@ -79,16 +89,17 @@ void load_row(const char* bytes, std::vector<Label>& row, const RowPlace& place)
 }
 
 template <boost::endian::order Order>
-void load_row(const char* bytes, const VoxelType& type, std::vector<Label>& row,
+void load_row(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
               const RowPlace& place) {
-  const auto load_as = [&](auto with_sign, auto without_sign) {
-    if (type.has_sign) return load_row<decltype(with_sign), Order>(bytes, row, place);
-    load_row<decltype(without_sign), Order>(bytes, row, place);
+  const auto load_one = [&](auto number) {
+    if (as_grey) return load_grey_row<decltype(number), Order>(bytes, row);
+    load_row<decltype(number), Order>(bytes, row, place);
   };
-  if (type.is_float) {
-    return type.bytes == 4 ? load_row<float, Order>(bytes, row, place)
-                           : load_row<double, Order>(bytes, row, place);
-  }
+  const auto load_as = [&](auto with_sign, auto without_sign) {
+    if (type.has_sign) return load_one(with_sign);
+    load_one(without_sign);
+  };
+  if (type.is_float) return type.bytes == 4 ? load_one(float{}) : load_one(double{});
   if (type.bytes == 1) return load_as(std::int8_t{}, std::uint8_t{});
   if (type.bytes == 2) return load_as(std::int16_t{}, std::uint16_t{});
   if (type.bytes == 4) return load_as(std::int32_t{}, std::uint32_t{});
@@ -112,7 +123,7 @@ class VolumeOfBytes : public LabelVolume {
                     "it again.");
     }
     const std::int64_t rows = geometry().counts[1];
-    labels_of(packed_.data(), type_, row_, {path_, next_ % rows, next_ / rows});
+    labels_of(packed_.data(), type_, is_grey(), row_, {path_, next_ % rows, next_ / rows});
     ++next_;
     return row_;
   }
@@ -163,12 +174,12 @@ VoxelType voxel_type_of(std::string_view name, const std::string& path) {
                           "sign.");
 }
 
-void labels_of(const char* bytes, const VoxelType& type, std::vector<Label>& row,
+void labels_of(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
                const RowPlace& place) {
   if (type.big_endian) {
-    load_row<boost::endian::order::big>(bytes, type, row, place);
+    load_row<boost::endian::order::big>(bytes, type, as_grey, row, place);
   } else {
-    load_row<boost::endian::order::little>(bytes, type, row, place);
+    load_row<boost::endian::order::little>(bytes, type, as_grey, row, place);
   }
 }
 
@@ -326,6 +337,22 @@ std::vector<std::string> voxel_files_beside(const std::string& header, const std
 void LabelVolume::add_note(const std::string& sentence) { notes_.push_back(sentence); }
 
 LabelVolume::LabelVolume(VolumeGeometry geometry) : geometry_(std::move(geometry)) {}
+
+Label grey_code(float value) {
+  if (std::isnan(value)) return 0;
+  Label bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  constexpr Label sign = 0x80000000U;
+  return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+float grey_value(Label code) {
+  constexpr Label sign = 0x80000000U;
+  const Label bits = (code & sign) != 0 ? code & ~sign : ~code;
+  float value = 0.0F;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
 
 double VolumeGeometry::voxel_volume() const { return std::abs(axes.determinant()); }
 

@@ -36,9 +36,10 @@ struct RowPlace {
   std::int64_t z = 0;
 };
 
-/// Makes labels of a row of voxels. Floats are labels where they are whole numbers. Throws
-/// Error(InputOutput), naming the file and the voxel, for numbers that are no labels.
-void labels_of(const char* bytes, const VoxelType& type, std::vector<Label>& row,
+/// Makes labels of a row of voxels, or codes of grey values. Floats are labels where they are whole
+/// numbers. Throws Error(InputOutput), naming the file and the voxel, for numbers that are no
+/// labels.
+void labels_of(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
                const RowPlace& place);
 
 /// Counts of voxels as a file claims them. Throws Error(InputOutput), naming the file `path`, when

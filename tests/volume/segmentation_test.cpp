@@ -14,6 +14,7 @@
 #include "support/tiff_pages.h"
 #include "support/volume_folder.h"
 #include "volume/grey_threshold.h"
+#include "volume/itk_filters.h"
 #include "volume/label_grains.h"
 #include "volume/label_writer.h"
 #include "volume/segmentation_page.h"
@@ -243,6 +244,67 @@ TEST_F(SegmentationOfAFile, SmoothsNoiseAwayAndTakesAnyRangeOfValues) {
   EXPECT_ERROR(segmented(options), InvalidInput);
 }
 
+template <class Value>
+std::string raw_bytes(const std::vector<Value>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+TEST_F(SegmentationOfAFile, TakesFractionsNegativeValuesAndWhatIsNoNumber) {
+  made_ = MadeVolume({30, 28, 26});
+  const std::int64_t ball = made_.fill_ball(1, {15, 14, 13}, 9.0);
+  // What a reconstruction gives: attenuation, hot voxels, nothing outside of its cylinder.
+  std::vector<float> fractions;
+  std::vector<std::int16_t> hounsfield;
+  for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+    const double noise = static_cast<double>(k * 7919 % 101) / 101.0 - 0.5;
+    fractions.push_back(static_cast<float>((made_.labels[k] != 0 ? 0.4 : -0.1) + 0.1 * noise));
+    hounsfield.push_back(
+        static_cast<std::int16_t>((made_.labels[k] != 0 ? 1500 : -1000) + 300 * noise));
+  }
+  for (std::size_t k = 0; k < 40; ++k) fractions[k] = std::numeric_limits<float>::quiet_NaN();
+  fractions[5000] = 9e20F;
+  fractions[5555] = -1e25F;
+  const std::string header =
+      "\ndimension: 3\nencoding: raw\nendian: little\nsizes: " + made_.size_text() + "\n\n";
+  const auto expect_ball = [&](double threshold, double tolerance) {
+    const Segmentation found = segmented();
+    ASSERT_EQ(found.grains.size(), 1U);
+    EXPECT_NEAR(found.threshold, threshold, tolerance);
+    EXPECT_NEAR(static_cast<double>(found.material), static_cast<double>(ball),
+                0.03 * static_cast<double>(ball));
+  };
+  write("a.nrrd", "NRRD0004\ntype: float" + header + raw_bytes(fractions));
+  expect_ball(0.15, 0.01);
+  const std::unique_ptr<LabelVolume> scan = open_volume(path("a.nrrd"));
+  const Segmentation found = segment(*scan, {}, Execution(1));
+  EXPECT_NE(segmentation_html(*scan, found, {}, Execution(1)), "");
+  write("a.nrrd", "NRRD0004\ntype: int16" + header + raw_bytes(hounsfield));
+  expect_ball(250.0, 30.0);
+  SegmentationOptions options;
+  options.threshold = -2000.0;
+  EXPECT_EQ(segmented(options).material, made_.labels.size());
+  // The codes rise with the values.
+  const std::vector<float> values = {
+      -std::numeric_limits<float>::infinity(), -3.5F, -1e-30F, 0.0F, 1e-30F, 7.0F,
+      std::numeric_limits<float>::max()};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    EXPECT_EQ(grey_value(grey_code(values[k])), values[k]);
+    const Label before = k == 0 ? 0 : grey_code(values[k - 1]);
+    EXPECT_LT(before, grey_code(values[k])) << "0 is what is no number";
+  }
+}
+
+TEST_F(SegmentationOfAFile, DoubtsLabels) {
+  made_ = MadeVolume({30, 20, 20});
+  made_.fill_ball(1, {9, 10, 10}, 6.0);
+  made_.fill_ball(2, {22, 10, 10}, 6.0);
+  write_made();
+  SegmentationOptions options;
+  options.threshold = 1.0;
+  const std::vector<std::string> lines = segmentation_lines(segmented(options));
+  EXPECT_NE(lines.back().find("may be labels already"), std::string::npos) << lines.back();
+}
+
 TEST_F(SegmentationOfAFile, RefusesWhatItCannotDo) {
   made_ = MadeVolume({9, 8, 7});
   std::fill(made_.labels.begin(), made_.labels.end(), 7);
@@ -276,6 +338,44 @@ TEST_F(SegmentationOfAPacking, IsStopped) {
     SCOPED_TRACE(stage);
     test::expect_to_be_stopped(run, stage, 1);
   }
+}
+
+TEST(ItkFilters, MedianIsThatOfTheNeighboursInEveryBlock) {
+  const FilterCounts counts = {4, 5, 27};
+  std::vector<std::uint16_t> grey;
+  for (std::size_t k = 0; k < 540; ++k) grey.push_back(static_cast<std::uint16_t>(k * k % 65521));
+  const std::vector<std::uint16_t> smoothed = median_of(grey, counts, Execution(1));
+  for (int z = 0; z < counts[2]; ++z) {
+    for (int y = 0; y < counts[1]; ++y) {
+      for (int x = 0; x < counts[0]; ++x) {
+        std::vector<std::uint16_t> around;
+        for (int k = 0; k < 27; ++k) {
+          const int a = std::clamp(x + k % 3 - 1, 0, counts[0] - 1);
+          const int b = std::clamp(y + k / 3 % 3 - 1, 0, counts[1] - 1);
+          const int c = std::clamp(z + k / 9 - 1, 0, counts[2] - 1);
+          around.push_back(grey[static_cast<std::size_t>((c * counts[1] + b) * counts[0] + a)]);
+        }
+        std::sort(around.begin(), around.end());
+        EXPECT_EQ(smoothed[static_cast<std::size_t>((z * counts[1] + y) * counts[0] + x)],
+                  around[13]);
+      }
+    }
+  }
+}
+
+TEST(ItkFilters, HolesHangTogetherByFaces) {
+  const FilterCounts counts = {6, 5, 4};
+  std::vector<std::uint8_t> mask(120, 1);
+  const auto at = [&](int x, int y, int z) -> std::uint8_t& {
+    return mask[static_cast<std::size_t>((z * counts[1] + y) * counts[0] + x)];
+  };
+  at(2, 2, 2) = 0;
+  at(1, 1, 2) = 0;  // by an edge
+  at(0, 1, 2) = 0;  // open to the border
+  fill_holes(mask, counts, Execution(1));
+  EXPECT_EQ(at(2, 2, 2), 1);
+  EXPECT_EQ(at(1, 1, 2), 0);
+  EXPECT_EQ(std::count(mask.begin(), mask.end(), 0), 2);
 }
 
 TEST(GreyThreshold, LiesBetweenThePeaksWhateverTheirShares) {
