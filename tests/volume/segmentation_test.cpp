@@ -188,9 +188,9 @@ TEST_F(SegmentationOfAFile, MeasuresNecksInLengths) {
   EXPECT_LT((middles[0] - Vector3(15.0, 22.0, 18.0)).norm(), 2.0);
   EXPECT_LT((middles[1] - Vector3(43.2, 22.0, 35.0)).norm(), 2.0);
   EXPECT_LT((middles[2] - Vector3(15.0, 22.0, 41.0)).norm(), 2.0);
-  // Deeper than the neck, in voxels of 3.75^(1/3), is none.
+  // The neck is some 7 deep; a voxel is 3.75^(1/3), 1.55.
   SegmentationOptions deep;
-  deep.separate = 12.0 / 1.55;
+  deep.separate = 5.0;
   EXPECT_EQ(segmented(deep).grains.size(), 2U);
 }
 
@@ -261,7 +261,8 @@ TEST_F(SegmentationOfAFile, TakesFractionsNegativeValuesAndWhatIsNoNumber) {
     hounsfield.push_back(
         static_cast<std::int16_t>((made_.labels[k] != 0 ? 1500 : -1000) + 300 * noise));
   }
-  for (std::size_t k = 0; k < 40; ++k) fractions[k] = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t k = 0; k < 2 * 30 * 28; ++k)
+    fractions[k] = std::numeric_limits<float>::quiet_NaN();
   fractions[5000] = 9e20F;
   fractions[5555] = -1e25F;
   const std::string header =
@@ -361,6 +362,34 @@ TEST(ItkFilters, MedianIsThatOfTheNeighboursInEveryBlock) {
       }
     }
   }
+}
+
+TEST(ItkFilters, BasinsFollowLengths) {
+  // Two boxes of 12 x 12 x 16 and a neck of 6 across, where a voxel is 4 along z: in voxels all are
+  // as thin as the neck.
+  const FilterCounts counts = {38, 16, 6};
+  std::vector<std::uint8_t> mask;
+  for (int z = 0; z < counts[2]; ++z) {
+    for (int y = 0; y < counts[1]; ++y) {
+      for (int x = 0; x < counts[0]; ++x) {
+        const bool is_box = (x >= 2 && x < 14) || (x >= 24 && x < 36);
+        const bool is_neck = x >= 14 && x < 24 && y >= 5 && y < 11;
+        const bool is_in = z >= 1 && z < 5 && y >= 2 && y < 14;
+        mask.push_back(is_in && (is_box || is_neck) ? 1 : 0);
+      }
+    }
+  }
+  const auto basins = [&](const std::array<double, 3>& spacing) {
+    const std::vector<std::uint32_t> found = basins_of(mask, counts, spacing, 1.5, Execution(1));
+    for (std::size_t k = 0; k < mask.size(); ++k) EXPECT_EQ(found[k] != 0, mask[k] != 0) << k;
+    return *std::max_element(found.begin(), found.end());
+  };
+  EXPECT_EQ(basins({1.0, 1.0, 4.0}), 2U);
+  EXPECT_EQ(basins({1.0, 1.0, 1.0}), 1U);
+  mask.assign(mask.size(), 1);
+  EXPECT_EQ(basins({1.0, 1.0, 1.0}), 1U);
+  mask.assign(mask.size(), 0);
+  EXPECT_EQ(basins({1.0, 1.0, 1.0}), 0U);
 }
 
 TEST(ItkFilters, HolesHangTogetherByFaces) {
