@@ -120,12 +120,22 @@ TEST(NodeDensity, IsSteepenedAboutItsMean) {
   const IndexedMesh body = test::lumpy(3);
   std::vector<double> density;
   for (const Vector3& p : body.points) density.push_back(std::exp(p.z()));
-  const std::vector<double> steep = steepened(density, body, 1.3);
+  const std::vector<double> steep = steepened(density, body, 1.3, 100.0);
   EXPECT_NEAR(mean_over(body, steep), 1.0, 1e-12);
   for (std::size_t i = 1; i < steep.size(); ++i) {
     EXPECT_NEAR(std::log(steep[i] / steep[0]), 1.3 * std::log(density[i] / density[0]), 1e-10);
   }
-  EXPECT_TRUE(steepened({}, body, 2.0).empty());
+  EXPECT_TRUE(steepened({}, body, 2.0, 3.0).empty());
+}
+
+TEST(NodeDensity, IsAsLargeAsItMayBeAtMost) {
+  // A rim so sharp that nodes would jam on it.
+  const IndexedMesh body = test::lumpy(3);
+  std::vector<double> density;
+  for (const Vector3& p : body.points) density.push_back(std::exp(8.0 * p.z()));
+  const std::vector<double> steep = steepened(density, body, 1.0, 3.0);
+  EXPECT_EQ(*std::max_element(steep.begin(), steep.end()), 3.0);
+  EXPECT_LT(*std::min_element(steep.begin(), steep.end()), 0.01);
 }
 
 }  // namespace

@@ -141,12 +141,12 @@ std::vector<double> node_densities(const IndexedMesh& surface, CellWeighting wei
   return field;
 }
 
-std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface,
-                              double power) {
+std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface, double power,
+                              double most) {
   if (density.empty()) return density;
   for (double& value : density) value = std::pow(value, power);
   const double mean = weighted_mean(vertex_areas(surface), density);
-  for (double& value : density) value /= mean;
+  for (double& value : density) value = std::min(value / mean, most);
   return density;
 }
 

@@ -21,8 +21,9 @@ std::vector<double> node_densities(const IndexedMesh& surface, CellWeighting wei
                                    double curvature_alpha, int node_count,
                                    const Execution& execution);
 
-/// A density to a power, mean over the surface's area 1 again. Empty stays empty.
-std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface,
-                              double power);
+/// A density to a power, over its mean by the surface's area, and at most `most`. Empty stays
+/// empty.
+std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface, double power,
+                              double most);
 
 }  // namespace wscvt

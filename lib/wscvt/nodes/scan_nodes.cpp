@@ -41,12 +41,18 @@ constexpr int evening_steps = 100;
 /// good beforehand. The slope of the logarithm of the nodes' density against that of the largest
 /// curvature, of the scan's series of degree 20 at each node, is .33 to .37 so for a scan of sand
 /// and 1000 nodes; on smooth bodies evened nodes have that of the weighting's own law.
+///
+/// Error-adaptive densities end at three times the mean. Sharp rims want more without end, but
+/// edges along a rim leave no error there, however long. Without this bound the rim of a knapped
+/// stone of 25,000 vertices is jammed: 1000 nodes are 6.3 % of its radius off, 2.8 % with it. Those
+/// of WSCVT-C are bounded by the paper's law.
 struct Steepness {
   double evened;
   double fitted;
+  double most;
 };
-constexpr Steepness curvature_steepness = {0.7, 0.82};
-constexpr Steepness adaptive_steepness = {1.3, 1.45};
+constexpr Steepness curvature_steepness = {0.7, 0.82, std::numeric_limits<double>::infinity()};
+constexpr Steepness adaptive_steepness = {1.3, 1.45, 3.0};
 /// Samples of few nodes, whose cells are so large that a share for each would scatter: four nodes
 /// on a ball are a tetrahedron within 3 % only with 120.
 constexpr std::size_t fewest_samples = 4000;
@@ -240,10 +246,10 @@ Placing coarsen_to_nodes(const Parts& parts, int node_count, const Execution& ex
   const Steepness& steepness = parts.options.weighting == CellWeighting::Curvature
                                    ? curvature_steepness
                                    : adaptive_steepness;
-  placing.surface.density =
-      steepened(node_densities(surface, parts.options.weighting, parts.options.curvature_alpha,
-                               node_count, execution),
-                surface, parts.options.fitted ? steepness.fitted : steepness.evened);
+  placing.surface.density = steepened(
+      node_densities(surface, parts.options.weighting, parts.options.curvature_alpha, node_count,
+                     execution),
+      surface, parts.options.fitted ? steepness.fitted : steepness.evened, steepness.most);
   if (!placing.surface.density.empty()) {
     coarsening = Coarsening(placing.surface.mesh, placing.surface.density);
   }
