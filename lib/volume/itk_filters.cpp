@@ -13,6 +13,7 @@
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <new>
 #include <string>
@@ -71,7 +72,8 @@ typename VoxelImage<Value>::Pointer image_of(const Value* voxels, const FilterCo
   return image;
 }
 
-/// Passes a filter's progress on; a cancel leaves it as an exception.
+/// Passes a filter's progress on. A filter reports from destructors too, which must not throw: a
+/// cancel is kept, and the filter asked to end.
 class Progress : public itk::Command {
  public:
   using Self = Progress;
@@ -82,27 +84,36 @@ class Progress : public itk::Command {
     execution_ = execution;
     stage_ = stage;
   }
-  void Execute(itk::Object* caller, const itk::EventObject& event) override {
-    Execute(const_cast<const itk::Object*>(caller), event);
+  void Execute(itk::Object* caller, const itk::EventObject&) override {
+    auto* const filter = dynamic_cast<itk::ProcessObject*>(caller);
+    if (filter == nullptr || cancel_) return;
+    try {
+      execution_.report(std::min(1.0F, filter->GetProgress()), stage_);
+    } catch (const Error&) {
+      cancel_ = std::current_exception();
+      filter->AbortGenerateDataOn();
+    }
   }
-  void Execute(const itk::Object* caller, const itk::EventObject&) override {
-    const auto* const filter = dynamic_cast<const itk::ProcessObject*>(caller);
-    if (filter != nullptr) execution_.report(std::min(1.0F, filter->GetProgress()), stage_);
+  void Execute(const itk::Object*, const itk::EventObject&) override {}
+
+  void throw_cancel() const {
+    if (cancel_) std::rethrow_exception(cancel_);
   }
 
  private:
   Execution execution_{1};
   std::string stage_;
+  std::exception_ptr cancel_;
 };
 
 /// Runs a filter on this thread alone: threads are those of Execution, which goes on with fewer
 /// where the machine refuses them. `execution` may be null, on other threads than the caller's.
 template <class Filter>
 void run(Filter& filter, const Execution* execution, const std::string& stage) {
+  auto progress = Progress::New();
   try {
     itk::Object::SetGlobalWarningDisplay(false);
     if (execution != nullptr) {
-      auto progress = Progress::New();
       progress->pass_to(*execution, stage);
       filter.AddObserver(itk::ProgressEvent(), progress);
     }
@@ -110,9 +121,11 @@ void run(Filter& filter, const Execution* execution, const std::string& stage) {
   } catch (const itk::MemoryAllocationError&) {
     throw std::bad_alloc();
   } catch (const itk::ExceptionObject& error) {
+    progress->throw_cancel();
     throw Error(ErrorCode::NumericalFailure,
                 std::string("ITK could not separate the grains: ") + error.GetDescription());
   }
+  progress->throw_cancel();
 }
 
 /// Said before a filter is made: those that a filter makes for itself follow it too.
@@ -139,12 +152,16 @@ std::vector<std::uint16_t> median_of(const std::vector<std::uint16_t>& grey,
     using Image = VoxelImage<std::uint16_t>;
     auto filter = itk::MedianImageFilter<Image, Image>::New();
     filter->SetInput(image_of(grey.data() + first * slice, part));
+    filter->UpdateOutputInformation();
+    Image::RegionType wanted = filter->GetOutput()->GetLargestPossibleRegion();
+    wanted.SetIndex(2, static_cast<itk::IndexValueType>(begin - first));
+    wanted.SetSize(2, end - begin);
+    filter->GetOutput()->SetRequestedRegion(wanted);
     run(*filter, nullptr, "");
-    const std::uint16_t* const smoothed = filter->GetOutput()->GetBufferPointer();
-    std::copy_n(smoothed + (begin - first) * slice, (end - begin) * slice,
+    std::copy_n(filter->GetOutput()->GetBufferPointer(), (end - begin) * slice,
                 result.begin() + static_cast<std::ptrdiff_t>(begin * slice));
   };
-  constexpr std::size_t block = 8;
+  constexpr std::size_t block = 4;
   constexpr std::size_t blocks_at_once = 16;
   for (std::size_t begin = 0; begin < slices; begin += block * blocks_at_once) {
     execution.report(static_cast<double>(begin) / static_cast<double>(slices),

@@ -337,7 +337,13 @@ TEST_F(SegmentationOfAPacking, IsStopped) {
   for (const char* stage : {"Smoothing grey values", "Filling holes", "Measuring distances",
                             "Separating grains", "Counting labels"}) {
     SCOPED_TRACE(stage);
-    test::expect_to_be_stopped(run, stage, 1);
+    int reports = 0;
+    run(Execution(1, [&](double /*fraction*/, const std::string& reported) {
+      reports += reported == stage ? 1 : 0;
+      return true;
+    }));
+    // The last may come from a destructor, which must not throw.
+    test::expect_to_be_stopped(run, stage, reports);
   }
 }
 
