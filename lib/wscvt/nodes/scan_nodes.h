@@ -25,7 +25,8 @@ struct ScanNodes {
 ///
 /// Any genus: handles stay. Those of the scanner's noise, shorter than about three edges of the
 /// result, are to be cut before (cut_handles of scan/handles.h): kept, they cost angles and may
-/// meet. Thin bodies keep both sheets, since nothing here ever changes from one to the other.
+/// meet. Thin bodies keep both sheets, since nothing here ever changes from one to the other; of
+/// them the nearest of three fits is taken, as rims come out by chance.
 class ScanRemesher {
  public:
   /// `normalized_scan`: closed, connected, oriented outward, a 2-manifold (check_mesh), of
