@@ -39,7 +39,7 @@ constexpr std::size_t most_proxy_vertices_a_node = 30;
 constexpr int evening_steps = 100;
 /// Evening and the fit change the contrast of a density; these powers of the wanted one make that
 /// good beforehand. The slope of the logarithm of the nodes' density against that of the largest
-/// curvature, of the scan's series of degree 20 at each node, is .33 to .37 so for a scan of sand
+/// curvature, of the scan's series of degree 20 at each node, is .32 to .37 so for a scan of sand
 /// and 1000 nodes; on smooth bodies evened nodes have that of the weighting's own law.
 ///
 /// Error-adaptive densities end at three times the mean. Sharp rims want more without end, but
