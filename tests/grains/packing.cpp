@@ -15,9 +15,9 @@ namespace wscvt::test {
 namespace {
 
 /// The same on every machine, unlike the distributions of <random>.
-class RandomNumbers {
+class PackingNumbers {
  public:
-  explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
+  explicit PackingNumbers(std::uint64_t seed) : engine_(seed) {}
   double between(double lower, double upper) {
     return lower + (upper - lower) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
   }
@@ -88,7 +88,7 @@ bool has_room(const Placed& one, const std::vector<Placed>& others, const Packin
 
 /// Moves a grain down and a little aside, as far as it goes.
 Placed settled(Placed one, const std::vector<Placed>& others, const PackingOptions& options,
-               RandomNumbers& random) {
+               PackingNumbers& random) {
   constexpr double finest = 0.05;
   for (double step = one.reach; step > finest; step *= 0.5) {
     for (int failures = 0; failures < 10;) {
@@ -122,7 +122,7 @@ double PackedGrain::volume() const {
 }
 
 std::vector<PackedGrain> packing(const PackingOptions& options) {
-  RandomNumbers random(options.seed);
+  PackingNumbers random(options.seed);
   std::vector<Placed> grains;
   for (std::size_t k = 0; k < options.count; ++k) {
     PackedGrain grain;
@@ -212,7 +212,7 @@ std::vector<std::uint32_t> grey_values(const PackedVoxels& voxels, const GreyOpt
   grid.size = voxels.counts;
   grid.values = voxels.share;
   if (options.blur > 0.0) blur(grid, options.blur);
-  RandomNumbers random(options.seed);
+  PackingNumbers random(options.seed);
   std::vector<std::uint32_t> values;
   values.reserve(grid.values.size());
   for (const double share : grid.values) {
