@@ -47,13 +47,14 @@ ParameterList creation_parameters() {
       exponent("AzimuthalExponent", azimuthal_exponent_option, "Azimuthal exponent",
                "seen along z"),
       input_file_parameter(
-          "CoefficientsFile", {".dat", ".json"}, "Coefficients file",
-          "Of the harmonics: .dat (text of the NIST/VCCTL particle shape sets) or .json (as the "
-          "remesher saves it). A series whose radius is not positive everywhere is refused."),
-      option_parameter("CoefficientDegree", -1, coefficient_degree_option,
-                       "Cut the series at degree",
-                       "Of a .dat file only, as for the tables beside the particle shape sets; -1 "
-                       "keeps all."),
+          "CoefficientsFile", {".dat", ".sh", ".json"}, "Coefficients file",
+          "Of the harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh (SHTOOLS, 4pi) "
+          "or .json (as the remesher saves it). A series whose radius is not positive everywhere "
+          "is refused."),
+      option_parameter(
+          "CoefficientDegree", -1, coefficient_degree_option, "Cut the series at degree",
+          "Of a .dat or .sh file, as for the tables beside the particle shape sets; -1 "
+          "keeps all."),
       node_count_parameter(),
       method_parameter(Method::OnScan),
       weighting_parameter(),
@@ -85,11 +86,12 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   surface.coefficient_degree = checked.whole("CoefficientDegree");
   if (surface.kind == SurfaceKind::Harmonics) {
     if (surface.coefficients_file.empty()) {
-      throw Error(ErrorCode::InvalidInput,
-                  "Parameter CoefficientsFile is empty; name the .dat or .json file that holds "
-                  "the coefficients of the harmonics. Nothing was changed.");
+      throw Error(
+          ErrorCode::InvalidInput,
+          "Parameter CoefficientsFile is empty; name the .dat, .sh or .json file that holds "
+          "the coefficients of the harmonics. Nothing was changed.");
     }
-    check_extension(surface.coefficients_file, {".dat", ".json"}, "CoefficientsFile");
+    check_extension(surface.coefficients_file, {".dat", ".sh", ".json"}, "CoefficientsFile");
   }
   settings.options = read_node_options(checked, true);
   settings.result.quality = checked.choice<VertexQuality>("Quality");

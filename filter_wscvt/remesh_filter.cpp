@@ -69,10 +69,12 @@ ParameterList remesh_parameters() {
       colour_by_quality_parameter(),
       report_file_parameter(),
       output_file_parameter(
-          "CoefficientsFile", {".json"}, "Save coefficients to",
-          "A .json file for the coefficients of an SH series of the grain, or nothing. The filter "
-          "that creates grains reads it. They are of the radius or, if the grain has overhangs, of "
-          "x, y and z, about the volume centroid and in units of the mesh. A name without a folder "
+          "CoefficientsFile", {".json", ".sh"}, "Save coefficients to",
+          "A .json file for the coefficients of an SH series of the grain, a .sh file for SHTOOLS, "
+          "or nothing. The filter that creates grains reads both. They are of the radius or, if "
+          "the grain has overhangs, of "
+          "x, y and z (.json only), about the volume centroid and in units of the mesh. A name "
+          "without a folder "
           "lands beside the scan."),
   };
 }
@@ -107,7 +109,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   check_remesh_report_file(settings.result.report_file);
   settings.coefficients_file = checked.text("CoefficientsFile");
   options.measures.coefficients = !settings.coefficients_file.empty();
-  check_output_file(settings.coefficients_file, {".json"}, "CoefficientsFile");
+  check_output_file(settings.coefficients_file, {".json", ".sh"}, "CoefficientsFile");
   check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,
                         "CoefficientsFile");
   return settings;

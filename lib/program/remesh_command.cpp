@@ -40,8 +40,9 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   add_remesh_arguments(app, arguments.options);
   add_simulation_arguments(app, arguments.simulation);
   add_common_arguments(app, arguments.common);
-  add_file_argument(app, "--coefficients", arguments.coefficients,
-                    "Write the coefficients of the SH series to this file as JSON");
+  add_file_argument(
+      app, "--coefficients", arguments.coefficients,
+      "Write the coefficients of the SH series to this file: .json, or .sh (SHTOOLS, 4pi)");
   for (const char* name : {"--threads", "--overwrite", "--quiet", "--coefficients"}) {
     app.get_option(name)->group(finer_settings);
   }
@@ -57,10 +58,10 @@ void check_coefficients_path(const std::string& path) {
   const auto status = std::filesystem::status(path, error);
   const bool is_other =
       std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-  if (path.empty() || is_other || ending_of(path) == ".json") return;
-  refuse("\"" + path +
-         "\" is to hold the coefficients, which are written as JSON; give a name that ends in "
-         ".json.");
+  if (path.empty() || is_other || ending_of(path) == ".json" || ending_of(path) == ".sh") return;
+  refuse(
+      "\"" + path +
+      "\" is to hold the coefficients; give a name that ends in .json, or, for SHTOOLS, in .sh.");
 }
 
 }  // namespace

@@ -489,7 +489,7 @@ void define_work(py::module_& module) {
       py::arg("azimuthal_exponent") = 1.0, py::arg("coefficients_file") = "",
       py::arg("coefficient_degree") = -1, py::arg("threads") = 0, py::arg("progress") = py::none(),
       "A mesh of N nodes of a surface that is known exactly: ellipsoid, superellipsoid, or "
-      "harmonics from coefficients_file (.dat or .json). semi_axes: three lengths. Nodes lie "
+      "harmonics from coefficients_file (.dat, .sh or .json). semi_axes: three lengths. Nodes lie "
       "on the surface unless placement says otherwise. The rest as remesh.");
   module.def(
       "describe", &describe, py::arg("vertices"), py::arg("faces"),

@@ -220,6 +220,14 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
   const IndexedMesh hook = test::bent_grain_mesh(test::bent_grain("hook"), 2500);
   write_mesh(hook, path("hook.ply"));
   ASSERT_EQ(run("hook.ply remesh.ply -q -n 60 --coefficients map.json").exit_code, 0);
+  // The same series for SHTOOLS, which has none of x, y and z.
+  ASSERT_EQ(run("scan.ply remesh.ply -q -n 60 -d 6 --coefficients series.sh").exit_code, 0);
+  EXPECT_EQ(run("hook.ply remesh.ply -q -n 60 --coefficients map.sh").exit_code, 1);
+  const auto created = [&](const std::string& file) {
+    EXPECT_EQ(run("create harmonics grain.ply -q -n 150 --coefficients " + file).exit_code, 0);
+    return describe_shape(read_mesh(path("grain.ply")), Execution(1)).volume;
+  };
+  EXPECT_NEAR(created("series.sh") / created("series.json"), 1.0, 1e-12);
   const double volume_of_hook = describe_shape(hook, Execution(1)).volume;
   for (const auto& [file, volume] :
        {std::make_pair(std::string("series.json"), 4.0 / 3.0 * pi * 0.56),

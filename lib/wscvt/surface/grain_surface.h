@@ -31,15 +31,15 @@ struct GrainSurface {
   Vector3 semi_axes = Vector3::Ones();  ///< length, 1e-6 to 1e6; not of Harmonics
   double polar_exponent = 1.0;          ///< of a Superellipsoid, 0.1 to 2; no unit
   double azimuthal_exponent = 1.0;      ///< of a Superellipsoid, 0.1 to 2; no unit
-  std::string coefficients_file;        ///< of Harmonics: .dat or .json (see harmonic_surface.h)
-  int coefficient_degree = -1;          ///< the text form (.dat) is cut there; -1 to 200, -1: all
+  std::string coefficients_file;        ///< of Harmonics: .dat, .sh or .json
+  int coefficient_degree = -1;  ///< of .dat and .sh, which are cut there; -1 to 200, -1: all
 };
 
 /// What floats, which many programs' meshes are made of, hold with room for areas and volumes.
 inline constexpr NumberOption<double> semi_axis_option = {"semi-axis", "semi-axis", 1e-6, 1e6};
 inline constexpr NumberOption<int> coefficient_degree_option = {
-    "coefficient-degree", "degree at which the series is cut", -1, maximum_harmonic_degree,
-    Ends::Both,           "of a .dat file only; -1 keeps all"};
+    "coefficient-degree", "degree at which the series is cut",  -1, maximum_harmonic_degree,
+    Ends::Both,           "of a .dat or .sh file; -1 keeps all"};
 
 /// Throws Error(InvalidInput) for numbers out of range and Harmonics without a file or with one of
 /// another ending.
