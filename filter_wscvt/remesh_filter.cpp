@@ -70,12 +70,10 @@ ParameterList remesh_parameters() {
       report_file_parameter(),
       output_file_parameter(
           "CoefficientsFile", {".json", ".sh"}, "Save coefficients to",
-          "A .json file for the coefficients of an SH series of the grain, a .sh file for SHTOOLS, "
-          "or nothing. The filter that creates grains reads both. They are of the radius or, if "
-          "the grain has overhangs, of "
-          "x, y and z (.json only), about the volume centroid and in units of the mesh. A name "
-          "without a folder "
-          "lands beside the scan."),
+          "A .json file, or .sh for SHTOOLS, for the coefficients of an SH series, or nothing. "
+          "The filter that creates grains reads it. They are of the radius or, with overhangs, "
+          "of x, y and z (.json), about the volume centroid and in units of the mesh. A name "
+          "without a folder lands beside the scan."),
   };
 }
 

@@ -193,6 +193,25 @@ TEST(SmoothedSurface, KeepsVerticesInTheirCellsAndThinPlatesApart) {
   }
 }
 
+// A spike is a voxel wide: without its cells smoothing draws its end by voxels into the body, which
+// is so large that its volume, and with it the scale, hardly changes.
+TEST(SmoothedSurface, KeepsTheEndOfASpikeInItsCell) {
+  MadeVolume volume({40, 24, 24});
+  volume.fill_box(1, {2, 2, 2}, {22, 22, 22});
+  volume.fill_box(1, {22, 12, 12}, {36, 13, 13});
+  const VoxelSurface surface = voxel_surface(stretches_of(volume));
+  const IndexedMesh mesh = smoothed_surface(surface, 100, VolumeGeometry());
+  double farthest = 0.0;
+  for (std::size_t v = 0; v < surface.corners.size(); ++v) {
+    const VoxelCounts& corner = surface.corners[v];
+    const Vector3 away = mesh.points[v] - Vector3(corner[0], corner[1], corner[2]);
+    farthest = std::max(farthest, away.cwiseAbs().maxCoeff());
+  }
+  // The scale moves the spike's end, 24 voxels from the middle, by a share of a voxel.
+  EXPECT_GT(farthest, 0.49);
+  EXPECT_LT(farthest, 0.8);
+}
+
 TEST(SmoothedSurface, FollowsTheAxesOfTheVolume) {
   MadeVolume volume({14, 14, 14});
   volume.fill_box(1, {2, 3, 4}, {12, 11, 9});
