@@ -72,8 +72,8 @@ ParameterList remesh_parameters() {
           "CoefficientsFile", {".json", ".sh"}, "Save coefficients to",
           "A .json file, or .sh for SHTOOLS, for the coefficients of an SH series, or nothing. "
           "The filter that creates grains reads it. They are of the radius or, with overhangs, "
-          "of x, y and z (.json), about the volume centroid and in units of the mesh. A name "
-          "without a folder lands beside the scan."),
+          "of x, y and z (.json), about the volume centroid. A name without a folder lands "
+          "beside the scan."),
   };
 }
 
