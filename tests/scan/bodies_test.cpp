@@ -23,12 +23,12 @@ IndexedMesh inside_out(IndexedMesh mesh) {
   return mesh;
 }
 
-double volume_of(const IndexedMesh& mesh) {
+double signed_volume(const IndexedMesh& mesh) {
   return mesh_sums(mesh.points, mesh.triangles, mesh.points[0], Execution(1)).volume();
 }
 
 TEST(Bodies, AreTheShellsWithTheirPoresInTheOrderOfTheFile) {
-  const double unit = volume_of(ball(1.0, Vector3::Zero()));
+  const double unit = signed_volume(ball(1.0, Vector3::Zero()));
   // A crumb; a large body with two pores, in one of which a grain with a pore lies; one beside it.
   // Which way the faces look says nothing.
   std::vector<IndexedMesh> shells = {ball(0.1, {9, -9, 0}),
@@ -54,7 +54,7 @@ TEST(Bodies, AreTheShellsWithTheirPoresInTheOrderOfTheFile) {
       EXPECT_NEAR(bodies[k].pore_volume, unit * pore_volumes[k], 1e-12 * volume) << k;
       EXPECT_EQ(bodies[k].boundary_edges, 0U);
       // Pores are turned inward, so that their volume counts against the body's.
-      EXPECT_NEAR(volume_of(bodies[k].mesh), volume - unit * pore_volumes[k], 1e-11 * volume);
+      EXPECT_NEAR(signed_volume(bodies[k].mesh), volume - unit * pore_volumes[k], 1e-11 * volume);
       EXPECT_EQ(bodies[k].mesh.points.size(), (1 + pores[k]) * shells[0].points.size());
     }
   }

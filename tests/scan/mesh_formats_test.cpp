@@ -72,7 +72,7 @@ std::string bytes_of_all(const std::vector<Number>& numbers, order byte_order = 
   return bytes;
 }
 
-const IndexedMesh& body() {
+const IndexedMesh& lumpy_body() {
   static const IndexedMesh mesh = test::transformed(test::lumpy(2), Eigen::Matrix3d::Identity(),
                                                     Vector3(1e6 + 0.123456789, -3.0e6, 1.0 / 3.0));
   return mesh;
@@ -80,16 +80,16 @@ const IndexedMesh& body() {
 
 TEST_F(MeshFormats, OfTextKeepEveryBit) {
   for (const char* name : {"a.vtp", "a.vtk"}) {
-    write_mesh(body(), path(name));
+    write_mesh(lumpy_body(), path(name));
     const IndexedMesh back = read_mesh(path(name));
-    EXPECT_EQ(back.points, body().points) << name;
-    EXPECT_EQ(back.triangles, body().triangles) << name;
+    EXPECT_EQ(back.points, lumpy_body().points) << name;
+    EXPECT_EQ(back.triangles, lumpy_body().triangles) << name;
   }
   // Also where single precision would put them on one place.
-  write_mesh(body(), path("a.ASCII.stl"));
+  write_mesh(lumpy_body(), path("a.ASCII.stl"));
   EXPECT_EQ(content("a.ASCII.stl").rfind("solid grain\nfacet normal ", 0), 0U);
-  EXPECT_EQ(read_mesh(path("a.ASCII.stl")).points, test::unwelded(body()).points);
-  EXPECT_ERROR(write_mesh(body(), path("a.stl")), InputOutput);
+  EXPECT_EQ(read_mesh(path("a.ASCII.stl")).points, test::unwelded(lumpy_body()).points);
+  EXPECT_ERROR(write_mesh(lumpy_body(), path("a.stl")), InputOutput);
 }
 
 /// The numbers of a text between two marks, with commas as blanks.
@@ -107,11 +107,11 @@ std::vector<double> numbers_between(std::string text, const std::string& from,
 }
 
 TEST_F(MeshFormats, OfGmshAbaqusAndVtuHoldTheMesh) {
-  const std::size_t n = body().points.size();
-  const std::size_t m = body().triangles.size();
-  write_mesh(body(), path("a.msh"));
-  write_mesh(body(), path("a.inp"));
-  write_mesh(body(), path("a.vtu"));
+  const std::size_t n = lumpy_body().points.size();
+  const std::size_t m = lumpy_body().triangles.size();
+  write_mesh(lumpy_body(), path("a.msh"));
+  write_mesh(lumpy_body(), path("a.inp"));
+  write_mesh(lumpy_body(), path("a.vtu"));
   const auto nodes = numbers_between(content("a.msh"), "$Nodes\n", "$EndNodes");
   const auto elements = numbers_between(content("a.msh"), "$Elements\n", "$EndElements");
   const auto points = numbers_between(content("a.inp"), "*NODE\n", "*ELEMENT");
@@ -130,16 +130,16 @@ TEST_F(MeshFormats, OfGmshAbaqusAndVtuHoldTheMesh) {
     EXPECT_EQ(nodes[8 + i], static_cast<double>(i + 1));
     EXPECT_EQ(points[4 * i], static_cast<double>(i + 1));
     for (std::size_t k = 0; k < 3; ++k) {
-      const double coordinate = body().points[i][static_cast<Eigen::Index>(k)];
+      const double coordinate = lumpy_body().points[i][static_cast<Eigen::Index>(k)];
       EXPECT_EQ(nodes[8 + n + 3 * i + k], coordinate);
       EXPECT_NEAR(points[4 * i + 1 + k] / coordinate, 1.0, 1e-12);
     }
   }
   for (std::size_t f = 0; f < m; ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(elements[8 + 4 * f + 1 + k], body().triangles[f][k] + 1.0);
-      EXPECT_EQ(shells[4 * f + 1 + k], body().triangles[f][k] + 1.0);
-      EXPECT_EQ(corners[3 * f + k], body().triangles[f][k]);
+      EXPECT_EQ(elements[8 + 4 * f + 1 + k], lumpy_body().triangles[f][k] + 1.0);
+      EXPECT_EQ(shells[4 * f + 1 + k], lumpy_body().triangles[f][k] + 1.0);
+      EXPECT_EQ(corners[3 * f + k], lumpy_body().triangles[f][k]);
     }
   }
   // Abaqus cuts a number behind 20 characters.
@@ -148,32 +148,33 @@ TEST_F(MeshFormats, OfGmshAbaqusAndVtuHoldTheMesh) {
 }
 
 // A box's face of four corners, two triangles, and a strip of three, as each version has them.
-const std::vector<double> corners = {0, 0, 0, 1.5, 0, 0, 1.5, 1, 0, 0, 1, -0.25};
-const std::vector<Triangle> expected = {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {0, 1, 3}, {3, 1, 2}};
+const std::vector<double> sheet_corners = {0, 0, 0, 1.5, 0, 0, 1.5, 1, 0, 0, 1, -0.25};
+const std::vector<Triangle> sheet_faces = {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {0, 1, 3}, {3, 1, 2}};
 
 void expect_the_faces(const std::string& where) {
   const IndexedMesh mesh = read_mesh(where);
   ASSERT_EQ(mesh.points.size(), 4U);
   EXPECT_EQ(mesh.points[1], Vector3(1.5, 0, 0));
   EXPECT_EQ(mesh.points[3], Vector3(0, 1, -0.25));
-  EXPECT_EQ(mesh.triangles, expected);
+  EXPECT_EQ(mesh.triangles, sheet_faces);
 }
 
-const std::string head = "# vtk DataFile Version 4.2\na title\n";
+const std::string vtk_head = "# vtk DataFile Version 4.2\na title\n";
 
 TEST_F(MeshFormats, ReadsEveryFormOfLegacyVtk) {
   // 0 1 3 2 as a strip is 0 1 3 and, turned round, 1 3 2.
   expect_the_faces(file(
-      "a.vtk", head + "ASCII\nDATASET POLYDATA\nFIELD FieldData 1\nTIME 1 1 double\n0.5\n"
-                      "POINTS 4 float\n0 0 0 1.5 0\n0 1.5 1 0\n0 1 -0.25\nMETADATA\nINFORMATION 0\n"
-                      "\nVERTICES 1 2\n1 3\nPOLYGONS 2 9\n4 0 1 2 3\n3 3 2 1\n"
-                      "TRIANGLE_STRIPS 1 5\n4 0 1 3 2\nPOINT_DATA 4\nSCALARS s double 1\n"
-                      "LOOKUP_TABLE default\n1 2 3 4\n"));
-  const std::string points =
-      "BINARY\nDATASET POLYDATA\nPOINTS 4 double\n" + bytes_of_all<double>(corners, order::big);
+      "a.vtk", vtk_head +
+                   "ASCII\nDATASET POLYDATA\nFIELD FieldData 1\nTIME 1 1 double\n0.5\n"
+                   "POINTS 4 float\n0 0 0 1.5 0\n0 1.5 1 0\n0 1 -0.25\nMETADATA\nINFORMATION 0\n"
+                   "\nVERTICES 1 2\n1 3\nPOLYGONS 2 9\n4 0 1 2 3\n3 3 2 1\n"
+                   "TRIANGLE_STRIPS 1 5\n4 0 1 3 2\nPOINT_DATA 4\nSCALARS s double 1\n"
+                   "LOOKUP_TABLE default\n1 2 3 4\n"));
+  const std::string points = "BINARY\nDATASET POLYDATA\nPOINTS 4 double\n" +
+                             bytes_of_all<double>(sheet_corners, order::big);
   expect_the_faces(
       file("b.vtk",
-           head + points + "\nPOLYGONS 2 9\n" +
+           vtk_head + points + "\nPOLYGONS 2 9\n" +
                bytes_of_all<std::int32_t>(std::vector<int>{4, 0, 1, 2, 3, 3, 3, 2, 1}, order::big) +
                "\nTRIANGLE_STRIPS 1 5\n" +
                bytes_of_all<std::int32_t>(std::vector<int>{4, 0, 1, 3, 2}, order::big) + "\n"));
@@ -186,33 +187,34 @@ TEST_F(MeshFormats, ReadsEveryFormOfLegacyVtk) {
                                      "TRIANGLE_STRIPS 2 4\n" + array("OFFSETS", {0, 4}) +
                                      array("CONNECTIVITY", {0, 1, 3, 2})));
   // A line among the cells, which is none of a surface.
-  expect_the_faces(file("d.vtk", head + "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
-                                        "0 0 0 1.5 0 0 1.5 1 0 0 1 -0.25\nCELLS 4 17\n4 0 1 2 3\n"
-                                        "2 0 1\n3 3 2 1\n4 0 1 3 2\nCELL_TYPES 4\n9\n3\n5\n6\n"));
+  expect_the_faces(file("d.vtk", vtk_head +
+                                     "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+                                     "0 0 0 1.5 0 0 1.5 1 0 0 1 -0.25\nCELLS 4 17\n4 0 1 2 3\n"
+                                     "2 0 1\n3 3 2 1\n4 0 1 3 2\nCELL_TYPES 4\n9\n3\n5\n6\n"));
 }
 
 TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
   expect_refusal("a.vtk", "<html>", "is no VTK file");
-  expect_refusal("a.vtk", head + "ASCII\nDATASET STRUCTURED_POINTS\n", "structured_points");
-  expect_refusal("a.vtk", head + "ASCII\nDATASET POLYDATA\nPOINTS 400000000 float\n1 2 3\n",
+  expect_refusal("a.vtk", vtk_head + "ASCII\nDATASET STRUCTURED_POINTS\n", "structured_points");
+  expect_refusal("a.vtk", vtk_head + "ASCII\nDATASET POLYDATA\nPOINTS 400000000 float\n1 2 3\n",
                  "cut off");
   expect_refusal("a.vtk",
-                 head +
+                 vtk_head +
                      "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 1 4\n"
                      "3 0 0 1\n",
                  "names point 1, but holds 1");
   expect_refusal("a.vtk",
-                 head +
+                 vtk_head +
                      "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 1 4\n"
                      "4 0 0 0\n",
                  "a face of 4 corners");
   expect_refusal("a.vtk",
-                 head +
+                 vtk_head +
                      "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n1 2 3 4 5 6 7 8 "
                      "9 1 2 3\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n",
                  "cells of type 10");
   expect_refusal("a.vtk",
-                 head +
+                 vtk_head +
                      "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 2 3\n"
                      "OFFSETS double\n0 3\n",
                  "no whole numbers");
@@ -284,7 +286,7 @@ TEST_F(MeshFormats, ReadsEveryFormOfVtp) {
     std::string bytes;
   };
   const std::vector<Numbers> arrays = {
-      {"Float32\" Name=\"Points\" NumberOfComponents=\"3", bytes_of_all<float>(corners)},
+      {"Float32\" Name=\"Points\" NumberOfComponents=\"3", bytes_of_all<float>(sheet_corners)},
       {"Int32\" Name=\"connectivity",
        bytes_of_all<std::int32_t>(std::vector<int>{0, 1, 2, 3, 3, 2, 1})},
       {"Int64\" Name=\"offsets", bytes_of_all<std::int64_t>(std::vector<int>{4, 7})},
@@ -391,7 +393,7 @@ TEST_F(MeshFormats, ReadPointsOfTheirLibrary) {
 }
 
 TEST_F(MeshFormats, ArePackedByGzip) {
-  write_mesh(body(), path("a.ply"));
+  write_mesh(lumpy_body(), path("a.ply"));
   const auto pack = [&](const std::string& from, const std::string& to) {
     const std::string bytes = content(from);
     gzFile packed = ::gzopen(path(to).c_str(), "wb");
@@ -399,16 +401,16 @@ TEST_F(MeshFormats, ArePackedByGzip) {
     ::gzclose(packed);
   };
   pack("a.ply", "b.PLY.gz");
-  EXPECT_EQ(read_mesh(path("b.PLY.gz")).points, body().points);
+  EXPECT_EQ(read_mesh(path("b.PLY.gz")).points, lumpy_body().points);
   // Whatever its name says.
   pack("a.ply", "c.ply");
-  EXPECT_EQ(read_mesh(path("c.ply")).triangles, body().triangles);
+  EXPECT_EQ(read_mesh(path("c.ply")).triangles, lumpy_body().triangles);
   const std::string whole = content("c.ply");
   expect_refusal("cut.ply.gz", whole.substr(0, whole.size() / 2), "gzip");
   std::string wrong = whole;
   wrong[wrong.size() / 2] ^= 0x10;
   expect_refusal("wrong.ply.gz", wrong, "gzip");
-  EXPECT_ERROR(write_mesh(body(), path("d.ply.gz")), InvalidInput);
+  EXPECT_ERROR(write_mesh(lumpy_body(), path("d.ply.gz")), InvalidInput);
 }
 
 TEST(MeshFormatNames, SayWhatIsReadAndWhatIsWritten) {
