@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
@@ -46,6 +48,75 @@ TEST(DescriptorTable, SameKeysForTheSameDescriptors) {
     EXPECT_EQ(same->label, row.label);
     EXPECT_EQ(same->unit, row.unit);
     EXPECT_DOUBLE_EQ(same->value, row.value);
+  }
+}
+
+TEST(DescriptorTable, EachValueStandsUnderItsOwnKey) {
+  // Distinct numbers, so that none is told for another.
+  DetailedDescriptors d;
+  d.inertia_axes = {2.0, 3.0, 5.0};
+  d.inertia_ratios = form_ratios(d.inertia_axes);
+  d.box_axes = {7.0, 11.0, 17.0};
+  d.box_ratios = form_ratios(d.box_axes);
+  d.feret = {19.0, 6.5, 12.0, 8.0};
+  d.mean_curvature_integral = 41.0;
+  d.convexity = 0.91;
+  d.inscribed_sphere.radius = 2.25;
+  d.orientation.eigenvalues = Vector3(0.5, 0.3, 0.2);
+  d.orientation.compactness = 0.41;
+  d.orientation.flakiness = 0.42;
+  d.orientation.rodness = 0.43;
+  d.roundness.roundness = 0.51;
+  d.roundness.smallest_radius = 0.52;
+  d.has_roughness = true;
+  d.roughness.sa = 0.61;
+  d.roughness.sq = 0.62;
+  d.roughness.ssk = 0.63;
+  d.roughness.sku = 0.64;
+  d.roughness.form_leak = 0.65;
+  d.roughness.cutoff = 0.66;
+  d.has_radius = true;
+  d.printed_sdq = 0.71;
+  std::map<std::string, double> values;
+  for (const DescriptorValue& row : list_descriptors(d)) values[row.key] = row.value;
+  const std::map<std::string, double> expected = {{"axis_s_inertia", 2.0},
+                                                  {"axis_i_inertia", 3.0},
+                                                  {"axis_l_inertia", 5.0},
+                                                  {"aspect_ratio_inertia", 2.0 / 5.0},
+                                                  {"zingg_elongation_inertia", 3.0 / 5.0},
+                                                  {"zingg_flatness_inertia", 2.0 / 3.0},
+                                                  {"kong_fonseca_elongation_inertia", 2.0 / 5.0},
+                                                  {"kong_fonseca_flatness_inertia", 1.0 / 3.0},
+                                                  {"axis_s_box", 7.0},
+                                                  {"axis_i_box", 11.0},
+                                                  {"axis_l_box", 17.0},
+                                                  {"zingg_elongation_box", 11.0 / 17.0},
+                                                  {"zingg_flatness_box", 7.0 / 11.0},
+                                                  {"feret_max", d.feret.largest},
+                                                  {"feret_min", d.feret.smallest},
+                                                  {"nist_width", d.feret.width_across},
+                                                  {"nist_thickness", d.feret.thickness_across},
+                                                  {"mean_curvature_integral", 41.0},
+                                                  {"convexity", 0.91},
+                                                  {"inscribed_radius", 2.25},
+                                                  {"orientation_f1", 0.5},
+                                                  {"orientation_f2", 0.3},
+                                                  {"orientation_f3", 0.2},
+                                                  {"compactness", 0.41},
+                                                  {"flakiness", 0.42},
+                                                  {"rodness", 0.43},
+                                                  {"roundness_wadell", 0.51},
+                                                  {"roundness_smallest_radius", 0.52},
+                                                  {"sa", 0.61},
+                                                  {"sq", 0.62},
+                                                  {"ssk", 0.63},
+                                                  {"sku", 0.64},
+                                                  {"sq_form_leak", 0.65},
+                                                  {"roughness_cutoff", 0.66},
+                                                  {"sdq_printed", 0.71}};
+  for (const auto& [key, value] : expected) {
+    ASSERT_EQ(values.count(key), 1U) << key;
+    EXPECT_DOUBLE_EQ(values[key], value) << key;
   }
 }
 

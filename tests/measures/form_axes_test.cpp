@@ -191,13 +191,13 @@ TEST(FormAxes, RefusesWhatHasNoBox) {
 }
 
 TEST(FormRatios, FollowTheirFormulas) {
-  const FormRatios r = form_ratios({1.0, 2.0, 4.0});
-  EXPECT_DOUBLE_EQ(r.aspect_ratio, 0.25);
-  EXPECT_DOUBLE_EQ(r.zingg_elongation, 0.5);
-  EXPECT_DOUBLE_EQ(r.zingg_flatness, 0.5);
-  EXPECT_DOUBLE_EQ(r.kong_fonseca_elongation, 0.5);
-  EXPECT_DOUBLE_EQ(r.kong_fonseca_flatness, 0.5);
-  EXPECT_DOUBLE_EQ(r.krumbein_sphericity, 0.5);
+  const FormRatios r = form_ratios({2.0, 3.0, 5.0});
+  EXPECT_DOUBLE_EQ(r.aspect_ratio, 2.0 / 5.0);
+  EXPECT_DOUBLE_EQ(r.zingg_elongation, 3.0 / 5.0);
+  EXPECT_DOUBLE_EQ(r.zingg_flatness, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(r.kong_fonseca_elongation, 2.0 / 5.0);
+  EXPECT_DOUBLE_EQ(r.kong_fonseca_flatness, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(r.krumbein_sphericity, std::cbrt(2.0 * 3.0 / 25.0));
   const FormRatios cube = form_ratios({3.0, 3.0, 3.0});
   EXPECT_DOUBLE_EQ(cube.aspect_ratio, 1.0);
   EXPECT_DOUBLE_EQ(cube.kong_fonseca_elongation, 0.0);
