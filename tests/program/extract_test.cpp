@@ -99,8 +99,14 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
                 .exit_code,
             0);
   EXPECT_NEAR(describe_shape(read_mesh(path("all/11.off")), Execution(1)).volume, 27.0 * 6.0, 1e-9);
+  // Not smoothed: the faces of 3 x 3 x 3 voxels of 1 x 2 x 3.
+  EXPECT_NEAR(describe_shape(read_mesh(path("all/11.off")), Execution(1)).area, 198.0, 1e-9);
   EXPECT_TRUE(exists("all/9.off"));
   EXPECT_EQ(rows("all/labels.csv", "label")["11"]["unit"], "mm");
+  ASSERT_EQ(run("extract sample.nrrd between -q --background 3 --smallest 100000").exit_code, 0);
+  table = rows("between/labels.csv", "label");
+  EXPECT_EQ(table.count("3"), 0U);
+  EXPECT_EQ(table["0"]["state"], "at the border");
 }
 
 // membrain-pick 16, MorphoLibJ: one label for all grains.
@@ -240,7 +246,10 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
   ASSERT_EQ(run("batch sample.nrrd -o out -n 60 -q").exit_code, 0);
   EXPECT_EQ(content("out/grains.csv"), whole);
   EXPECT_FALSE(exists("out/5.ply")) << "what has its row is made again";
-  EXPECT_EQ(run("batch sample.nrrd -o out -n 60 -q --smoothing 7").exit_code, 2);
+  for (const std::string other : {"--smoothing 7", "--at-border", "--smallest 27", "--parts",
+                                  "--background 3", "--voxel-size 2"}) {
+    EXPECT_EQ(run("batch sample.nrrd -o out -n 60 -q " + other).exit_code, 2) << other;
+  }
 }
 
 TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
