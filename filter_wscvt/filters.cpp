@@ -138,6 +138,11 @@ std::optional<std::string> remark_on_missing(const ParameterList& parameters,
          " missing from the script, or cannot be read there, and took the default.";
 }
 
+/// What becomes of a result in a layer. The layers must outlive it.
+auto as_layer(const Layers& layers) {
+  return [&layers](const RemeshResult& result) { return layers.as_held(result.mesh); };
+}
+
 FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValues& values,
                            Layers& layers, const ProgressCallback& progress) {
   const Stopwatch stopwatch;
@@ -149,6 +154,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
       read_remesh_settings(with_full_names(parameters, values, folder_of(scan)));
   const std::string& report = settings.result.report_file;
   settings.options.measures.repaired_scan = !report.empty() && shows_scan(report);
+  settings.options.measures.written = as_layer(layers);
   const Eigen::Matrix4d transform = layers.transform(scan.number);
   const Execution execution(0, progress);
   const RemeshResult result = remesh(layers.mesh(scan.number), settings.options, execution);
@@ -201,8 +207,9 @@ std::string folder_at_hand(const Layers& layers) {
 FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
                            const Execution& execution) {
   const Stopwatch stopwatch;
-  const CreationSettings settings = read_creation_settings(
+  CreationSettings settings = read_creation_settings(
       with_full_names(creation_parameters(), values, folder_at_hand(layers)));
+  settings.options.measures.written = as_layer(layers);
   const RemeshResult result = remesh(settings.surface, settings.options, execution);
   const std::string name = surface_name(settings.surface);
   save_report(settings.result.report_file, name, result);

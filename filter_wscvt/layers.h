@@ -44,6 +44,9 @@ class Layers {
   /// number that is not in the list, as everything below.
   virtual IndexedMesh mesh(int number) const = 0;
 
+  /// The mesh with the coordinates that a layer would hold of it.
+  virtual IndexedMesh as_held(IndexedMesh mesh) const = 0;
+
   /// The transform with which a layer is shown.
   virtual Eigen::Matrix4d transform(int number) const = 0;
 

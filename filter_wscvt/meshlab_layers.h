@@ -42,6 +42,17 @@ class MeshlabLayers final : public Layers {
 
   IndexedMesh mesh(int number) const override { return to_indexed_mesh(model(number).cm); }
 
+  IndexedMesh as_held(IndexedMesh mesh) const override {
+    for (Vector3& p : mesh.points) {
+      for (double& coordinate : p) {
+        // Volatile: optimised, GCC 12 leaves the rounding to single precision out.
+        volatile const auto held = static_cast<Scalar>(coordinate);
+        coordinate = static_cast<double>(held);
+      }
+    }
+    return mesh;
+  }
+
   Eigen::Matrix4d transform(int number) const override {
     const auto& transform = model(number).cm.Tr;
     Eigen::Matrix4d matrix;

@@ -127,7 +127,11 @@ GrainRow remeshed_row(const BatchArguments& arguments, const OutputFolder& folde
   };
   const auto make = [&]() -> GrainRow {
     GrainScan scan = grains.read(k, execution);
-    RemeshResult result = remesh(std::move(scan.mesh), arguments.options, execution);
+    RemeshOptions options = arguments.options;
+    options.measures.written = [path = folder.mesh(grain)](const RemeshResult& made) {
+      return as_written(made.mesh, path);
+    };
+    RemeshResult result = remesh(std::move(scan.mesh), options, execution);
     result.warnings.insert(result.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
     write_mesh(result.mesh, folder.mesh(grain));
     return {sample_row(grain, result, seconds()), ""};

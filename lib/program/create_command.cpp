@@ -91,8 +91,12 @@ int run(const CreateArguments& arguments) {
     for (const std::string& report : common.reports) check_remesh_report(report);
   });
 
+  RemeshOptions options = arguments.options;
+  options.measures.written = [path = arguments.output](const RemeshResult& result) {
+    return as_written(result.mesh, path);
+  };
   Work work(common);
-  const RemeshResult result = remesh(arguments.surface, arguments.options, work.execution());
+  const RemeshResult result = remesh(arguments.surface, options, work.execution());
 
   work.write(arguments.output,
              [&](const std::string& path, const Execution&) { write_mesh(result.mesh, path); });

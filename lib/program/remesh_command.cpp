@@ -91,6 +91,11 @@ int run(const RemeshArguments& arguments) {
       std::any_of(common.reports.begin(), common.reports.end(), shows_scan) ||
       (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
 
+  options.measures.written = [path = arguments.output,
+                              frame = simulation.options.frame](const RemeshResult& result) {
+    return as_written(in_frame(result.mesh, simulation_frame(result.original, frame)), path);
+  };
+
   Work work(common);
   MeshFile file = read_mesh_file(arguments.scan, work.execution().part(0.0, reading_share));
   if (!simulation.grids.empty()) {

@@ -2,15 +2,18 @@
 #include "wscvt/remesh.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/remesh/prepared_grain.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/remesh/suggestions.h"
 #include "wscvt/remesh/target_search.h"
+#include "wscvt/scan/closing_advice.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/scaled_surface.h"
@@ -32,10 +35,9 @@ RemeshResult remesh_to_options(const PreparedGrain& grain, const RemeshOptions& 
       execution);
 }
 
-}  // namespace
-
-RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
-  check_options(options);
+RemeshResult remesh_scan(IndexedMesh scan, const RemeshOptions& options,
+                         const Execution& whole_execution) {
+  const Execution execution = whole_execution.counted();
   RepairedScan repaired = repair_scan(std::move(scan), options, execution.part(0.0, 0.1));
   PreparedGrain grain;
   grain.steep_area_fraction = repaired.steep_area_fraction;
@@ -46,7 +48,7 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
     RemeshOptions used = options;
     used.node_count = static_cast<int>(result.mesh.points.size());
     result.suggestions = suggest_settings(
-        used,
+        used, execution.work(),
         [&](const RemeshOptions& other, const Execution& part) {
           PreparedGrain again;
           prepare_again(grain, other, part.part(0.0, 0.3), again);
@@ -58,6 +60,27 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   result.repaired_scan = std::move(kept);
   execution.report(1.0, "Done");
   return result;
+}
+
+}  // namespace
+
+RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
+  check_options(options);
+  if (!options.measures.suggestions || options.envelope.opening_percent > 0.0) {
+    return remesh_scan(std::move(scan), options, execution);
+  }
+  try {
+    return remesh_scan(scan, options, execution);
+  } catch (const WrappableScan& refused) {
+    const std::optional<double> opening = working_opening(
+        options, refused.opening_percent(),
+        [&](const RemeshOptions& other, const Execution& part) {
+          return remesh_scan(scan, other, part);
+        },
+        execution);
+    if (!opening) throw;
+    throw Error(refused.code(), std::string(refused.what()) + " " + tried_wrap_advice(*opening));
+  }
 }
 
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,

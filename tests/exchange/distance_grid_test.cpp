@@ -13,6 +13,7 @@
 #include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
 
 namespace wscvt {
@@ -140,6 +141,17 @@ TEST(DistanceGrid, ImageDataRunsAlongXFirst) {
   const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4}, Execution(1));
   const std::string bytes = grid_vti(grid);
   const auto& [nx, ny, nz] = grid.counts;
+  const auto extent = [&](const char* name) {
+    return std::string(name) + "=\"0 " + std::to_string(nx - 1) + " 0 " + std::to_string(ny - 1) +
+           " 0 " + std::to_string(nz - 1) + "\"";
+  };
+  EXPECT_NE(bytes.find(extent("WholeExtent")), std::string::npos);
+  EXPECT_NE(bytes.find("<Piece " + extent("Extent")), std::string::npos);
+  EXPECT_NE(bytes.find("Origin=\"" + format_exact(grid.origin.x()) + " " +
+                       format_exact(grid.origin.y()) + " " + format_exact(grid.origin.z()) + "\""),
+            std::string::npos);
+  const std::string step = format_exact(grid.spacing);
+  EXPECT_NE(bytes.find("Spacing=\"" + step + " " + step + " " + step + "\""), std::string::npos);
   const std::size_t begin = bytes.find("\n_") + 2;
   std::uint64_t length = 0;
   std::memcpy(&length, &bytes[begin], sizeof length);
@@ -153,9 +165,10 @@ TEST(DistanceGrid, ImageDataRunsAlongXFirst) {
 TEST(DistanceGrid, NetdemTableIsPositiveInside) {
   const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.25}, Execution(1));
   const auto table = nlohmann::json::parse(grid_netdem(grid));
-  EXPECT_EQ(table.at("dim")[1].get<std::size_t>(), grid.counts[1]);
+  EXPECT_EQ(table.at("dim"), nlohmann::json(grid.counts));
   EXPECT_EQ(table.at("spacing").get<double>(), 0.25);
-  EXPECT_EQ(table.at("corner")[2].get<double>(), grid.origin.z());
+  EXPECT_EQ(table.at("corner"),
+            nlohmann::json({grid.origin.x(), grid.origin.y(), grid.origin.z()}));
   const auto& values = table.at("signed_distance_table");
   ASSERT_EQ(values.size(), grid.counts[0]);
   ASSERT_EQ(values[0].size(), grid.counts[1]);

@@ -82,8 +82,12 @@ TEST(NodeTable, VtpHoldsTheMeshAndItsArrays) {
   const std::vector<double> ends = numbers_of(vtp, "offsets");
   ASSERT_EQ(corners.size(), 3 * nodes.mesh.triangles.size());
   ASSERT_EQ(ends.size(), nodes.mesh.triangles.size());
-  EXPECT_EQ(corners[5], nodes.mesh.triangles[1][2]);
-  EXPECT_EQ(ends.back(), static_cast<double>(corners.size()));
+  for (std::size_t f = 0; f < ends.size(); ++f) {
+    EXPECT_EQ(ends[f], 3.0 * static_cast<double>(f + 1));
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(corners[3 * f + k], nodes.mesh.triangles[f][k]);
+    }
+  }
 }
 
 }  // namespace

@@ -116,6 +116,31 @@ TEST_F(SimulationFiles, DescriptionHoldsTheMassOfTheScanInTheFrame) {
   EXPECT_NEAR(mass.at("centroid").at("y").get<double>(), 0.0, 1e-12);
 }
 
+TEST_F(SimulationFiles, AllLieInTheFrameOfTheScan) {
+  const SimulationFrame frame = simulation_frame(result->original, options.frame);
+  write_nodes(path("nodes.csv"), *result, options);
+  const auto records = test::csv_records(content("nodes.csv"));
+  ASSERT_EQ(records.size(), 121U);
+  for (std::size_t r = 1; r < records.size(); ++r) {
+    const Vector3 exact = frame.point(result->mesh.points[r - 1]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(std::stod(records[r][k]), exact[static_cast<Eigen::Index>(k)], 1e-12);
+    }
+  }
+  write_distance_grid(path("grid.npy"), *result, options, {}, Execution(2));
+  const auto told = nlohmann::json::parse(content("grid.npy.json")).at("frame");
+  const auto& axes = told.at("axes_in_scan");
+  const auto number = [](const nlohmann::json& of, const char* name) {
+    return of.at(name).get<double>();
+  };
+  const Eigen::Quaterniond turn(number(axes, "w"), number(axes, "x"), number(axes, "y"),
+                                number(axes, "z"));
+  EXPECT_LT(turn.angularDistance(frame.axes), 1e-7);
+  EXPECT_EQ(told.at("scale"), frame.scale);
+  const auto& origin = told.at("origin_in_scan");
+  EXPECT_EQ(Vector3(number(origin, "x"), number(origin, "y"), number(origin, "z")), frame.origin);
+}
+
 TEST_F(SimulationFiles, GridIsOfTheScanUnlessTheRemeshIsAsked) {
   write_distance_grid(path("scan.npy"), *result, options, {}, Execution(2));
   options.surface = GridSurface::Remesh;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QFile>
 #include <QFileInfo>
+#include <QJsonDocument>
 #include <QLabel>
 #include <QMainWindow>
 #include <QPluginLoader>
@@ -29,6 +31,7 @@
 #include "remesh_filter.h"
 #include "remesh_report.h"
 #include "sample_meshes.h"
+#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
 
 namespace wscvt::host_test {
@@ -1023,6 +1026,27 @@ TEST(Filter, PutsFilesWithoutAFolderBesideTheScanAndSaysWhere) {
   EXPECT_TRUE(QFileInfo::exists(folder.filePath("report.csv")));
 }
 
+TEST(Filter, CountsTheIntersectionsOfTheLayer) {
+  LoadedFilter loaded;
+  const QTemporaryDir folder;
+  MeshDocument document;
+  // A plate of about the thickness of a float's step where it lies, .0039.
+  const IndexedMesh plate = mapped_sphere(40, 80, [](const Vector3& u) {
+    return Vector3(u.x(), u.y() + 0.3 * u.x(), 0.004 * u.z() + 0.2 * u.x() - 0.3 * u.y());
+  });
+  add_layer(document, moved(plate, Vector3::Constant(std::ldexp(1.0, 15))));
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(300));
+  set_from_text(parameters, "ReportFile", folder.filePath("report.json").toStdString());
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  const std::size_t pairs = self_intersections(filter::to_indexed_mesh(document.mm()->cm)).size();
+  EXPECT_GT(pairs, 0U);
+  QFile report(folder.filePath("report.json"));
+  ASSERT_TRUE(report.open(QIODevice::ReadOnly));
+  EXPECT_EQ(QJsonDocument::fromJson(report.readAll())["on_scan"]["self_intersections"].toInt(),
+            static_cast<int>(pairs));
+}
+
 TEST(Filter, LogsWarningsAsWarningsAndLast) {
   LoadedFilter loaded;
   MeshDocument document;
@@ -1079,6 +1103,42 @@ TEST(DescriptorFilter, FindsTheReferenceHoweverItsLayerIsCalled) {
     set_from_text(parameters, "ReferenceLayer", name);
     EXPECT_FALSE(loaded.apply(document, parameters)) << name;
     expect_sentence(QString::fromStdString(loaded.message()), {name, "'ball'", "'sand 0.5.ply'"});
+  }
+}
+
+TEST(DescriptorFilter, MeasuresBothLayersAsTheyAreShown) {
+  LoadedFilter loaded(descriptor_menu_text);
+  MeshDocument document;
+  // Turned, moved and half as large by its transform; and the same points without one.
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+  const Vector3 shift(3.0, -1.0, 2.0);
+  IndexedMesh there = grain();
+  for (Vector3& p : there.points) p = (0.5 * (turn * p) + shift).eval();
+  MeshModel& moved_layer = add_layer(document, grain());
+  moved_layer.setLabel("moved");
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      moved_layer.cm.Tr.ElementAt(row, column) = static_cast<Scalarm>(0.5 * turn(row, column));
+    }
+    moved_layer.cm.Tr.ElementAt(row, 3) = static_cast<Scalarm>(shift[row]);
+  }
+  MeshModel& plain = add_layer(document, there);
+  plain.setLabel("plain");
+  const QTemporaryDir folder;
+  for (const auto& [current, reference] :
+       {std::pair(&moved_layer, std::string("plain")), std::pair(&plain, std::string("moved"))}) {
+    document.setCurrentMesh(current->id());
+    RichParameterList parameters = loaded.parameters(document);
+    set_from_text(parameters, "ReferenceLayer", reference);
+    set_from_text(parameters, "ReportFile", folder.filePath("report.json").toStdString());
+    ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+    QFile report(folder.filePath("report.json"));
+    ASSERT_TRUE(report.open(QIODevice::ReadOnly));
+    const QJsonValue distances = QJsonDocument::fromJson(report.readAll())["distances"];
+    ASSERT_TRUE(distances["largest_distance"].isDouble());
+    // Coordinates of 4 as floats.
+    EXPECT_LT(distances["largest_distance"].toDouble(), 1e-5) << reference;
   }
 }
 
@@ -1192,6 +1252,91 @@ TEST(FilterParameters, TypedValueIsTheShortestDecimal) {
   EXPECT_EQ(filter::typed_value(0.123456789012), 0.123456789012);
   EXPECT_TRUE(std::isnan(filter::typed_value(std::nan(""))));
   EXPECT_TRUE(std::isinf(filter::typed_value(HUGE_VAL)));
+}
+
+TEST(FilterParameters, EachReachesItsOwnOption) {
+  const QTemporaryDir folder;
+  const std::string report = folder.filePath("r.json").toStdString();
+  const std::string coefficients = folder.filePath("c.json").toStdString();
+  filter::ParameterValues values = {
+      {"NodeCount", 321.0},     {"ErrorTarget", 1.25},  {"TargetMeasure", 2.0},
+      {"HarmonicDegree", 7.0},  {"MendLimit", 12.5},    {"Points", 1.0},
+      {"NewLayer", 0.0},        {"Distances", 1.0},     {"Quality", 1.0},
+      {"ColorByQuality", 1.0},  {"ReportFile", report}, {"CoefficientsFile", coefficients},
+      {"CurvatureAlpha", -1.5}, {"EdgeRatio", 1.3}};
+  const filter::RemeshSettings all = filter::read_remesh_settings(values);
+  EXPECT_EQ(all.options.node_count, 321);
+  EXPECT_EQ(all.options.target.percent, 1.25);
+  EXPECT_EQ(static_cast<int>(all.options.target.measure), 2);
+  EXPECT_EQ(all.options.target.largest_node_count, ErrorTarget().largest_node_count);
+  EXPECT_EQ(all.options.degree, 7);
+  EXPECT_EQ(all.options.max_repaired_area_percent, 12.5);
+  EXPECT_TRUE(all.options.points && all.options.measures.distances);
+  EXPECT_TRUE(all.options.measures.node_curvatures && all.options.measures.coefficients);
+  EXPECT_FALSE(all.new_layer);
+  EXPECT_EQ(all.result.quality, filter::VertexQuality::Curvature);
+  EXPECT_TRUE(all.result.colour_by_quality);
+  EXPECT_EQ(all.result.report_file, report);
+  EXPECT_EQ(all.coefficients_file, coefficients);
+  EXPECT_EQ(std::get<OnScanOptions>(all.options.method).curvature_alpha, -1.5);
+  EXPECT_EQ(std::get<OnScanOptions>(all.options.method).edge_ratio, 1.3);
+  // A search from more nodes than it may take goes that far.
+  const filter::ParameterValues many = {{"NodeCount", 500000.0}};
+  EXPECT_EQ(filter::read_remesh_settings(many).options.target.largest_node_count, 500000);
+
+  values = {{"Method", 1.0}, {"CurvatureAlpha", 0.5}, {"FoldLimit", 2.5}};
+  const auto published =
+      std::get<AsPublishedOptions>(filter::read_remesh_settings(values).options.method);
+  EXPECT_EQ(published.curvature_alpha, 0.5);
+  EXPECT_EQ(published.max_overhang_percent, 2.5);
+
+  values = {{"Surface", 1.0},       {"SemiAxisX", 1.1},         {"SemiAxisY", 1.2},
+            {"SemiAxisZ", 1.3},     {"PolarExponent", 0.4},     {"AzimuthalExponent", 0.6},
+            {"NodeCount", 77.0},    {"Quality", 3.0},           {"ColorByQuality", 1.0},
+            {"ReportFile", report}, {"CoefficientDegree", 3.0}, {"CurvatureAlpha", -0.5}};
+  const filter::CreationSettings made = filter::read_creation_settings(values);
+  EXPECT_EQ(made.surface.kind, SurfaceKind::Superellipsoid);
+  EXPECT_EQ(made.surface.semi_axes, Vector3(1.1, 1.2, 1.3));
+  EXPECT_EQ(made.surface.polar_exponent, 0.4);
+  EXPECT_EQ(made.surface.azimuthal_exponent, 0.6);
+  EXPECT_EQ(made.surface.coefficient_degree, 3);
+  EXPECT_EQ(made.options.node_count, 77);
+  EXPECT_EQ(std::get<OnScanOptions>(made.options.method).curvature_alpha, -0.5);
+  EXPECT_EQ(made.result.quality, filter::VertexQuality::OriginalDistance);
+  EXPECT_TRUE(made.options.measures.distances && made.result.colour_by_quality);
+  EXPECT_EQ(made.result.report_file, report);
+
+  const filter::DescriptorSettings described =
+      filter::read_descriptor_settings({{"RoundnessBall", 0.3},
+                                        {"RoughnessCutoff", 0.7},
+                                        {"ReferenceLayer", std::string("scan")},
+                                        {"ReportFile", report}});
+  EXPECT_EQ(described.options.roundness_ball, 0.3);
+  EXPECT_EQ(described.options.roughness_cutoff, 0.7);
+  EXPECT_EQ(described.reference_layer, "scan");
+  EXPECT_EQ(described.report_file, report);
+}
+
+TEST(FilterParameters, ChoicesAreThoseOfTheirNames) {
+  const auto on_scan = [](const filter::ParameterValues& values) {
+    return std::get<OnScanOptions>(filter::read_remesh_settings(values).options.method);
+  };
+  EXPECT_EQ(on_scan({{"Weighting", 1.0}}).weighting, CellWeighting::Area);
+  EXPECT_EQ(on_scan({{"Weighting", 2.0}}).weighting, CellWeighting::Curvature);
+  EXPECT_EQ(on_scan({{"Weighting", 4.0}}).weighting, CellWeighting::ErrorAdaptive);
+  EXPECT_EQ(on_scan({{"Placement", 1.0}}).placement, ScanPlacement::OnSurface);
+  EXPECT_EQ(on_scan({{"Placement", 2.0}}).placement, ScanPlacement::Fitted);
+  EXPECT_EQ(on_scan({{"Placement", 3.0}}).placement, ScanPlacement::ContactFit);
+  const auto published = [](filter::ParameterValues values) {
+    values["Method"] = 1.0;
+    return std::get<AsPublishedOptions>(filter::read_remesh_settings(values).options.method);
+  };
+  EXPECT_EQ(published({{"Weighting", 0.0}}).weighting, Weighting::Constant);
+  EXPECT_EQ(published({{"Weighting", 1.0}}).weighting, Weighting::RadialDistance);
+  EXPECT_EQ(published({{"Weighting", 2.0}}).weighting, Weighting::Curvature);
+  EXPECT_EQ(published({{"Weighting", 3.0}}).weighting, Weighting::Area);
+  EXPECT_EQ(published({{"Placement", 0.0}}).placement, PublishedPlacement::Series);
+  EXPECT_EQ(published({{"Placement", 1.0}}).placement, PublishedPlacement::Surface);
 }
 
 TEST(FilterParameters, DefaultsAreTheLibrarysAndLieInTheirRanges) {

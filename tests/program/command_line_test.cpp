@@ -291,10 +291,11 @@ TEST_F(CommandLine, ACancelledCreationSaysWhereItWas) {
 
 TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
   // Signed distances at 12 million points take minutes; the remesh is there before them.
-  const pid_t child = start(folder_, WSCVT_MESHES_DIR "/sand_7228.ply", "remesh.ply", "-n", "100",
-                            "-q", "--size", "1", "--sdf", "grid.npy", "--sdf-spacing", "0.005");
+  const pid_t child =
+      start(folder_, WSCVT_MESHES_DIR "/sand_7228.ply", "remesh.ply", "-n", "100", "-q", "--size",
+            "1", "--node-table", "nodes.csv", "--sdf", "grid.npy", "--sdf-spacing", "0.005");
   ASSERT_NE(child, -1);
-  while (!exists("remesh.ply")) {
+  while (!exists("nodes.csv")) {
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << content("said.txt");
   }
@@ -304,7 +305,8 @@ TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
   EXPECT_FALSE(exists("grid.npy"));
   const std::string said = content("said.txt");
   EXPECT_EQ(said.rfind("Cancelled during: ", 0), 0U) << said;
-  EXPECT_NE(said.find(". Written before that: \"remesh.ply\".\n"), std::string::npos) << said;
+  EXPECT_NE(said.find(". Written before that: \"remesh.ply\", \"nodes.csv\".\n"), std::string::npos)
+      << said;
 }
 
 TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {

@@ -13,8 +13,10 @@
 #include "support/flat_json.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/grain_measures.h"
+#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
 
@@ -123,6 +125,40 @@ TEST_F(Commands, RemeshIsWhatACallWithoutOneMeans) {
   EXPECT_EQ(run("remesh --help-all").output.find("--json"), std::string::npos);
 }
 
+TEST_F(Commands, ReportsTheIntersectionsOfTheFile) {
+  // A plate thinner than a float's step where it lies, .0156.
+  const Vector3 far = Vector3::Constant(std::ldexp(1.0, 17));
+  write_mesh(test::transformed(test::subdivided(test::box(2.0, 1.7, 0.012), 5),
+                               test::random_rotation(3), far),
+             path("far.ply"));
+  IndexedMesh written;
+  const auto expect_told = [&](const std::string& file, const std::string& arguments) {
+    const std::size_t pairs = report_of("far.ply " + file + arguments + " -n 300")
+                                  .at("on_scan")
+                                  .at("self_intersections")
+                                  .get<std::size_t>();
+    const IndexedMesh read = read_mesh(path(file));
+    if (written.points.empty()) written = read;
+    // STL has each corner for itself: the triangles of the first file at the corners of this one.
+    for (std::size_t f = 0; f < written.triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        written.points[index(written.triangles[f][k])] = read.points[index(read.triangles[f][k])];
+      }
+    }
+    EXPECT_EQ(self_intersections(written).size(), pairs) << file;
+    return pairs;
+  };
+  const std::size_t kept = expect_told("remesh.ply", "");
+  const std::size_t rounded = expect_told("remesh.stl", "");
+  EXPECT_GT(rounded, kept);
+  EXPECT_LT(expect_told("near.stl", " --frame centred --scale 1000"), rounded);
+  fs::create_directory(folder_ / "far");
+  fs::rename(folder_ / "far.ply", folder_ / "far" / "far.ply");
+  ASSERT_EQ(run("batch far -o out -q -n 300 --format stl").exit_code, 0);
+  EXPECT_NE(content("out/grains.csv").find(std::to_string(rounded) + " pairs of triangles"),
+            std::string::npos);
+}
+
 TEST_F(Commands, AMisspeltOneIsNamedWithTheChoices) {
   const Outcome outcome = run("remehs scan.ply new.ply");
   EXPECT_EQ(outcome.exit_code, 2);
@@ -210,7 +246,17 @@ TEST_F(Commands, CreateMakesTheSurfaceOfItsFormula) {
   const double block =
       volume_of("superellipsoid --semi-axes 1 1 1 --polar-exponent 0.3 --azimuthal-exponent 0.3");
   EXPECT_GT(block, 6.0);
-  EXPECT_LT(volume_of("superellipsoid --polar-exponent 0.3"), block);
+  // By Barr's formula, 2 a b c e n B(e / 2 + 1, e) B(n / 2, n / 2) with the exponents e and n.
+  const auto exact = [](double polar, double azimuthal) {
+    const auto beta = [](double a, double b) {
+      return std::tgamma(a) * std::tgamma(b) / std::tgamma(a + b);
+    };
+    return 2.0 * polar * azimuthal * beta(0.5 * polar + 1.0, polar) *
+           beta(0.5 * azimuthal, 0.5 * azimuthal);
+  };
+  EXPECT_NEAR(block, exact(0.3, 0.3), 2e-3);
+  EXPECT_NEAR(volume_of("superellipsoid --polar-exponent 0.5"), exact(0.5, 1.0), 2e-3);
+  EXPECT_NEAR(volume_of("superellipsoid --azimuthal-exponent 0.5"), exact(1.0, 0.5), 2e-3);
   EXPECT_NEAR(volume_of("superellipsoid --semi-axes 2 2 2"), 8.0 * 4.0 / 3.0 * pi, 1e-6);
 }
 

@@ -150,6 +150,13 @@ TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {
   EXPECT_EQ(run("extract most.nrrd out -q").exit_code, 3);
 }
 
+TEST_F(Extract, CountsWhatBecameOfTheLabels) {
+  volume_.fill_box(12, {0, 0, 0}, {20, 20, 4});
+  write_sample();
+  const Outcome outcome = run("extract sample.nrrd out");
+  EXPECT_EQ(outcome.output, "6 labels: 3 written (1 in pieces), 2 at the border, 1 too small\n");
+}
+
 TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
   volume_.fill_box(3, {10, 10, 10}, {20, 20, 20});
   test::MadeVolume two({70, 60, 120});

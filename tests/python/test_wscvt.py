@@ -55,9 +55,10 @@ def test_arrays_outlive_what_they_came_from(scan):
 def test_it_is_the_remesh_of_the_program(scan, tmp_path):
     wscvt.write_mesh(str(tmp_path / "ours.ply"), *(lambda r: (r.vertices, r.faces))(
         wscvt.remesh(*scan, nodes=100, weighting="error-adaptive", threads=1)))
-    subprocess.run([os.environ["WSCVT_PROGRAM"], MESHES / "sand_7228.ply", tmp_path / "its.ply", "-q", "-n", "100",
-                    "-w", "error-adaptive"], check=True)
+    said = subprocess.run([os.environ["WSCVT_PROGRAM"], MESHES / "sand_7228.ply", tmp_path / "its.ply", "-n", "100",
+                           "-w", "error-adaptive"], check=True, capture_output=True, text=True)
     assert (tmp_path / "ours.ply").read_bytes() == (tmp_path / "its.ply").read_bytes()
+    assert said.stdout == str(wscvt.remesh(*scan, nodes=100, weighting="error-adaptive"))
 
 
 def test_inputs_of_other_libraries(scan):
@@ -301,6 +302,30 @@ def test_create_and_describe_know_an_ellipsoid():
     assert shape["descriptors"]["axis_l_box"] == pytest.approx(2.0, rel=1e-2)
     larger = wscvt.describe(1.1 * made.vertices, made.faces, (made.vertices, made.faces))
     assert larger["descriptors"]["volume"]["error_percent"] == pytest.approx(33.1, abs=1e-6)
+
+
+def test_create_knows_the_two_exponents_of_a_superellipsoid():
+    def exact(polar, azimuthal):
+        def beta(a, b):
+            return math.gamma(a) * math.gamma(b) / math.gamma(a + b)
+        return 2 * 0.48 * polar * azimuthal * beta(polar / 2 + 1, polar) * beta(azimuthal / 2, azimuthal / 2)
+    for polar, azimuthal in [(0.5, 1.0), (1.0, 0.5)]:
+        made = wscvt.create("superellipsoid", semi_axes=(1.0, 0.8, 0.6), polar_exponent=polar,
+                            azimuthal_exponent=azimuthal, nodes=1000, placement="fitted")
+        assert volume(made.vertices, made.faces) == pytest.approx(exact(polar, azimuthal), rel=1e-3)
+
+
+def test_describe_takes_its_ball_its_cut_off_and_a_progress():
+    made = wscvt.create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=2000)
+    told = []
+    usual, other = (wscvt.describe(made.vertices, made.faces, progress=lambda *now: told.append(now),
+                                   **given)["descriptors"]
+                    for given in ({}, {"roundness_ball": 0.5, "roughness_cutoff": 0.75}))
+    assert told[-1][0] == 1.0
+    assert other["roughness_cutoff"] == pytest.approx(0.75 * other["equivalent_diameter"] / 2)
+    assert other["roughness_cutoff"] != usual["roughness_cutoff"]
+    assert other["roundness_smallest_radius"] == pytest.approx(0.5 / 4, rel=1e-6)
+    assert other["roundness_smallest_radius"] != usual["roundness_smallest_radius"]
 
 
 def test_create_cuts_the_series_where_told(tmp_path):

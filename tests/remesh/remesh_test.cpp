@@ -10,10 +10,13 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <regex>
+#include <string>
 
 #include "grains/ct_grain.h"
 #include "grains/marching_cubes.h"
 #include "support/comma_decimals.h"
+#include "support/distance_bodies.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
@@ -656,19 +659,90 @@ TEST(Remesh, PointsAreFittedWhenChosen) {
   EXPECT_FALSE(has_warning(scan, "points"));
 }
 
-TEST(Remesh, PointsBehindOthersAreAdvisedAnEnvelopeWhichTakesThem) {
+/// Follows the advice of a refusal: the shrink-wrap that it names can be remeshed.
+void expect_that_the_advice_works(const IndexedMesh& scan, RemeshOptions options,
+                                  const std::string& sentence) {
+  std::smatch advice;
+  ASSERT_TRUE(std::regex_search(sentence, advice, std::regex("--shrink-wrap=([0-9.]+)")))
+      << sentence;
+  options.envelope.opening_percent = std::stod(advice[1]);
+  const RemeshResult wrapped = remesh(scan, options, Execution(1));
+  EXPECT_EQ(wrapped.mesh.points.size(), static_cast<std::size_t>(options.node_count));
+}
+
+TEST(Remesh, ARefusalAdvisesAShrinkWrapThatWasTried) {
+  RemeshOptions options;
+  options.node_count = 300;
+  const auto sentence_of = [&](const IndexedMesh& scan) {
+    return test::refusal(ErrorCode::InvalidInput, [&] { remesh(scan, options, Execution(1)); });
+  };
+  options.max_repaired_area_percent = 0.5;
+  IndexedMesh open = test::sphere(4);
+  open.triangles.resize(open.triangles.size() - 40);
+  expect_that_the_advice_works(open, options, sentence_of(open));
+  // In a batch nothing is tried.
+  options.measures.suggestions = false;
+  EXPECT_EQ(sentence_of(open).find("--shrink-wrap"), std::string::npos);
+}
+
+/// A body with four legs and a tail of 1 : 20, and a head on a thin neck.
+IndexedMesh animal() {
+  const auto limb = [](const Vector3& p, const Vector3& from, const Vector3& to, double radius) {
+    const Vector3 way = to - from;
+    const double along = std::clamp((p - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (p - from - along * way).norm() - radius;
+  };
+  const auto body = [limb](const Vector3& p) {
+    double nearest = limb(p, {-0.8, 0.0, 0.0}, {0.8, 0.05, 0.0}, 0.35);
+    for (const double x : {-0.7, 0.75}) {
+      for (const double y : {-0.2, 0.25}) {
+        nearest = std::min(nearest, limb(p, {x, y, 0.0}, {1.1 * x, 1.5 * y, -2.0}, 0.05));
+      }
+    }
+    nearest = std::min(nearest, limb(p, {-1.0, 0.0, 0.1}, {-2.2, 0.3, 1.6}, 0.05));
+    nearest = std::min(nearest, limb(p, {1.0, 0.0, 0.1}, {1.6, 0.0, 0.9}, 0.06));
+    return std::min(nearest, (p - Vector3(1.7, 0.0, 1.0)).norm() - 0.25);
+  };
+  return test::scan_of(body, 2.4, 0.05);
+}
+
+TEST(Remesh, SuggestionsCostNoMoreThanTheRun) {
+  const IndexedMesh scans[] = {animal(), test::lumpy(5)};
+  int inaccurate = 0;
+  for (const IndexedMesh& scan : scans) {
+    for (const ScanPlacement placement : {ScanPlacement::Fitted, ScanPlacement::OnSurface}) {
+      for (const int nodes : {20, 150}) {
+        OnScanOptions on_scan;
+        on_scan.placement = placement;
+        RemeshOptions options;
+        options.method = on_scan;
+        options.node_count = nodes;
+        options.measures.suggestions = false;
+        const Execution alone(1);
+        if (is_inaccurate(remesh(scan, options, alone))) ++inaccurate;
+        options.measures.suggestions = true;
+        const Execution both(2);
+        remesh(scan, options, both);
+        EXPECT_LE(both.work(), 2 * alone.work()) << nodes;
+      }
+    }
+  }
+  EXPECT_GE(inaccurate, 5);
+}
+
+TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   // Points of a ball, and strays inside it as scanners leave them.
   IndexedMesh cloud = {fibonacci_lattice(4000), {}};
   for (const Vector3& p : fibonacci_lattice(400)) cloud.points.push_back(0.6 * p);
   RemeshOptions options = options_of(300, Weighting::Area);
   options.points = true;
   const RemeshResult spiky = remesh(cloud, options, Execution(1));
-  EXPECT_TRUE(has_warning(spiky, "take their envelope")) << spiky.steep_area_fraction;
-  options.envelope.opening_percent = 10.0;  // the advice
+  EXPECT_TRUE(has_warning(spiky, "Make a surface of them first")) << spiky.steep_area_fraction;
+  options.envelope.opening_percent = 10.0;
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
-  EXPECT_FALSE(has_warning(wrapped, "take their envelope"));
-  EXPECT_TRUE(has_warning(wrapped, "taken by its envelope:"));
+  EXPECT_FALSE(has_warning(wrapped, "Make a surface of them first"));
+  EXPECT_TRUE(has_warning(wrapped, "taken by its shrink-wrap:"));
   cloud.triangles = {{0, 1, 2}};
   const RemeshResult with_faces = remesh(cloud, options, Execution(1));
   EXPECT_EQ(with_faces.mesh.points, wrapped.mesh.points);
@@ -677,19 +751,22 @@ TEST(Remesh, PointsBehindOthersAreAdvisedAnEnvelopeWhichTakesThem) {
   // Faces as wide as the opening, .35, cut off up to .35^2 / 6 of the radius.
   EXPECT_NEAR(wrapped.input.volume / (4.0 * test::pi / 3.0), 1.0, 0.06);
 
-  // Two on one ray have no surface at all, and are told the same.
+  // Two on one ray have no surface at all, and are told the same, and of a wrap that was tried.
   options.envelope.opening_percent = 0.0;
-  try {
-    remesh({{Vector3(1, 0, 0), Vector3(2, 0, 0), Vector3(-1, 0, 0), Vector3(-2, 0, 0),
-             Vector3(0, 1, 0), Vector3(0, -1, 0), Vector3(0, 0, 1), Vector3(0, 0, -1)},
-            {}},
-           options, Execution(1));
-    ADD_FAILURE() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
-    EXPECT_NE(std::string(error.what()).find("take their envelope"), std::string::npos)
-        << error.what();
+  cloud = {};
+  // 512 points whose mean is 0 without rounding.
+  for (double x = -2.0; x <= 2.0; ++x) {
+    for (double y = -3.5; y <= 3.5; ++y) {
+      for (double z = -4.5; z <= 4.5; ++z) {
+        if (std::abs(x) < 2.0 && std::abs(y) < 3.5 && std::abs(z) < 4.5) continue;
+        cloud.points.insert(cloud.points.end(), {Vector3(x, y, z), 0.5 * Vector3(x, y, z)});
+      }
+    }
   }
+  const std::string sentence =
+      test::refusal(ErrorCode::NumericalFailure, [&] { remesh(cloud, options, Execution(1)); });
+  EXPECT_NE(sentence.find("Make a surface of them first"), std::string::npos) << sentence;
+  expect_that_the_advice_works(cloud, options, sentence);
 }
 
 TEST(Remesh, ProgressNeverGoesBackNorFallsSilent) {

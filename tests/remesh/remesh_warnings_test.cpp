@@ -70,6 +70,20 @@ TEST(RemeshWarnings, ThereAreNoneOfACleanResult) {
   EXPECT_EQ(warnings, std::vector<std::string>{"Far away."});
 }
 
+TEST(RemeshWarnings, TellAnSdqThatIsWhatItsClipSays) {
+  expect_warnings({{[](RemeshResult& r) {
+                      r.original.sdq = 0.5;
+                      r.original.sdq_half_clip = 0.52;
+                      r.original.sdq_clipped_share = 0.09;
+                    },
+                    {"Walls of the scan stand along rays", "9 % of its square", "4 % larger"}},
+                   {[](RemeshResult& r) {
+                      r.original.sdq = 0.5;
+                      r.original.sdq_half_clip = 0.509;
+                    },
+                    {}}});
+}
+
 TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
   const auto points = [](RemeshResult& r, double steep) {
     r.options.points = true;
@@ -89,12 +103,12 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
        {"taken as points: volume"}},
       {[](RemeshResult& r) { r.steep_area_fraction = 0.5; }, {}},
       {[](RemeshResult& r) { r.options.envelope.opening_percent = 5.0; },
-       {"by its envelope: volume", "narrower than 5 %"}},
+       {"by its shrink-wrap: volume", "narrower than 5 %"}},
       {[&](RemeshResult& r) {
          points(r, 0.5);
          r.options.envelope.opening_percent = 5.0;
        },
-       {"by its envelope, its 196 faces were not used: volume"}},
+       {"by its shrink-wrap, its 196 faces were not used: volume"}},
       {[](RemeshResult& r) { as_published(r).overhang_fraction = 0.01; }, {}},
       {[](RemeshResult& r) { as_published(r).overhang_fraction = 0.011; }, {"Overhangs", "1.1 %"}},
       {[](RemeshResult& r) { r.input.components = 3; }, {"3 separate bodies"}},
@@ -137,20 +151,6 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
       {[](RemeshResult& r) { on_scan(r).handles.kept = 1; }, {"The grain has 1 handle (tunnels"}},
       {[](RemeshResult& r) { on_scan(r).handles.kept = 3; }, {"The grain has 3 handles"}},
   });
-}
-
-TEST(RemeshWarnings, AdviseAnEnvelopeWhereHandlesSpoilTheRemesh) {
-  RemeshResult result = clean();
-  on_scan(result).handles.cut.resize(1);
-  const auto is_advised = [&] {
-    return remesh_warnings(result, "").front().find("its envelope has none") != std::string::npos;
-  };
-  EXPECT_FALSE(is_advised());
-  on_scan(result).nodes.self_intersections = 1;
-  EXPECT_TRUE(is_advised());
-  on_scan(result).nodes.self_intersections = 0;
-  result.rms_distance = 0.03;  // of a radius of 2
-  EXPECT_TRUE(is_advised());
 }
 
 TEST(RemeshWarnings, TellASurfaceThatIsFarOffTheScan) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,6 +28,9 @@ struct Trials {
   };
 };
 
+/// Work of a run that any trial is affordable beside.
+constexpr std::uint64_t much = std::uint64_t{1} << 60;
+
 TEST(Suggestions, TryOneSettingWithAsManyNodes) {
   std::vector<RemeshOptions> runs(4);
   runs[1].method = AsPublishedOptions();
@@ -40,7 +45,7 @@ TEST(Suggestions, TryOneSettingWithAsManyNodes) {
     run.target.percent = 1.0;
     run.measures.distances = true;
     Trials trials;
-    const auto suggestions = suggest_settings(run, trials.remesh_with, Execution(1));
+    const auto suggestions = suggest_settings(run, much, trials.remesh_with, Execution(1));
     // Of a run's cost each, so no second one, and none of more nodes.
     ASSERT_EQ(trials.tried.size(), 1U);
     EXPECT_EQ(trials.tried[0].node_count, 700);
@@ -56,6 +61,46 @@ TEST(Suggestions, TryOneSettingWithAsManyNodes) {
   }
 }
 
+TEST(Suggestions, CostNoMoreThanTheRun) {
+  RemeshOptions run;
+  run.node_count = 100;
+  Trials trials;
+  // Known beforehand to cost more.
+  EXPECT_TRUE(suggest_settings(run, 999999, trials.remesh_with, Execution(1)).empty());
+  EXPECT_TRUE(trials.tried.empty());
+  EXPECT_EQ(suggest_settings(run, 1000000, trials.remesh_with, Execution(1)).size(), 1U);
+  // Found out on the way.
+  std::uint64_t done = 0;
+  const auto costly = [&](const RemeshOptions&, const Execution& execution) -> RemeshResult {
+    for (int round = 0; round < 1000; ++round) {
+      execution.part(0.0, 0.5).parallel_for(3000, 100, [](std::size_t, std::size_t) {});
+      done += 3000;
+    }
+    return {};
+  };
+  EXPECT_TRUE(suggest_settings(run, 1000000, costly, Execution(2)).empty());
+  EXPECT_LE(done, 500000U);
+  EXPECT_GT(done, 490000U);
+}
+
+TEST(Suggestions, WrapsAreTriedUntilOneWorks) {
+  std::vector<double> tried;
+  const auto only_above = [&](double least) {
+    return [&tried, least](const RemeshOptions& options, const Execution&) -> RemeshResult {
+      EXPECT_FALSE(options.measures.suggestions);
+      tried.push_back(options.envelope.opening_percent);
+      if (options.envelope.opening_percent < least) refuse("Too fine.");
+      return {};
+    };
+  };
+  EXPECT_EQ(working_opening({}, 5.0, only_above(8.0), Execution(1)), 10.0);
+  EXPECT_EQ(tried, (std::vector<double>{5.0, 10.0}));
+  tried.clear();
+  EXPECT_EQ(working_opening({}, 7.0, only_above(30.0), Execution(1)), std::nullopt);
+  EXPECT_EQ(tried, (std::vector<double>{7.0, 14.0}));
+  EXPECT_EQ(working_opening({}, 20.0, only_above(20.0), Execution(1)), 20.0);
+}
+
 TEST(Suggestions, DoNotTryTheRunAgain) {
   OnScanOptions closest;
   closest.weighting = CellWeighting::ErrorAdaptive;
@@ -63,7 +108,7 @@ TEST(Suggestions, DoNotTryTheRunAgain) {
   RemeshOptions run;
   run.method = closest;
   Trials trials;
-  EXPECT_TRUE(suggest_settings(run, trials.remesh_with, Execution(1)).empty());
+  EXPECT_TRUE(suggest_settings(run, much, trials.remesh_with, Execution(1)).empty());
   EXPECT_TRUE(trials.tried.empty());
 }
 
@@ -75,9 +120,9 @@ TEST(Suggestions, WhatFailsOrIsCancelledIsNone) {
   };
   const RemeshOptions run;
   for (const ErrorCode code : {ErrorCode::InvalidInput, ErrorCode::NumericalFailure}) {
-    EXPECT_TRUE(suggest_settings(run, failing(code), Execution(1)).empty());
+    EXPECT_TRUE(suggest_settings(run, much, failing(code), Execution(1)).empty());
   }
-  EXPECT_ERROR(suggest_settings(run, failing(ErrorCode::Cancelled), Execution(1)), Cancelled);
+  EXPECT_ERROR(suggest_settings(run, much, failing(ErrorCode::Cancelled), Execution(1)), Cancelled);
 }
 
 }  // namespace

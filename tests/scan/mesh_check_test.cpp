@@ -18,6 +18,7 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/scan/closing_advice.h"
 #include "wscvt/scan/envelope.h"
 
 namespace wscvt {
@@ -406,25 +407,63 @@ IndexedMesh without_cap(double height) {
   return mesh;
 }
 
-TEST(MeshCheck, AdvisesAnEnvelopeThatClosesTheHolesAndOnlyWhereOneDoes) {
+/// The opening of a shrink-wrap that is worth a trial; 0 where the refusal names none.
+double opening_for(const IndexedMesh& mesh, const MeshCheckOptions& options = {}) {
+  try {
+    check_mesh(mesh, options, Execution(1));
+    ADD_FAILURE() << "not refused";
+  } catch (const WrappableScan& refused) {
+    EXPECT_EQ(refused.code(), ErrorCode::InvalidInput);
+    return refused.opening_percent();
+  }
+  return 0.0;
+}
+
+TEST(MeshCheck, NamesAnOpeningThatClosesTheHoles) {
   // A hole .49 wide; the box's diagonal is 3.4.
   MeshCheckOptions options;
   options.mended_area_limit_percent = 1.0;
   const IndexedMesh small = without_cap(0.97);
-  std::string sentence = refusal(small, options);
-  std::smatch number;
-  ASSERT_TRUE(std::regex_search(sentence, number, std::regex("envelope of ([0-9]+) %")))
-      << sentence;
-  const double percent = std::stod(number[1]);
-  EXPECT_LE(percent, 20.0);
+  const double percent = opening_for(small, options);
+  EXPECT_LE(percent, coarsest_tried_percent);
   const IndexedMesh closed = envelope_of(small, {percent}, Execution(1));
   const MeshCheckReport report = check(closed).report;
   EXPECT_EQ(report.genus, 0);
   // Of a hole that is not closed the wrap takes both sides, which is next to no volume.
   EXPECT_NEAR(report.volume, 4.0 * test::pi / 3.0, 0.2 * 4.0 * test::pi / 3.0);
+  EXPECT_GT(opening_for(without_cap(0.5)), coarsest_tried_percent);
+  // The widest hole counts, wherever it stands.
+  IndexedMesh two = small;
+  two.triangles.erase(two.triangles.begin() + 9);
+  EXPECT_EQ(opening_for(two, options), percent);
+  std::reverse(two.points.begin(), two.points.end());
+  for (Triangle& t : two.triangles) {
+    for (std::int32_t& v : t) v = static_cast<std::int32_t>(two.points.size()) - 1 - v;
+  }
+  std::reverse(two.triangles.begin(), two.triangles.end());
+  EXPECT_EQ(opening_for(two, options), percent);
+}
 
-  sentence = refusal(without_cap(0.5));
-  EXPECT_EQ(sentence.find("envelope"), std::string::npos) << sentence;
+TEST(MeshCheck, CountsTheFacesTurnedOfAnOpenScan) {
+  IndexedMesh open = sphere(2);
+  open.triangles.pop_back();
+  for (std::size_t f = 0; f < open.triangles.size(); ++f) {
+    if (f % 5 != 0) std::swap(open.triangles[f][0], open.triangles[f][1]);
+  }
+  const std::size_t outward = (open.triangles.size() + 4) / 5;
+  EXPECT_EQ(check(open).report.reoriented_faces, open.triangles.size() - outward);
+  for (Triangle& t : open.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(check(open).report.reoriented_faces, outward);
+}
+
+TEST(MeshCheck, TellsWeldedVerticesFromThoseWithoutAFace) {
+  IndexedMesh soup = test::unwelded(sphere(1));
+  const std::size_t corners = soup.points.size();
+  soup.points.insert(soup.points.end(), 2, Vector3(0.1, 0.2, 0.3));
+  soup.points.emplace_back(0.3, 0.2, 0.1);
+  const MeshCheckReport report = check(soup).report;
+  EXPECT_EQ(report.welded_vertices, corners - sphere(1).points.size() + 1);
+  EXPECT_EQ(report.unreferenced_vertices, 2U);
 }
 
 TEST(MeshCheck, ClosesAnySurfaceWithFacesMissing) {

@@ -66,6 +66,31 @@ TEST_F(MeshIo, WritesAndReadsBackEveryFormat) {
   }
 }
 
+TEST_F(MeshIo, SaysWhichCoordinatesAFileKeeps) {
+  const IndexedMesh mesh = test::transformed(test::lumpy(2), Eigen::Matrix3d::Identity(), far_away);
+  for (const auto coordinates : {PlyCoordinates::Double, PlyCoordinates::Float}) {
+    for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+      SCOPED_TRACE(name);
+      const IndexedMesh kept = as_written(mesh, path(name), coordinates);
+      const bool is_stl = std::string(name) == "a.stl";
+      // Nearer, where STL takes it: its corners are points of their own.
+      const IndexedMesh near = is_stl ? as_written(test::lumpy(2), path(name)) : kept;
+      write_mesh(is_stl ? test::lumpy(2) : mesh, path(name), coordinates);
+      const IndexedMesh back = read_mesh(path(name));
+      ASSERT_EQ(back.triangles.size(), near.triangles.size());
+      for (std::size_t f = 0; f < near.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          ASSERT_EQ(back.points[back.triangles[f][k]], near.points[near.triangles[f][k]]);
+        }
+      }
+      EXPECT_EQ(kept.triangles, mesh.triangles);
+      const bool is_single =
+          is_stl || (std::string(name) == "a.ply" && coordinates == PlyCoordinates::Float);
+      EXPECT_EQ(kept.points == mesh.points, !is_single);
+    }
+  }
+}
+
 TEST_F(MeshIo, ReadsFilesOfManyBuffersWhereverTheirLinesEnd) {
   // Buffers are of 256 KiB. A first line of 0 to 69 characters more moves all that follow, so that
   // some line ends at each place about a buffer's end.

@@ -292,6 +292,9 @@ TEST_F(HeaderVolumes, ReadsMetaImageInManyFilesAndOfMoreThanOneVolume) {
   }
   write("a.mhd", meta("ElementDataFile = s_%03d.raw 0\n"));
   expect_refused("a.mhd", {"s_000.raw"});
+  write_slices("t_", ".raw", 5, 1, 3);  // the last follows from the first
+  write("a.mhd", meta("ElementDataFile = t_%03d.raw 5\n"));
+  expect_made("a.mhd");
   write("a.mha", meta("ElementNumberOfChannels = 2\nDistanceUnits = mm\nElementSpacing = 1 2 "
                       "3\nElementDataFile = LOCAL\n") +
                      mixed<std::uint16_t>(2, true));

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +15,12 @@ namespace wscvt {
 /// Called on the thread that called the library, with the share of the work done in [0, 1] and the
 /// name of the stage. Returning false cancels: the library throws Error(Cancelled).
 using ProgressCallback = std::function<bool(double fraction, const std::string& stage)>;
+
+/// Work went beyond what it may cost, see Execution::counted.
+class WorkExceeded : public std::exception {
+ public:
+  const char* what() const noexcept override { return "The work costs more than it may."; }
+};
 
 /// How to run: number of threads, and progress with cancel. Cheap to copy. Whatever takes one may
 /// throw Error(Cancelled), also where its comment does not say so.
@@ -30,6 +39,15 @@ class Execution {
   /// The same execution, whose progress fills only [begin, end] of this one's; 0 <= begin <= end
   /// <= 1.
   Execution part(double begin, double end) const;
+
+  /// The same execution with a count of its own of what is done, from 0; it counts for this one as
+  /// well. A loop that takes it above `most` throws WorkExceeded.
+  Execution counted(std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
+
+  /// How much was done by this execution, its copies and parts: the elements of all their loops,
+  /// of which most take some hundredths to tenths of a microsecond. A measure that, other than a
+  /// clock, gives the same on every machine and any number of threads.
+  std::uint64_t work() const;
 
   /// Calls body(begin, end) for consecutive blocks of at most `block` >= 1 indices covering [0,
   /// count), possibly at the same time. Exceptions from the body reach the caller.
@@ -53,7 +71,9 @@ class Execution {
 
  private:
   class Arena;
+  struct Count;
   std::shared_ptr<Arena> arena_;
+  std::shared_ptr<Count> count_;
   ProgressCallback progress_;
   double progress_begin_ = 0.0;
   double progress_end_ = 1.0;

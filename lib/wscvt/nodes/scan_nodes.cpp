@@ -87,7 +87,6 @@ std::size_t genus_of(const EditMesh& mesh) {
 }  // namespace
 
 struct ScanRemesher::Parts {
-  ScanNodesOptions options;
   SampledScan scan;
   Coarsening base;                          ///< of the scan, as far as any number of nodes wants it
   std::vector<std::int32_t> base_clusters;  ///< its vertex for each of the scan; empty: the same
@@ -192,7 +191,8 @@ std::vector<std::int32_t> places_on(const EditMesh& surface, const EditMesh& nod
 }  // namespace
 
 ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& options,
-                           int most_nodes, const Execution& execution) {
+                           int most_nodes, const Execution& execution)
+    : options_(options) {
   check_scan_options(options);
   execution.report(0.0, "Coarsening the scan");
   std::vector<Vector3> normals = vertex_normals(normalized_scan.points, normalized_scan.triangles);
@@ -200,34 +200,38 @@ ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& 
   const MeshSums sums =
       mesh_sums(normalized_scan.points, normalized_scan.triangles, Vector3::Zero(), execution);
   const std::size_t genus = genus_of(mesh);
-  parts_ = std::make_unique<Parts>(Parts{options,
-                                         {std::move(normalized_scan), std::move(normals)},
-                                         Coarsening(std::move(mesh), {}),
-                                         {},
-                                         sums.volume(),
-                                         sums.area(),
-                                         genus});
-  const std::size_t vertices = parts_->base.size();
+  const auto parts = std::make_shared<Parts>(Parts{{std::move(normalized_scan), std::move(normals)},
+                                                   Coarsening(std::move(mesh), {}),
+                                                   {},
+                                                   sums.volume(),
+                                                   sums.area(),
+                                                   genus});
+  parts_ = parts;
+  const std::size_t vertices = parts->base.size();
   // A number that is tried where fewer are too few gives the same as when it is asked for.
-  sweep_to_proxy(parts_->base, static_cast<std::size_t>(most_tried_times * std::max(most_nodes, 4)),
+  sweep_to_proxy(parts->base, static_cast<std::size_t>(most_tried_times * std::max(most_nodes, 4)),
                  execution);
-  if (parts_->base.size() == vertices) return;
-  parts_->base_clusters.resize(vertices);
+  if (parts->base.size() == vertices) return;
+  parts->base_clusters.resize(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
-    parts_->base_clusters[v] = parts_->base.cluster_of(static_cast<std::int32_t>(v));
+    parts->base_clusters[v] = parts->base.cluster_of(static_cast<std::int32_t>(v));
   }
-  parts_->base.forget();
+  parts->base.forget();
 }
 
-ScanRemesher::ScanRemesher(ScanRemesher&&) noexcept = default;
-ScanRemesher& ScanRemesher::operator=(ScanRemesher&&) noexcept = default;
-ScanRemesher::~ScanRemesher() = default;
+ScanRemesher ScanRemesher::with(const ScanNodesOptions& options) const {
+  check_scan_options(options);
+  ScanRemesher other = *this;
+  other.options_ = options;
+  return other;
+}
 
 namespace {
 
 /// Coarsens to the surface that nodes are evened on, then to the nodes.
 template <class Parts>
-Placing coarsen_to_nodes(const Parts& parts, int node_count, const Execution& execution) {
+Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, int node_count,
+                         const Execution& execution) {
   Placing placing;
   Coarsening coarsening = parts.base;
   const bool is_coarse =
@@ -250,13 +254,11 @@ Placing coarsen_to_nodes(const Parts& parts, int node_count, const Execution& ex
   coarsening.forget();
   placing.surface.mesh = coarsening.mesh();
   const IndexedMesh surface = {placing.surface.mesh.points, placing.surface.mesh.triangles};
-  const Steepness& steepness = parts.options.weighting == CellWeighting::Curvature
-                                   ? curvature_steepness
-                                   : adaptive_steepness;
+  const Steepness& steepness =
+      options.weighting == CellWeighting::Curvature ? curvature_steepness : adaptive_steepness;
   placing.surface.density = steepened(
-      node_densities(surface, parts.options.weighting, parts.options.curvature_alpha, node_count,
-                     execution),
-      surface, parts.options.fitted ? steepness.fitted : steepness.evened, steepness.most);
+      node_densities(surface, options.weighting, options.curvature_alpha, node_count, execution),
+      surface, options.fitted ? steepness.fitted : steepness.evened, steepness.most);
   if (!placing.surface.density.empty()) {
     coarsening = Coarsening(placing.surface.mesh, placing.surface.density);
   }
@@ -292,9 +294,9 @@ std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& pla
 /// Fits the nodes to the scan and gives them its volume; what meets then is parted, and the volume
 /// given again. `mean_square`: of the samples' distances.
 template <class Parts>
-EditMesh fit(const Parts& parts, const Placing& placing, ScanNodesReport& report,
-             double& mean_square, const Execution& execution) {
-  const FitDial dial = fit_dial(parts.options.edge_ratio);
+EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing& placing,
+             ScanNodesReport& report, double& mean_square, const Execution& execution) {
+  const FitDial dial = fit_dial(options.edge_ratio);
   std::vector<std::int32_t> near;
   std::vector<FitSample> samples = samples_near_nodes(parts, placing, dial, near);
   FitState state(placing.nodes, std::move(samples), near, dial, execution);
@@ -346,7 +348,7 @@ std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
   const Parts& parts = *parts_;
   ScanNodes result;
   ScanNodesReport& report = result.report;
-  Placing placing = coarsen_to_nodes(parts, node_count, execution.part(0.0, 0.2));
+  Placing placing = coarsen_to_nodes(parts, options_, node_count, execution.part(0.0, 0.2));
   if (placing.nodes.triangles.empty()) return std::nullopt;
   report.scan_vertices = parts.scan.mesh.points.size();
   if (!placing.split.mesh.points.empty()) {
@@ -361,7 +363,7 @@ std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
   double nearest = std::numeric_limits<double>::infinity();
   int evened = 0;
   const bool is_thin = parts.area > thin_area;
-  const int starts = parts.options.fitted && is_thin ? thin_starts : 1;
+  const int starts = options_.fitted && is_thin ? thin_starts : 1;
   for (int start = 0; start < starts; ++start) {
     const Execution part =
         execution.part(0.2 + 0.75 * start / starts, 0.2 + 0.75 * (start + 1) / starts);
@@ -375,8 +377,8 @@ std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
     tried.mended_intersections = parted.before - parted.after;
     EditMesh candidate = placing.nodes;
     double mean_square = 0.0;
-    if (parts.options.fitted) {
-      candidate = fit(parts, placing, tried, mean_square, part.part(0.28, 1.0));
+    if (options_.fitted) {
+      candidate = fit(parts, options_, placing, tried, mean_square, part.part(0.28, 1.0));
     }
     if (mean_square >= nearest) continue;
     nearest = mean_square;

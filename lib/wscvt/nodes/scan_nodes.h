@@ -37,9 +37,10 @@ class ScanRemesher {
   /// Throws Error(InvalidInput) for options out of range, Error(Cancelled).
   ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& options, int most_nodes,
                const Execution& execution);
-  ScanRemesher(ScanRemesher&&) noexcept;
-  ScanRemesher& operator=(ScanRemesher&&) noexcept;
-  ~ScanRemesher();
+
+  /// The same for other options, without the work of making it ready. Throws Error(InvalidInput)
+  /// for options out of range.
+  ScanRemesher with(const ScanNodesOptions& options) const;
 
   /// Exactly `node_count` nodes, 4 to `most_nodes`. The same bytes on any number of threads. Throws
   /// Error(InvalidInput) where a body with handles cannot be triangulated by so few; the sentence
@@ -50,7 +51,8 @@ class ScanRemesher {
   struct Parts;
   std::optional<ScanNodes> try_to_place(int node_count, const Execution& execution) const;
   int enough_above(int node_count, const Execution& execution) const;
-  std::unique_ptr<Parts> parts_;
+  ScanNodesOptions options_;
+  std::shared_ptr<const Parts> parts_;
 };
 
 }  // namespace wscvt

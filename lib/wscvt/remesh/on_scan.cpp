@@ -46,10 +46,21 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
 
 ScanMethod::ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
                        bool with_curvatures, const Execution& execution)
+    : ScanMethod(scan, options, with_curvatures,
+                 ScanRemesher(scan.mesh, nodes_options(options), most_nodes, execution)) {}
+
+ScanMethod::ScanMethod(const NormalizedScan& scan, const OnScanOptions& options,
+                       bool with_curvatures, ScanRemesher remesher)
     : scan_(scan),
       options_(options),
       with_curvatures_(with_curvatures),
-      remesher_(scan.mesh, nodes_options(options), most_nodes, execution) {}
+      remesher_(std::move(remesher)) {}
+
+std::unique_ptr<ScanMethod> ScanMethod::with(const OnScanOptions& options,
+                                             bool with_curvatures) const {
+  return std::unique_ptr<ScanMethod>(
+      new ScanMethod(scan_, options, with_curvatures, remesher_.with(nodes_options(options))));
+}
 
 Nodes ScanMethod::place(int node_count, const Execution& execution) const {
   ScanNodes placed = remesher_.place(node_count, execution.part(0.0, 0.95));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include "wscvt/base/execution.h"
 #include "wscvt/nodes/scan_nodes.h"
 #include "wscvt/remesh/normalized_scan.h"
@@ -27,9 +29,16 @@ class ScanMethod : public RemeshMethod {
   ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
              bool with_curvatures, const Execution& execution);
 
+  /// The same for other options and as many nodes at most. Throws Error(InvalidInput) for options
+  /// out of range.
+  std::unique_ptr<ScanMethod> with(const OnScanOptions& options, bool with_curvatures) const;
+
   Nodes place(int node_count, const Execution& execution) const override;
 
  private:
+  ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, bool with_curvatures,
+             ScanRemesher remesher);
+
   const NormalizedScan& scan_;
   OnScanOptions options_;
   bool with_curvatures_;

@@ -81,12 +81,16 @@ double equivalent_radius(const IndexedMesh& mesh, const Execution& execution) {
   return std::cbrt(3.0 * volume / (4.0 * pi));
 }
 
-/// Makes the method ready that the options hold. This is where it is chosen.
-void choose_method(const RemeshOptions& options, const Execution& execution, PreparedGrain& grain) {
+/// Makes the method ready that the options hold. This is where it is chosen. `before`: what was
+/// made ready for the same scan, or nullptr.
+void choose_method(const RemeshOptions& options, const ScanMethod* before,
+                   const Execution& execution, PreparedGrain& grain) {
   const bool with_curvatures = options.measures.node_curvatures;
   if (const auto* on_scan = std::get_if<OnScanOptions>(&options.method)) {
-    grain.method = std::make_unique<ScanMethod>(grain.scan, *on_scan, most_nodes(options),
-                                                with_curvatures, execution.part(0.0, 0.8));
+    grain.method = before != nullptr
+                       ? before->with(*on_scan, with_curvatures)
+                       : std::make_unique<ScanMethod>(grain.scan, *on_scan, most_nodes(options),
+                                                      with_curvatures, execution.part(0.0, 0.8));
     if (options.measures.coefficients) {
       grain.coefficients =
           scan_harmonics(grain.scan.mesh, options.degree, execution.part(0.8, 0.9));
@@ -114,7 +118,7 @@ void prepare(CheckedMesh checked, const RemeshOptions& options, const Execution&
   grain.input = checked.report;
   grain.scan = normalize(std::move(checked.mesh), checked.report.centroid,
                          checked.report.equivalent_radius, execution.part(0.1, 0.2));
-  choose_method(options, execution.part(0.2, 1.0), grain);
+  choose_method(options, nullptr, execution.part(0.2, 1.0), grain);
 }
 
 void prepare_again(const PreparedGrain& prepared, const RemeshOptions& options,
@@ -122,7 +126,7 @@ void prepare_again(const PreparedGrain& prepared, const RemeshOptions& options,
   grain.scan = prepared.scan;
   grain.input = prepared.input;
   grain.handles = prepared.handles;
-  choose_method(options, execution, grain);
+  choose_method(options, dynamic_cast<const ScanMethod*>(prepared.method.get()), execution, grain);
 }
 
 void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, double unit,
@@ -183,10 +187,13 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.original_quality = grain.scan.quality;
   to_input_units(grain.scan.unit, grain.scan.centre, result);
   if (auto* report = std::get_if<OnScanReport>(&result.method)) {
-    // Again, of the triangles that are given back: in the scan's place their corners are rounded
-    // anew, and where sheets lie close other pairs may intersect than about the origin.
+    // Again, of the triangles that are given back or written: in the scan's place, or with fewer
+    // digits, their corners are rounded anew, and where sheets lie close other pairs may intersect
+    // than about the origin.
+    const auto& written = options.measures.written;
     report->nodes.self_intersections =
-        self_intersections(result.mesh, execution.part(0.98, 1.0)).size();
+        self_intersections(written ? written(result) : result.mesh, execution.part(0.98, 1.0))
+            .size();
   }
   return result;
 }

@@ -38,8 +38,9 @@ struct PreparedGrain {
 void prepare(CheckedMesh checked, const RemeshOptions& options, const Execution& execution,
              PreparedGrain& grain);
 
-/// Makes the same scan ready for other options, with what was done about its handles. `grain` is
-/// empty before.
+/// Makes the same scan ready for other options with as many nodes, with what was done about its
+/// handles and, of the method on the scan, what does not depend on its options. `prepared` must
+/// outlive `grain`, which is empty before.
 void prepare_again(const PreparedGrain& prepared, const RemeshOptions& options,
                    const Execution& execution, PreparedGrain& grain);
 

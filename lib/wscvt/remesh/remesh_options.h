@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string_view>
 #include <type_traits>
 #include <variant>
 
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
 #include "wscvt/nodes/nodes_options.h"
 #include "wscvt/nodes/scan_nodes_options.h"
@@ -13,6 +15,8 @@
 #include "wscvt/tessellation/tessellation_options.h"
 
 namespace wscvt {
+
+struct RemeshResult;
 
 /// How the nodes are found. Each method has options of its own.
 enum class Method {
@@ -147,6 +151,9 @@ struct MeasureOptions {
   bool coefficients = false;     ///< fill RemeshResult::coefficients, also on the scan
   bool repaired_scan = false;    ///< fill RemeshResult::repaired_scan
   bool suggestions = true;  ///< fill RemeshResult::suggestions where the remesh is not accurate
+  /// The mesh that is made of a result, where coordinates are rounded or turned before they are
+  /// written: its self-intersections are those that are counted. Empty: the result's own mesh.
+  std::function<IndexedMesh(const RemeshResult&)> written;
 };
 
 /// Everything a caller may choose: what both methods need, and the options of one of them. The

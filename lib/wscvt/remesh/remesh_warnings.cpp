@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/scan/closing_advice.h"
 #include "wscvt/scan/voxel_steps.h"
 
@@ -38,9 +39,9 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
     }
   }
   if (wraps) {
-    warnings.push_back("The scan was taken by its envelope" + unused +
+    warnings.push_back("The scan was taken by its shrink-wrap" + unused +
                        ": volume, area and distances of the original are those "
-                       "of the envelope, in which what is narrower than " +
+                       "of the shrink-wrap, in which what is narrower than " +
                        format_percent(0.01 * result.options.envelope.opening_percent) +
                        " of the bounding box is filled. Check the result against the scan.");
   }
@@ -79,9 +80,6 @@ void warn_of_handles(const RemeshResult& result, Sentences& warnings) {
     std::string text = std::to_string(cut) + (cut == 1 ? " handle" : " handles") + " of the scan " +
                        (cut == 1 ? "was" : "were") + " cut, which changed its volume by " +
                        format_percent(std::abs(handles.volume_change)) + ". The log says where.";
-    if (report->nodes.self_intersections > 0 || is_inaccurate(result)) {
-      text += " " + envelope_of_flaws_advice();
-    }
     warnings.push_back(text);
   }
   if (handles.kept > 0) {
@@ -101,7 +99,7 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
                      " of triangles of the remesh intersect: ";
   const std::size_t of_scan = report->nodes.scan_self_intersections;
   if (of_scan > 0) {
-    text += "so do " + std::to_string(of_scan) + " of the scan. " + envelope_of_flaws_advice();
+    text += "so do " + std::to_string(of_scan) + " of the scan. Mend the scan first.";
   } else {
     text += "parts of the grain are closer together than " + nodes + " can follow. ";
     text += report->nodes.enough_nodes > 0
@@ -247,6 +245,8 @@ std::vector<std::string> remesh_warnings(const RemeshResult& result,
   warn_of_handles(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_distance(result, warnings);
+  const std::string clipped = sdq_clip_sentence("the scan", result.original);
+  if (!clipped.empty()) warnings.push_back(clipped);
   warn_of_self_intersections(result, warnings);
   warn_of_relaxation(result, warnings);
   warn_of_angles(result, warnings);

@@ -119,16 +119,6 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   }
 }
 
-/// What to do about openings as wide as that share of the bounding box's diagonal, as part of a
-/// sentence: only its comma where an envelope of that opening would follow the scan no more.
-std::string envelope_advice(double widest_share) {
-  constexpr double coarsest_percent = 20.0;
-  // A ball as wide as the hole still sinks into it a little.
-  const double percent = std::max(2.0, std::ceil(120.0 * widest_share));
-  if (percent > coarsest_percent) return ",";
-  return ", take its envelope of " + format_number(percent) + " % (" + where_envelopes_are() + "),";
-}
-
 /// Refuses when more area was mended than allowed. `widest_share`: of the holes, of the bounding
 /// box's diagonal.
 void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, double widest_share,
@@ -145,13 +135,17 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, 
     found += (found.empty() ? "" : ", and ") + count_of(boundary_edges, "boundary edge") +
              " around " + count_of(report.filled_holes, "hole");
   }
-  refuse("The mesh has " + found + ". Mending that would change " + format_percent(mended) +
-         " of its area, above the limit of " + format_percent(limit) +
-         "; raise the limit of the area that may be mended above " + format_percent(mended) +
-         " (--" + std::string(mended_area_limit_option.key) +
-         " in the program, Mend limit in the filter with all parameters) and check the result "
-         "against the scan" +
-         envelope_advice(widest_share) + " or scan the grain again.");
+  const std::string sentence =
+      "The mesh has " + found + ". Mending that would change " + format_percent(mended) +
+      " of its area, above the limit of " + format_percent(limit) +
+      "; raise the limit of the area that may be mended above " + format_percent(mended) + " (--" +
+      std::string(mended_area_limit_option.key) +
+      " in the program, Mend limit in the filter with all parameters) and check the result "
+      "against the scan, close the openings first (" +
+      where_meshlab_closes() + "), or scan the grain again.";
+  // A ball as wide as the hole still sinks into it a little.
+  const double percent = std::max(finest_tried_percent, std::ceil(120.0 * widest_share));
+  throw WrappableScan(ErrorCode::InvalidInput, sentence, percent);
 }
 
 }  // namespace
@@ -253,10 +247,13 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
     look_again();
   }
   if (!components.list[main].orientable) {
-    refuse(std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
-           " is not orientable: its faces cannot all be turned to face outward, so they enclose "
-           "nothing; take its envelope, which has two sides (" +
-           where_envelopes_are() + "); 5 % of the bounding box is a start.");
+    throw WrappableScan(
+        ErrorCode::InvalidInput,
+        std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
+            " is not orientable: its faces cannot all be turned to face outward, so they enclose "
+            "nothing; give it two sides first (" +
+            where_meshlab_closes() + "), or scan the grain again.",
+        finest_tried_percent);
   }
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;

@@ -281,6 +281,22 @@ bool is_mesh_file(const std::string& path) {
   return format != nullptr && format->has_faces;
 }
 
+IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates coordinates) {
+  const Format& format = format_of(path, MeshUse::Write);
+  const bool is_single = format.write == write_stl ||
+                         (format.write == write_ply && coordinates == PlyCoordinates::Float);
+  const bool is_short = format.write == write_by<write_abaqus>;
+  if (!is_single && !is_short) return mesh;
+  for (Vector3& p : mesh.points) {
+    for (double& coordinate : p) {
+      // Volatile: optimised, GCC 12 leaves the rounding to single precision out.
+      volatile const auto single = static_cast<float>(coordinate);
+      coordinate = is_short ? kept_by_abaqus(coordinate) : static_cast<double>(single);
+    }
+  }
+  return mesh;
+}
+
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
   const std::size_t lost = format.write == write_stl ? fallen_together(mesh.points) : 0;

@@ -51,6 +51,11 @@ bool is_mesh_file(const std::string& path);
 /// How many digits a binary PLY file keeps of each coordinate.
 enum class PlyCoordinates { Double, Float };
 
+/// The mesh with the coordinates that write_mesh keeps in a file of that name. Throws as
+/// check_mesh_format.
+IndexedMesh as_written(IndexedMesh mesh, const std::string& path,
+                       PlyCoordinates coordinates = PlyCoordinates::Double);
+
 /// Writes a mesh in the format of the extension, whole or not at all (see write_file): PLY, STL,
 /// OBJ, OFF, VTK (legacy), VTP, VTU, MSH (Gmsh 4.1) and INP (Abaqus). PLY is binary, with double
 /// coordinates unless told otherwise, STL binary with the float coordinates of that format, or

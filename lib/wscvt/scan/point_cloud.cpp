@@ -36,10 +36,13 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
     const auto triangulation =
         SphereTriangulation::try_build(directions, std::vector<double>(), part);
     if (!triangulation) {
-      throw Error(ErrorCode::NumericalFailure,
-                  "No surface with one radius in each direction goes through the points: they do "
-                  "not surround their centre, or two lie on one ray from it. " +
-                      surface_of_points_advice());
+      // The wrap falls through gaps between points that are as wide as its opening.
+      constexpr double first_percent = 10.0;
+      throw WrappableScan(ErrorCode::NumericalFailure,
+                          "No surface with one radius in each direction goes through the points: "
+                          "they do not surround their centre, or two lie on one ray from it. " +
+                              surface_of_points_advice(),
+                          first_percent);
     }
     mesh.triangles = triangulation->triangles();
     centre += mesh_sums(mesh.points, mesh.triangles, centre, part).centroid();

@@ -146,6 +146,12 @@ void write_gmsh(std::ostream& stream, const IndexedMesh& mesh) {
   stream << "$EndElements\n";
 }
 
+double kept_by_abaqus(double coordinate) {
+  const std::string text = short_text(coordinate);
+  std::from_chars(text.data(), text.data() + text.size(), coordinate);
+  return coordinate;
+}
+
 void write_abaqus(std::ostream& stream, const IndexedMesh& mesh) {
   stream << "*HEADING\ngrain\n*NODE\n";
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {

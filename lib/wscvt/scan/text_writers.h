@@ -34,4 +34,7 @@ void write_gmsh(std::ostream& stream, const IndexedMesh& mesh);
 /// have at most 20 characters, of which a coordinate keeps 12 digits or more.
 void write_abaqus(std::ostream& stream, const IndexedMesh& mesh);
 
+/// What write_abaqus keeps of a coordinate.
+double kept_by_abaqus(double coordinate);
+
 }  // namespace wscvt
