@@ -186,7 +186,8 @@ inline constexpr FlagOption distances_option = {"distances", "measure distances"
                                                 "to the scan, both ways, and report them"};
 inline constexpr FlagOption suggestions_option = {
     "suggestions", "suggest better settings",
-    "if the remesh is not accurate: other settings are tried and the best two are named"};
+    "if the remesh is not accurate: another setting is tried at no more cost than the run, and "
+    "named if it is better"};
 
 /// Calls `visitor` for the options of one method, with a number and its NumberOption or
 /// with an enumeration, which has its table. `options` may be const.
