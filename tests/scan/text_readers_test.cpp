@@ -31,7 +31,7 @@ TEST(ObjReader, ReadsWhatOtherProgramsWrite) {
       "\xEF\xBB\xBF# a grain\nmtllib a b.mtl\no grain # 1\ng all\nusemtl none\ns off\n"
       "v 0 0 0\nv\t1.0\t0\t0 0.5 0.5 0.5\nv 1 1 0 1.0\n  v 0 1 0.125 # the last\n"
       "vt 0.5 0.5\nvn 0 0 1\nvp 1\nl 1 2\nl 1/1 2/1 3/1\np 1\n"
-      "f 1/1/1 2//1 3/1 4\nf -4/-1/-1 -3 \\\n -1\nend words of a later version\n";
+      "f 1/1/1 2//1 3/1 4\nf -4/-1/-1 \\\n -3 \\\n -1\nend words of a later version\n";
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     std::string content;
     for (const char c : text) content += c == '\n' ? end : std::string(1, c);

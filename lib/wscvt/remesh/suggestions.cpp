@@ -20,8 +20,8 @@ struct Trial {
   std::uint64_t least_work = 0;
 };
 
-/// Of evening and fitting, a node: 1,900 elements at the default edge ratio, 5,000 at 1.4 with
-/// ERRORADAPTIVE
+/// Of evening and fitting a node: 1,900 elements at the default edge ratio, 5,000 at 1.4 with
+/// error-adaptive weights.
 constexpr std::uint64_t fitted_work = 1900;
 constexpr std::uint64_t closer_work = 5000;
 
