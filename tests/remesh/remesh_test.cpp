@@ -487,6 +487,11 @@ TEST(Remesh, AnOverhangUnderTheLimitIsRemeshedWithAWarning) {
   EXPECT_GT(published_report(bowl).overhang_fraction, overhang_warning_limit);
   EXPECT_LT(published_report(bowl).overhang_fraction, 0.6);
   EXPECT_TRUE(warns_of(bowl, "Overhangs"));
+  const double percent = 100.0 * published_report(bowl).overhang_fraction;
+  published(options).max_overhang_percent = 1.001 * percent;
+  EXPECT_NO_THROW(remesh(mushroom(), options, Execution(1)));
+  published(options).max_overhang_percent = 0.999 * percent;
+  expect_refused(mushroom(), options, ErrorCode::NotStarShaped, "Use the method on-scan");
 
   // Within the limit as it is.
   const AsPublishedOptions usual;

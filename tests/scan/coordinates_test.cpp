@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,22 @@ TEST(Coordinates, SinglePrecisionFarAwayIsNoticed) {
   IndexedMesh in_double = mesh;
   for (Vector3& p : in_double.points) p += Vector3(0, -1e6, 0);
   EXPECT_EQ(precision_warning(in_double), "");
+}
+
+TEST(Coordinates, TheStepOfSinglePrecisionIsTold) {
+  const IndexedMesh mesh = test::lumpy(5);
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += (mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm();
+    }
+  }
+  const double edge = sum / static_cast<double>(3 * mesh.triangles.size());
+  // Floats from 2^16 to 2^17 are 2^-7 apart.
+  const std::string far = precision_warning(rounded(mesh, Vector3(0, 0, 1e5), 0.0));
+  std::smatch steps;
+  ASSERT_TRUE(std::regex_search(far, steps, std::regex("in steps of ([0-9.]+) %"))) << far;
+  EXPECT_NEAR(std::stod(steps[1]), 100.0 / 128.0 / edge, 1.0);
 }
 
 TEST(Coordinates, TooFewDecimalsAreNoticed) {

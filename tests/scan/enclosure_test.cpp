@@ -34,6 +34,24 @@ TEST(Enclosure, TellsInsideFromOutside) {
   EXPECT_EQ(are_inside(inside_out, points, Execution(1)), expected);
 }
 
+TEST(Enclosure, KnowsPointsInLineWithVertices) {
+  // Beside each vertex of a ball, whose facets are at most 0.03 deep, points with its x.
+  const IndexedMesh ball = test::shuffled(test::sphere(2), 5);
+  std::vector<Vector3> points;
+  std::vector<char> expected;
+  for (const Vector3& v : ball.points) {
+    for (const double y : {-0.9, -0.4, 0.0, 0.3, 0.8}) {
+      for (const double z : {-0.7, -0.2, 0.1, 0.6}) {
+        const Vector3 p(v.x(), y, z);
+        if (std::abs(p.norm() - 0.985) < 0.02) continue;
+        points.push_back(p);
+        expected.push_back(p.norm() < 1.0 ? 1 : 0);
+      }
+    }
+  }
+  EXPECT_EQ(are_inside(ball, points, Execution(1)), expected);
+}
+
 TEST(Enclosure, KnowsTheHoleOfATorus) {
   const IndexedMesh torus = test::torus(3.0, 1.0, 60);
   const std::vector<Vector3> points = {{0, 0, 0}, {3, 0, 0}, {-3, 0, 0.5}, {0, 3, 0}, {0, 0, 5}};
