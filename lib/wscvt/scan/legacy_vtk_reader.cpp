@@ -251,12 +251,7 @@ class LegacyVtkReader {
     if (!line) fail_cut();
     TextFields fields(*line);
     for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
-      std::optional<Number> value;
-      if constexpr (std::is_same_v<Number, double>) {
-        value = number_in(field);
-      } else {
-        value = whole_number_in(field);
-      }
+      const std::optional<Number> value = number_of_type<Number>(field);
       if (!value || result.size() == count) {
         reader_.fail_line("has " + in_quotes(field) +
                           (value ? " behind the last of " + std::to_string(count) + " numbers"

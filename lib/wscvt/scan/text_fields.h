@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace wscvt {
 
@@ -41,6 +42,16 @@ std::optional<double> number_in(std::string_view field);
 
 /// The same for whole numbers.
 std::optional<std::int64_t> whole_number_in(std::string_view field);
+
+/// One of the two, by the type: double, or any whole number's.
+template <class Number>
+std::optional<Number> number_of_type(std::string_view field) {
+  if constexpr (std::is_same_v<Number, double>) {
+    return number_in(field);
+  } else {
+    return whole_number_in(field);
+  }
+}
 
 /// A field as a sentence shows it: cut when long, without control characters.
 std::string shown(std::string_view field);

@@ -270,12 +270,7 @@ class VtpReader {
     TextFields fields(rest.substr(0, rest.find('<')));
     std::vector<Number> result;
     for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
-      std::optional<Number> value;
-      if constexpr (std::is_same_v<Number, double>) {
-        value = number_in(field);
-      } else {
-        value = whole_number_in(field);
-      }
+      const std::optional<Number> value = number_of_type<Number>(field);
       if (!value) {
         reader_.fail("has " + in_quotes(field) + " where a number is due" + export_again);
       }
