@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/file_folder.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/scan/mesh_io.h"
@@ -22,21 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using boost::endian::order;
 
-class MeshFormats : public ::testing::Test {
+class MeshFormats : public test::FileFolder {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("wscvt_mesh_formats_") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string file(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
-  }
   std::string content(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(path(name), std::ios::binary).rdbuf();
@@ -49,8 +37,6 @@ class MeshFormats : public ::testing::Test {
     EXPECT_NE(sentence.find(where), std::string::npos) << sentence;
     EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
   }
-
-  fs::path folder_;
 };
 
 template <class Value>

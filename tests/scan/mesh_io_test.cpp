@@ -15,6 +15,7 @@
 
 #include "support/cancelled_runs.h"
 #include "support/expect_error.h"
+#include "support/file_folder.h"
 #include "support/read_content.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -25,30 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class MeshIo : public ::testing::Test {
+class MeshIo : public test::FileFolder {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("wscvt_mesh_io_") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::string file(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
-  }
-
   static std::string refusal(const std::string& where) {
     const std::string sentence = test::refusal(ErrorCode::InputOutput, [&] { read_mesh(where); });
     EXPECT_TRUE(sentence.empty() || sentence.find(where) != std::string::npos) << sentence;
     return sentence;
   }
-
-  fs::path folder_;
 };
 
 using test::bytes;
