@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of the module, each in the file of its name.
+#ifndef WSCVT_PYTHON_BINDINGS_H_
+#define WSCVT_PYTHON_BINDINGS_H_
+
+#include <pybind11/pybind11.h>
+
+namespace wscvt::python {
+
+void bind_error(pybind11::module_& module);
+void bind_options(pybind11::module_& module);
+void bind_remesh(pybind11::module_& module);
+void bind_measures(pybind11::module_& module);
+void bind_files(pybind11::module_& module);
+
+}  // namespace wscvt::python
+
+#endif  // WSCVT_PYTHON_BINDINGS_H_

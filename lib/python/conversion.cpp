@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "conversion.h"
+
+#include <pybind11/stl.h>
+
+#include <utility>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+std::string type_name_of(const py::handle& value) {
+  return py::str(py::type::handle_of(value).attr("__name__")).cast<std::string>();
+}
+
+std::vector<Vector3> points_of(const Points& vertices) {
+  if (vertices.ndim() != 2 || vertices.shape(1) != 3) {
+    refuse("The vertices have another shape than (n, 3); give x, y and z in a row a vertex.");
+  }
+  std::vector<Vector3> points(static_cast<std::size_t>(vertices.shape(0)));
+  const auto rows = vertices.unchecked<2>();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    points[i] = Vector3(rows(row, 0), rows(row, 1), rows(row, 2));
+  }
+  return points;
+}
+
+IndexedMesh mesh_of(const Points& vertices, const py::object& faces) {
+  IndexedMesh mesh;
+  mesh.points = points_of(vertices);
+  if (faces.is_none()) return mesh;
+  const auto array = py::array::ensure(faces);
+  // Numbers with decimals would be cut without a word.
+  if (!array || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')) {
+    throw py::type_error(
+        "The faces are no whole numbers; give the indices of three vertices a row.");
+  }
+  if (array.ndim() != 2 || array.shape(1) != 3) {
+    refuse(
+        "The faces have another shape than (n, 3); give three indices in a row a triangle. Those "
+        "of PyVista are mesh.regular_faces of a triangulated mesh.");
+  }
+  const auto indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
+  const auto rows = indices.unchecked<2>();
+  mesh.triangles.resize(static_cast<std::size_t>(indices.shape(0)));
+  const auto count = static_cast<std::int64_t>(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::int64_t index =
+          rows(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(corner));
+      if (index < 0 || index >= count) {
+        refuse("Face " + std::to_string(i) + " has the vertex " + std::to_string(index) +
+               ", but there are " + std::to_string(count) + "; count them from 0.");
+      }
+      mesh.triangles[i][corner] = static_cast<std::int32_t>(index);
+    }
+  }
+  return mesh;
+}
+
+py::array_t<double> array_of(const std::vector<Vector3>& points) {
+  py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
+  auto rows = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k) rows(static_cast<py::ssize_t>(i), k) = points[i][k];
+  }
+  return array;
+}
+
+py::array_t<double> array_of(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles) {
+  py::array_t<std::int32_t> array({static_cast<py::ssize_t>(triangles.size()), py::ssize_t{3}});
+  auto rows = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      rows(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(k)) = triangles[i][k];
+    }
+  }
+  return array;
+}
+
+py::object parsed(const std::string& json) {
+  return py::module_::import("json").attr("loads")(json);
+}
+
+IndexedMesh mesh_of_reference(const py::object& reference) {
+  try {
+    const auto [vertices, faces] = reference.cast<std::pair<Points, py::object>>();
+    return mesh_of(vertices, faces);
+  } catch (const py::cast_error&) {
+    throw py::type_error("The reference is of type " + type_name_of(reference) +
+                         "; give a pair of arrays, (vertices, faces).");
+  }
+}
+
+}  // namespace wscvt::python

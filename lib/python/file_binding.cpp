@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/stl.h>
+
+#include <string>
+#include <utility>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "wscvt/base/readable_text.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// The mesh of a file, whose warnings become Python's.
+IndexedMesh warned(MeshFile file) {
+  for (const std::string& warning : file.warnings) {
+    if (PyErr_WarnEx(PyExc_UserWarning, readable(warning).c_str(), 1) != 0) {
+      throw py::error_already_set();
+    }
+  }
+  return std::move(file.mesh);
+}
+
+}  // namespace
+
+void bind_files(py::module_& module) {
+  module.def(
+      "read_mesh",
+      [](const std::string& path) {
+        const IndexedMesh mesh = warned(read_mesh_file(path));
+        return std::make_pair(array_of(mesh.points), array_of(mesh.triangles));
+      },
+      py::arg("path"),
+      ("Vertices (n, 3) float64 and faces (m, 3) int32 of a file that ends in " +
+       mesh_extensions(MeshUse::Read) +
+       ", also packed by gzip, as they are: nothing is repaired, and of STL each corner is a "
+       "vertex. Of the last three there are no faces. What is odd about a file is a UserWarning.")
+          .c_str());
+  module.def(
+      "write_mesh",
+      [](const std::string& path, const Points& vertices, const py::object& faces) {
+        write_mesh(mesh_of(vertices, faces), path);
+      },
+      py::arg("path"), py::arg("vertices"), py::arg("faces"),
+      ("Writes a file by its ending, " + mesh_extensions(MeshUse::Write) + ", whole or not at all.")
+          .c_str());
+}
+
+}  // namespace wscvt::python

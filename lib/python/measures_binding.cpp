@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <utility>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "work.h"
+#include "wscvt/measures/grain_measures.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::object describe(const Points& vertices, const py::object& faces, const py::object& reference,
+                    double roundness_ball, double roughness_cutoff, int threads,
+                    const py::object& progress) {
+  DetailedOptions options;
+  options.roundness_ball = roundness_ball;
+  options.roughness_cutoff = roughness_cutoff;
+  NamedMesh grain = {"grain", mesh_of(vertices, faces)};
+  std::optional<NamedMesh> original;
+  if (!reference.is_none()) {
+    original = NamedMesh{"reference", mesh_of_reference(reference)};
+  }
+  const GrainMeasures measures = work_on(threads, progress, [&](const Execution& execution) {
+    return measure_grain(std::move(grain), std::move(original), options, execution);
+  });
+  return parsed(descriptor_json(measures));
+}
+
+}  // namespace
+
+void bind_measures(py::module_& module) {
+  module.def(
+      "describe", &describe, py::arg("vertices"), py::arg("faces"),
+      py::arg("reference") = py::none(), py::kw_only(),
+      py::arg("roundness_ball") = DetailedOptions().roundness_ball,
+      py::arg("roughness_cutoff") = DetailedOptions().roughness_cutoff, py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
+      "Size, form, roundness, roughness and orientation of a closed mesh, as the dictionary "
+      "of a JSON report; with reference=(vertices, faces) errors and distances against that. "
+      "Arrays as for remesh; lengths in the unit of the mesh.");
+}
+
+}  // namespace wscvt::python

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "option_arguments.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "wscvt/base/error.h"
+#include "wscvt/remesh/option_advice.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// "target_measure" of "target-measure".
+std::string keyword_of(std::string_view key) {
+  std::string keyword(key);
+  std::replace(keyword.begin(), keyword.end(), '-', '_');
+  return keyword;
+}
+
+template <class Value>
+Value cast_option(const std::string& keyword, const py::handle& value, const char* wanted) {
+  try {
+    return value.cast<Value>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("The option " + keyword + " is " + py::repr(value).cast<std::string>() +
+                         "; give " + wanted + ".");
+  }
+}
+
+/// Takes the options that are given.
+class ReadOptions {
+ public:
+  explicit ReadOptions(const py::dict& given) : given_(given) {}
+
+  template <class Number>
+  void operator()(Number& value, const NumberOption<Number>& option) {
+    constexpr bool is_whole = std::is_integral_v<Number>;
+    read(option.key, [&](const std::string& keyword, const py::handle& object) {
+      value = cast_option<Number>(
+          keyword, object,
+          (std::string(is_whole ? "a whole number " : "a number ") + range_text(option)).c_str());
+      require_in_range(value, option);
+    });
+  }
+  void operator()(bool& value, const FlagOption& option) {
+    read(option.key, [&](const std::string& keyword, const py::handle& object) {
+      value = cast_option<bool>(keyword, object, "True or False");
+    });
+  }
+  template <class Enumeration>
+  void operator()(Enumeration& value) {
+    read(EnumerationTable<Enumeration>::key, [&](const std::string& keyword,
+                                                 const py::handle& object) {
+      const auto key = cast_option<std::string>(keyword, object, keys_of<Enumeration>().c_str());
+      const std::string advice = advice_for_value(EnumerationTable<Enumeration>::key, key, method_);
+      if (!advice.empty()) refuse("The option " + keyword + ": " + advice);
+      value = from_key<Enumeration>(key);
+      if constexpr (std::is_same_v<Enumeration, Method>) method_ = value;
+    });
+  }
+
+  /// Throws TypeError for what is no option.
+  void finish() const {
+    if (found_ == given_.size()) return;
+    for (const auto& [name, value] : given_) {
+      const auto keyword = name.cast<std::string>();
+      if (std::find(known_.begin(), known_.end(), keyword) != known_.end()) continue;
+      std::string key = keyword;
+      std::replace(key.begin(), key.end(), '_', '-');
+      const std::string advice = advice_for_option(key, method_);
+      if (!advice.empty()) throw py::type_error("The option " + keyword + ": " + advice);
+      throw py::type_error("There is no option " + keyword +
+                           "; wscvt.options() has the options and their defaults.");
+    }
+  }
+
+ private:
+  template <class Read>
+  void read(std::string_view key, const Read& read) {
+    known_.push_back(keyword_of(key));
+    const std::string& keyword = known_.back();
+    if (!given_.contains(keyword.c_str())) return;
+    ++found_;
+    read(keyword, given_[keyword.c_str()]);
+  }
+
+  const py::dict& given_;
+  std::vector<std::string> known_;
+  std::size_t found_ = 0;
+  Method method_ = Method::OnScan;
+};
+
+class OptionsToDict {
+ public:
+  template <class Number>
+  void operator()(const Number& value, const NumberOption<Number>& option) {
+    options_[keyword_of(option.key).c_str()] = value;
+  }
+  void operator()(const bool& value, const FlagOption& option) {
+    options_[keyword_of(option.key).c_str()] = value;
+  }
+  template <class Enumeration>
+  void operator()(const Enumeration& value) {
+    options_[keyword_of(EnumerationTable<Enumeration>::key).c_str()] = key_of(value);
+  }
+  py::dict options_;
+};
+
+/// The names that the values of an option have, by the option.
+class ChoicesToDict {
+ public:
+  template <class Number>
+  void operator()(const Number&, const NumberOption<Number>&) {}
+  void operator()(const bool&, const FlagOption&) {}
+  template <class Enumeration>
+  void operator()(const Enumeration&) {
+    py::list names;
+    const std::string keyword = keyword_of(EnumerationTable<Enumeration>::key);
+    // Both methods may have the option, each with its own values.
+    if (choices_.contains(keyword.c_str())) names = choices_[keyword.c_str()];
+    for (const auto& row : enumerators<Enumeration>()) {
+      if (!names.contains(std::string(row.key))) names.append(std::string(row.key));
+    }
+    choices_[keyword.c_str()] = names;
+  }
+  py::dict choices_;
+};
+
+}  // namespace
+
+RemeshOptions options_of(const py::dict& given, RemeshOptions options) {
+  ReadOptions read(given);
+  for_each_option(options, read);
+  read.finish();
+  return options;
+}
+
+void bind_options(py::module_& module) {
+  module.def(
+      "options",
+      [](const std::string& method) {
+        OptionsToDict dict;
+        RemeshOptions defaults;
+        if (from_key<Method>(method) == Method::AsPublished) {
+          defaults.method = AsPublishedOptions();
+        }
+        for_each_option(defaults, dict);
+        return dict.options_;
+      },
+      py::arg("method") = key_of(Method::OnScan),
+      "All options of remesh and create by a method, with their defaults: the names that one types "
+      "for the program, with _ for -.");
+  module.def("_choices", [] {
+    ChoicesToDict dict;
+    const RemeshOptions options;
+    for_each_option(options, dict);
+    const AsPublishedOptions published;
+    for_each_method_option(published, dict);
+    return dict.choices_;
+  });
+}
+
+}  // namespace wscvt::python

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Work of the library that Python calls: with progress, Ctrl-C and other threads of the
+// interpreter.
+#ifndef WSCVT_PYTHON_WORK_H_
+#define WSCVT_PYTHON_WORK_H_
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <string>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/execution.h"
+
+namespace wscvt::python {
+
+/// Whether the work goes on. Throws TypeError for what is no answer.
+bool goes_on(const pybind11::object& answer);
+
+/// Does work without the interpreter's lock. What a progress callback throws cancels it and goes on
+/// to the caller, and so does Ctrl-C.
+template <class Work>
+auto work_on(int threads, const pybind11::object& progress, const Work& work) {
+  std::exception_ptr thrown;
+  const auto callback = [&](double fraction, const std::string& stage) {
+    const pybind11::gil_scoped_acquire lock;
+    try {
+      if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+      if (progress.is_none()) return true;
+      return goes_on(progress(fraction, stage));
+    } catch (...) {
+      thrown = std::current_exception();
+      return false;
+    }
+  };
+  try {
+    const Execution execution(threads, callback);
+    const pybind11::gil_scoped_release unlocked;
+    return work(execution);
+  } catch (const Error&) {
+    if (thrown) std::rethrow_exception(thrown);
+    throw;
+  }
+}
+
+}  // namespace wscvt::python
+
+#endif  // WSCVT_PYTHON_WORK_H_
