@@ -4,7 +4,8 @@
 #
 # What stands in no room, remesh.h, conducts them and comes last. Only a new room needs a line here.
 cmake_minimum_required(VERSION 3.22)
-set(order base sphere scan surface measures tessellation nodes remesh report exchange)
+set(order base sphere scan surface measures tessellation nodes remesh clump convex sample report
+  exchange)
 
 file(GLOB_RECURSE files RELATIVE ${library_dir} ${library_dir}/wscvt/*.h ${library_dir}/wscvt/*.cpp)
 if(NOT files)

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/grain_table.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <unordered_set>
+
+#include "wscvt/base/csv_reader.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/readable_text.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Nothing for a text.
+std::optional<double> number_of(std::string_view field) {
+  std::string_view text = trimmed(field);
+  if (text.empty() || text == "NA") return missing;
+  if (text.front() == '+') text.remove_prefix(1);
+  double value = missing;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return {};
+  // Beyond the range of double, or infinite.
+  return error == std::errc() && std::isfinite(value) ? value : missing;
+}
+
+GrainColumn column_of(std::string_view heading) {
+  const std::string_view text = trimmed(heading);
+  const std::size_t bracket = text.rfind('[');
+  if (text.empty() || text.back() != ']' || bracket == std::string_view::npos) {
+    return {std::string(text), ""};
+  }
+  return {std::string(trimmed(text.substr(0, bracket))),
+          std::string(trimmed(text.substr(bracket + 1, text.size() - bracket - 2)))};
+}
+
+/// What a field of a row is for.
+enum class Role { Undecided, Number, Text };
+
+/// Takes the rows of a file one after the other.
+class TableReader {
+ public:
+  explicit TableReader(const std::string& path) : path_(path) {}
+
+  void read_heading(const std::vector<std::string>& fields);
+  void read_row(const std::vector<std::string>& fields);
+  GrainTable table();
+
+  /// Counts the line breaks of the record that was read.
+  void count_lines(const std::string& record) {
+    line_ = next_line_;
+    next_line_ += static_cast<std::size_t>(std::count(record.begin(), record.end(), '\n'));
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    refuse("\"" + readable(path_, "") + "\", line " + std::to_string(line_) + ": " + what);
+  }
+
+ private:
+  const std::string& path_;
+  std::size_t line_ = 1;
+  std::size_t next_line_ = 1;
+  std::vector<GrainColumn> fields_;
+  std::vector<Role> roles_;
+  std::size_t name_field_ = 0;
+  std::optional<std::size_t> file_field_;
+  std::optional<std::size_t> status_field_;
+  std::vector<double> numbers_;  ///< row by row, a number per field
+  GrainTable table_;
+};
+
+void TableReader::read_heading(const std::vector<std::string>& fields) {
+  std::unordered_set<std::string> names;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    std::string heading = fields[k];
+    // Spreadsheets begin a file in UTF-8 with this mark.
+    if (k == 0 && heading.rfind("\xEF\xBB\xBF", 0) == 0) heading.erase(0, 3);
+    fields_.push_back(column_of(heading));
+    const std::string& name = fields_.back().name;
+    if (!names.insert(name).second) {
+      fail("two columns are named \"" + readable(name, "") + "\"; rename one of them.");
+    }
+    if (name == "grain") name_field_ = k;
+    if (name == "file") file_field_ = k;
+    if (name == "status") status_field_ = k;
+  }
+  if (fields_.size() == 1) {
+    fail("the table has only one column. Separate columns by commas, and write decimal points.");
+  }
+  roles_.assign(fields_.size(), Role::Undecided);
+  roles_[name_field_] = Role::Text;
+  if (file_field_) roles_[*file_field_] = Role::Text;
+  if (status_field_) roles_[*status_field_] = Role::Text;
+}
+
+void TableReader::read_row(const std::vector<std::string>& fields) {
+  if (fields.size() != fields_.size()) {
+    fail("the row has " + std::to_string(fields.size()) + " fields, and the heading has " +
+         std::to_string(fields_.size()) + ". Write one field per column.");
+  }
+  if (status_field_ && fields[*status_field_] == "failed") {
+    ++table_.failed;
+    return;
+  }
+  table_.grains.push_back(fields[name_field_]);
+  if (file_field_) table_.files.push_back(fields[*file_field_]);
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (roles_[k] == Role::Text) {
+      numbers_.push_back(missing);
+      continue;
+    }
+    const std::optional<double> number = number_of(fields[k]);
+    if (!number && roles_[k] == Role::Number) {
+      fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
+           "\", and numbers above it. Write a number, or leave the field empty.");
+    }
+    if (!trimmed(fields[k]).empty()) roles_[k] = number ? Role::Number : Role::Text;
+    numbers_.push_back(number.value_or(missing));
+  }
+}
+
+GrainTable TableReader::table() {
+  if (table_.grains.empty()) fail("no row of the table holds a grain.");
+  std::vector<std::size_t> taken;
+  for (std::size_t k = 0; k < fields_.size(); ++k) {
+    // A column of a batch may be empty for all of its grains.
+    if (roles_[k] == Role::Text) continue;
+    taken.push_back(k);
+    table_.columns.push_back(fields_[k]);
+  }
+  if (std::count(roles_.begin(), roles_.end(), Role::Number) == 0) {
+    fail("no column of the table holds numbers. Write decimal points, not commas.");
+  }
+  const auto rows = static_cast<Eigen::Index>(table_.grains.size());
+  const auto width = static_cast<Eigen::Index>(fields_.size());
+  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> all(numbers_.data(), rows,
+                                                                             width);
+  table_.values.resize(rows, static_cast<Eigen::Index>(taken.size()));
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    table_.values.col(static_cast<Eigen::Index>(k)) = all.col(static_cast<Eigen::Index>(taken[k]));
+  }
+  return std::move(table_);
+}
+
+}  // namespace
+
+std::optional<std::size_t> GrainTable::find(std::string_view name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const GrainColumn& column) { return column.name == name; });
+  if (found == columns.end()) return {};
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::size_t GrainTable::index_of(std::string_view name) const {
+  if (const auto found = find(name)) return *found;
+  std::string names;
+  for (const GrainColumn& column : columns) {
+    names += (names.empty() ? "" : ", ") + readable(column.name, "");
+  }
+  refuse("The table has no column of numbers named \"" + readable(name, "") +
+         "\". Choose one of: " + names + ".");
+}
+
+std::string heading_of(const GrainColumn& column) {
+  return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
+}
+
+GrainTable read_grain_table(const std::string& path) {
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream.is_open()) refuse_to_open(path, errno);
+  CsvReader reader(stream);
+  TableReader table(path);
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) {
+    table.fail("the file holds no table. Write a heading and a row per grain.");
+  }
+  table.count_lines(reader.text());
+  table.read_heading(fields);
+  while (reader.next(fields)) {
+    table.count_lines(reader.text());
+    table.read_row(fields);
+  }
+  if (stream.bad()) refuse_to_read(path);
+  if (reader.is_cut()) {
+    table.count_lines("");
+    table.fail(
+        "the file ends within this row. End the row with a line break if it is whole; or "
+        "start the batch of this table again, which goes on where it was.");
+  }
+  return table.table();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wscvt {
+
+/// A column of numbers of a table of grains.
+struct GrainColumn {
+  std::string name;  ///< "scan.volume"
+  std::string unit;  ///< "length^3"; empty if the heading names none
+};
+
+/// A sample as a table of numbers: a row per grain, a column per measure.
+struct GrainTable {
+  std::vector<std::string> grains;  ///< names, a row each
+  /// The mesh file of each grain, relative to the table's folder; empty if the table names none.
+  std::vector<std::string> files;
+  std::vector<GrainColumn> columns;
+  Eigen::MatrixXd values;  ///< grains x columns; NaN: missing
+  std::size_t failed = 0;  ///< rows left out because their status is "failed"
+
+  /// The index of a column; nothing if the table has no such column.
+  std::optional<std::size_t> find(std::string_view name) const;
+
+  /// The index of a column. Throws Error(InvalidInput) with the table's column names if there is no
+  /// such column.
+  std::size_t index_of(std::string_view name) const;
+};
+
+/// A column's heading in a file: "scan.volume [length^3]", or the name alone without a unit.
+std::string heading_of(const GrainColumn& column);
+
+/// Reads a CSV file (RFC 4180, commas, decimal points, a heading in the first line).
+///
+/// The column "grain" names the grains, or else the first column. The column "file" names mesh
+/// files. Every other column holds numbers if its first entry is a number, and is left out if that
+/// is text. An empty field, "nan" and "NA" mean that the number is missing; so do infinities. A
+/// heading may end with a unit in brackets. Rows whose column "status" is "failed" are counted and
+/// left out.
+///
+/// Memory is about 20 bytes per field. Throws Error with the file and the line:
+/// InvalidInput if a row has another number of fields than the heading, a column of numbers holds a
+/// text, two columns have one name, no column holds numbers, no row holds a grain or the file ends
+/// within a row; InputOutput if the file cannot be read.
+GrainTable read_grain_table(const std::string& path);
+
+}  // namespace wscvt

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/grain_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+namespace {
+
+class GrainTableTest : public ::testing::Test {
+ protected:
+  GrainTable read(const std::string& text) const {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_grain_table(path_);
+  }
+  /// The sentence that a table is refused with.
+  std::string refusal(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+      return error.what();
+    }
+    return "";
+  }
+  std::string path_ = ::testing::TempDir() + "/grain_table.csv";
+};
+
+TEST_F(GrainTableTest, ReadsNamesUnitsNumbersAndFiles) {
+  const GrainTable table = read(
+      "\xEF\xBB\xBFsize [mm],grain,note,ratio,file,void\r\n"
+      "1.25,\"b, 1\",5 pores,0.5,b.ply,\r\n"
+      " +2e-3 ,a,,NA,a.ply,\n"
+      "inf,\"c\n2\",7,nan,c.ply,\n");
+  EXPECT_EQ(table.grains, (std::vector<std::string>{"b, 1", "a", "c\n2"}));
+  EXPECT_EQ(table.files, (std::vector<std::string>{"b.ply", "a.ply", "c.ply"}));
+  ASSERT_EQ(table.columns.size(), 3U);  // a note is text, since the first one is
+  EXPECT_EQ(table.columns[0].name, "size");
+  EXPECT_EQ(table.columns[0].unit, "mm");
+  EXPECT_EQ(heading_of(table.columns[0]), "size [mm]");
+  EXPECT_EQ(heading_of(table.columns[1]), "ratio");
+  ASSERT_EQ(table.values.rows(), 3);
+  EXPECT_EQ(table.values(0, 0), 1.25);
+  EXPECT_EQ(table.values(1, 0), 0.002);
+  EXPECT_TRUE(std::isnan(table.values(2, 0)));
+  EXPECT_EQ(table.values(0, 1), 0.5);
+  EXPECT_TRUE(std::isnan(table.values(1, 1)) && std::isnan(table.values(2, 1)));
+  EXPECT_TRUE(table.values.col(2).array().isNaN().all());
+}
+
+TEST_F(GrainTableTest, NamesAreTheFirstColumnIfNoneIsNamedGrain) {
+  const GrainTable table = read("id,volume\n17,2\n4,3\n");
+  EXPECT_EQ(table.grains, (std::vector<std::string>{"17", "4"}));
+  EXPECT_EQ(table.columns.size(), 1U);
+  EXPECT_TRUE(table.files.empty());
+}
+
+TEST_F(GrainTableTest, LeavesFailedRowsOut) {
+  const GrainTable table = read("grain,status,v\na,done,1\nb,failed,\nc,done,3\n");
+  EXPECT_EQ(table.grains, (std::vector<std::string>{"a", "c"}));
+  EXPECT_EQ(table.failed, 1U);
+  EXPECT_EQ(table.values(1, 0), 3.0);
+}
+
+TEST_F(GrainTableTest, ErrorsNameFileLineAndColumn) {
+  // The second record has two lines.
+  const std::string rows = "grain,v,w\n\"a\nb\",1,2\n";
+  EXPECT_NE(refusal(rows + "c,x,2\n").find(path_ + "\", line 4: the column \"v\" has \"x\""),
+            std::string::npos);
+  EXPECT_NE(refusal(rows + "c,1\n").find("line 4: the row has 2 fields"), std::string::npos);
+  EXPECT_NE(refusal(rows + "c,1,2").find("line 4: the file ends within"), std::string::npos);
+  EXPECT_NE(refusal("a,b,a [mm]\n").find("line 1: two columns are named \"a\""), std::string::npos);
+  EXPECT_NE(refusal("a;b\n1;2\n").find("by commas"), std::string::npos);
+  EXPECT_NE(refusal("grain,v\n").find("no row"), std::string::npos);
+  EXPECT_NE(refusal("grain,v\na,b\n").find("no column"), std::string::npos);
+  EXPECT_NE(refusal("").find("no table"), std::string::npos);
+  // A number that is only begun is none, "1.2.3" and "12 mm" among them.
+  EXPECT_NE(refusal("grain,v\na,1\nb,1.2.3\n").find("line 3"), std::string::npos);
+  try {
+    read_grain_table(::testing::TempDir() + "/no/such/table.csv");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InputOutput);
+  }
+}
+
+TEST_F(GrainTableTest, FindsColumnsAndNamesThoseThereAre) {
+  const GrainTable table = read("grain,v,w\na,1,2\n");
+  EXPECT_EQ(table.index_of("w"), 1U);
+  EXPECT_EQ(table.find("grain"), std::nullopt);
+  try {
+    table.index_of("x");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("v, w."), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
