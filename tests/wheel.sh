@@ -1,0 +1,53 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Makes the wheel of the Python module and uses it in roots of Debian 12 and 13 that hold nothing but
+# Python and NumPy. Both must make the mesh of the program, byte by byte. As root, for debootstrap.
+#   tests/wheel.sh BUILD WORK_FOLDER
+# The roots stay in WORK_FOLDER and are used again.
+set -eu
+build=$(realpath "${1:?usage: wheel.sh BUILD WORK_FOLDER}")
+work=$(realpath -m "${2:?usage: wheel.sh BUILD WORK_FOLDER}")
+root=$(realpath "$(dirname "$0")/..")
+fail() {
+  echo "$1" >&2
+  exit 1
+}
+[ "$(id -u)" -eq 0 ] || fail "Making a root of Debian needs root."
+
+mkdir -p "$work"
+rm -f "$work"/*.whl
+"$root/lib/python/make_wheel.py" "$build" "$work"
+wheel=$(echo "$work"/wscvt-*.whl)
+[ -f "$wheel" ] || fail "There is not one wheel in $work."
+"$build/lib/wscvt" "$root/meshes/sand_7228.ply" "$work/program.ply" -q -n 300
+
+for suite in bookworm trixie; do
+  tree=$work/$suite
+  if [ ! -d "$tree" ]; then
+    rm -rf "$tree.part"
+    debootstrap --variant=minbase --include=python3,python3-numpy "$suite" "$tree.part" \
+      http://deb.debian.org/debian > "$work/debootstrap-$suite.txt" ||
+      fail "$(tail -n 20 "$work/debootstrap-$suite.txt")"
+    mv -T "$tree.part" "$tree"
+  fi
+  python=$(chroot "$tree" python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+  # The root has no pip; that of this system chooses and unpacks the wheel as the one there would.
+  rm -rf "$tree/opt/wscvt"
+  /usr/bin/python3 -m pip install -q --no-index --no-deps --only-binary=:all: --root-user-action=ignore \
+    --python-version "$python" --platform manylinux_2_36_x86_64 --target "$tree/opt/wscvt" "$wheel"
+  cp "$root/meshes/sand_7228.ply" "$root/lib/examples/one_grain.py" "$tree/opt"
+  chroot "$tree" env PYTHONPATH=/opt/wscvt PYTHONDONTWRITEBYTECODE=1 python3 -c '
+import wscvt
+wscvt.write_mesh("/opt/remesh.ply", wscvt.remesh("/opt/sand_7228.ply", 300))'
+  cmp "$work/program.ply" "$tree/opt/remesh.ply" ||
+    fail "The wheel in $suite made another mesh than the program."
+  chroot "$tree" env PYTHONPATH=/opt/wscvt python3 /opt/one_grain.py /opt/sand_7228.ply /opt/one.ply \
+    > "$work/one_grain-$suite.txt"
+  # Its own libraries are loaded, not those that the root happens to have.
+  for library in gmp mpfr z; do
+    chroot "$tree" sh -c 'ldd /opt/wscvt/wscvt/_wscvt.*.so' |
+      grep -q "lib$library\.so.* => /opt/wscvt/wscvt/libs/" ||
+      fail "The module in $suite does not load the lib$library of the wheel."
+  done
+  echo "The wheel works in a bare root of $suite, with Python $python."
+done
