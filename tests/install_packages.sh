@@ -11,7 +11,7 @@ packages="
   libtiff-dev libexpat1-dev libpng-dev libbz2-dev liblz4-dev libminizip-dev libnifti2-dev libhdf5-dev
   libinsighttoolkit5-dev
   pkg-config
-  libcli11-dev help2man libgtest-dev libbenchmark-dev gnuplot-nox time python3
+  libcli11-dev libgtest-dev libbenchmark-dev gnuplot-nox time python3
   pybind11-dev python3-dev python3-numpy python3-pytest
   meshlab qtbase5-dev libqt5xmlpatterns5-dev libqt5opengl5-dev
   libglew-dev libglu1-mesa-dev

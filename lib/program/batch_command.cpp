@@ -177,6 +177,7 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
        "killed "
        "and is\nstarted again goes on where it was. A part gets a table of its own: see wscvt "
        "collect.",
+       true,
        true});
   app.add_option(
          "inputs", arguments.inputs,

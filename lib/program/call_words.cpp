@@ -31,6 +31,17 @@ std::size_t edits_between(const std::string& one, const std::string& other) {
   return row.back();
 }
 
+/// " Did you mean WORD?" of the nearest of the words; empty if all are far.
+std::string meant_word(const std::string& word, const std::vector<std::string>& words) {
+  const auto nearest =
+      std::min_element(words.begin(), words.end(), [&](const std::string& a, const std::string& b) {
+        return edits_between(word, a) < edits_between(word, b);
+      });
+  // Two slips of the finger; more are another word.
+  const bool is_near = nearest != words.end() && edits_between(word, *nearest) <= 2;
+  return is_near ? " Did you mean " + *nearest + "?" : "";
+}
+
 [[noreturn]] void refuse_unknown(const std::string& word,
                                  const std::vector<std::string>& commands) {
   std::string names;
@@ -38,14 +49,8 @@ std::size_t edits_between(const std::string& one, const std::string& other) {
     names += (names.empty() ? "" : &name == &commands.back() ? " or " : ", ") + name;
   }
   if (word.empty()) refuse_call("No command is given; give " + names + ".");
-  const auto nearest = std::min_element(commands.begin(), commands.end(),
-                                        [&](const std::string& a, const std::string& b) {
-                                          return edits_between(word, a) < edits_between(word, b);
-                                        });
-  // Two slips of the finger; more are another word.
-  const bool meant = edits_between(word, *nearest) <= 2;
   refuse_call("There is no command \"" + word + "\"; give " + names + "." +
-              (meant ? " Did you mean " + *nearest + "?" : ""));
+              meant_word(word, commands));
 }
 
 }  // namespace
@@ -64,8 +69,8 @@ std::vector<std::string> call_words(std::vector<std::string> words,
     return words;
   }
   if (first == "-v") return {"--version"};
-  if (first == "--help" || first == "-h" || first == "--version" || first == "--completion") {
-    return words;
+  for (const char* own : {"--help", "-h", "--version", "--completion", "--man-pages"}) {
+    if (first.substr(0, first.find('=')) == own) return words;
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(first, ignored)) {
@@ -76,13 +81,40 @@ std::vector<std::string> call_words(std::vector<std::string> words,
   if (first.find_first_of("-./") == std::string::npos) refuse_unknown(first, commands);
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const std::string& word) { return word.rfind('-', 0) == 0; });
-  if (option - words.begin() > 2) {
+  const bool is_output_named = std::find_if(option, words.end(), [](const std::string& word) {
+                                 return word.rfind("-o", 0) == 0 || word.rfind("--output", 0) == 0;
+                               }) != words.end();
+  if (option - words.begin() > (is_output_named ? 1 : 2)) {
     refuse_call(
         "A remesh is of one scan, to one output; \"wscvt batch SCANS... -o OUT\" remeshes "
         "several.");
   }
   words.insert(words.begin(), "remesh");
   return words;
+}
+
+std::string refusal_text(const CLI::App& program, const CLI::ParseError& error) {
+  for (const CLI::App* command : program.get_subcommands()) {
+    for (const std::string& given : command->remaining()) {
+      const std::string call = "wscvt " + command->get_name();
+      const std::string word = given.substr(0, given.find('='));
+      if (word.rfind("--", 0) != 0) continue;
+      std::vector<std::string> names;
+      for (const CLI::Option* option : command->get_options()) {
+        if (option->get_group().empty()) continue;
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      }
+      return call + " has no option " + word + "." + meant_word(word, names) + " \"" + call +
+             " --help\" lists all.";
+    }
+    const CLI::Option* output = command->get_option_no_throw("--output");
+    const bool is_missing =
+        output != nullptr && std::string(error.what()) == "--output is required";
+    if (is_missing && output->get_positional()) {
+      return output->get_name(true) + " is required, as the last word or by -o.";
+    }
+  }
+  return "";
 }
 
 }  // namespace wscvt::program

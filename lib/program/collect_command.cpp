@@ -19,7 +19,9 @@ CLI::App& add_command(CLI::App& program, CollectArguments& arguments) {
                 "Join the tables of the parts of a sample",
                 {"out/grains-*-of-2.csv -o grains.csv",
                  "out/grains-*-of-2.csv -o grains.csv --report summary.html"},
-                "Rows are in the order of the grains' names, however the sample was parted."});
+                "Rows are in the order of the grains' names, however the sample was parted.",
+                false,
+                true});
   app.add_option("tables", arguments.tables, "Tables that wscvt batch --shard wrote")
       ->type_name("FILE")
       ->required();

@@ -3,10 +3,23 @@
 
 namespace wscvt::program {
 
-const char* const exit_code_text =
-    "Exit codes: 0 done, 1 the work failed, 2 wrong arguments, 3 done, but some grains failed or\n"
-    "more than 5 % of a volume was left out; 130 and 143 cancelled by SIGINT and SIGTERM. A\n"
-    "sentence on the standard error says what to do.";
+std::string exit_code_text(bool some_may_fail) {
+  const std::string text =
+      std::string("Exit codes: 0 done, 1 the work failed, 2 wrong arguments") +
+      (some_may_fail ? ", 3 done, but some grains failed or more than 5 % of a volume was left out"
+                     : "") +
+      "; 130 and 143 cancelled by SIGINT and SIGTERM. A sentence on the standard error says what "
+      "to do.";
+  return wrapped(text, 100);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& letter : lower) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return lower;
+}
 
 CLI::App& add_command(CLI::App& program, const CommandText& text) {
   CLI::App& app = *program.add_subcommand(text.name, text.purpose);
@@ -18,8 +31,13 @@ CLI::App& add_command(CLI::App& program, const CommandText& text) {
     footer += "  wscvt " + text.name + " " + example + "\n";
   }
   if (!text.notes.empty()) footer += text.notes + "\n";
-  app.footer(footer + exit_code_text);
+  app.footer(footer + exit_code_text(text.some_may_fail));
   return app;
+}
+
+CLI::Option* add_output(CLI::App& app, const std::string& name, std::string& path,
+                        const std::string& description, const std::string& type) {
+  return app.add_option("-o,--output," + name, path, description)->type_name(type)->required();
 }
 
 CLI::Option* add_typed(CLI::App& app, const std::string& names,

@@ -19,18 +19,27 @@ struct CommandText {
   std::vector<std::string> examples;  ///< calls, without "wscvt" and the name
   std::string notes = {};             ///< lines below the examples; may be empty
   bool has_finer_settings = false;    ///< that only --help-all shows
+  bool some_may_fail = false;         ///< of many grains: exit code SomeFailed
 };
 
-/// What the exit codes are, in a line; every help ends with it.
-extern const char* const exit_code_text;
+/// What the exit codes are; every help ends with it.
+std::string exit_code_text(bool some_may_fail);
 
 /// Adds a command to the program; its arguments are for the caller to add.
 CLI::App& add_command(CLI::App& program, const CommandText& text);
+
+/// The paper's WSCVT-D is the key wscvt-d.
+std::string lower_case(std::string_view text);
 
 /// Adds an argument whose text `read` takes; what that throws as wscvt::Error refuses the call.
 /// `names` as CLI11 takes them: "-n,--nodes". Of one given twice the later counts.
 CLI::Option* add_typed(CLI::App& app, const std::string& names,
                        const std::function<void(std::string_view)>& read);
+
+/// Adds the file or folder that is made: the last of the words, `name`, or -o. Reading a call
+/// changes `path`, which must outlive `app`.
+CLI::Option* add_output(CLI::App& app, const std::string& name, std::string& path,
+                        const std::string& description, const std::string& type = "FILE");
 
 /// An argument for a number. Reading a call changes `value`, which must outlive `app`, and so must
 /// `option`.
@@ -46,8 +55,9 @@ CLI::Option* add_number(CLI::App& app, const std::string& names, Number& value,
 /// An argument for one of a table's values; as add_number.
 template <class Enumeration>
 CLI::Option* add_choice(CLI::App& app, const std::string& names, Enumeration& value) {
-  return add_typed(app, names,
-                   [&value](std::string_view text) { value = from_key<Enumeration>(text); })
+  return add_typed(
+             app, names,
+             [&value](std::string_view text) { value = from_key<Enumeration>(lower_case(text)); })
       ->description(help_of(value))
       ->type_name("NAME");
 }

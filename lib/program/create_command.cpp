@@ -60,8 +60,7 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
   add_choice(app, "surface", arguments.surface.kind)
       ->required()
       ->description(help_of_choices<decltype(arguments.surface.kind)>());
-  add_file_argument(app, "output", arguments.output, mesh_argument_text("Mesh", MeshUse::Write))
-      ->required();
+  add_output(app, "output", arguments.output, mesh_argument_text("Mesh", MeshUse::Write));
   add_semi_axes(app, arguments.surface.semi_axes);
   add_number(app, "--" + std::string(polar_exponent_option.key), arguments.surface.polar_exponent,
              polar_exponent_option);
@@ -75,6 +74,9 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
              arguments.surface.coefficient_degree, coefficient_degree_option);
   add_remesh_arguments(app, arguments.options, Remeshed::Surface);
   add_common_arguments(app, arguments.common);
+  for (const char* name : {"--threads", "--overwrite", "--quiet"}) {
+    app.get_option(name)->group(finer_settings);
+  }
   return app;
 }
 

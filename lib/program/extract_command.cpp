@@ -89,15 +89,15 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
                 "Make a mesh of each grain of a segmented CT volume",
                 {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012"},
                 "OUT gets a mesh per label, named by it, and labels.csv, which says what became of "
-                "each.\nwscvt batch takes volumes too and remeshes their grains."});
+                "each.\nwscvt batch takes volumes too and remeshes their grains.",
+                false,
+                true});
   add_file_argument(
       app, "volume", arguments.volume,
       "Labels: .tif, .nrrd, .mhd, .vti, .vtk, .nii, .npy, .npz, .h5, .mat, a folder of "
       ".tif or .png slices, or the .json beside a .raw")
       ->required();
-  app.add_option("output", arguments.folder, "Folder for all that is made")
-      ->type_name("OUT")
-      ->required();
+  add_output(app, "output", arguments.folder, "Folder for all that is made", "OUT");
   add_volume_arguments(app, arguments.options, "Options");
   add_format_argument(app, arguments.format);
   // Until version 2 it did what batch does.

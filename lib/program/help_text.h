@@ -6,6 +6,7 @@
 #include <CLI/Formatter.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "wscvt/base/option.h"
 
@@ -17,8 +18,19 @@ inline constexpr int help_column = 30;
 /// Under this heading stand options that only --help-all shows.
 inline constexpr const char* finer_settings = "Finer settings";
 
-/// Breaks a text between words so that it fits beside the names on a line of 100 characters.
-std::string wrapped(std::string_view text);
+/// Breaks a text between words into lines of `width` characters; by default so that it fits beside
+/// the names on a line of 100.
+std::string wrapped(std::string_view text, std::size_t width = 100 - help_column);
+
+/// A paragraph of an option's description.
+struct HelpParagraph {
+  std::string value;  ///< one that the option takes, whose meaning the text is; or empty
+  std::string text;
+};
+std::vector<HelpParagraph> help_paragraphs(const CLI::Option& option);
+
+/// The values that an option's description lists, each once; empty when it takes others.
+std::vector<std::string> listed_values(const CLI::Option& option);
 
 /// Lays out the help: --help-all says everything; --help fits on a screen, without the finer
 /// settings, and of each option the first paragraph.
@@ -31,6 +43,9 @@ class HelpFormatter : public CLI::Formatter {
                         CLI::AppFormatMode mode) const override;
   std::string make_group(std::string group, bool is_positional,
                          std::vector<const CLI::Option*> options) const override;
+  std::string make_option(const CLI::Option* option, bool is_positional) const override;
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
   std::string make_option_desc(const CLI::Option* option) const override;
 
  private:

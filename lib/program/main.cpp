@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -12,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "batch_command.h"
@@ -24,12 +26,14 @@
 #include "describe_command.h"
 #include "exit_code.h"
 #include "extract_command.h"
+#include "man_pages.h"
 #include "remesh_command.h"
 #include "segment_command.h"
 #include "signals.h"
 #include "split_command.h"
 #include "standard_streams.h"
 #include "wrong_call.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/base/readable_text.h"
 #include "wscvt/base/version.h"
 
@@ -51,11 +55,11 @@ Command make_command(CLI::App& app) {
 int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
   app.formatter(std::make_shared<program::HelpFormatter>());
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.footer(std::string("\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\". Of a command:\n"
-                         "  wscvt remesh --help\n"
-                         "  wscvt remesh --help-all\n") +
-             program::exit_code_text);
+  app.footer(
+      "\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\". The help of a command:\n"
+      "  wscvt help remesh\n"
+      "  wscvt remesh --help-all\n" +
+      program::exit_code_text(true));
   app.set_version_flag("-v,--version", std::string("wscvt ") + wscvt::version());
   app.require_subcommand(1);
   const std::vector<Command> commands = {
@@ -70,6 +74,18 @@ int run(int argc, char** argv) {
   };
   app.add_flag_function("--completion", print_completion,
                         "Print a script that completes commands and options in bash, and exit");
+  app.add_option_function<std::string>(
+         "--man-pages",
+         [&app](const std::string& folder) {
+           std::error_code ignored;  // writing tells
+           std::filesystem::create_directories(folder, ignored);
+           for (const program::ManPage& page : program::man_pages(app)) {
+             wscvt::write_file((std::filesystem::path(folder) / page.file).string(), page.text);
+           }
+           throw CLI::Success();
+         },
+         "Write a manual page per command into this folder, and exit")
+      ->type_name("FOLDER");
   try {
     std::vector<std::string> names;
     for (const Command& command : commands) names.push_back(command.app->get_name());
@@ -80,7 +96,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::ostringstream said;
     const int code = app.exit(error, std::cout, said);
-    std::fputs(wscvt::readable(said.str()).c_str(), stderr);
+    const std::string better = program::refusal_text(app, error);
+    std::fputs(wscvt::readable(better.empty() ? said.str() : better + "\n").c_str(), stderr);
     if (code != 0) return program::WrongArguments;
     if (!std::cout.flush()) throw std::runtime_error("The help could not be written.");
     return program::Done;

@@ -72,7 +72,8 @@ class ReadGiven {
   template <class Enumeration>
   void operator()(Enumeration& value) {
     constexpr std::string_view key = EnumerationTable<Enumeration>::key;
-    take(key, [&](const std::string& text) {
+    take(key, [&](const std::string& typed) {
+      const std::string text = lower_case(typed);
       const std::string advice = advice_for_value(key, text, method_);
       if (!advice.empty()) throw Error(ErrorCode::InvalidInput, advice);
       value = from_key<Enumeration>(text);
@@ -80,7 +81,7 @@ class ReadGiven {
   }
   void operator()(Method& value) {
     take(EnumerationTable<Method>::key,
-         [&](const std::string& text) { value = from_key<Method>(text); });
+         [&](const std::string& text) { value = from_key<Method>(lower_case(text)); });
     method_ = value;
   }
 
@@ -162,18 +163,24 @@ class AddArgument {
     CLI::Option* known = app_.get_option_no_throw("--" + key);
     if (known != nullptr) {
       // Both methods have it, each with its own values.
-      if (type == "NAME") known->description(known->get_description() + "\n" + help + of_method_);
+      const std::string before = known->get_description();
+      known->description(type == "NAME" ? before + "\n" + with_method(help)
+                                        : before.substr(0, before.rfind(" (")));
       return;
     }
     app_.add_option_function<std::string>(
             names_of(key),
             [this_given = &given_, key](const std::string& text) { (*this_given)[key] = text; })
         ->take_last()
-        ->description(help + of_method_)
+        ->description(with_method(help))
         ->type_name(type)
         ->group(group_of(key));
   }
 
+  /// With the method behind the first paragraph, which --help shows.
+  std::string with_method(std::string help) const {
+    return help.insert(std::min(help.find('\n'), help.size()), of_method_);
+  }
   bool is_wanted(std::string_view key) const {
     return remeshed_ == Remeshed::Scan ||
            std::find(std::begin(of_a_scan), std::end(of_a_scan), key) == std::end(of_a_scan);

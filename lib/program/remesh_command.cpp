@@ -35,8 +35,7 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
        true});
   add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
       ->required();
-  add_file_argument(app, "output", arguments.output, mesh_argument_text("Remesh", MeshUse::Write))
-      ->required();
+  add_output(app, "output", arguments.output, mesh_argument_text("Remesh", MeshUse::Write));
   add_remesh_arguments(app, arguments.options);
   add_simulation_arguments(app, arguments.simulation);
   add_common_arguments(app, arguments.common);

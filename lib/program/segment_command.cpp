@@ -31,8 +31,7 @@ CLI::App& add_command(CLI::App& program, SegmentArguments& arguments) {
   add_file_argument(app, "scan", arguments.scan,
                     "Grey values whose grains are bright, or a mask: files as wscvt extract takes")
       ->required();
-  add_file_argument(app, "labels", arguments.labels, "Labels that are made: .nrrd or .mha")
-      ->required();
+  add_output(app, "labels", arguments.labels, "Labels that are made: .nrrd or .mha");
   add_number(app, "--separate", arguments.options.separate, separate_option);
   add_typed(app, "--threshold",
             [&arguments](std::string_view text) {

@@ -17,11 +17,11 @@ void add_files(CLI::App& app, const std::string& name, std::vector<std::string>&
 void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
   add_files(
       app, "--node-table", arguments.nodes,
-      "Write position, normal and area of every node to this .csv or .vtp\n"
+      "Write position, normal and area of every node to this .csv, .vtp or .shp\n"
       "The ending .vtp makes a file for ParaView, .shp a shape for Rockable. May be given more "
       "than once");
   add_files(app, "--sdf", arguments.grids,
-            "Write signed distances on a grid to this .npy or .vti\n"
+            "Write signed distances on a grid to this .npy, .vti or .json\n"
             "They are negative inside. The ending .npy makes a NumPy array with a description in "
             "FILE.json, .vti a file for ParaView, .json a level set for NetDEM. May be given more "
             "than once");

@@ -87,9 +87,7 @@ CLI::App& add_command(CLI::App& program, SplitArguments& arguments) {
                 "the bodies of a mesh directly."});
   add_file_argument(app, "mesh", arguments.mesh, mesh_argument_text("Mesh", MeshUse::Read))
       ->required();
-  app.add_option("folder", arguments.folder, "Folder for all that is made")
-      ->type_name("FOLDER")
-      ->required();
+  add_output(app, "folder", arguments.folder, "Folder for all that is made", "FOLDER");
   add_format_argument(app, arguments.format);
   add_number(app, "--" + std::string(smallest_body_option.key), arguments.smallest,
              smallest_body_option);

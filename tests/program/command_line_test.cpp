@@ -323,6 +323,10 @@ TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
   EXPECT_NE(refusal("scans.d out").find("wscvt batch scans.d -o OUT"), std::string::npos);
   EXPECT_NE(refusal("a.ply b.ply c.ply out -n 300").find("wscvt batch SCANS... -o OUT"),
             std::string::npos);
+  EXPECT_NE(refusal("a.ply b.ply -o c.ply").find("wscvt batch SCANS... -o OUT"), std::string::npos);
+  EXPECT_NE(refusal("a.ply b.ply --noeds=5").find("Did you mean --nodes?"), std::string::npos);
+  EXPECT_NE(refusal("describe a.ply --nodes 5").find("wscvt describe has no option --nodes."),
+            std::string::npos);
   EXPECT_EQ(run("help batch").output, run("batch --help").output);
   EXPECT_EQ(run("help").output, run("--help").output);
   EXPECT_EQ(run("-v").output, run("--version").output);

@@ -26,18 +26,26 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string>& commands() {
-  static const std::vector<std::string> names = {"remesh",  "describe", "compare", "create",
-                                                 "extract", "batch",    "collect"};
-  return names;
-}
-
 class Commands : public test::ProgramRun {
  protected:
   void SetUp() override {
     ProgramRun::SetUp();
     write_mesh(test::transformed(test::sphere(3), Vector3(1.0, 0.8, 0.7).asDiagonal()),
                path("scan.ply"));
+  }
+  /// As the help names them.
+  std::vector<std::string> commands() const {
+    const std::string help = run("--help").output;
+    std::vector<std::string> names;
+    std::istringstream lines(help.substr(std::min(help.find("\nCommands:\n"), help.size())));
+    std::string line;
+    std::getline(lines, line);
+    std::getline(lines, line);
+    while (std::getline(lines, line) && !line.empty()) {
+      names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    }
+    EXPECT_GE(names.size(), 9U) << help;
+    return names;
   }
   /// Of a report in JSON; `arguments` writes report.json.
   Json report_of(const std::string& arguments) const {
@@ -56,7 +64,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
   std::vector<std::string> all = commands();
-  all.push_back("");
+  all.emplace_back("");
   for (const std::string& command : all) {
     SCOPED_TRACE(command);
     const Outcome help = run(command + " --help");
@@ -70,9 +78,66 @@ TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
     });
     EXPECT_GE(examples, 2);
   }
-  const std::string main_help = run("--help").output;
+}
+
+TEST_F(Commands, EachHasAManualPageOfItsHelp) {
+  ASSERT_EQ(run("--man-pages pages").exit_code, 0);
   for (const std::string& command : commands()) {
-    EXPECT_NE(main_help.find("\n  " + command + " "), std::string::npos) << main_help;
+    SCOPED_TRACE(command);
+    const std::string page = content("pages/wscvt-" + command + ".1");
+    ASSERT_EQ(page.rfind(".TH \"WSCVT", 0), 0U);
+    for (const char* part : {"SYNOPSIS", "OPTIONS", "EXAMPLES", "EXIT STATUS"}) {
+      EXPECT_NE(page.find(".SH \"" + std::string(part) + "\"\n"), std::string::npos) << part;
+    }
+    // Every call of the examples is a line that is kept as it is.
+    for (const std::string& line : lines_of(run(command + " --help").output)) {
+      if (line.rfind("  wscvt ", 0) != 0) continue;
+      const std::string call = std::regex_replace(line, std::regex("-"), "\\-");
+      EXPECT_NE(page.find("\n" + call + "\n"), std::string::npos) << call;
+    }
+  }
+  const std::string page = content("pages/wscvt-remesh.1");
+  EXPECT_NE(page.find("\\-w,\\-\\-weighting"), std::string::npos);
+  EXPECT_NE(page.find(".RS\n.TP\n\\fBerror\\-adaptive\\fR\n"), std::string::npos);
+  EXPECT_NE(page.find(" Default: 1.105 (on\\-scan)\n"), std::string::npos);
+  EXPECT_NE(content("pages/wscvt.1").find("\\fBwscvt\\-remesh\\fR(1)"), std::string::npos);
+  EXPECT_EQ(run("--man-pages /proc/none").exit_code, 1);
+}
+
+TEST_F(Commands, AnOutputIsTheLastWordOrNamed) {
+  ASSERT_EQ(run("scan.ply one.ply -q -n 40").exit_code, 0);
+  ASSERT_EQ(run("-o two.ply -n 40 -q scan.ply").exit_code, 0);
+  EXPECT_FALSE(content("one.ply").empty());
+  EXPECT_EQ(content("two.ply"), content("one.ply"));
+  EXPECT_EQ(run("create ellipsoid -o made.ply -q -n 40").exit_code, 0);
+  EXPECT_TRUE(exists("made.ply"));
+  EXPECT_EQ(run("split scan.ply -o bodies -q").exit_code, 0);
+  EXPECT_TRUE(exists("bodies/1.ply"));
+  // Whatever makes something takes -o; the others have only reports.
+  for (const std::string& command : commands()) {
+    const bool measures = command == "describe" || command == "compare";
+    EXPECT_EQ(run(command + " --help").output.find("-o,--output") == std::string::npos, measures)
+        << command;
+  }
+}
+
+TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
+  EXPECT_EQ(run("scan.ply one.ply -q -n 40").exit_code, 0);
+  EXPECT_EQ(run("none.ply one.ply").exit_code, 1);
+  EXPECT_EQ(run("scan.ply one.ply -n 3").exit_code, 2);
+  std::ofstream(folder_ / "torn.ply") << "ply\n";
+  EXPECT_EQ(run("batch scan.ply torn.ply -o out -q -n 40").exit_code, 3);
+  EXPECT_EQ(run("collect out/grains.csv -o all.csv -q").exit_code, 3);
+  test::MadeVolume volume({30, 20, 20});
+  volume.fill_ball(1, {8, 10, 10}, 6.0);
+  volume.fill_ball(1, {22, 10, 10}, 5.0);
+  test::write_bytes(folder_ / "pieces.nrrd", test::nrrd(volume, "spacings: 1 1 1\n"));
+  EXPECT_EQ(run("extract pieces.nrrd grains -q").exit_code, 3);
+  for (const std::string& command : commands()) {
+    const bool may_be_three = command == "batch" || command == "collect" || command == "extract";
+    EXPECT_EQ(run(command + " --help").output.find(", 3 done, but some") != std::string::npos,
+              may_be_three)
+        << command;
   }
 }
 
@@ -83,13 +148,15 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   write_mesh(read_mesh(path("scan.ply")), path("scans/b.stl"));
   std::ofstream(folder_ / "more.txt") << "first.ply\n";
   ASSERT_EQ(run("batch scans -o out -q --shard 2/2").exit_code, 0);
-  for (const char* name : {"grain.ply", "grain.stl", "remesh.ply"}) {
+  for (const char* name : {"grain.ply", "grain.stl", "remesh.ply", "sample.stl"}) {
     write_mesh(read_mesh(path("first.ply")), path(name));
   }
   test::MadeVolume volume({30, 30, 30});
   volume.fill_ball(1, {15, 15, 15}, 10.0);
   test::write_bytes(folder_ / "labels.nrrd", test::nrrd(volume, "spacings: 1 1 1\n"));
-  test::write_bytes(folder_ / "labels.tif", test::tiff(volume, 0, 30));
+  for (const char* name : {"labels.tif", "mask.tif", "scan.tif"}) {
+    test::write_bytes(folder_ / name, test::tiff(volume, 0, 30));
+  }
   fs::create_directory(folder_ / "slices");
   for (int z = 0; z < 30; ++z) {
     test::write_bytes(folder_ / "slices" / (std::to_string(z) + ".tif"), test::tiff(volume, z, 1));

@@ -53,8 +53,19 @@ TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
   for (const auto& row : enumerators<PublishedPlacement>()) placements.emplace(row.key);
   EXPECT_EQ(completed("wscvt remesh --placement ''"), placements);
   EXPECT_EQ(completed("wscvt a.ply b.ply -w er"), Words{"error-adaptive"});
+  EXPECT_EQ(completed("wscvt remesh --weighting = er"), Words{"error-adaptive"});
   EXPECT_EQ(completed("wscvt remesh scan"), Words()) << "files are bash's own";
   EXPECT_EQ(completed("wscvt remesh --js"), Words()) << "that name is of old scripts";
+}
+
+TEST_F(Completion, TellsCommandsApart) {
+  EXPECT_EQ(completed("wscvt he"), Words{"help"});
+  EXPECT_EQ(completed("wscvt help cr"), Words{"create"});
+  EXPECT_EQ(completed("wscvt remesh --frame ''"), (Words{"input", "centred", "principal"}));
+  EXPECT_EQ(completed("wscvt extract --frame ''"), Words()) << "a number there";
+  EXPECT_EQ(completed("wscvt create s"), Words{"superellipsoid"});
+  EXPECT_EQ(completed("wscvt remesh s"), Words());
+  EXPECT_EQ(completed("wscvt split --out"), Words{"--output"});
 }
 
 }  // namespace

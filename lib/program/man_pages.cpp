@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "man_pages.h"
+
+#include <sstream>
+#include <string_view>
+
+#include "help_text.h"
+#include "wscvt/base/version.h"
+
+namespace wscvt::program {
+
+namespace {
+
+/// Text as roff takes it: what is typed has no hyphens but minus signs, and no line is a request.
+std::string roff(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    const bool begins_line = result.empty() || result.back() == '\n';
+    if (begins_line && (letter == '.' || letter == '\'')) result += "\\&";
+    if (letter == '\\') {
+      result += "\\e";
+    } else if (letter == '-') {
+      result += "\\-";
+    } else {
+      result += letter;
+    }
+  }
+  return result;
+}
+
+std::string bold(std::string_view text) { return "\\fB" + roff(text) + "\\fR"; }
+
+std::string heading(std::string_view text) {
+  std::string capitals(text);
+  for (char& letter : capitals) {
+    if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+  }
+  return ".SH \"" + roff(capitals) + "\"\n";
+}
+
+std::string term(const std::string& name, const std::string& meaning) {
+  return ".TP\n" + name + "\n" + meaning + "\n";
+}
+
+/// The option with its values, each with its meaning below.
+std::string option_entry(const CLI::Option& option, bool is_positional) {
+  const HelpFormatter help(HelpFormatter::Extent::Full);
+  std::string names = bold(help.make_option_name(&option, is_positional));
+  if (!is_positional && option.get_positional()) {
+    return term(names + " " + roff(option.get_type_name()),
+                roff("The same as " + option.get_name(true)));
+  }
+  names += roff(help.make_option_opts(&option));
+  std::string text = ".TP\n" + names + "\n";
+  bool is_first = true;
+  for (const HelpParagraph& paragraph : help_paragraphs(option)) {
+    const std::string meaning = roff(paragraph.text);
+    if (paragraph.value.empty()) {
+      text += (is_first ? "" : ".IP\n") + meaning + "\n";
+    } else {
+      text += ".RS\n" + term(bold(paragraph.value), meaning) + ".RE\n";
+    }
+    is_first = false;
+  }
+  return text;
+}
+
+/// Examples as they are typed, and what the help says below them.
+std::string footer_sections(const std::string& footer) {
+  std::string text = ".PP\n";
+  bool is_call = false;
+  std::istringstream lines(footer);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string exit_codes = "Exit codes: ";
+    const bool was_call = is_call;
+    is_call = line.rfind("  ", 0) == 0;
+    if (was_call && !is_call) text += ".EE\n.PP\n";
+    if (is_call && !was_call) text += ".PP\n.EX\n";
+    if (line == "Examples:") {
+      text += heading("Examples");
+    } else if (line.rfind(exit_codes, 0) == 0) {
+      text += heading("Exit status") + roff(line.substr(exit_codes.size())) + "\n";
+    } else {
+      text += roff(line) + "\n";
+    }
+  }
+  return text;
+}
+
+ManPage page_of(const CLI::App& app, const CLI::App& program) {
+  const bool is_command = &app != &program;
+  const std::string name = program.get_name() + (is_command ? "-" + app.get_name() : "");
+  const std::string call = program.get_name() + (is_command ? " " + app.get_name() : "");
+  std::string capitals = heading(name).substr(4);
+  capitals.pop_back();
+  std::string text = ".TH " + capitals + " 1 \"\" \"wscvt " + version() + "\" \"User Commands\"\n";
+  text += heading("Name") + roff(name) + " \\- " + roff(app.get_description()) + "\n";
+  const std::string usage = HelpFormatter().make_usage(&app, call);
+  text += heading("Synopsis") + roff(usage.substr(usage.find(": ") + 2));
+  const auto options = [&](const std::string& title, bool is_positional, const auto& is_wanted) {
+    std::string entries;
+    for (const CLI::Option* option : app.get_options(is_wanted)) {
+      entries += option_entry(*option, is_positional);
+    }
+    if (!entries.empty()) text += heading(title) + entries;
+  };
+  options("Arguments", true, [](const CLI::Option* option) {
+    return option->get_positional() && !option->get_group().empty();
+  });
+  std::string others;
+  for (const std::string& group : app.get_groups()) {
+    if (group.empty()) continue;
+    options(group, false, [&](const CLI::Option* option) {
+      return option->nonpositional() && option->get_group() == group;
+    });
+  }
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (others.empty()) text += heading("Commands");
+    text += term(bold(command->get_name()), roff(command->get_description() + "."));
+    others += (others.empty() ? "" : ", ") + bold("wscvt-" + command->get_name()) + "(1)";
+  }
+  text += footer_sections(app.get_footer());
+  text += heading("See also") + (is_command ? bold(program.get_name()) + "(1)" : others) + "\n";
+  return {name + ".1", text};
+}
+
+}  // namespace
+
+std::vector<ManPage> man_pages(const CLI::App& program) {
+  std::vector<ManPage> pages = {page_of(program, program)};
+  for (const CLI::App* command : program.get_subcommands({})) {
+    pages.push_back(page_of(*command, program));
+  }
+  return pages;
+}
+
+}  // namespace wscvt::program
