@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the add-on does without Blender: options, work in a thread, rows of results, carried values."""
+import threading
+
+import numpy as np
+
+# Choices of the library, with the label and the tooltip of the panel.
+WEIGHTINGS = (
+    ("wscvt-d", "WSCVT-D", "Cells of equal area"),
+    ("wscvt-c", "WSCVT-C", "Smaller cells where the surface bends"),
+    ("error-adaptive", "Error-adaptive", "Smaller cells where the remesh is far from the scan"),
+)
+PLACEMENTS = (
+    ("fitted", "Fitted", "Triangles closest to the scan, exactly its volume. Nodes are off the scan"),
+    ("on-surface", "On the surface", "Nodes on the scan, for contact laws that sum over nodes"),
+    ("contact-fit", "Contact fit", "Nodes for contact laws that use the deepest node"),
+)
+FORM = (  # what the panel shows of the descriptors, in this order
+    "volume", "area", "sphericity_wadell", "aspect_ratio_inertia",
+    "axis_s_inertia", "axis_i_inertia", "axis_l_inertia")
+
+
+class Job:
+    """A remesh that runs in a thread of its own. `result` or `error` is set when it is done."""
+
+    def __init__(self, remesh, vertices, faces, options):
+        self.fraction = 0.0
+        self.result = None
+        self.error = None
+        self._cancelled = False
+        self._thread = threading.Thread(
+            target=self._run, args=(remesh, vertices, faces, options), daemon=True)
+        self._thread.start()
+
+    def _run(self, remesh, vertices, faces, options):
+        try:
+            self.result = remesh(vertices, faces, progress=self._progress, **options)
+        except Exception as error:  # of any kind: the operator reports it
+            self.error = error
+
+    def _progress(self, fraction, stage):
+        self.fraction = fraction
+        return not self._cancelled
+
+    def cancel(self):
+        """Ends the work soon; `error` is then the library's."""
+        self._cancelled = True
+
+    def is_done(self):
+        return not self._thread.is_alive()
+
+    def wait(self):
+        self._thread.join()
+
+
+def scale_and_rotation(matrix):
+    """The part (3, 3) of a matrix (4, 4) that turns and scales. Throws ValueError if it flattens."""
+    linear = np.array(matrix, dtype=float)[:3, :3]
+    lengths = np.linalg.norm(linear, axis=0)
+    if lengths.min() == 0.0 or abs(np.linalg.det(linear)) < 1e-9 * lengths.prod():
+        raise ValueError("The object's scale is 0 along an axis. Give it another scale.")
+    return linear
+
+
+def transformed(vertices, faces, linear):
+    """Vertices and faces under a matrix (3, 3); a mirror turns the faces, so that they stay outward."""
+    vertices = vertices @ linear.T
+    return vertices, faces[:, ::-1] if np.linalg.det(linear) < 0.0 else faces
+
+
+def corner_weights(points, corners):
+    """Weights (n, 3) of the corners (n, 3, 3) of triangles at points (n, 3) on them, 0 to 1."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    normal = np.cross(b - a, c - a)
+    square = np.einsum("ij,ij->i", normal, normal)
+    flat = square == 0.0  # such a triangle has its first corner's value
+    square[flat] = 1.0
+    weight_b = np.einsum("ij,ij->i", np.cross(points - a, c - a), normal) / square
+    weight_c = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / square
+    weight_b[flat] = weight_c[flat] = 0.0
+    weights = np.clip(np.stack([1.0 - weight_b - weight_c, weight_b, weight_c], axis=1), 0.0, 1.0)
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def properties(report):
+    """The custom properties of a result: numbers and texts by their names."""
+    values = {
+        "wscvt_scan": report["source"],
+        "wscvt_made_by": report["made_by"],
+        "wscvt_nodes": report["result"]["vertices"],
+        "wscvt_rms_distance": report["rms_distance"]["scan_to_remesh"],
+        "wscvt_rms_distance_percent": report["rms_distance"]["percent_of_equivalent_radius"],
+        "wscvt_smallest_angle": report["quality"]["remesh"]["smallest_angle_degrees"],
+        "wscvt_mean_edge_ratio": report["quality"]["remesh"]["edge_ratio"]["mean"],
+        "wscvt_warnings": "\n".join(report["warnings"]),
+    }
+    for key, row in report["descriptors"].items():
+        values[f"wscvt_{key}"] = row["remesh"]
+        values[f"wscvt_{key}_error_percent"] = row["error_percent"]
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def percent(value):
+    return "exact" if abs(value) < 1e-9 else f"{value:+.2f} %"
+
+
+def rows(values):
+    """What the panel says of a result, from its properties: label, value, error."""
+    found = [
+        ("Nodes", str(values["wscvt_nodes"]), ""),
+        ("RMS dist.", f"{values['wscvt_rms_distance_percent']:.2f} % of radius", ""),
+        ("Least angle", f"{values['wscvt_smallest_angle']:.1f}\N{DEGREE SIGN}", ""),
+    ]
+    labels = {"volume": "Volume", "area": "Area", "sphericity_wadell": "Sphericity",
+              "aspect_ratio_inertia": "S/L", "axis_s_inertia": "Axis S",
+              "axis_i_inertia": "Axis I", "axis_l_inertia": "Axis L"}
+    for key in FORM:
+        if f"wscvt_{key}" in values:
+            error = values.get(f"wscvt_{key}_error_percent")
+            found.append((labels[key], f"{values[f'wscvt_{key}']:.4g}",
+                          "" if error is None else percent(error)))
+    return found
