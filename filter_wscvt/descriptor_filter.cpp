@@ -1,20 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "descriptor_filter.h"
 
+#include <utility>
+
 #include "log_text.h"
 #include "report_file.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_table.h"
+#include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/mass_table.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt::filter {
+
+namespace {
+
+// Numbers of five digits, and names of layers above the table: it is to be narrow.
+
+std::vector<std::vector<std::string>> descriptor_rows(const GrainMeasures& measures) {
+  std::vector<std::vector<std::string>> rows = {{"Descriptor", "value"}};
+  for (const DescriptorValue& row : list_descriptors(measures.grain.descriptors)) {
+    rows.push_back({"  " + row.label, format_number(row.value, 5)});
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> comparison_rows(const GrainMeasures& measures) {
+  std::vector<std::vector<std::string>> rows = {{"Descriptor", "reference", "layer", "error %"}};
+  for (const DescriptorComparison& row : compare_descriptors(measures)) {
+    rows.push_back({"  " + row.label, format_number(row.reference, 5), format_number(row.value, 5),
+                    format_error(row.error_percent)});
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> distance_rows(const GrainMeasures& measures) {
+  const double radius = measures.reference->checked.report.equivalent_radius;
+  std::vector<std::vector<std::string>> rows = {{"Distance", "length", "% of radius"}};
+  for (const DistanceRow& row : list_distances(measures)) {
+    rows.push_back({"  " + row.label, format_number(row.value, 4),
+                    format_number(100.0 * row.value / radius, 4)});
+  }
+  return rows;
+}
+
+}  // namespace
 
 std::string descriptor_name() { return "Grain shape descriptors"; }
 
 std::string descriptor_help() {
   return "Measures the shape of the current layer, a closed mesh of a grain: size, axes, "
          "sphericity, convexity, roundness, roughness and orientation; against a second layer also "
-         "errors and distances. Layers are measured as shown and not changed. It mends small "
-         "faults "
-         "for that, and says so; it refuses what needs more. See: "
+         "errors and distances. Layers are measured as shown and not changed. Small faults are "
+         "repaired first; larger ones are an error. See: "
          "<i>Wadell</i>, 1932; <i>Krumbein</i>, 1941; "
          "<i>Kong, Fonseca</i>, 2018";
 }
@@ -23,19 +61,20 @@ ParameterList descriptor_parameters() {
   const DetailedOptions defaults;
   return {
       text_parameter("ReferenceLayer", "Compare with layer",
-                     "A second layer as the list of layers shows it, its name with or without the "
-                     "ending or its number, or nothing: errors are those of the current layer "
-                     "against this one, the original."),
-      option_parameter("RoundnessBall", defaults.roundness_ball, roundness_ball_option,
-                       "Ball of roundness",
-                       "Radius of the balls that roundness reads curvature in, over the radius of "
-                       "the largest inscribed sphere. A smaller ball sees sharper corners, and "
-                       "noise. For scans of voxels take six voxels or more."),
+                     "Name or number of the layer to compare with, as the list of layers shows it. "
+                     "Errors and distances of the current layer are measured against it. Empty: no "
+                     "comparison."),
+      option_parameter(
+          "RoundnessBall", defaults.roundness_ball, roundness_ball_option,
+          "Ball radius for roundness",
+          "Radius of the balls that curvature is measured in for roundness, divided by "
+          "the radius of the largest inscribed sphere. Smaller balls see sharper "
+          "corners, and noise. For scans of voxels use six voxels or more."),
       option_parameter("RoughnessCutoff", defaults.roughness_cutoff, roughness_cutoff_option,
                        "Cut-off length of roughness",
-                       "Longest wave that counts as roughness, over the radius of the sphere of "
-                       "equal volume. Longer waves are form. Roughness grows with it, so compare "
-                       "grains at the same cut-off only."),
+                       "Longest wave that counts as roughness, divided by the radius of the sphere "
+                       "of equal volume. Longer waves are form. Roughness grows with the cut-off: "
+                       "compare grains only at the same cut-off."),
       report_file_parameter(),
   };
 }
@@ -52,7 +91,21 @@ DescriptorSettings read_descriptor_settings(const ParameterValues& values) {
 }
 
 std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds) {
-  std::vector<std::string> lines = descriptor_lines(measures);
+  std::vector<std::string> lines = {"Layer       " + grain_line(measures.grain)};
+  const auto append = [&](const std::vector<std::vector<std::string>>& table) {
+    for (std::string& line : log_table(table)) lines.push_back(std::move(line));
+  };
+  std::vector<NamedMass> masses;
+  if (measures.reference) {
+    lines.push_back("Reference   " + grain_line(*measures.reference));
+    append(comparison_rows(measures));
+    append(distance_rows(measures));
+    masses.push_back({"reference layer", mass_properties(measures.reference->descriptors.basic)});
+  } else {
+    append(descriptor_rows(measures));
+  }
+  masses.push_back({"this layer", mass_properties(measures.grain.descriptors.basic)});
+  append(mass_rows(masses));
   lines.push_back(seconds_line(seconds));
   return as_log(remarks(measures), lines);
 }

@@ -16,6 +16,7 @@
 #include "everyday_filter.h"
 #include "remesh_filter.h"
 #include "remesh_report.h"
+#include "shown_words.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/remesh.h"
@@ -303,8 +304,8 @@ std::string sentence_of_current_exception() {
     return "There is not enough memory for this mesh; simplify it or ask for fewer nodes.";
   } catch (const Error& error) {
     // Of what the library knows nothing about: the document, which a run changes only at its end.
-    if (error.code() != ErrorCode::Cancelled) return error.what();
-    return error.what() + std::string(" Nothing was changed.");
+    const std::string sentence = shown_words(error.what());
+    return error.code() == ErrorCode::Cancelled ? sentence + " Nothing was changed." : sentence;
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {

@@ -10,11 +10,67 @@
 
 namespace wscvt::filter {
 
+namespace {
+
+/// A text as lines of at most so many characters, broken at spaces; those after the first are two
+/// columns further in. A longer word stays whole.
+std::vector<std::string> broken(const std::string& text, std::size_t width) {
+  const std::size_t indent = text.find_first_not_of(' ');
+  if (text.size() <= width || indent == std::string::npos) return {text};
+  const std::string more(indent + 2, ' ');
+  std::vector<std::string> lines;
+  std::string rest = text;
+  while (rest.size() > width) {
+    const std::size_t begin = rest.find_first_not_of(' ');
+    std::size_t space = rest.rfind(' ', width);
+    if (space == std::string::npos || space < begin) space = rest.find(' ', begin);
+    if (space == std::string::npos) break;
+    lines.push_back(rest.substr(0, space));
+    rest = more + rest.substr(space + 1);
+  }
+  lines.push_back(rest);
+  return lines;
+}
+
+}  // namespace
+
 std::string seconds_line(double seconds) {
   std::ostringstream line;
   line.imbue(std::locale::classic());
-  line << "Seconds     " << std::fixed << std::setprecision(2) << seconds;
+  line << "Time, s     " << std::fixed << std::setprecision(2) << seconds;
   return line.str();
+}
+
+std::vector<std::string> log_table(const std::vector<std::vector<std::string>>& rows) {
+  constexpr std::size_t narrowest_label = 16;
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::size_t cells_width = 0;
+  for (std::size_t c = 1; c < widths.size(); ++c) cells_width += 2 + widths[c];
+  const bool beside = cells_width + narrowest_label <= log_width;
+  if (beside) widths[0] = std::min(widths[0], log_width - cells_width);
+
+  std::vector<std::string> lines;
+  for (const auto& row : rows) {
+    for (std::string& line : broken(row.front(), beside ? widths[0] : log_width)) {
+      lines.push_back(std::move(line));
+    }
+    for (std::size_t c = 1; c < row.size(); ++c) {
+      if (!beside) {
+        for (std::string& line : broken("    " + row[c], log_width)) {
+          lines.push_back(std::move(line));
+        }
+        continue;
+      }
+      if (c == 1) lines.back().resize(std::max(lines.back().size(), widths[0]), ' ');
+      lines.back() += std::string(2 + widths[c] - row[c].size(), ' ') + row[c];
+    }
+    lines.back().erase(lines.back().find_last_not_of(' ') + 1);
+  }
+  return lines;
 }
 
 std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
@@ -23,8 +79,18 @@ std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
   std::vector<LogLine> log = {{""}};
   for (const std::string& line : lines) log.push_back({line.substr(0, longest_line)});
   // Last, because MeshLab scrolls its log to the end.
+  std::size_t rows = 0;
   for (const std::string& warning : warnings) {
     log.push_back({warning.substr(0, longest_line), true});
+    rows += broken(log.back().text + "Warning: ", log_width).size();
+  }
+  // On a screen of 1366 x 768 the panel has five rows, and MeshLab itself writes the last two.
+  constexpr std::size_t rows_in_view = 3;
+  if (rows > rows_in_view) {
+    log.push_back({(warnings.size() == 1 ? std::string("one stands")
+                                         : std::to_string(warnings.size()) + " stand") +
+                       " above; scroll this log up.",
+                   true});
   }
   return log;
 }

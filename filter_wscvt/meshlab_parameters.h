@@ -116,7 +116,7 @@ ParameterValue value_of(const FilterParameter& parameter, const typename Api::Va
 /// For a parameter whose value a script lacks or garbles.
 [[noreturn]] inline void refuse_without(const std::string& name) {
   throw Error(ErrorCode::InvalidInput,
-              "Parameter " + name +
+              name +
                   " is missing from the script, or its value cannot be read; give a whole number, "
                   "and the parameter where the filter's own scripts have it. Nothing was changed.");
 }

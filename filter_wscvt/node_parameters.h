@@ -44,7 +44,7 @@ struct wscvt::EnumerationTable<wscvt::filter::VertexQuality> {
       {Quality::Curvature, "curvature", "curvature",
        "the largest absolute principal curvature, 1/unit"},
       {Quality::CellArea, "cell-area", "cell area", "surface area of the node's cell, unit^2"},
-      {Quality::OriginalDistance, "original-distance", "distance to the original",
+      {Quality::OriginalDistance, "scan-distance", "distance to the scan",
        "from each node to its surface, in units of the mesh"},
   };
 };

@@ -29,8 +29,7 @@ double checked_value(const FilterParameter& parameter, double value) {
   const bool whole = parameter.kind == ParameterKind::Real || value == std::floor(value);
   if (value >= parameter.minimum && value <= parameter.maximum && whole) return value;
 
-  std::string sentence = "Parameter " + parameter.name + " (" + parameter.label + ") is " +
-                         typed_text(value) + "; give ";
+  std::string sentence = "Parameter " + parameter.name + " is " + typed_text(value) + "; give ";
   if (parameter.kind == ParameterKind::Choice) {
     for (std::size_t k = 0; k < parameter.choices.size(); ++k) {
       if (k > 0) sentence += k + 1 < parameter.choices.size() ? ", " : " or ";
@@ -60,7 +59,7 @@ ParameterValue checked(const FilterParameter& parameter, const ParameterValue& v
   const bool is_text = std::holds_alternative<std::string>(value);
   if (is_text != holds_text(parameter.kind)) {
     throw Error(ErrorCode::InvalidInput,
-                "Parameter " + parameter.name + " (" + parameter.label + ") is " +
+                "Parameter " + parameter.name + " is " +
                     (is_text ? "a text; give a number." : "a number; give a text."));
   }
   if (is_text) return value;
@@ -165,7 +164,7 @@ CheckedValues::CheckedValues(const ParameterList& parameters, const ParameterVal
 const std::vector<ReplacedParameter>& replaced_parameters() {
   static const std::vector<ReplacedParameter> replaced = {
       {"RefinementRounds", "Use EdgeRatio 1.4 or larger."},
-      {"SmallestAngle", "Use EdgeRatio."},
+      {"SmallestAngle", "Use EdgeRatio 1.4 or larger, whose angles stay near 30 degrees or above."},
       {"Metric", "Method decides it."},
       {"Parametrization", "Method decides it."},
       {"CurvatureSource", "Leave it out."},

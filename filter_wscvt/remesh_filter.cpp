@@ -14,9 +14,8 @@ std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Vor
 std::string remesh_help() {
   // Three lines: in 2020.09, whose dialog does not scroll, a longer text pushes Apply off the
   // screen. MeshLab's search finds a filter by the words of its name and of this text.
-  return "Isotropic CVT of <b>exactly N nodes</b>: simplify, decimate, resample a sand grain or "
-         "particle "
-         "for DEM. WSCVT: <i>Wu F., Huang L., Lai Z.</i>, doi "
+  return "Isotropic CVT of <b>exactly N nodes</b>: simplify, decimate or resample a sand grain "
+         "(particle) for DEM. WSCVT: <i>Wu F., Huang L., Lai Z.</i>, doi "
          "10.6052/j.issn.1000-4750.2022.07.0614";
 }
 
@@ -33,7 +32,7 @@ ParameterList remesh_parameters() {
               ", or that number if it is larger. The log has the error of each number tried. Takes "
               "about ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error measure",
-                      "Which error is allowed, each in % of the original's own."),
+                      "Which error is allowed, each in % of the scan's value."),
       method_parameter(Method::OnScan),
       weighting_parameter(),
       curvature_alpha_parameter(),
@@ -54,22 +53,24 @@ ParameterList remesh_parameters() {
           "Max. repaired area (%)",
           "The filter fills holes. At non-manifold edges it removes flaps and internal walls. It "
           "stops if this changes more of the area than this limit."),
-      flag_parameter("Points", defaults.points, "Take points only",
-                     "Checked: ignores the faces and builds a star-shaped surface from the points. "
-                     "Overhangs are lost. Unchecked: a layer without faces is an error."),
+      flag_parameter(
+          "Points", defaults.points, "Rebuild the surface from the points",
+          "Checked: ignores the faces and builds a star-shaped surface through the points. "
+          "Overhangs are lost. Unchecked: a layer without faces is an error."),
       flag_parameter(
           "NewLayer", true, "Result as a new layer",
           "Unchecked: the result replaces the scan, which cannot be undone. Checked: it becomes a "
           "new, current layer."),
-      flag_parameter("Distances", defaults.measures.distances, "Measure distances",
-                     "Largest, rms and mean distance to the original, both ways. For log and "
-                     "report; takes about a second."),
+      flag_parameter(
+          "Distances", defaults.measures.distances, "Measure distances",
+          "Largest, rms and mean distance between scan and remesh, both ways. For log and "
+          "report; takes about a second."),
       table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
                       "What each vertex of the result holds as its quality."),
       colour_by_quality_parameter(),
       report_file_parameter(),
       output_file_parameter(
-          "CoefficientsFile", {".json", ".sh"}, "Save coefficients to",
+          "CoefficientsFile", {".json", ".sh"}, "Coefficients file",
           "A .json file, or .sh for SHTOOLS, for the coefficients of an SH series, or nothing. "
           "The filter that creates grains reads it. They are of the radius or, with overhangs, "
           "of x, y and z (.json), about the volume centroid. A name without a folder lands "

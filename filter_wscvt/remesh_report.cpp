@@ -5,6 +5,7 @@
 #include <map>
 
 #include "log_text.h"
+#include "shown_words.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/report/report.h"
@@ -30,9 +31,9 @@ void append_topics(std::vector<std::string>& lines, const std::vector<std::strin
   }
 }
 
-/// What a person looks at first, one row a measure: before, after, error in %.
+/// What a person looks at first, one row per measure: scan, remesh, error in %.
 std::vector<std::string> short_table(const RemeshResult& result) {
-  std::vector<std::vector<std::string>> cells = {{"", "original", "remesh", "error %"}};
+  std::vector<std::vector<std::string>> cells = {{"", "scan", "remesh", "error %"}};
   const auto add = [&](const std::string& label, double from, double to) {
     cells.push_back({"  " + label, format_number(from, 5), format_number(to, 5), ""});
   };
@@ -54,14 +55,14 @@ std::vector<std::string> short_table(const RemeshResult& result) {
   }
   add("mean edge ratio", is_scan ? result.original_quality.edge_ratio.mean : none,
       result.quality.edge_ratio.mean);
-  add("smallest angle", is_scan ? result.original_quality.smallest_angle : none,
+  add("smallest angle, degrees", is_scan ? result.original_quality.smallest_angle : none,
       result.quality.smallest_angle);
   if (result.distances) {
     const double radius = result.input.equivalent_radius;
-    cells.push_back({"  rms distance, % of radius", "",
+    cells.push_back({"  rms distance, % of equivalent radius", "",
                      format_number(100.0 * result.distances->root_mean_square / radius, 3), ""});
   }
-  return aligned_lines(cells);
+  return log_table(cells);
 }
 
 }  // namespace
@@ -72,7 +73,9 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds) {
   if (result.input.input_vertices > 0) append_topics(lines, report, {"Repairs"});
   append_topics(lines, report, {"Node count"});
   lines.push_back(seconds_line(seconds));
-  return as_log(result.warnings, lines);
+  std::vector<std::string> warnings;
+  for (const std::string& warning : result.warnings) warnings.push_back(shown_words(warning));
+  return as_log(warnings, lines);
 }
 
 }  // namespace wscvt::filter

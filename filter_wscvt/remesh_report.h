@@ -9,8 +9,8 @@
 
 namespace wscvt::filter {
 
-/// The log of a run, short enough for a host's panel: warnings, then what changed, one row a
-/// measure, then what was repaired and the seconds. Everything else is in the report.
+/// The log of a run, short and narrow enough for a host's panel: what changed, one row per measure,
+/// what was repaired, the time, then the warnings. Everything else is in the report.
 std::vector<LogLine> log_lines(const RemeshResult& result, double seconds);
 
 }  // namespace wscvt::filter

@@ -31,6 +31,7 @@
 #include "remesh_filter.h"
 #include "remesh_report.h"
 #include "sample_meshes.h"
+#include "shown_words.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
 
@@ -392,7 +393,7 @@ TEST(Filter, ChoicesAreFrozen) {
   EXPECT_EQ(choices("TargetMeasure"),
             QStringList({"Volume", "Area", "Sphericity", "Inertia", "RMS distance"}));
   EXPECT_EQ(choices("Quality"),
-            QStringList({"Radial distance", "Curvature", "Cell area", "Distance to the original"}));
+            QStringList({"Radial distance", "Curvature", "Cell area", "Distance to the scan"}));
 }
 
 struct Script {
@@ -621,7 +622,7 @@ TEST(Filter, ColorsFromRedToBlueWhenAsked) {
   EXPECT_TRUE(result.cm.mesh_attr.empty()) << "an attribute that only the coloring needed";
 }
 
-TEST(Filter, LogBeginsEmptyAndHoldsTheTableAndSeconds) {
+TEST(Filter, LogBeginsEmptyAndHoldsTheTableAndTheTime) {
   LoadedFilter loaded;
   MeshDocument document;
   add_layer(document, grain());
@@ -638,7 +639,7 @@ TEST(Filter, LogBeginsEmptyAndHoldsTheTableAndSeconds) {
   const QString log = lines.join("\n");
   EXPECT_LE(lines.size(), 14) << log.toStdString();
   for (const char* words :
-       {"volume", "area", "aspect", "sphericity", "error", "seconds", "300", "596"}) {
+       {"volume", "area", "aspect", "sphericity", "error", "time, s", "300", "596"}) {
     EXPECT_TRUE(log.contains(words, Qt::CaseInsensitive)) << words << " is not in\n"
                                                           << log.toStdString();
   }
@@ -656,6 +657,61 @@ TEST(Filter, LogHoldsCountsInFull) {
   for (const char* count : {" 1234567 ", " 2469130 ", " 100000", " 199996"}) {
     EXPECT_NE(log.find(count), std::string::npos) << count << " is not in\n" << log;
   }
+}
+
+TEST(Filter, LogTablesAreNoWiderThanThePanel) {
+  const std::string tiny = "-1.2346e-05";
+  const std::vector<std::vector<std::string>> rows = {
+      {"Descriptor", "reference", "layer", "error %"},
+      {"  axis S", "1", "2", "+3.000"},
+      {"  longest chord across L and W (T of NIST)", tiny, "7", "+1234.500"}};
+  const std::vector<std::string> lines = filter::log_table(rows);
+  ASSERT_EQ(lines.size(), 4U);
+  for (const std::string& line : lines) EXPECT_LE(line.size(), filter::log_width) << line;
+  EXPECT_EQ(lines[3].substr(0, 21), "    and W (T of NIST)");
+  EXPECT_EQ(lines[3].substr(lines[3].size() - 9), "+1234.500");
+  EXPECT_EQ(lines[1].size(), lines[3].size());
+  // Where the numbers leave no room they stand below, one a line.
+  const std::string list = "-1.23456e-05, 0.1234567, 12.3456";
+  const std::vector<std::string> below = {"  principal moments", "    " + list, "    " + list};
+  EXPECT_EQ(filter::log_table({{"  principal moments", list, list}}), below);
+  // A word that is too long stays whole.
+  const std::string word(70, 'w');
+  EXPECT_EQ(filter::log_table({{"a " + word, "1"}}).back(), "  " + word + "  1");
+}
+
+TEST(Filter, LogEndsByTheNumberOfWarningsThatThePanelDoesNotHold) {
+  const auto last = [](const std::vector<std::string>& warnings) {
+    return filter::as_log(warnings, {"a line"}).back();
+  };
+  EXPECT_FALSE(last({}).warning);
+  EXPECT_EQ(last({"Short."}).text, "Short.");
+  EXPECT_EQ(last({"One.", "Two."}).text, "Two.");
+  const std::string sentence = "Ten words of text fill a row of this panel. ";
+  EXPECT_EQ(last({sentence + sentence + sentence}).text, sentence + sentence + sentence);
+  const filter::LogLine end = last({sentence + sentence, sentence + sentence});
+  EXPECT_TRUE(end.warning);
+  EXPECT_EQ(end.text, "2 stand above; scroll this log up.");
+  EXPECT_EQ(last({sentence + sentence + sentence + sentence + sentence}).text,
+            "one stands above; scroll this log up.");
+}
+
+TEST(Filter, SentencesNameWhatIsOnTheScreen) {
+  const auto shown = [](const std::string& text) { return filter::shown_words(text); };
+  EXPECT_EQ(shown("Lower --edge-ratio."), "Lower \"Mean edge ratio (on the scan)\".");
+  EXPECT_EQ(shown("Raise --degree, or use the method on-scan."),
+            "Raise \"Degree of the SH series\" (in Remeshing: Weighted Spherical Centroidal "
+            "Voronoi), or use the method \"On the scan\".");
+  EXPECT_EQ(shown("Use the placement on-surface."), "Use the placement \"On the surface\".");
+  // Options that only the program has.
+  EXPECT_EQ(shown("use --shrink-wrap 5 and"), "use wscvt --shrink-wrap 5 and");
+  EXPECT_EQ(shown("(--handles keep)."), "(wscvt --handles keep).");
+  // Parameters of scripts.
+  EXPECT_EQ(shown("Parameter ReportFile is 'x'"), "Parameter \"Report file\" (ReportFile) is 'x'");
+  EXPECT_EQ(shown("Parameters ReportFile and CoefficientsFile both name 'x'"),
+            "Parameters \"Report file\" (ReportFile) and \"Coefficients file\" "
+            "(CoefficientsFile) both name 'x'");
+  EXPECT_EQ(shown("a - b -- c --"), "a - b -- c --");
 }
 
 TEST(Filter, LogLinesKeepColumnsAndSignsAsHtml) {
@@ -1103,6 +1159,26 @@ TEST(DescriptorFilter, FindsTheReferenceHoweverItsLayerIsCalled) {
     set_from_text(parameters, "ReferenceLayer", name);
     EXPECT_FALSE(loaded.apply(document, parameters)) << name;
     expect_sentence(QString::fromStdString(loaded.message()), {name, "'ball'", "'sand 0.5.ply'"});
+  }
+}
+
+TEST(DescriptorFilter, LogIsNoWiderThanThePanel) {
+  LoadedFilter loaded(descriptor_menu_text);
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  scan.setLabel("ball.ply");
+  add_layer(document, sphere()).setLabel("scan.ply");
+  for (const char* reference : {"", "ball.ply"}) {
+    RichParameterList parameters = loaded.parameters(document);
+    set_from_text(parameters, "ReferenceLayer", reference);
+    ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+    const QStringList lines = loaded.log();
+    EXPECT_GT(lines.size(), 40);
+    for (const QString& line : lines) {
+      // Warnings and the layers are sentences, which the panel breaks.
+      if (line.contains(QRegularExpression("^(Warning|Layer|Reference)\\b"))) continue;
+      EXPECT_LE(line.size(), static_cast<int>(filter::log_width)) << line.toStdString();
+    }
   }
 }
 

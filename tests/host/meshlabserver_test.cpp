@@ -44,7 +44,7 @@ TEST_P(ServerScripts, GiveTheExactCountAndTheTable) {
   const IndexedMesh mesh = read_mesh(output.toStdString());
   EXPECT_EQ(mesh.points.size(), 1000U);
   EXPECT_EQ(mesh.triangles.size(), 2U * 1000U - 4U);
-  for (const char* words : {"volume", "area", "aspect", "sphericity", "error", "seconds"}) {
+  for (const char* words : {"volume", "area", "aspect", "sphericity", "error", "time, s"}) {
     EXPECT_TRUE(outcome.output.contains(words, Qt::CaseInsensitive)) << words;
   }
 }
@@ -238,19 +238,22 @@ std::vector<Advice> all_advice() {
        resampled_at_a_distance(0.05, 0.3),
        {{"MendLimit", "0.5"}}},
       {"RaiseTheMendLimit",
-       {"", without_a_patch(), {}, {"raise the limit of the area that may be mended"}},
+       {"", without_a_patch(), {}, {"Raise \"Max. repaired area (%)\""}},
        "",
        {{"MendLimit", "100"}}},
-      {"TakeThePoints", {"", points, {}, {"Points in the filter"}}, "", {{"Points", "true"}}},
+      {"TakeThePoints",
+       {"", points, {}, {"\"Rebuild the surface from the points\""}},
+       "",
+       {{"Points", "true"}}},
       {"TakeTheMethodOnTheScan",
-       {"", bent_grain(), {{"Method", "1"}}, {"Use the method on-scan"}},
+       {"", bent_grain(), {{"Method", "1"}}, {"Use the method \"On the scan\""}},
        "",
        {{"Method", "0"}}},
       {"FitToTheScan",
        {"",
         grain(),
         {{"ErrorTarget", "0.5"}, {"Method", "1"}, {"HarmonicDegree", "2"}},
-        {"use the method on-scan"}},
+        {"use the method \"On the scan\""}},
        "",
        {{"ErrorTarget", "0.5"}, {"Method", "0"}, {"HarmonicDegree", "2"}}},
   };

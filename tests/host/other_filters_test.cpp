@@ -135,7 +135,7 @@ TEST(ServerDescribes, ALayer) {
   EXPECT_FALSE(outcome.crashed);
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* words : {"volume", "convexity", "Zingg", "Kong-Fonseca", "Krumbein", "roundness",
-                            "Sku", "oriented box", "rodness", "Seconds"}) {
+                            "Sku", "oriented box", "rodness", "Time, s"}) {
     EXPECT_TRUE(outcome.output.contains(words)) << words;
   }
   QFile report(folder.filePath("report.csv"));

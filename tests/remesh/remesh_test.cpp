@@ -668,7 +668,7 @@ TEST(Remesh, PointsAreFittedWhenChosen) {
 void expect_that_the_advice_works(const IndexedMesh& scan, RemeshOptions options,
                                   const std::string& sentence) {
   std::smatch advice;
-  ASSERT_TRUE(std::regex_search(sentence, advice, std::regex("--shrink-wrap=([0-9.]+)")))
+  ASSERT_TRUE(std::regex_search(sentence, advice, std::regex("--shrink-wrap ([0-9.]+)")))
       << sentence;
   options.envelope.opening_percent = std::stod(advice[1]);
   const RemeshResult wrapped = remesh(scan, options, Execution(1));

@@ -39,7 +39,7 @@ CheckedMesh check(const IndexedMesh& mesh, int threads = 1) {
 
 /// The limit that a refusal says to raise it above.
 double advised_limit(const std::string& sentence) {
-  const std::string before = "may be mended above ";
+  const std::string before = "--max-repaired-area above ";
   const std::size_t place = sentence.find(before);
   EXPECT_NE(place, std::string::npos) << sentence;
   return place == std::string::npos ? 0.0
@@ -384,7 +384,7 @@ TEST(MeshCheck, RefusesLargeHolesUntilToldToFillThem) {
   mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), lower),
                        mesh.triangles.end());
   const std::string sentence = refusal(mesh);
-  expect_mentions(sentence, {"boundary edges around", "limit of 5 %", "raise the limit"});
+  expect_mentions(sentence, {"boundary edges around", "(limit 5 %)", "Raise --max-repaired-area"});
   MeshCheckOptions options;
   options.mended_area_limit_percent = 100.0 * advised_limit(sentence);
   EXPECT_LT(options.mended_area_limit_percent, 36.0);
@@ -636,7 +636,7 @@ TEST(MeshCheck, DropsFlapsAndWalls) {
   // A fin above the limit is not dropped on the quiet, but when told to.
   fin.points.back() = {0, 0, 20};
   const std::string sentence = refusal(fin);
-  expect_mentions(sentence, {"1 non-manifold edge,", "raise the limit"});
+  expect_mentions(sentence, {"1 non-manifold edge,", "Raise --max-repaired-area"});
   MeshCheckOptions options;
   options.mended_area_limit_percent = 100.0;
   checked = check_mesh(fin, options, Execution(1));

@@ -166,9 +166,10 @@ int fewest_nodes(std::size_t genus) {
   if (enough > 0) {
     text += " " + std::to_string(enough) + " were tried and are enough: ask for that many or more.";
   } else {
-    text += " Up to " + std::to_string(most_tried_times * count) +
-            " were tried and are not enough. Ask for more, or let the handles be cut (--handles "
-            "cut, with a longer --max-handle-loop).";
+    text +=
+        " Up to " + std::to_string(most_tried_times * count) +
+        " were tried and are not enough. Ask for more, or let the handles be cut: --handles cut, "
+        "and a larger limit by --max-handle-loop.";
   }
   refuse(text);
 }

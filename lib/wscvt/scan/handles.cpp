@@ -278,13 +278,13 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
   HandleFreeMesh result;
   const std::size_t genus = genus_of(mesh);
   if (genus > most_handles_cut) {
-    throw WrappableScan(
-        ErrorCode::InvalidInput,
-        "The scan has " + std::to_string(genus) + " handles, more than the limit of " +
-            std::to_string(most_handles_cut) + ": it is porous. Close the pores first (" +
-            where_meshlab_closes() + "), or keep the handles (--" +
-            std::string(EnumerationTable<HandleAction>::key) + " keep in the program).",
-        finest_tried_percent);
+    throw WrappableScan(ErrorCode::InvalidInput,
+                        "The scan has " + std::to_string(genus) +
+                            " handles, more than the limit of " + std::to_string(most_handles_cut) +
+                            ": it is porous. Close the pores first (" + where_meshlab_closes() +
+                            "), or keep the handles (--" +
+                            std::string(EnumerationTable<HandleAction>::key) + " keep).",
+                        finest_tried_percent);
   }
   const double volume = volume_of(mesh);
   const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));

@@ -136,12 +136,10 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, 
              " around " + count_of(report.filled_holes, "hole");
   }
   const std::string sentence =
-      "The mesh has " + found + ". Mending that would change " + format_percent(mended) +
-      " of its area, above the limit of " + format_percent(limit) +
-      "; raise the limit of the area that may be mended above " + format_percent(mended) + " (--" +
-      std::string(mended_area_limit_option.key) +
-      " in the program, Mend limit in the filter with all parameters) and check the result "
-      "against the scan, close the openings first (" +
+      "The mesh has " + found + ". Their repair would change " + format_percent(mended) +
+      " of its area (limit " + format_percent(limit) + "). Raise --" +
+      std::string(mended_area_limit_option.key) + " above " + format_percent(mended) +
+      " and check the result against the scan, close the openings first (" +
       where_meshlab_closes() + "), or scan the grain again.";
   // A ball as wide as the hole still sinks into it a little.
   const double percent = std::max(finest_tried_percent, std::ceil(120.0 * widest_share));

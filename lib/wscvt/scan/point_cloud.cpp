@@ -55,10 +55,8 @@ IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& ex
   if (!scan.triangles.empty() || scan.points.empty()) return scan;
   throw Error(ErrorCode::InvalidInput,
               "The scan has " + std::to_string(scan.points.size()) +
-                  " points and no faces. If it was exported without its faces, export it again; if "
-                  "its points are all there is, choose to make a surface of them: --points in the "
-                  "program, Points in the filter \"Remeshing: Weighted Spherical Centroidal "
-                  "Voronoi\", RemeshOptions::points in the library.");
+                  " points and no faces. If it was exported without its faces, export it again. If "
+                  "there are only points, build a surface from them: --points.");
 }
 
 void count_given(std::size_t points, std::size_t faces, std::size_t different,
