@@ -645,7 +645,7 @@ TEST(Remesh, PointsAreFittedWhenChosen) {
     FAIL() << "points were taken for a scan";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    EXPECT_NE(std::string(error.what()).find("RemeshOptions::points"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("--points"), std::string::npos);
   }
   chosen.points = true;  // the advice
   const RemeshResult cloud = remesh(points, chosen, Execution(1));
