@@ -9,8 +9,11 @@ namespace wscvt::python {
 
 void bind_error(pybind11::module_& module);
 void bind_options(pybind11::module_& module);
+void bind_remesh_object(pybind11::module_& module);
 void bind_remesh(pybind11::module_& module);
 void bind_measures(pybind11::module_& module);
+void bind_distances(pybind11::module_& module);
+void bind_extract(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
 
 }  // namespace wscvt::python

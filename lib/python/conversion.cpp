@@ -3,9 +3,13 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/option_words.h"
+#include "wscvt/base/readable_text.h"
 
 namespace wscvt::python {
 
@@ -83,6 +87,22 @@ py::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles) {
     }
   }
   return array;
+}
+
+std::string in_words_of_python(const std::string& sentence) {
+  if (sentence.find("wscvt ") != std::string::npos) return sentence;
+  return with_option_names(sentence, [](std::string_view key) {
+    const bool is_switched_off = key.rfind("no-", 0) == 0;
+    std::string name(is_switched_off ? key.substr(3) : key);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return is_switched_off ? name + "=False" : name;
+  });
+}
+
+void warn(const std::string& sentence) {
+  if (PyErr_WarnEx(PyExc_UserWarning, readable(in_words_of_python(sentence)).c_str(), 2) != 0) {
+    throw py::error_already_set();
+  }
 }
 
 py::object parsed(const std::string& json) {

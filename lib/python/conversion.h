@@ -36,6 +36,13 @@ pybind11::array_t<double> array_of(const std::vector<Vector3>& points);
 pybind11::array_t<double> array_of(const std::vector<double>& values);
 pybind11::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles);
 
+/// A sentence of the library, which names options as the program has them, with the names of
+/// arguments: "edge_ratio" for "--edge-ratio". Sentences that show a command stay as they are.
+std::string in_words_of_python(const std::string& sentence);
+
+/// Gives a sentence as Python's UserWarning. Throws what a filter of warnings makes of it.
+void warn(const std::string& sentence);
+
 /// The dictionaries, lists and numbers of a text in JSON.
 pybind11::object parsed(const std::string& json);
 

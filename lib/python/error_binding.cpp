@@ -5,6 +5,7 @@
 #include <new>
 
 #include "bindings.h"
+#include "conversion.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/readable_text.h"
 
@@ -44,7 +45,7 @@ void bind_error(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const Error& error) {
-      py::object raised = error_type(readable(error.what()));
+      py::object raised = error_type(readable(in_words_of_python(error.what())));
       raised.attr("code") = name_of(error.code());
       PyErr_SetObject(error_type.ptr(), raised.ptr());
     } catch (const std::bad_alloc&) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "bindings.h"
 #include "conversion.h"
-#include "wscvt/base/readable_text.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::python {
@@ -17,21 +18,18 @@ namespace {
 
 /// The mesh of a file, whose warnings become Python's.
 IndexedMesh warned(MeshFile file) {
-  for (const std::string& warning : file.warnings) {
-    if (PyErr_WarnEx(PyExc_UserWarning, readable(warning).c_str(), 1) != 0) {
-      throw py::error_already_set();
-    }
-  }
+  for (const std::string& warning : file.warnings) warn(warning);
   return std::move(file.mesh);
 }
 
 }  // namespace
 
 void bind_files(py::module_& module) {
+  module.def("_is_mesh_file", &is_mesh_file);
   module.def(
       "read_mesh",
-      [](const std::string& path) {
-        const IndexedMesh mesh = warned(read_mesh_file(path));
+      [](const std::filesystem::path& path) {
+        const IndexedMesh mesh = warned(read_mesh_file(path.string()));
         return std::make_pair(array_of(mesh.points), array_of(mesh.triangles));
       },
       py::arg("path"),
@@ -42,8 +40,8 @@ void bind_files(py::module_& module) {
           .c_str());
   module.def(
       "write_mesh",
-      [](const std::string& path, const Points& vertices, const py::object& faces) {
-        write_mesh(mesh_of(vertices, faces), path);
+      [](const std::filesystem::path& path, const Points& vertices, const py::object& faces) {
+        write_mesh(mesh_of(vertices, faces), path.string());
       },
       py::arg("path"), py::arg("vertices"), py::arg("faces"),
       ("Writes a file by its ending, " + mesh_extensions(MeshUse::Write) + ", whole or not at all.")

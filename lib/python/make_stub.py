@@ -20,6 +20,7 @@ def annotation(name, default):
 
 
 both = {**wscvt.options(), **wscvt.options("as-published")}
-options = "".join(f"    {name}: {annotation(name, default)} = ...,\n"
-                  for name, default in both.items())
-stub.write_text(template.read_text().replace("    # options\n", options))
+lines = {name: f"    {name}: {annotation(name, default)} = ...,\n" for name, default in both.items()}
+text = template.read_text().replace("    # options\n", "".join(lines.values()))
+del lines["nodes"]
+stub.write_text(text.replace("    # options but nodes\n", "".join(lines.values())))

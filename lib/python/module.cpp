@@ -11,7 +11,10 @@ PYBIND11_MODULE(_wscvt, module) {
   module.attr("__version__") = wscvt::version();
   wscvt::python::bind_error(module);
   wscvt::python::bind_options(module);
+  wscvt::python::bind_remesh_object(module);
   wscvt::python::bind_remesh(module);
   wscvt::python::bind_measures(module);
+  wscvt::python::bind_distances(module);
+  wscvt::python::bind_extract(module);
   wscvt::python::bind_files(module);
 }

@@ -77,7 +77,9 @@ class ReadOptions {
       std::string key = keyword;
       std::replace(key.begin(), key.end(), '_', '-');
       const std::string advice = advice_for_option(key, method_);
-      if (!advice.empty()) throw py::type_error("The option " + keyword + ": " + advice);
+      if (!advice.empty()) {
+        throw py::type_error("The option " + keyword + ": " + in_words_of_python(advice));
+      }
       throw py::type_error("There is no option " + keyword +
                            "; wscvt.options() has the options and their defaults.");
     }

@@ -2,9 +2,11 @@
 """The Python module: arrays in and out, options by name, reports, progress, errors."""
 import ast
 import gc
+import json
 import math
 import os
 import pathlib
+import pickle
 import re
 import subprocess
 import sys
@@ -134,7 +136,8 @@ def test_every_option_reaches_the_report(method):
 
 
 @pytest.mark.parametrize("given, part", [
-    ({"refine": 60}, "--edge-ratio"), ({"target": 0.5}, "--max-error"), ({"metric": "sphere"}, "--method"),
+    ({"refine": 60}, "Use edge_ratio 1.4"), ({"target": 0.5}, "Use max_error."), ({"metric": "sphere"}, ": .*method"),
+    ({"advice": True}, "or suggestions=False"),
     ({"sampling": "fibonacci"}, "as-published"), ({"method": "as-published", "edge_ratio": 1.2}, "on-scan")])
 def test_options_of_version_2_and_of_the_other_method_are_refused(scan, given, part):
     with pytest.raises(TypeError, match=part):
@@ -203,7 +206,7 @@ def test_what_is_refused(scan):
             call()
 
 
-@pytest.mark.parametrize("reference", [3, "scan.ply", (1.0,), ("a", "b"), {"vertices": 1}, object()])
+@pytest.mark.parametrize("reference", [3, (1.0,), ("a", "b"), {"vertices": 1}, object()])
 def test_a_reference_of_another_type_is_a_type_error(scan, reference):
     with pytest.raises(TypeError, match=r"\(vertices, faces\)"):
         wscvt.describe(*scan, reference)
@@ -369,3 +372,168 @@ def test_what_is_odd_about_a_file_is_a_warning(scan, tmp_path):
         tail = wscvt.read_mesh(str(file))
     np.testing.assert_array_equal(tail[0], whole[0])
     assert ".pcd" in wscvt.read_mesh.__doc__ and ".msh" in wscvt.write_mesh.__doc__
+
+
+def test_paths_are_paths_everywhere(scan, tmp_path):
+    file = tmp_path / "scan.ply"
+    wscvt.write_mesh(file, *scan)
+    ours = wscvt.describe(file, reference=file)["descriptors"]["volume"]
+    assert ours["error_percent"] == 0.0
+    assert wscvt.describe(*scan, reference=TrimeshLike(*scan))["descriptors"]["volume"] == ours
+    with pytest.raises(wscvt.Error) as refused:
+        wscvt.describe(*scan, reference=tmp_path / "no.ply")
+    assert refused.value.code == "input-output"
+    coefficients = tmp_path / "sphere.json"
+    with pytest.raises(wscvt.Error, match="sphere.json"):
+        wscvt.create("harmonics", coefficients_file=coefficients, nodes=60)
+
+
+def test_a_batch_is_its_grains_in_order_and_errors_are_results(scan, tmp_path):
+    small = wscvt.remesh(*scan, nodes=400)
+    for name in ("b.ply", "a.stl"):
+        wscvt.write_mesh(tmp_path / name, small)
+    (tmp_path / "c.ply").write_text("no mesh")
+    (tmp_path / "notes.txt").write_text("no scan")
+    found = dict(wscvt.batch(tmp_path, 60, threads=2, edge_ratio=1.2))
+    assert list(found) == ["a", "b", "c"]
+    assert found["c"].code == "input-output" and isinstance(found["c"], wscvt.Error)
+    expected = wscvt.remesh(tmp_path / "b.ply", 60, edge_ratio=1.2)
+    np.testing.assert_array_equal(found["b"].vertices, expected.vertices)
+    assert found["b"].report["source"] == "b.ply"
+    named = {"one": (small.vertices, small.faces), "two": small}
+    assert [name for name, _ in wscvt.batch(named, 60)] == ["one", "two"]
+    assert [name for name, _ in wscvt.batch([tmp_path / "a.stl", small], nodes=60)] == ["a", "1"]
+    with pytest.raises(TypeError, match="nodse"):
+        list(wscvt.batch([small], nodse=60))
+
+
+def test_a_batch_reads_a_few_in_advance_and_ends_where_it_is_left(scan):
+    asked = []
+
+    def scans():
+        for k in range(50):
+            asked.append(k)
+            yield scan
+
+    for name, _ in wscvt.batch(scans(), 60, threads=1):
+        if name == "2":
+            break
+    assert len(asked) <= 5
+
+
+def test_extract_is_that_of_the_program(tmp_path):
+    z, y, x = np.indices((24, 30, 40))
+    labels = np.zeros((24, 30, 40), dtype=np.uint16)
+    labels[(x - 12) ** 2 / 60 + (y - 14) ** 2 / 90 + (z - 11) ** 2 / 40 < 1] = 7
+    labels[(x - 30) ** 2 + (y - 15) ** 2 + (z - 12) ** 2 < 50] = 300
+    labels[:3, :6, :6] = 9  # at the border
+    labels[12, 2, 12] = 4  # too small
+    np.save(tmp_path / "labels.npy", labels)
+    found = wscvt.extract(labels, 0.25)
+    assert list(found) == [7, 300]
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "extract", tmp_path / "labels.npy", tmp_path / "out",
+                    "--voxel-size", "0.25", "-q"], check=True)
+    for label, mesh in found.items():
+        its = wscvt.read_mesh(tmp_path / "out" / f"{label}.ply")
+        np.testing.assert_array_equal(mesh[0], its[0])
+        np.testing.assert_array_equal(mesh[1], its[1])
+    stretched = wscvt.extract(np.asfortranarray(labels), (0.5, 1.0, 2.0), smoothing=0)
+    assert volume(*stretched[300]) == pytest.approx((labels == 300).sum())
+    assert np.ptp(stretched[300][0], axis=0) == pytest.approx([7.5, 15.0, 30.0])
+    with pytest.warns(UserWarning, match="label 4: .*fewer passes by smoothing"):
+        assert list(wscvt.extract(labels, at_border=True, smallest=1)) == [7, 9, 300]
+    assert list(wscvt.extract(labels, smallest=1, smoothing=0)) == [4, 7, 300]
+    assert list(wscvt.extract(labels, background=7, at_border=True)) == [0, 9, 300]
+
+
+def test_what_extract_refuses_and_warns_of():
+    labels = np.zeros((9, 20, 10), dtype=int)
+    labels[2:7, 2:8, 2:8] = labels[2:5, 10:18, 2:8] = 3
+    with pytest.warns(UserWarning, match="label 3 is in 2 pieces"):
+        assert list(wscvt.extract(labels)) == [3]
+    with pytest.raises(TypeError, match="whole numbers"):
+        wscvt.extract(labels.astype(float))
+    for given in [dict(labels=labels[0]), dict(labels=labels, smoothing=-1),
+                  dict(labels=labels, voxel_size=0.0), dict(labels=labels, smallest=0)]:
+        with pytest.raises(wscvt.Error) as refused:
+            wscvt.extract(**given)
+        assert refused.value.code == "invalid-input"
+
+
+def test_signed_distances_are_exact_and_negative_inside():
+    box = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 2.0) for z in (0.0, 3.0)])
+    faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+             [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    points = [[0.5, 1.0, 1.0], [0.5, 1.0, 3.25], [4.0, 6.0, 3.0], [0.9, 1.0, 1.5]]
+    wanted = [-0.5, 0.25, 5.0, -0.1]
+    np.testing.assert_allclose(wscvt.signed_distances(points, box, faces), wanted, atol=1e-12)
+    values, origin, spacing = wscvt.distance_grid(box, faces, 0.5)
+    assert spacing == 0.5 and values.ndim == 3
+    i, j, k = (np.array(values.shape) - [1, 2, 3]).clip(0)
+    np.testing.assert_allclose(values[i, j, k], wscvt.signed_distances(
+        [origin + spacing * np.array([i, j, k])], box, faces)[0], atol=1e-12)
+    with pytest.raises(wscvt.Error, match="20000000|20 million|spacing"):
+        wscvt.distance_grid(box, faces, 1e-4)
+
+
+def test_node_table_and_files_of_a_result(scan, tmp_path):
+    result = wscvt.remesh(*scan, nodes=60, source="sand")
+    table = result.node_table()
+    assert table.shape == (60,) and table.dtype.names == ("x", "y", "z", "nx", "ny", "nz", "area")
+    np.testing.assert_array_equal(np.stack([table[k] for k in "xyz"], axis=1), result.vertices)
+    assert table["area"].sum() == pytest.approx(result.report["descriptors"]["area"]["remesh"])
+    larger = result.node_table(frame="principal", size=2.0)
+    assert np.ptp(larger["x"]) > np.ptp(larger["y"]) > np.ptp(larger["z"])
+    result.write_node_table(tmp_path / "nodes.csv", frame="principal", size=2.0)
+    written = np.genfromtxt(tmp_path / "nodes.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(written["nz"], larger["nz"])
+
+    result.write_signed_distances(tmp_path / "grid.npy", 0.2)
+    grid = np.load(tmp_path / "grid.npy")
+    np.testing.assert_allclose(grid, wscvt.distance_grid(*scan, 0.2)[0], atol=1e-9)
+    result.write_signed_distances(str(tmp_path / "own.npy"), 0.2, surface="remesh")
+    assert np.abs(np.load(tmp_path / "own.npy") - grid).max() > 1e-3
+
+    for name in ("report.html", "report.json", "report.csv"):
+        result.write_report(tmp_path / name)
+    assert json.loads((tmp_path / "report.json").read_text()) == result.report
+    assert "sand" in (tmp_path / "report.html").read_text()
+    bare = wscvt.remesh(*scan, nodes=60, keep_scan=False)
+    bare.write_report(tmp_path / "bare.json")
+    for write in [lambda: bare.write_report(tmp_path / "bare.html"),
+                  lambda: bare.write_signed_distances(tmp_path / "bare.npy")]:
+        with pytest.raises(wscvt.Error, match="keep_scan=True"):
+            write()
+    with pytest.raises(wscvt.Error, match="principal"):
+        result.node_table(frame="no such")
+
+
+def test_results_pickle(scan):
+    result = wscvt.remesh(*scan, nodes=60, distances=True, source="sand")
+    again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(result))))
+    for name in ("vertices", "faces", "centre", "radial_distances", "cell_areas", "vertex_distances"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(result, name))
+    assert (again.report, again.warnings) == (result.report, result.warnings)
+    assert (str(again), repr(again)) == (str(result), repr(result))
+    np.testing.assert_array_equal(again.node_table(), result.node_table())
+    for call in [lambda: again.write_report("page.html"), lambda: again.node_table(frame="principal"),
+                 lambda: again.write_node_table("nodes.csv"), lambda: again.write_signed_distances("a.npy")]:
+        with pytest.raises(wscvt.Error, match="before it is pickled"):
+            call()
+
+
+def test_a_repr_says_what_it_is(scan):
+    text = repr(wscvt.remesh(*scan, nodes=60, source="sand"))
+    assert text.startswith("<wscvt.Remesh of 60 nodes and 116 faces, of 'sand', rms distance ")
+    assert text.endswith(" % of R, 1 warnings>")
+    assert "of ''" not in repr(wscvt.remesh(*scan, nodes=60))
+
+
+def test_each_function_says_its_arguments():
+    for name in wscvt.__all__:
+        text = getattr(wscvt, name).__doc__
+        assert text and len(text) > 60, name
+    for name in ("remesh", "batch", "extract", "describe", "distance_grid"):
+        for keyword in set(keywords_of_the_stub(name)) - set(wscvt.options()) - set(
+                wscvt.options("as-published")):
+            assert keyword in getattr(wscvt, name).__doc__, (name, keyword)

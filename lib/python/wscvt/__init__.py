@@ -10,16 +10,22 @@ A mesh is two arrays (vertices, faces), the path of a file, or a mesh of trimesh
 are in the unit of the mesh. The stub beside this file says what each function takes, returns and
 raises.
 """
+import collections
+import concurrent.futures
+import itertools
 import numbers
 import os
+import pathlib
+import threading
 
 from . import _wscvt
 from ._wscvt import Error, Remesh, __version__, create, options
 
-__all__ = ["Error", "Remesh", "create", "describe", "options", "read_mesh", "remesh", "write_mesh"]
+__all__ = ["Error", "Remesh", "batch", "create", "describe", "distance_grid", "extract", "options",
+           "read_mesh", "remesh", "signed_distances", "write_mesh"]
 
 
-def _arrays(mesh, faces):
+def _arrays(mesh, faces=None):
     """The vertices and faces of what a caller calls a mesh."""
     if faces is not None:
         return mesh, faces
@@ -33,6 +39,24 @@ def _arrays(mesh, faces):
 
 
 def remesh(vertices, faces=None, nodes=None, **options):
+    """Remeshes a dense scan to exactly N nodes and returns a Remesh.
+
+    remesh("scan.ply", 500), remesh(mesh, 500), remesh(vertices, faces, nodes=500)
+
+    vertices: (n, 3) numbers, any unit of length; or a path, or a mesh of trimesh or PyVista.
+    faces: (m, 3) whole numbers, counted from 0, counter-clockwise from outside. None with
+        points=True, which takes points without faces.
+    nodes: N, 4 to 1000000; 1000 by default.
+    threads: 0 takes all. They change no result.
+    progress: is called with the fraction done, 0 to 1, and the stage. Where it returns False or
+        raises, the work is cancelled.
+    source: what the report names as the scan; the file's name if there is one.
+    keep_scan: keep the repaired scan, which pages and grids of the result show. On by default.
+    All other options have the names and values of options().
+
+    Raises Error (code "invalid-input", "not-star-shaped", "numerical-failure", "input-output" or
+    "cancelled"), and TypeError for options that there are not.
+    """
     # remesh("scan.ply", 500) and remesh(mesh, 500)
     if isinstance(faces, numbers.Integral) and nodes is None:
         faces, nodes = None, faces
@@ -43,18 +67,138 @@ def remesh(vertices, faces=None, nodes=None, **options):
     return _wscvt.remesh(*_arrays(vertices, faces), **options)
 
 
+def batch(scans, nodes=None, *, threads=0, **options):
+    """Remeshes many grains, one a thread, and yields (name, Remesh) in the order of the scans.
+
+    for name, result in wscvt.batch("scans", 500):
+        if not isinstance(result, wscvt.Error):
+            wscvt.write_mesh(f"{name}.ply", result)
+
+    scans: a folder, whose meshes are taken in the order of their names; a dictionary of meshes by
+        name; or an iterable of meshes, as remesh takes them or as pairs (vertices, faces). Names of
+        files are without their ending, those of other meshes their number, from 0.
+    threads: 0 takes all.
+    keep_scan is off unless asked for. All other options are those of remesh but for progress.
+
+    A grain that fails yields its Error in place of a Remesh. TypeError is raised. Grains are read and
+    remeshed a few in advance. Leaving the loop cancels those.
+    """
+    options.setdefault("keep_scan", False)
+    is_left = threading.Event()
+
+    def work(scan):
+        vertices, faces = scan if isinstance(scan, tuple) else (scan, None)
+        try:
+            return remesh(vertices, faces, nodes, threads=1,
+                          progress=lambda fraction, stage: not is_left.is_set(), **options)
+        except Error as error:
+            return error
+
+    count = threads or len(os.sched_getaffinity(0))
+    grains = _named(scans)
+    with concurrent.futures.ThreadPoolExecutor(count) as pool:
+        waiting = collections.deque()
+        try:
+            while True:
+                for name, scan in itertools.islice(grains, 2 * count - len(waiting)):
+                    waiting.append((name, pool.submit(work, scan)))
+                if not waiting:
+                    return
+                name, future = waiting.popleft()
+                yield name, future.result()
+        finally:
+            is_left.set()
+            for _, future in waiting:
+                future.cancel()
+
+
+def _named(scans):
+    """Names and meshes of what a caller calls scans."""
+    if isinstance(scans, (str, os.PathLike)):
+        scans = sorted(path for path in pathlib.Path(scans).iterdir()
+                       if _wscvt._is_mesh_file(str(path)))
+    if hasattr(scans, "items"):
+        yield from scans.items()
+        return
+    for number, scan in enumerate(scans):
+        name = str(number)
+        if isinstance(scan, (str, os.PathLike)):
+            name = pathlib.Path(scan).name
+            name = pathlib.Path(name[:-3] if name.lower().endswith(".gz") else name).stem
+        yield name, scan
+
+
+def extract(labels, voxel_size=1.0, **options):
+    """Makes a mesh of each grain of a volume of labels; returns {label: (vertices, faces)}.
+
+    for label, mesh in wscvt.extract(tifffile.imread("labels.tif"), 0.012).items():
+        result = wscvt.remesh(*mesh, nodes=500)
+
+    labels: (nz, ny, nx) whole numbers, as numpy.load and tifffile.imread give them.
+    voxel_size: length, or three along x, y and z. Voxel (0, 0, 0) begins at the origin.
+    background: the label that is no grain, 0 by default.
+    smallest: voxels of the smallest grain that is taken, 100 by default.
+    at_border: also take grains that touch the border, cut as they are. Off by default.
+    smoothing: passes that smooth the voxels' steps, 0 to 1000, 20 by default.
+    threads, progress: as for remesh.
+
+    A grain in pieces is a UserWarning; its largest piece is taken. So is a grain that is too thin to
+    be smoothed, which is left out. Each mesh is closed and has
+    exactly the volume of its voxels, pores filled. Raises Error, and TypeError for labels that are
+    no whole numbers.
+    """
+    if isinstance(voxel_size, numbers.Real):
+        voxel_size = (voxel_size,) * 3
+    return _wscvt.extract(labels, voxel_size, **options)
+
+
 def describe(vertices, faces=None, reference=None, **options):
+    """Size, form, roundness, roughness and orientation of a closed mesh, as a dictionary.
+
+    vertices, faces: as for remesh. Lengths are in the unit of the mesh.
+    reference: a mesh to measure against, as a pair (vertices, faces), a path, or a mesh of trimesh
+        or PyVista. The dictionary then has errors in % and distances too.
+    roundness_ball, roughness_cutoff: as of "wscvt describe".
+    threads, progress: as for remesh.
+
+    The dictionary is the JSON report of "wscvt describe". Raises Error, and TypeError for a
+    reference of another type.
+    """
+    if reference is not None and not isinstance(reference, tuple):
+        mesh = _arrays(reference)
+        reference = reference if mesh[1] is None else mesh
     return _wscvt.describe(*_arrays(vertices, faces), reference, **options)
 
 
+def signed_distances(points, vertices, faces=None, **options):
+    """Distances (n,) of points (n, 3) to a closed mesh, exact, negative inside; length.
+
+    vertices, faces: as for remesh. threads, progress: as for remesh. Raises Error.
+    """
+    return _wscvt.signed_distances(points, *_arrays(vertices, faces), **options)
+
+
+def distance_grid(vertices, faces=None, spacing=0.0, **options):
+    """Signed distances to a closed mesh on a grid along the axes: a level set.
+
+    vertices, faces: as for remesh.
+    spacing: length; 0 takes a fiftieth of the equivalent diameter.
+    threads, progress: as for remesh.
+
+    Returns (values, origin, spacing): values (nx, ny, nz), length, negative inside; values[i, j, k]
+    is at origin + spacing * (i, j, k). Raises Error, also for more than 20 million points.
+    """
+    return _wscvt.distance_grid(*_arrays(vertices, faces), spacing, **options)
+
+
 def read_mesh(path):
-    return _wscvt.read_mesh(os.fspath(path))
+    return _wscvt.read_mesh(path)
 
 
 def write_mesh(path, vertices, faces=None):
-    _wscvt.write_mesh(os.fspath(path), *_arrays(vertices, faces))
+    _wscvt.write_mesh(path, *_arrays(vertices, faces))
 
 
-for _function in (remesh, describe, read_mesh, write_mesh):
+for _function in (read_mesh, write_mesh):
     _function.__doc__ = getattr(_wscvt, _function.__name__).__doc__
 del _function

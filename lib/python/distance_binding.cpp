@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/pybind11.h>
+
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "work.h"
+#include "wscvt/exchange/distance_grid.h"
+#include "wscvt/measures/distances.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::array_t<double> signed_distances(const Points& points, const Points& vertices,
+                                     const py::object& faces, int threads,
+                                     const py::object& progress) {
+  const std::vector<Vector3> places = points_of(points);
+  const IndexedMesh mesh = mesh_of(vertices, faces);
+  std::vector<double> values = work_on(threads, progress, [&](const Execution& execution) {
+    const MeshDistance distance(mesh, execution);
+    std::vector<double> found = distance.distances(places, execution);
+    execution.parallel_for(places.size(), 1000, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (distance.contains(places[i])) found[i] = -found[i];
+      }
+    });
+    return found;
+  });
+  return array_of(values);
+}
+
+py::tuple distance_grid_of(const Points& vertices, const py::object& faces, double spacing,
+                           int threads, const py::object& progress) {
+  GridOptions options;
+  options.spacing = spacing;
+  const IndexedMesh mesh = mesh_of(vertices, faces);
+  const DistanceGrid grid = work_on(threads, progress, [&](const Execution& execution) {
+    require_in_range(options.spacing, grid_spacing_option);
+    check_grid(mesh, options);
+    return distance_grid(mesh, options, execution);
+  });
+  const py::array_t<double> values = array_of(grid.values);
+  return py::make_tuple(
+      values.attr("reshape")(grid.counts[0], grid.counts[1], grid.counts[2]),
+      array_of(std::vector<double>{grid.origin.x(), grid.origin.y(), grid.origin.z()}),
+      grid.spacing);
+}
+
+}  // namespace
+
+void bind_distances(py::module_& module) {
+  module.def("signed_distances", &signed_distances, py::arg("points"), py::arg("vertices"),
+             py::arg("faces"), py::kw_only(), py::arg("threads") = 0,
+             py::arg("progress") = py::none());
+  module.def("distance_grid", &distance_grid_of, py::arg("vertices"), py::arg("faces"),
+             py::arg("spacing") = 0.0, py::kw_only(), py::arg("threads") = 0,
+             py::arg("progress") = py::none());
+}
+
+}  // namespace wscvt::python
