@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [page] [engines] [package] [pip] [wheel] [blender] [slurm] [hosts] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [page] [engines] [package] [pip] [types] [wheel] [blender] [slurm] [hosts] [debian12] [debian13] [sid]
 # Without arguments: install, release and hosts. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -84,6 +84,10 @@ for step in "$@"; do
       # the whole library anew.
       tests/install_packages.sh python3-pip python3-venv python3-setuptools python3-wheel
       tests/python_install.sh build/release/lib/wscvt build/pip ;;
+    types)
+      # After release. A step of its own, because mypy is not needed elsewhere.
+      tests/install_packages.sh mypy
+      tests/types.sh build/release ;;
     wheel)
       # After release; as root, for debootstrap: the roots have nothing but Python and NumPy.
       tests/install_packages.sh debootstrap patchelf binutils python3-pip

@@ -28,7 +28,8 @@ def draw_mesh(axes, vertices, faces, title, edges):
                                            edgecolors="black" if edges else "none", linewidths=0.2))
     middle, half = vertices.mean(axis=0), np.ptp(vertices, axis=0).max() / 2
     axes.set(xlim=middle[0] + [-half, half], ylim=middle[1] + [-half, half],
-             zlim=middle[2] + [-half, half], title=title, box_aspect=(1, 1, 1))
+             zlim=middle[2] + [-half, half], title=title)
+    axes.set_box_aspect((1, 1, 1), zoom=1.7)
     axes.set_axis_off()
 
 
@@ -48,7 +49,7 @@ def main():
         distances = wscvt.signed_distances(vertices, result)
         histogram.hist(100 * distances / result.report["input"]["equivalent_radius"], bins=60,
                        histtype="step", density=True, label=f"{nodes} nodes")
-    histogram.set(xlabel="distance of the scan's vertices, % of the equivalent radius", ylabel="density")
+    histogram.set(xlabel="distance of the scan's vertices, % of the equivalent radius", ylabel="density, 1/%")
     histogram.legend()
     figure.savefig(output, dpi=90)
     print(f"The pictures are in {output}.")

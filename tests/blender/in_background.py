@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Euler, Matrix, Vector
 
-ZIP, MESHES = map(pathlib.Path, sys.argv[sys.argv.index("--") + 1:])
+ZIP, MESHES = (pathlib.Path(one).resolve() for one in sys.argv[sys.argv.index("--") + 1:])
 bpy.ops.preferences.addon_install(filepath=str(ZIP), overwrite=True)
 bpy.ops.preferences.addon_enable(module="wscvt_remesh")
 import wscvt_remesh.wscvt as wscvt  # noqa: E402: of the zip

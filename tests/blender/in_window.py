@@ -12,7 +12,7 @@ import traceback
 
 import bpy
 
-ZIP, SCAN, PICTURE = map(pathlib.Path, sys.argv[sys.argv.index("--") + 1:])
+ZIP, SCAN, PICTURE = (pathlib.Path(one).resolve() for one in sys.argv[sys.argv.index("--") + 1:])
 bpy.ops.preferences.addon_install(filepath=str(ZIP), overwrite=True)
 bpy.ops.preferences.addon_enable(module="wscvt_remesh")
 import wscvt_remesh  # noqa: E402: of the zip

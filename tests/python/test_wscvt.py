@@ -357,7 +357,17 @@ def test_the_readme_works(scan, tmp_path, monkeypatch, capsys):
     exec(code, {})
     vertices, faces = wscvt.read_mesh("remesh.stl")
     assert len(faces) == 996
-    assert len(capsys.readouterr().out.splitlines()) == 2
+    assert len(capsys.readouterr().out.splitlines()) == 3
+    assert "scan" in pathlib.Path("remesh.html").read_text()
+
+
+def test_the_example_with_pictures_draws(tmp_path):
+    pytest.importorskip("matplotlib")
+    example = MESHES.parent / "lib" / "examples" / "pictures.py"
+    assert len(example.read_text().splitlines()) <= 60
+    subprocess.run([sys.executable, example, MESHES / "angular_6000.ply", tmp_path / "grains.png"],
+                   check=True, cwd=tmp_path)
+    assert (tmp_path / "grains.png").read_bytes()[1:4] == b"PNG"
 
 
 def test_what_is_odd_about_a_file_is_a_warning(scan, tmp_path):
@@ -400,6 +410,8 @@ def test_a_batch_is_its_grains_in_order_and_errors_are_results(scan, tmp_path):
     expected = wscvt.remesh(tmp_path / "b.ply", 60, edge_ratio=1.2)
     np.testing.assert_array_equal(found["b"].vertices, expected.vertices)
     assert found["b"].report["source"] == "b.ply"
+    with pytest.raises(wscvt.Error, match="keep_scan"):
+        found["b"].write_report(tmp_path / "page.html")
     named = {"one": (small.vertices, small.faces), "two": small}
     assert [name for name, _ in wscvt.batch(named, 60)] == ["one", "two"]
     assert [name for name, _ in wscvt.batch([tmp_path / "a.stl", small], nodes=60)] == ["a", "1"]
@@ -427,6 +439,7 @@ def test_extract_is_that_of_the_program(tmp_path):
     labels[(x - 12) ** 2 / 60 + (y - 14) ** 2 / 90 + (z - 11) ** 2 / 40 < 1] = 7
     labels[(x - 30) ** 2 + (y - 15) ** 2 + (z - 12) ** 2 < 50] = 300
     labels[:3, :6, :6] = 9  # at the border
+    labels[:5, 20:26, 2:8] = 11  # at the border z = 0 only
     labels[12, 2, 12] = 4  # too small
     np.save(tmp_path / "labels.npy", labels)
     found = wscvt.extract(labels, 0.25)
@@ -441,9 +454,9 @@ def test_extract_is_that_of_the_program(tmp_path):
     assert volume(*stretched[300]) == pytest.approx((labels == 300).sum())
     assert np.ptp(stretched[300][0], axis=0) == pytest.approx([7.5, 15.0, 30.0])
     with pytest.warns(UserWarning, match="label 4: .*fewer passes by smoothing"):
-        assert list(wscvt.extract(labels, at_border=True, smallest=1)) == [7, 9, 300]
+        assert list(wscvt.extract(labels, at_border=True, smallest=1)) == [7, 9, 11, 300]
     assert list(wscvt.extract(labels, smallest=1, smoothing=0)) == [4, 7, 300]
-    assert list(wscvt.extract(labels, background=7, at_border=True)) == [0, 9, 300]
+    assert list(wscvt.extract(labels, background=7, at_border=True)) == [0, 9, 11, 300]
 
 
 def test_what_extract_refuses_and_warns_of():
@@ -492,7 +505,8 @@ def test_node_table_and_files_of_a_result(scan, tmp_path):
     grid = np.load(tmp_path / "grid.npy")
     np.testing.assert_allclose(grid, wscvt.distance_grid(*scan, 0.2)[0], atol=1e-9)
     result.write_signed_distances(str(tmp_path / "own.npy"), 0.2, surface="remesh")
-    assert np.abs(np.load(tmp_path / "own.npy") - grid).max() > 1e-3
+    np.testing.assert_allclose(np.load(tmp_path / "own.npy"),
+                               wscvt.distance_grid(result, spacing=0.2)[0], atol=1e-9)
 
     for name in ("report.html", "report.json", "report.csv"):
         result.write_report(tmp_path / name)

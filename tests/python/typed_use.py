@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What type checkers say of the module: mypy takes all but the lines that say so.
+
+    MYPYPATH=build/release/lib/python mypy --strict --warn-unused-ignores tests/python/typed_use.py
+"""
+import pathlib
+from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+import wscvt
+
+
+class TrimeshLike:
+    vertices = np.zeros((4, 3))
+    faces = np.zeros((4, 3), dtype=int)
+
+
+class PyVistaLike:
+    points = np.zeros((4, 3))
+    regular_faces = np.zeros((4, 3), dtype=int)
+
+
+def progress(fraction: float, stage: str) -> Optional[bool]:
+    return fraction < 0.5
+
+
+def check(scan: pathlib.Path) -> None:
+    vertices, faces = wscvt.read_mesh(scan)
+    ours: npt.NDArray[np.float64] = vertices
+    result: wscvt.Remesh = wscvt.remesh(ours, faces, nodes=500, edge_ratio=1.2, weighting="wscvt-d",
+                                        progress=progress, keep_scan=False)
+    wscvt.remesh("scan.ply", 500)
+    wscvt.remesh(scan, nodes=500)
+    wscvt.remesh(TrimeshLike(), 500)
+    wscvt.remesh(PyVistaLike(), 500)
+    wscvt.remesh([[0.0, 0.0, 0.0]], None, points=True)
+    areas: npt.NDArray[np.float64] = result.cell_areas
+    report: Dict[str, Any] = result.report
+    warnings: List[str] = result.warnings
+    table = result.node_table(frame="principal", scale=2.0)
+    result.write_report(scan.with_suffix(".html"))
+    result.write_node_table("nodes.csv")
+    result.write_signed_distances("grid.npy", 0.1, surface="remesh")
+    made: Iterator[Tuple[str, Union[wscvt.Remesh, wscvt.Error]]] = wscvt.batch(scan, 500, threads=2)
+    wscvt.batch({"one": (vertices, faces), "two": "scan.ply"}, alpha=0.5)
+    wscvt.batch([scan, TrimeshLike()])
+    for label, mesh in wscvt.extract(np.zeros((3, 3, 3), dtype=int), 0.5, smallest=10).items():
+        wscvt.write_mesh(f"{label}.ply", *mesh)
+    distances: npt.NDArray[np.float64] = wscvt.signed_distances(vertices, result)
+    values, origin, spacing = wscvt.distance_grid(result, spacing=0.1)
+    wscvt.describe(scan, reference=(vertices, faces), roundness_ball=0.1)
+    wscvt.create("ellipsoid", semi_axes=(1.0, 2.0, 3.0), nodes=60, placement="sh-surface")
+    try:
+        pass
+    except wscvt.Error as error:
+        assert error.code == "cancelled"
+    print(areas, report, warnings, table, made, distances, values.shape, origin, spacing * 2.0)
+
+    # Each line below is wrong in one way.
+    wscvt.remesh(scan, nodse=500)  # type: ignore[call-arg]
+    wscvt.remesh(scan, nodes="many")  # type: ignore[arg-type]
+    wscvt.remesh(scan, weighting="area of cells")  # type: ignore[arg-type]
+    wscvt.remesh(scan, progress=lambda fraction: True)  # type: ignore
+    wscvt.batch(scan, 500, progress=progress)  # type: ignore[call-arg]
+    wscvt.extract(vertices, "large")  # type: ignore[arg-type]
+    result.node_table(frame="tilted")  # type: ignore[arg-type]
+    result.vertices = vertices  # type: ignore[misc]
+    result.noddes  # type: ignore[attr-defined]
