@@ -10,7 +10,7 @@ using Vector2 = Eigen::Vector2d;
 
 /// The corners of the convex hull of points in a plane, counter-clockwise (Andrew 1979, "Another
 /// efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9, 216-219); points
-/// on its sides are left out, up to rounding. Sorts `points`.
+/// on its sides are left out, up to rounding. Sorts `points`, and removes inner ones.
 std::vector<Vector2> planar_hull(std::vector<Vector2>& points);
 
 /// A rectangle about points in a plane.
