@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "batch_command.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <optional>
+#include <sstream>
 
 #include "batch_grains.h"
+#include "batch_output.h"
 #include "command.h"
 #include "common_arguments.h"
 #include "exit_code.h"
@@ -42,62 +44,14 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Where a batch puts what it makes.
-class OutputFolder {
- public:
-  OutputFolder(const BatchArguments& arguments)
-      : folder_(arguments.folder), ending_("." + arguments.format) {
-    if (arguments.shard.count > 1) {
-      part_ = "-" + std::to_string(arguments.shard.index) + "-of-" +
-              std::to_string(arguments.shard.count);
-    }
-  }
-
-  std::string mesh(const std::string& grain) const {
-    fs::path name = fs::path(grain).filename();
-    if (ending_of(grain) == ".gz") name = name.stem();
-    return (folder_ / name.stem()).string() + ending_;
-  }
-  std::string table() const { return file("grains", ".csv"); }
-  /// The same for every part: what a volume holds.
-  std::string labels() const { return (folder_ / "labels.csv").string(); }
-  std::string call() const { return file("call", ".json"); }
-  std::string summary(const std::string& ending) const { return file("summary", ending); }
-
- private:
-  std::string file(const std::string& name, const std::string& ending) const {
-    return (folder_ / (name + part_ + ending)).string();
-  }
-
-  fs::path folder_;
-  std::string ending_;
-  std::string part_;
-};
-
-/// Refuses grains whose meshes would take each other's place, or a scan's.
-void check_meshes(const std::vector<std::string>& grains, const OutputFolder& folder) {
-  std::map<std::string, const std::string*> made;
-  for (const std::string& grain : grains) {
-    const auto [other, is_new] = made.emplace(folder.mesh(grain), &grain);
-    if (!is_new) {
-      throw Error(ErrorCode::InvalidInput, "\"" + *other->second + "\" and \"" + grain +
-                                               "\" would both be remeshed to \"" + other->first +
-                                               "\"; give them in two batches or rename one.");
-    }
-    if (same_file(other->first, grain)) {
-      throw Error(ErrorCode::InvalidInput, "The remesh of \"" + grain +
-                                               "\" would take its place; give another folder with "
-                                               "-o, or another --format.");
-    }
-  }
-}
-
 /// What a batch that is started again has to have been called with. Not the number of threads.
 std::string call_text(const BatchArguments& arguments) {
   return json_document({{"format", "wscvt-batch"},
                         {"made_by", made_by()},
                         {"meshes", arguments.format},
                         {"seconds", arguments.seconds},
+                        {"levels", arguments.levels},
+                        {"describe", key_of(arguments.described)},
                         {"volume", json_of(arguments.volume)},
                         {"options", wscvt::json_of(arguments.options)}});
 }
@@ -116,11 +70,53 @@ void check_call(const std::string& path, const std::string& call, bool is_begun)
   write_file(path, call);
 }
 
-/// The row of a grain, whose mesh is then written. Throws as row_or_failure.
-GrainRow remeshed_row(const BatchArguments& arguments, const OutputFolder& folder,
+/// The remesh of a grain, or one for each level.
+std::vector<RemeshResult> remeshes_of(const BatchArguments& arguments, IndexedMesh scan,
+                                      const RemeshOptions& options, const Execution& execution) {
+  if (!arguments.levels.empty()) {
+    return remesh_levels(std::move(scan), options, arguments.levels, execution);
+  }
+  std::vector<RemeshResult> results;
+  results.push_back(remesh(std::move(scan), options, execution));
+  return results;
+}
+
+/// The descriptors of a level. The scan's are measured with the first level, and kept in `shape`.
+/// What cannot be measured becomes a warning of the remesh, whose sentence is returned.
+std::string describe_level(const BatchArguments& arguments, RemeshResult& result, GrainShape& shape,
+                           const Execution& execution) {
+  const Described what = arguments.described;
+  const bool needs_scan = describes_scan(what) && !shape.scan;
+  const Described now = needs_scan               ? what
+                        : describes_remesh(what) ? Described::Remesh
+                                                 : Described::None;
+  try {
+    GrainShape measured = describe_result(result, now, execution);
+    if (needs_scan) shape.scan = std::move(measured.scan);
+    shape.remesh = std::move(measured.remesh);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    result.warnings.push_back("The descriptors could not be measured: " +
+                              std::string(error.what()));
+    return error.what();
+  }
+  return "";
+}
+
+/// Puts the records of a grain in a row.
+GrainRow row_of(std::vector<std::string> records, const std::string& error) {
+  GrainRow row{std::move(records.front()), error, {}};
+  row.others.assign(std::make_move_iterator(records.begin() + 1),
+                    std::make_move_iterator(records.end()));
+  return row;
+}
+
+/// The row of a grain, whose meshes are then written. Throws as row_or_failure.
+GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output,
                       BatchGrains& grains, std::size_t k, const Execution& execution) {
   const std::string& grain = grains.names()[k];
   const Clock::time_point start = Clock::now();
+  const bool describes = arguments.described != Described::None;
   const auto seconds = [&]() -> Seconds {
     if (!arguments.seconds) return {};
     return seconds_since(start);
@@ -128,27 +124,58 @@ GrainRow remeshed_row(const BatchArguments& arguments, const OutputFolder& folde
   const auto make = [&]() -> GrainRow {
     GrainScan scan = grains.read(k, execution);
     RemeshOptions options = arguments.options;
-    options.measures.written = [path = folder.mesh(grain)](const RemeshResult& made) {
+    options.measures.repaired_scan = describes_scan(arguments.described);
+    options.measures.written = [path =
+                                    output.levels().front().mesh(grain)](const RemeshResult& made) {
       return as_written(made.mesh, path);
     };
-    RemeshResult result = remesh(std::move(scan.mesh), options, execution);
-    result.warnings.insert(result.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
-    write_mesh(result.mesh, folder.mesh(grain));
-    return {sample_row(grain, result, seconds()), ""};
+    std::vector<RemeshResult> results =
+        remeshes_of(arguments, std::move(scan.mesh), options, execution);
+    std::vector<std::string> records;
+    GrainShape shape;
+    for (std::size_t level = 0; level < results.size(); ++level) {
+      RemeshResult& result = results[level];
+      const OutputFolder& folder = output.levels()[level];
+      result.warnings.insert(result.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
+      const std::string error =
+          describes ? describe_level(arguments, result, shape, execution) : "";
+      write_mesh(result.mesh, folder.mesh(grain));
+      records.push_back(sample_row(grain, result, seconds()));
+      if (!describes) continue;
+      records.push_back(error.empty() ? shape_row(grain, folder.mesh_name(grain), result, shape)
+                                      : failed_shape_row(grain, error, arguments.described));
+    }
+    return row_of(std::move(records), "");
   };
   return row_or_failure(make, [&](const std::string& error) -> GrainRow {
-    return {failed_row(grain, error, seconds()), error};
+    std::vector<std::string> records;
+    for (std::size_t level = 0; level < output.levels().size(); ++level) {
+      records.push_back(failed_row(grain, error, seconds()));
+      if (describes) records.push_back(failed_shape_row(grain, error, arguments.described));
+    }
+    return row_of(std::move(records), error);
   });
 }
 
-/// Half-written files that a killed batch left beside those it wrote.
-void remove_parts(const std::vector<std::string>& grains, std::size_t first,
-                  const OutputFolder& folder) {
-  for (std::size_t k = first; k < grains.size(); ++k) remove_partial_file(folder.mesh(grains[k]));
-  for (const std::string& file :
-       {folder.call(), folder.summary(".json"), folder.summary(".html")}) {
-    remove_partial_file(file);
+void write_summaries(const OutputFolder& folder, bool quiet) {
+  const SampleSummary summary = summarise_table(folder.table());
+  for (const char* ending : {".json", ".html"}) write_summary(folder.summary(ending), summary);
+  print(summary_lines(summary), quiet);
+}
+
+/// Reads "500", or "100,300,1000" into levels; gives the largest for the options.
+std::string largest_level(const std::string& text, std::vector<int>& levels) {
+  levels.clear();
+  if (text.find(',') == std::string::npos) return text;
+  std::istringstream list(text);
+  for (std::string one; std::getline(list, one, ',');) {
+    levels.push_back(from_typed(one, node_count_option));
   }
+  std::sort(levels.begin(), levels.end());
+  if (std::adjacent_find(levels.begin(), levels.end()) != levels.end()) {
+    refuse("The list \"" + text + "\" names a number of nodes twice; name it once.");
+  }
+  return std::to_string(levels.back());
 }
 
 }  // namespace
@@ -163,7 +190,18 @@ void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
   add_format_argument(app, arguments.format);
   app.add_flag("--seconds", arguments.seconds,
                "A column of the table for how long each grain took; it differs from run to run");
+  add_choice(app, "--describe", arguments.described);
   add_remesh_arguments(app, arguments.options);
+  CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
+  nodes->description(nodes->get_description() +
+                     "; several, such as 100,300,1000, get a folder each");
+  nodes->transform([&arguments](const std::string& text) {
+    try {
+      return largest_level(text, arguments.levels);
+    } catch (const Error& error) {
+      throw CLI::ValidationError("--" + std::string(node_count_option.key), error.what());
+    }
+  });
 }
 
 CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
@@ -173,10 +211,9 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
        "Remesh the grains of a sample, with a table and a summary",
        {"scans -o out -n 500 --method as-published",
         "'scans/*.stl' @more.txt -o other --format stl", "scans -o out --shard 1/2"},
-       "OUT gets a mesh a grain, grains.csv, summary.html and summary.json. A batch that was "
-       "killed "
-       "and is\nstarted again goes on where it was. A part gets a table of its own: see wscvt "
-       "collect.",
+       "OUT gets a mesh per grain, grains.csv, shape.csv, summary.html and summary.json. A batch\n"
+       "that was killed and is started again goes on where it was. A part gets tables of its own:\n"
+       "see wscvt collect.",
        true,
        true});
   app.add_option(
@@ -199,6 +236,10 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
 int run(const BatchArguments& arguments) {
   checked([&] {
     check_options(arguments.options);
+    if (!arguments.levels.empty() &&
+        (arguments.options.target.percent > 0.0 || arguments.options.measures.suggestions)) {
+      refuse("Several numbers of nodes allow no error target and no suggestions. Leave these out.");
+    }
     check_format(arguments.format);
     check_volume_options(arguments.volume);
   });
@@ -211,42 +252,40 @@ int run(const BatchArguments& arguments) {
   });
   BatchGrains inputs(files, arguments.volume, arguments.shard, arguments.quiet);
   const std::vector<std::string>& grains = inputs.names();
-  const OutputFolder folder(arguments);
-  checked([&] { check_meshes(grains, folder); });
+  BatchOutput output(arguments);
+  checked([&] { output.check_meshes(grains); });
   std::error_code error;
-  fs::create_directories(arguments.folder, error);
-  const std::string header = sample_header(arguments.seconds);
-  checked(
-      [&] { check_call(folder.call(), call_text(arguments), fs::exists(folder.table(), error)); });
-  SampleTable table = checked([&] { return SampleTable(folder.table(), header, grains); });
-  const std::size_t first = table.rows();
-  remove_parts(grains, first, folder);
+  for (const OutputFolder& level : output.levels()) fs::create_directories(level.path(), error);
+  checked([&] {
+    check_call(output.whole().call(), call_text(arguments),
+               fs::exists(output.levels().front().table(), error));
+  });
+  const std::size_t first = checked([&] { return output.open_tables(grains, arguments); });
+  output.remove_parts(grains, first);
 
   const std::string labels = inputs.label_table(
-      [&](const std::string& grain) { return fs::path(folder.mesh(grain)).filename().string(); });
-  if (!labels.empty()) write_file(folder.labels(), labels);
+      [&](const std::string& grain) { return output.levels().front().mesh_name(grain); });
+  if (!labels.empty()) write_file(output.whole().labels(), labels);
   inputs.begin(first);
 
   GrainRun all;
   all.first = first;
-  all.failed = table.failed_rows();
+  all.failed = output.failed_rows();
   all.count = grains.size();
   all.threads = arguments.threads;
   all.quiet = arguments.quiet;
   all.when_stopped = "The same call goes on from there.";
   all.name = [&](std::size_t k) { return grains[k]; };
   all.work = [&](std::size_t k, const Execution& execution) {
-    return remeshed_row(arguments, folder, inputs, k, execution);
+    return remeshed_row(arguments, output, inputs, k, execution);
   };
-  all.take = [&](std::size_t, const GrainRow& row) { table.append(row.record); };
+  all.take = [&](std::size_t, const GrainRow& row) { output.append(row); };
   const GrainRunEnd end = run_grains(all);
   if (end.was_cancelled) {
     return 128 + noted_signal();
   }
   if (arguments.shard.count == 1) {
-    const SampleSummary summary = summarise_table(folder.table());
-    for (const char* ending : {".json", ".html"}) write_summary(folder.summary(ending), summary);
-    print(summary_lines(summary), arguments.quiet);
+    for (const OutputFolder& level : output.levels()) write_summaries(level, arguments.quiet);
   }
   return end.failed == 0 && !inputs.is_much_left_out() ? Done : SomeFailed;
 }

@@ -8,6 +8,7 @@
 #include "batch_inputs.h"
 #include "volume/label_grains.h"
 #include "wscvt/remesh/remesh_options.h"
+#include "wscvt/report/shape_table.h"
 
 namespace wscvt::program {
 
@@ -22,8 +23,10 @@ struct BatchArguments {
   bool seconds = false;  ///< a column of the table says how long each grain took
   int threads = 0;       ///< 0: all
   bool quiet = false;
-  RemeshOptions options;  ///< without advice, which is for a person at one grain
-  VolumeOptions volume;   ///< of inputs that are volumes
+  RemeshOptions options;    ///< without advice, which is for a person at one grain
+  std::vector<int> levels;  ///< numbers of nodes if there are several, ascending; else empty
+  Described described = Described::Both;  ///< in the table of shapes
+  VolumeOptions volume;                   ///< of inputs that are volumes
 };
 
 /// Adds what is asked of a sample as a whole: shard, format, seconds, and the remesh of its grains.

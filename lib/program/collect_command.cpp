@@ -10,6 +10,7 @@
 #include "wscvt/report/report.h"
 #include "wscvt/report/sample_summary.h"
 #include "wscvt/report/sample_table.h"
+#include "wscvt/report/shape_table.h"
 
 namespace wscvt::program {
 
@@ -44,6 +45,14 @@ int run(const CollectArguments& arguments) {
     check_output_paths(inputs, outputs, false);
     for (const std::string& summary : arguments.summaries) check_summary(summary);
   });
+  if (is_shape_table(arguments.tables.front())) {
+    if (!arguments.summaries.empty()) {
+      throw WrongCall(
+          "Tables of shapes have no summary. Leave out --report, and call wscvt sample.");
+    }
+    join_tables(arguments.tables, arguments.output);
+    return Done;
+  }
   join_tables(arguments.tables, arguments.output);
   const SampleSummary summary = summarise_table(arguments.output);
   for (const std::string& file : arguments.summaries) write_summary(file, summary);

@@ -16,8 +16,9 @@ namespace wscvt::program {
 
 /// What became of a grain.
 struct GrainRow {
-  std::string record;  ///< of the table
-  std::string error;   ///< the sentence of a failure; empty: none
+  std::string record;                    ///< of the table
+  std::string error;                     ///< the sentence of a failure; empty: none
+  std::vector<std::string> others = {};  ///< records of further tables, in their order
 };
 
 /// Memory was not enough for a grain, not even while no other was worked on.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/remesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -81,6 +82,34 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
     if (!opening) throw;
     throw Error(refused.code(), std::string(refused.what()) + " " + tried_wrap_advice(*opening));
   }
+}
+
+std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
+                                        const std::vector<int>& node_counts,
+                                        const Execution& execution) {
+  if (node_counts.empty()) refuse("No number of nodes is given. Give one or more.");
+  if (searches(options) || options.measures.suggestions) {
+    refuse("Several numbers of nodes allow no error target and no suggestions. Leave these out.");
+  }
+  for (const int count : node_counts) {
+    options.node_count = count;
+    check_options(options);
+  }
+  options.node_count = *std::max_element(node_counts.begin(), node_counts.end());
+  RepairedScan repaired = repair_scan(std::move(scan), options, execution.part(0.0, 0.1));
+  PreparedGrain grain;
+  grain.steep_area_fraction = repaired.steep_area_fraction;
+  IndexedMesh kept = options.measures.repaired_scan ? repaired.checked.mesh : IndexedMesh();
+  prepare(std::move(repaired.checked), options, execution.part(0.1, 0.3), grain);
+  std::vector<RemeshResult> results;
+  const double share = 0.7 / static_cast<double>(node_counts.size());
+  for (const int count : node_counts) {
+    const double begin = 0.3 + share * static_cast<double>(results.size());
+    results.push_back(remesh_prepared(grain, options, count, execution.part(begin, begin + share)));
+    results.back().warnings = remesh_warnings(results.back(), repaired.precision_warning);
+  }
+  results.front().repaired_scan = std::move(kept);
+  return results;
 }
 
 RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/remesh/remesh_options.h"
@@ -28,6 +30,14 @@ struct GrainSurface;
 /// carries a warning.
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
+
+/// Remeshes a scan to several numbers of nodes, which are prepared once. Each result is that of
+/// remesh with this number, in the order of `node_counts`; only the first holds the repaired scan.
+/// Throws Error as remesh does, and Error(InvalidInput) without a number of nodes, with an error
+/// target and with suggestions.
+std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
+                                        const std::vector<int>& node_counts,
+                                        const Execution& execution = Execution());
 
 /// Remeshes a surface given by a formula or by coefficients, about its own origin. As published
 /// takes the surface itself in the place of the series and of the scan. On the scan takes a mesh of

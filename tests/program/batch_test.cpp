@@ -31,7 +31,8 @@ using Records = std::vector<std::vector<std::string>>;
 
 class Batch : public test::ProgramRun {
  protected:
-  static constexpr const char* options_ = " -q -n 60 -d 6 ";
+  static constexpr const char* options_ = " -q -n 60 -d 6 --describe remesh ";
+  static constexpr const char* remesh_options_ = " -q -n 60 -d 6 ";
 
   /// Scans of different bodies, scans/a.ply, scans/b.ply, ...
   void write_scans(int count) const {
@@ -97,6 +98,7 @@ TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
     EXPECT_NE(outcome.errors.find("Failed: scans/broken.ply: "), std::string::npos);
     EXPECT_EQ(outcome.output, "");
     EXPECT_EQ(content("out" + threads + "/grains.csv"), content("out1/grains.csv"));
+    EXPECT_EQ(content("out" + threads + "/shape.csv"), content("out1/shape.csv"));
     EXPECT_EQ(content("out" + threads + "/summary.json"), content("out1/summary.json"));
     EXPECT_EQ(content("out" + threads + "/e.ply"), content("out1/e.ply"));
   }
@@ -109,9 +111,10 @@ TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
   EXPECT_FALSE(exists("out1/broken.ply"));
 
   // A row and a mesh are what the grain alone would have given.
-  ASSERT_EQ(run("remesh " + scan(4) + " alone.ply --no-suggestions --report alone.csv" + options_)
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run("remesh " + scan(4) + " alone.ply --no-suggestions --report alone.csv" + remesh_options_)
+          .exit_code,
+      0);
   EXPECT_EQ(content("alone.ply"), content("out1/e.ply"));
   const Records alone = records("alone.csv");
   for (std::size_t k = 0; k < alone[0].size(); ++k) {
@@ -122,7 +125,7 @@ TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
 
 TEST_F(Batch, SumsUpTheSample) {
   write_scans(5);
-  const Outcome outcome = run("batch scans -o out -n 60 -d 6 --seconds");
+  const Outcome outcome = run("batch scans -o out -n 60 -d 6 --describe none --seconds");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output.rfind("5 grains: 5 remeshed, ", 0), 0U) << outcome.output;
   EXPECT_EQ(outcome.errors, "") << "progress went into a file";
@@ -155,8 +158,8 @@ TEST_F(Batch, GoesOnWhereItWasKilled) {
     const std::string table = out + "/grains.csv";
     fs::remove(folder_ / scan(4));
     ASSERT_EQ(mkfifo(path(scan(4)).c_str(), 0600), 0);
-    const pid_t child =
-        start({"batch", "scans", "-o", out, "-q", "-n", "60", "-d", "6", "-t", "2"});
+    const pid_t child = start({"batch", "scans", "-o", out, "-q", "-n", "60", "-d", "6", "-t", "2",
+                               "--describe", "remesh"});
     wait_for_rows(table, 5);
     if (signal == SIGTERM) {
       ASSERT_EQ(kill(child, signal), 0);
@@ -189,6 +192,73 @@ TEST_F(Batch, GoesOnWhereItWasKilled) {
     }
     EXPECT_FALSE(exists(out + "/d.ply.part"));
   }
+  // A table of shapes that is behind, or ahead, is brought to the same rows.
+  for (const std::string name : {"/shape.csv", "/grains.csv"}) {
+    const std::string kept_table = content("whole" + name);
+    fs::resize_file(folder_ / ("whole" + name), kept_table.rfind("scans/h.ply"));
+    EXPECT_EQ(run(std::string("batch scans -o whole") + options_).exit_code, 0);
+    EXPECT_EQ(content("whole" + name), kept_table);
+    EXPECT_EQ(column("whole/shape.csv", "grain").size(), 8U);
+    EXPECT_EQ(column("whole/grains.csv", "grain").size(), 8U);
+  }
+}
+
+TEST_F(Batch, ShapesAreThoseOfDescribe) {
+  write_scans(2);
+  ASSERT_EQ(run(std::string("batch scans -o out") + remesh_options_).exit_code, 0);
+  EXPECT_EQ(column("out/shape.csv", "file"), (std::vector<std::string>{"a.ply", "b.ply"}));
+  EXPECT_EQ(column("out/shape.csv", "nodes"), (std::vector<std::string>{"60", "60"}));
+  const Records shapes = records("out/shape.csv");
+  const std::vector<std::pair<std::string, std::string>> meshes = {{"scan", scan(1)},
+                                                                   {"remesh", "out/b.ply"}};
+  for (const auto& [name, file] : meshes) {
+    ASSERT_EQ(run("describe " + file + " -q --report " + name + ".csv").exit_code, 0);
+    const Records described = records(name + ".csv");
+    std::size_t compared = 0;
+    for (std::size_t k = 0; k < described[0].size(); ++k) {
+      const std::string key = described[0][k].substr(described[0][k].find_last_of('.') + 1);
+      for (const char* unit : {"", " [length]", " [length^2]", " [length^3]"}) {
+        if (described[0][k].rfind("descriptors.", 0) != 0) continue;
+        const std::vector<std::string> columns = shapes[0];
+        const std::string heading = name + "." + key + std::string(unit);
+        if (std::find(columns.begin(), columns.end(), heading) == columns.end()) continue;
+        ++compared;
+        const std::string value =
+            shapes[2][std::find(columns.begin(), columns.end(), heading) - columns.begin()];
+        if (name == "scan" || described[1][k].empty()) {
+          EXPECT_EQ(value, described[1][k]) << heading;
+        } else {
+          // The printed Sdq and the search of the box hang on the order of the faces.
+          EXPECT_NEAR(std::stod(value), std::stod(described[1][k]), 2e-3 * std::stod(value) + 1e-6)
+              << heading;
+        }
+      }
+    }
+    EXPECT_EQ(compared, 46U) << "of the table in lib/README.md";
+  }
+  EXPECT_EQ(run("batch " + scan(0) + " -o none --describe none" + remesh_options_).exit_code, 0);
+  EXPECT_FALSE(exists("none/shape.csv"));
+  EXPECT_EQ(run("batch " + scan(0) + " -o one --describe remesh" + remesh_options_).exit_code, 0);
+  EXPECT_EQ(content("one/shape.csv").find("scan."), std::string::npos);
+  EXPECT_NE(content("one/shape.csv").find(",remesh.volume [length^3],"), std::string::npos);
+}
+
+TEST_F(Batch, LevelsAreTheBatchesOfTheirNumbersOfNodes) {
+  write_scans(2);
+  std::ofstream(folder_ / "scans/broken.ply") << "no mesh";
+  ASSERT_EQ(run("batch scans -o levels -q -d 6 -n 90,60").exit_code, 3);
+  for (const std::string nodes : {"60", "90"}) {
+    ASSERT_EQ(run("batch scans -o out" + nodes + " -q -d 6 -n " + nodes).exit_code, 3);
+    for (const std::string name : {"/grains.csv", "/shape.csv", "/b.ply", "/summary.json"}) {
+      EXPECT_EQ(content("levels/n" + nodes + name), content("out" + nodes + name)) << name;
+    }
+  }
+  expect_refused("batch scans -o bad -q",
+                 {{"-n 60,60", 2, "twice"},
+                  {"-n 60,x", 2, "x"},
+                  {"-n 60,3", 2, "3"},
+                  {"-n 60,90 --max-error 1", 2, "no error target"}},
+                 {"bad"});
 }
 
 TEST_F(Batch, AFailureBeforeItGoesOnCounts) {
@@ -285,6 +355,11 @@ TEST_F(Batch, PartsAreStableAndJoinToTheWhole) {
     EXPECT_EQ(content("all.json"), content("whole/summary.json"));
     EXPECT_EQ(content("all.html"), content("whole/summary.html"));
     EXPECT_NE(joined.output.find("1 failed"), std::string::npos);
+    EXPECT_EQ(run("collect " + std::regex_replace(tables, std::regex("grains-"), "shape-") +
+                  "-o shape.csv")
+                  .exit_code,
+              0);
+    EXPECT_EQ(content("shape.csv"), content("whole/shape.csv"));
   }
   // The same rows twice are one; others are refused, and so is a table that is cut.
   EXPECT_EQ(run("collect whole/grains.csv out2/grains-1-of-2.csv -q -o twice.csv").exit_code, 3);
@@ -340,7 +415,8 @@ TEST_F(Batch, TwoDoNotWriteOneTable) {
   write_scans(2);
   fs::remove(folder_ / scan(1));
   ASSERT_EQ(mkfifo(path(scan(1)).c_str(), 0600), 0);
-  const pid_t child = start({"batch", "scans", "-o", "out", "-q", "-n", "60", "-d", "6"});
+  const pid_t child =
+      start({"batch", "scans", "-o", "out", "-q", "-n", "60", "-d", "6", "--describe", "remesh"});
   wait_for_rows("out/grains.csv", 2);
   const Outcome second = run(std::string("batch scans -o out") + options_);
   EXPECT_EQ(second.exit_code, 1);
@@ -354,8 +430,8 @@ TEST_F(Batch, DoesNotRunAheadOfASlowGrain) {
   write_scans(1);
   ASSERT_EQ(mkfifo(path("slow.ply").c_str(), 0600), 0);
   write_links("more", 120);
-  const pid_t child =
-      start({"batch", "slow.ply", "more", "-o", "out", "-q", "-n", "60", "-d", "6", "-t", "2"});
+  const pid_t child = start({"batch", "slow.ply", "more", "-o", "out", "-q", "-n", "60", "-d", "6",
+                             "-t", "2", "--describe", "none"});
   wait_for_rows("out/grains.csv", 1);
   const auto made = [&] {
     fs::directory_iterator files(folder_ / "out");
@@ -383,8 +459,8 @@ TEST_F(Batch, MemoryDoesNotGrowWithTheNumberOfGrains) {
   const auto peak = [&](int grains) {
     const std::string name = "scans" + std::to_string(grains);
     write_links(name, grains);
-    const pid_t child =
-        start({"batch", name, "-o", name + "_out", "-q", "-n", "60", "-d", "6", "-t", "2"});
+    const pid_t child = start({"batch", name, "-o", name + "_out", "-q", "-n", "60", "-d", "6",
+                               "-t", "2", "--describe", "none"});
     int status = 0;
     rusage used{};
     EXPECT_EQ(wait4(child, &status, 0, &used), child);

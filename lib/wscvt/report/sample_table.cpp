@@ -119,8 +119,7 @@ SampleTable::SampleTable(const std::string& path, const std::string& header,
                          const std::vector<std::string>& grains)
     : table_(writable(path), TableUse::AppendAlone) {
   read(header, grains);
-  if (table_.size() == 0) append(header);
-  rows_ -= rows_ > 0 ? 1 : 0;  // the header
+  if (table_.size() == 0) table_.append(header);
 }
 
 void SampleTable::read(const std::string& header, const std::vector<std::string>& grains) {
@@ -128,31 +127,36 @@ void SampleTable::read(const std::string& header, const std::vector<std::string>
   std::ifstream stream = open(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
-  while (reader.next(fields)) {
-    if (rows_ == 0 && reader.text() != header) {
+  if (reader.next(fields) && reader.text() != header) {
+    fail(ErrorCode::InvalidInput, path,
+         "is no table with this batch's columns; give another folder.");
+  }
+  for (std::size_t begin = reader.size(); reader.next(fields); begin = reader.size()) {
+    const std::string expected =
+        rows_.size() < grains.size() ? csv_field(grains[rows_.size()]) : "nothing";
+    if (fields.front() != expected) {
       fail(ErrorCode::InvalidInput, path,
-           "is no table with this batch's columns; give another folder.");
+           "has \"" + fields.front() + "\" in row " + std::to_string(rows_.size() + 1) +
+               ", where the inputs have " + expected +
+               ": it is of other inputs; give those, or another folder.");
     }
-    if (rows_ > 0) {
-      const std::string expected =
-          rows_ <= grains.size() ? csv_field(grains[rows_ - 1]) : "nothing";
-      if (fields.front() != expected) {
-        fail(ErrorCode::InvalidInput, path,
-             "has \"" + fields.front() + "\" in row " + std::to_string(rows_) +
-                 ", where the inputs have " + expected +
-                 ": it is of other inputs; give those, or another folder.");
-      }
-      if (fields[status_column] == failed) ++failed_rows_;
-    }
-    ++rows_;
+    rows_.push_back({begin, fields[status_column] == failed});
   }
   if (reader.is_cut()) table_.cut(reader.size());
 }
 
-void SampleTable::append(const std::string& row) {
-  table_.append(row);
-  ++rows_;
+std::size_t SampleTable::failed_rows() const {
+  return static_cast<std::size_t>(
+      std::count_if(rows_.begin(), rows_.end(), [](const Row& row) { return row.failed; }));
 }
+
+void SampleTable::keep(std::size_t rows) {
+  if (rows >= rows_.size()) return;
+  table_.cut(rows_[rows].begin);
+  rows_.resize(rows);
+}
+
+void SampleTable::append(const std::string& row) { table_.append(row); }
 
 void join_tables(const std::vector<std::string>& tables, const std::string& joined) {
   std::string header;

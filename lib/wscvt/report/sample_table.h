@@ -27,8 +27,8 @@ std::string sample_row(const std::string& grain, const RemeshResult& result, Sec
 /// The record of a grain that was not.
 std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds);
 
-/// Such a table as a file that grows. A program that is killed leaves whole rows and at most a part
-/// of one, which the next one to open it takes off.
+/// Such a table, or one of shapes (shape_table.h), as a file that grows. A program that is killed
+/// leaves whole rows and at most a part of one, which the next one to open it takes off.
 class SampleTable {
  public:
   /// Opens the table of these grains, or begins it. Throws Error(InvalidInput) when the file has
@@ -37,10 +37,13 @@ class SampleTable {
   SampleTable(const std::string& path, const std::string& header,
               const std::vector<std::string>& grains);
 
-  /// Rows that are there: those of the first so many grains.
-  std::size_t rows() const { return rows_; }
+  /// Rows that were there when it was opened: those of the first so many grains.
+  std::size_t rows() const { return rows_.size(); }
   /// How many of them are of grains that failed.
-  std::size_t failed_rows() const { return failed_rows_; }
+  std::size_t failed_rows() const;
+
+  /// Takes off the rows after the first so many. For tables that are to have as many rows.
+  void keep(std::size_t rows);
 
   /// Adds the record of the next grain. Throws Error(InputOutput).
   void append(const std::string& row);
@@ -48,9 +51,12 @@ class SampleTable {
  private:
   void read(const std::string& header, const std::vector<std::string>& grains);
 
+  struct Row {
+    std::size_t begin;  ///< byte of the file
+    bool failed;
+  };
   OpenTable table_;
-  std::size_t rows_ = 0;
-  std::size_t failed_rows_ = 0;
+  std::vector<Row> rows_;
 };
 
 /// Joins tables of parts of a sample, whole ones with the same columns, into one whose rows are in

@@ -101,10 +101,11 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   if (fields_.size() == 1) {
     fail("the table has only one column. Separate columns by commas, and write decimal points.");
   }
-  roles_.assign(fields_.size(), Role::Undecided);
+  for (const GrainColumn& column : fields_) {
+    const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
+    roles_.push_back(is_text ? Role::Text : Role::Undecided);
+  }
   roles_[name_field_] = Role::Text;
-  if (file_field_) roles_[*file_field_] = Role::Text;
-  if (status_field_) roles_[*status_field_] = Role::Text;
 }
 
 void TableReader::read_row(const std::vector<std::string>& fields) {

@@ -42,7 +42,7 @@ std::string heading_of(const GrainColumn& column);
 /// files. Every other column holds numbers if its first entry is a number, and is left out if that
 /// is text. An empty field, "nan" and "NA" mean that the number is missing; so do infinities. A
 /// heading may end with a unit in brackets. Rows whose column "status" is "failed" are counted and
-/// left out.
+/// left out, and so is the column "error".
 ///
 /// Memory is about 20 bytes per field. Throws Error with the file and the line:
 /// InvalidInput if a row has another number of fields than the heading, a column of numbers holds a

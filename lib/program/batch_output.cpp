@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "batch_output.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
+#include "wscvt/base/output_file.h"
+
+namespace wscvt::program {
+
+namespace fs = std::filesystem;
+
+OutputFolder::OutputFolder(fs::path folder, const BatchArguments& arguments)
+    : folder_(std::move(folder)), ending_("." + arguments.format) {
+  if (arguments.shard.count > 1) {
+    part_ = "-" + std::to_string(arguments.shard.index) + "-of-" +
+            std::to_string(arguments.shard.count);
+  }
+}
+
+std::string OutputFolder::mesh_name(const std::string& grain) const {
+  fs::path name = fs::path(grain).filename();
+  if (ending_of(grain) == ".gz") name = name.stem();
+  return name.stem().string() + ending_;
+}
+
+std::string OutputFolder::mesh(const std::string& grain) const {
+  return (folder_ / mesh_name(grain)).string();
+}
+
+std::string OutputFolder::file(const std::string& name, const std::string& ending) const {
+  return (folder_ / (name + part_ + ending)).string();
+}
+
+BatchOutput::BatchOutput(const BatchArguments& arguments) : whole_(arguments.folder, arguments) {
+  for (const int nodes : arguments.levels) {
+    levels_.emplace_back(fs::path(arguments.folder) / ("n" + std::to_string(nodes)), arguments);
+  }
+  if (levels_.empty()) levels_.push_back(whole_);
+}
+
+void BatchOutput::check_meshes(const std::vector<std::string>& grains) const {
+  for (const OutputFolder& folder : levels_) {
+    std::map<std::string, const std::string*> made;
+    for (const std::string& grain : grains) {
+      const auto [other, is_new] = made.emplace(folder.mesh(grain), &grain);
+      if (!is_new) {
+        refuse("\"" + *other->second + "\" and \"" + grain + "\" would both be remeshed to \"" +
+               other->first + "\"; give them in two batches or rename one.");
+      }
+      if (same_file(other->first, grain)) {
+        refuse("The remesh of \"" + grain +
+               "\" would take its place; give another folder with -o, or another --format.");
+      }
+    }
+  }
+}
+
+std::size_t BatchOutput::open_tables(const std::vector<std::string>& grains,
+                                     const BatchArguments& arguments) {
+  std::size_t rows = grains.size();
+  const auto open = [&](const std::string& path, const std::string& header) {
+    tables_.push_back(std::make_unique<SampleTable>(path, header, grains));
+    rows = std::min(rows, tables_.back()->rows());
+  };
+  for (const OutputFolder& level : levels_) {
+    open(level.table(), sample_header(arguments.seconds));
+    if (arguments.described != Described::None) {
+      open(level.shapes(), shape_header(arguments.described));
+    }
+  }
+  for (const auto& table : tables_) table->keep(rows);
+  return rows;
+}
+
+void BatchOutput::append(const GrainRow& row) {
+  // The first table comes last: with its row the grain is done.
+  for (std::size_t k = tables_.size() - 1; k > 0; --k) tables_[k]->append(row.others[k - 1]);
+  tables_.front()->append(row.record);
+}
+
+void BatchOutput::remove_parts(const std::vector<std::string>& grains, std::size_t first) const {
+  remove_partial_file(whole_.call());
+  for (const OutputFolder& level : levels_) {
+    for (std::size_t k = first; k < grains.size(); ++k) remove_partial_file(level.mesh(grains[k]));
+    for (const char* ending : {".json", ".html"}) remove_partial_file(level.summary(ending));
+  }
+}
+
+}  // namespace wscvt::program
