@@ -28,6 +28,7 @@
 #include "extract_command.h"
 #include "man_pages.h"
 #include "remesh_command.h"
+#include "sample_command.h"
 #include "segment_command.h"
 #include "signals.h"
 #include "split_command.h"
@@ -67,7 +68,7 @@ int run(int argc, char** argv) {
       make_command<program::CompareArguments>(app), make_command<program::CreateArguments>(app),
       make_command<program::SegmentArguments>(app), make_command<program::ExtractArguments>(app),
       make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
-      make_command<program::SplitArguments>(app),
+      make_command<program::SplitArguments>(app),   make_command<program::SampleArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is

@@ -161,6 +161,8 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   for (int z = 0; z < 30; ++z) {
     test::write_bytes(folder_ / "slices" / (std::to_string(z) + ".tif"), test::tiff(volume, z, 1));
   }
+  write_mesh(read_mesh(path("first.ply")), path("scans/c.ply"));
+  std::ofstream(folder_ / "supplier.csv") << "grain,feret_min,convexity\na,2,0.9\nb,3,0.8\n";
   for (const std::string& command : commands()) {
     for (const std::string& line : lines_of(run(command + " --help").output)) {
       const std::string program = "  wscvt ";

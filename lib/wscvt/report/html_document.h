@@ -42,6 +42,9 @@ class HtmlDocument {
   /// Figures, side by side where there is room.
   void add_figures(const std::vector<Figure>& figures);
 
+  /// A part of the document as it stands.
+  void add_html(const std::string& html) { body_ += html; }
+
   /// The whole document.
   std::string text() const;
 

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sample_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "command.h"
+#include "common_arguments.h"
+#include "exit_code.h"
+#include "output_paths.h"
+#include "work.h"
+#include "wrong_call.h"
+#include "wscvt/base/error.h"
+#include "wscvt/report/report.h"
+#include "wscvt/report/sample_report.h"
+
+namespace wscvt::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Any number that fits 64 bits.
+constexpr NumberOption<int> seed_option = {
+    "seed",     "seed",
+    0,          2147483647,
+    Ends::Both, "of the random draws behind intervals and p; the same seed gives the same bytes"};
+
+/// The tables of shapes that a path stands for: itself, or those of a batch's folder. A batch with
+/// several numbers of nodes has one in each of its folders.
+std::vector<std::string> tables_of(const std::string& path) {
+  if (!fs::is_directory(path)) return {path};
+  const std::string whole = (fs::path(path) / "shape.csv").string();
+  if (fs::exists(whole)) return {whole};
+  std::vector<std::string> tables;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    const fs::path table = entry.path() / "shape.csv";
+    if (entry.path().filename().string().front() == 'n' && fs::exists(table)) {
+      tables.push_back(table.string());
+    }
+  }
+  std::sort(tables.begin(), tables.end());
+  if (tables.empty()) {
+    refuse(
+        "The folder \"" + path + "\" has no shape.csv. Call wscvt batch without --describe none" +
+        "; join the tables of parts by wscvt collect \"" + path + "\"/shape-*.csv -o shape.csv.");
+  }
+  return tables;
+}
+
+/// A sample that was read.
+struct ReadSample {
+  std::vector<GrainTable> tables;  ///< one, or one per number of nodes
+  std::vector<std::string> files;  ///< of the tables
+};
+
+ReadSample read_sample(const std::string& path, const Execution& execution) {
+  ReadSample sample;
+  sample.files = tables_of(path);
+  for (const std::string& file : sample.files) {
+    execution.report(0.0, "Reading \"" + file + "\"");
+    sample.tables.push_back(read_grain_table(file));
+  }
+  return sample;
+}
+
+/// The table with the most nodes: of several its remeshes are the closest to the scans.
+std::size_t finest(const ReadSample& sample) {
+  std::size_t best = 0;
+  double most = -1.0;
+  for (std::size_t k = 0; k < sample.tables.size(); ++k) {
+    const auto nodes = sample.tables[k].find("nodes");
+    if (!nodes) continue;
+    const double count = sample.tables[k].values(0, static_cast<Eigen::Index>(*nodes));
+    if (!(count > most)) continue;
+    most = count;
+    best = k;
+  }
+  return best;
+}
+
+std::string name_of(const std::string& path) {
+  fs::path whole(path);
+  if (whole.filename().empty()) whole = whole.parent_path();
+  if (whole.filename() == "shape.csv" && whole.has_parent_path()) whole = whole.parent_path();
+  const std::string name = whole.filename().string();
+  return name == "." || name == ".." || name.empty() ? path : name;
+}
+
+std::string folder_of(const std::string& file) {
+  const std::string folder = fs::path(file).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+}  // namespace
+
+CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
+  CLI::App& app = add_command(
+      program,
+      {"sample",
+       "Statistics of a sample, or of two that are compared",
+       {"out --report sample.html", "out supplier.csv --report both.html --size feret-min",
+        "out --density 2650 --report sample.csv --report sample.json"},
+       "SAMPLE is the folder that wscvt batch wrote, or a table: a column \"grain\" and columns "
+       "of\n"
+       "numbers, named as in shape.csv. The folder of a batch with several numbers of nodes\n"
+       "(-n 100,300) gives the errors against the number of nodes too."});
+  app.add_option("samples", arguments.samples, "A folder or a table; a second one to compare with")
+      ->type_name("SAMPLE")
+      ->required()
+      ->expected(1, 2);
+  add_choice(app, "--size", arguments.options.size);
+  add_choice(app, "--of", arguments.options.of);
+  add_number(app, "--density", arguments.options.density, density_option);
+  add_number(app, "--mark", arguments.mark_percent, mark_option);
+  add_number(app, "--repetitions", arguments.options.repetitions, repetitions_option);
+  add_typed(app, "--seed",
+            [&arguments](std::string_view text) {
+              arguments.options.seed = static_cast<std::uint64_t>(from_typed(text, seed_option));
+            })
+      ->description(help_of(static_cast<int>(arguments.options.seed), seed_option))
+      ->type_name("N");
+  app.add_option("--report", arguments.reports,
+                 "Write this file, by its ending: .html a page, .json or .csv all statistics; may "
+                 "be given more than once")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  add_threads_argument(app, arguments.threads);
+  app.add_flag("-q,--quiet", arguments.quiet, "No lines on the standard output, no progress");
+  return app;
+}
+
+int run(const SampleArguments& arguments) {
+  checked([&] {
+    for (const std::string& report : arguments.reports) report_format(report);
+    std::vector<NamedFile> inputs;
+    for (const std::string& path : arguments.samples) {
+      if (!fs::is_directory(path)) inputs.push_back({"a table", path});
+    }
+    check_output_paths(inputs, named_reports(arguments.reports), false);
+  });
+  CommonArguments common;
+  common.threads = arguments.threads;
+  common.quiet = arguments.quiet;
+  Work work(common);
+  const Execution& execution = work.execution();
+  SampleReport report;
+  report.options = arguments.options;
+  for (const std::string& path : arguments.samples) {
+    const ReadSample read = read_sample(path, execution);
+    const std::size_t shown = finest(read);
+    ReportedSample one;
+    one.name = name_of(path);
+    one.folder = folder_of(read.files[shown]);
+    one.sample = sample_of(read.tables[shown], arguments.options);
+    one.statistics = measure_sample(one.sample, arguments.options, execution);
+    if (report.samples.empty() && read.tables.size() > 1) {
+      report.levels = measure_levels(read.tables, arguments.mark_percent);
+    }
+    report.samples.push_back(std::move(one));
+  }
+  if (report.samples.size() > 1) {
+    if (report.samples[0].name == report.samples[1].name) {
+      for (std::size_t k = 0; k < 2; ++k) report.samples[k].name = arguments.samples[k];
+    }
+    report.comparison = compare_samples(report.samples[0].sample, report.samples[1].sample,
+                                        arguments.options, execution);
+  }
+  for (const std::string& file : arguments.reports) {
+    work.write(file, [&](const std::string& path, const Execution& part) {
+      write_sample_report(path, report, part);
+    });
+  }
+  work.print({}, sample_lines(report));
+  return Done;
+}
+
+}  // namespace wscvt::program

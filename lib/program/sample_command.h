@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+#include "wscvt/sample/grain_sample.h"
+
+namespace wscvt::program {
+
+/// `wscvt sample`: statistics of a sample, or of two and what lies between them.
+struct SampleArguments {
+  std::vector<std::string> samples;  ///< folders of a batch, or tables; one or two
+  SampleOptions options;
+  double mark_percent = 1.0;         ///< of levels
+  std::vector<std::string> reports;  ///< files; the ending says what each becomes
+  int threads = 0;                   ///< 0: all
+  bool quiet = false;
+};
+
+/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+CLI::App& add_command(CLI::App& program, SampleArguments& arguments);
+
+/// Does what the call says; gives the exit code. Throws wscvt::Error.
+int run(const SampleArguments& arguments);
+
+}  // namespace wscvt::program

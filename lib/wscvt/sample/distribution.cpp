@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/distribution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace wscvt {
+
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+Distribution::Distribution(const Eigen::VectorXd& values)
+    : Distribution(values, Eigen::VectorXd::Ones(values.size())) {}
+
+Distribution::Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    if (std::isfinite(values[k]) && std::isfinite(weights[k]) && weights[k] > 0.0) {
+      grains_.push_back(static_cast<std::uint32_t>(k));
+    }
+  }
+  // Equal values keep the order of the grains, so that sums have the same bits everywhere.
+  std::stable_sort(grains_.begin(), grains_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return values[a] < values[b]; });
+  double total = 0.0;
+  for (const std::uint32_t grain : grains_) {
+    values_.push_back(values[grain]);
+    weights_.push_back(weights[grain]);
+    middles_.push_back(total + 0.5 * weights[grain]);
+    total += weights[grain];
+  }
+  for (double& middle : middles_) middle /= total;
+}
+
+double Distribution::mean() const {
+  const double total = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  return std::inner_product(values_.begin(), values_.end(), weights_.begin(), 0.0) / total;
+}
+
+double Distribution::deviation() const {
+  if (size() < 2) return no_number;
+  const double middle = mean();
+  double total = 0.0;
+  double squares = 0.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < size(); ++k) {
+    total += weights_[k];
+    squares += weights_[k] * weights_[k];
+    sum += weights_[k] * (values_[k] - middle) * (values_[k] - middle);
+  }
+  return std::sqrt(sum / (total - squares / total));
+}
+
+double Distribution::quantile(double share) const {
+  if (values_.empty()) return no_number;
+  const auto above = std::lower_bound(middles_.begin(), middles_.end(), share);
+  if (above == middles_.begin()) return values_.front();
+  if (above == middles_.end()) return values_.back();
+  const auto k = static_cast<std::size_t>(above - middles_.begin());
+  const double part = (share - middles_[k - 1]) / (middles_[k] - middles_[k - 1]);
+  return values_[k - 1] + part * (values_[k] - values_[k - 1]);
+}
+
+double Distribution::share_below(double value) const {
+  const auto end = std::upper_bound(values_.begin(), values_.end(), value);
+  const auto count = end - values_.begin();
+  const double total = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  return std::accumulate(weights_.begin(), weights_.begin() + count, 0.0) / total;
+}
+
+void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
+                        const std::vector<double>& shares, double* quantiles) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  double below = 0.0;
+  double last_middle = 0.0;
+  double last_value = no_number;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < values.size() && next < shares.size(); ++k) {
+    if (!(weights[k] > 0.0)) continue;
+    const double middle = below + 0.5 * weights[k];
+    for (; next < shares.size() && shares[next] * total <= middle; ++next) {
+      const double part = (shares[next] * total - last_middle) / (middle - last_middle);
+      quantiles[next] = below > 0.0 ? last_value + part * (values[k] - last_value) : values[k];
+    }
+    below += weights[k];
+    last_middle = middle;
+    last_value = values[k];
+  }
+  for (; next < shares.size(); ++next) quantiles[next] = last_value;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wscvt {
+
+/// One number of each grain of a sample, in ascending order, with the grains' weights: equal ones
+/// for statistics by number, masses for statistics by mass. Grains without the number, or without a
+/// positive weight, are left out.
+class Distribution {
+ public:
+  Distribution() = default;
+  /// `values` and `weights` have a row per grain; NaN: missing. Without `weights` all are 1.
+  explicit Distribution(const Eigen::VectorXd& values);
+  Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd& weights);
+
+  std::size_t size() const { return values_.size(); }
+  const std::vector<double>& values() const { return values_; }
+  const std::vector<double>& weights() const { return weights_; }
+  /// The grain of each value: a row of the constructor's vectors.
+  const std::vector<std::uint32_t>& grains() const { return grains_; }
+
+  /// sum w x / sum w; NaN for no value.
+  double mean() const;
+
+  /// The standard deviation of the population that the values are drawn from, without bias of the
+  /// variance: the square root of sum w (x - mean)^2 / (W - sum w^2 / W), W = sum w. With equal
+  /// weights it divides by n - 1. NaN for fewer than two values.
+  double deviation() const;
+
+  /// The value below which a share of the weight lies, 0 to 1. The weight of a grain counts half
+  /// below its own value (Hazen 1914), and between neighbours the line is straight; beyond the
+  /// middle of the first and of the last grain it is their value. NaN for no value.
+  double quantile(double share) const;
+
+  /// Share of the weight at or below a value, a step at each grain.
+  double share_below(double value) const;
+
+ private:
+  std::vector<double> values_;
+  std::vector<double> weights_;
+  std::vector<std::uint32_t> grains_;
+  std::vector<double> middles_;  ///< weight below the middle of each grain / all
+};
+
+/// Several quantiles of sorted values with weights, zeros among them, as Distribution::quantile has
+/// them; `shares` ascend. For repetitions, which change the weights only.
+void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
+                        const std::vector<double>& shares, double* quantiles);
+
+}  // namespace wscvt

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/grain_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
+
+namespace wscvt {
+
+namespace {
+
+const char* column_of(SizeMeasure size) {
+  switch (size) {
+    case SizeMeasure::Sieve:
+      return "axis_i_box";
+    case SizeMeasure::EquivalentDiameter:
+      return "equivalent_diameter";
+    case SizeMeasure::LargestFeret:
+      return "feret_max";
+    case SizeMeasure::SmallestFeret:
+      break;
+  }
+  return "feret_min";
+}
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// Where a grain lies and how it is turned says nothing of its shape.
+bool is_pose(const std::string& name) {
+  return starts_with(name, "centroid_") || starts_with(name, "principal_axes_");
+}
+
+std::string counted(std::size_t count, const std::string& grains) {
+  return std::to_string(count) + (count == 1 ? " grain " : " grains ") + grains;
+}
+
+/// The columns of a mesh, by their place in the table.
+std::vector<std::size_t> places_of(const GrainTable& table, const std::string& mesh) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const std::string& name = table.columns[k].name;
+    if (starts_with(name, mesh) && !is_pose(name.substr(mesh.size()))) places.push_back(k);
+  }
+  return places;
+}
+
+std::vector<std::size_t> choose_columns(const GrainTable& table, const SampleOptions& options,
+                                        GrainSample& sample) {
+  const std::string wanted = key_of(options.of) + ".";
+  const std::string other = options.of == SampledMesh::Scan ? "remesh." : "scan.";
+  std::string mesh = wanted;
+  std::vector<std::size_t> places = places_of(table, mesh);
+  if (places.empty()) {
+    mesh = other;
+    places = places_of(table, mesh);
+    if (!places.empty()) {
+      sample.notes.push_back("The table has no columns \"" + wanted + "\", so these are the \"" +
+                             other + "\" columns.");
+    }
+  }
+  if (places.empty()) {
+    mesh.clear();
+    places = places_of(table, mesh);
+  }
+  for (const std::size_t place : places) {
+    sample.columns.push_back(
+        {table.columns[place].name.substr(mesh.size()), table.columns[place].unit});
+  }
+  return places;
+}
+
+std::optional<std::size_t> find(const GrainSample& sample, const std::string& name) {
+  for (std::size_t k = 0; k < sample.columns.size(); ++k) {
+    if (sample.columns[k].name == name) return k;
+  }
+  return {};
+}
+
+}  // namespace
+
+GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
+  require_in_range(options.density, density_option);
+  require_in_range(options.repetitions, repetitions_option);
+  GrainSample sample;
+  sample.failed = table.failed;
+  const std::vector<std::size_t> places = choose_columns(table, options, sample);
+  const std::string size_column = column_of(options.size);
+  const auto size_place = find(sample, size_column);
+  if (!size_place) {
+    refuse("The table has no column \"" + size_column +
+           "\" for the size of the grains. Give a table with it, or choose another --size: " +
+           keys_of<SizeMeasure>() + ".");
+  }
+  sample.size_name = label_of(options.size);
+  sample.size_unit = sample.columns[*size_place].unit;
+  const auto value = [&](Eigen::Index grain, std::size_t column) {
+    return table.values(grain, static_cast<Eigen::Index>(places[column]));
+  };
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < table.values.rows(); ++k) {
+    if (value(k, *size_place) > 0.0) kept.push_back(k);
+  }
+  const std::size_t without = table.grains.size() - kept.size();
+  if (without > 0) {
+    sample.notes.push_back(counted(without, "without a size left out."));
+  }
+  if (kept.size() < 2) {
+    refuse("The table has " + counted(kept.size(), "with a size") +
+           ". Statistics need two or more.");
+  }
+  const auto volume = find(sample, "volume");
+  if (!volume) {
+    sample.notes.push_back(
+        "The table has no column \"volume\", so masses are those of spheres of the grains' size.");
+  }
+  const auto rows = static_cast<Eigen::Index>(kept.size());
+  sample.values.resize(rows, static_cast<Eigen::Index>(places.size()));
+  sample.sizes.resize(rows);
+  sample.masses.resize(rows);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const Eigen::Index k = kept[static_cast<std::size_t>(row)];
+    sample.grains.push_back(table.grains[static_cast<std::size_t>(k)]);
+    if (!table.files.empty()) sample.files.push_back(table.files[static_cast<std::size_t>(k)]);
+    for (std::size_t column = 0; column < places.size(); ++column) {
+      sample.values(row, static_cast<Eigen::Index>(column)) = value(k, column);
+    }
+    const double size = value(k, *size_place);
+    sample.sizes[row] = size;
+    sample.masses[row] =
+        options.density * (volume ? value(k, *volume) : pi / 6.0 * size * size * size);
+  }
+  return sample;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/detail_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/measures/descriptor_table.h"
+
+namespace wscvt {
+namespace {
+
+/// Eleven grains whose descriptors are off by 0, 1, ..., 10 times 50 / N %.
+GrainTable table_with(double nodes) {
+  GrainTable table;
+  table.columns = {{"nodes", ""}, {"rms_distance", "length"}};
+  const auto rows = list_descriptors(DetailedDescriptors());
+  for (const std::string mesh : {"scan.", "remesh."}) {
+    for (const DescriptorValue& one : rows) table.columns.push_back({mesh + one.key, one.unit});
+  }
+  table.values.setConstant(11, static_cast<Eigen::Index>(table.columns.size()), 4.0);
+  for (Eigen::Index k = 0; k < 11; ++k) {
+    table.grains.push_back(std::to_string(k));
+    const double off = static_cast<double>(k) * 0.5 / nodes;
+    table.values(k, 0) = nodes;
+    table.values(k, 1) = 2.0 * off;  // of the radius 2
+    for (std::size_t c = 2 + rows.size(); c < table.columns.size(); ++c) {
+      table.values(k, static_cast<Eigen::Index>(c)) =
+          k % 2 == 0 ? 4.0 + 4.0 * off : 4.0 - 4.0 * off;
+    }
+  }
+  return table;
+}
+
+TEST(DetailLevels, TellMedianAnd90PercentAndTheNodesNeeded) {
+  const DetailLevels levels =
+      measure_levels({table_with(1000.0), table_with(100.0), table_with(300.0)}, 1.5);
+  EXPECT_EQ(levels.nodes, (std::vector<double>{100.0, 300.0, 1000.0}));
+  ASSERT_GT(levels.rows.size(), 30U);
+  EXPECT_EQ(levels.rows[0].name, "rms_distance");
+  for (const DescriptorLevels& row : levels.rows) {
+    SCOPED_TRACE(row.name);
+    EXPECT_NE(row.name, "ssk");  // zero is an ordinary value of it
+    ASSERT_EQ(row.levels.size(), 3U);
+    EXPECT_EQ(row.levels[0].count, 11U);
+    // Of 11 grains the middle of the sixth is the median; 0.9 is 0.4 behind that of the tenth.
+    EXPECT_NEAR(row.levels[0].median, 5.0 * 0.5, 1e-9);
+    EXPECT_NEAR(row.levels[0].percent_90, 9.4 * 0.5, 1e-9);
+    EXPECT_NEAR(row.levels[2].percent_90, 9.4 * 0.05, 1e-9);
+    // The error is 470 / N, a straight line on logarithmic axes.
+    EXPECT_EQ(row.nodes_needed, std::ceil(470.0 / 1.5));
+  }
+  EXPECT_EQ(measure_levels({table_with(100.0)}, 50.0).rows[3].nodes_needed, 100.0);
+  EXPECT_TRUE(std::isnan(measure_levels({table_with(100.0)}, 0.1).rows[3].nodes_needed));
+}
+
+TEST(DetailLevels, RefusesTablesThatAreNone) {
+  EXPECT_THROW(measure_levels({table_with(100.0), table_with(100.0)}, 1.0), Error);
+  GrainTable scans = table_with(100.0);
+  scans.columns.resize(10);
+  EXPECT_THROW(measure_levels({scans}, 1.0), Error);
+  EXPECT_THROW(measure_levels({table_with(100.0)}, 0.0), Error);
+}
+
+}  // namespace
+}  // namespace wscvt

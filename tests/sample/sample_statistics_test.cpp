@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/sample_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/sample/distribution.h"
+#include "wscvt/sample/random_numbers.h"
+#include "wscvt/sample/sample_comparison.h"
+
+namespace wscvt {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// Numbers in [0, 1).
+Eigen::VectorXd uniform(Eigen::Index count, std::uint64_t seed) {
+  RandomNumbers random(seed, 1000);
+  Eigen::VectorXd values(count);
+  for (double& value : values) value = std::ldexp(static_cast<double>(random.next() >> 11), -53);
+  return values;
+}
+
+/// A table of scans whose sizes are those given, and whose volumes are the sizes' cubes.
+GrainTable table_of(const Eigen::VectorXd& sizes) {
+  GrainTable table;
+  table.columns = {
+      {"nodes", ""},          {"scan.volume", "length^3"},   {"scan.axis_i_box", "length"},
+      {"scan.convexity", ""}, {"scan.centroid_x", "length"}, {"remesh.axis_i_box", "length"}};
+  table.values.resize(sizes.size(), 6);
+  table.values.col(1) = sizes.array().cube();
+  table.values.col(2) = sizes;
+  table.values.col(3) = 1.0 - 0.5 * uniform(sizes.size(), 77).array();
+  table.values.col(5) = 2.0 * sizes;
+  for (Eigen::Index k = 0; k < sizes.size(); ++k) table.grains.push_back(std::to_string(k));
+  return table;
+}
+
+GrainSample sample_with(const Eigen::VectorXd& sizes, const SampleOptions& options = {}) {
+  return sample_of(table_of(sizes), options);
+}
+
+TEST(GrainSample, TakesTheColumnsOfOneMesh) {
+  const Eigen::Vector4d sizes(1.0, missing, 3.0, 2.0);
+  SampleOptions options;
+  options.density = 7.0;
+  const GrainSample scans = sample_with(sizes, options);
+  EXPECT_EQ(scans.grains, (std::vector<std::string>{"0", "2", "3"}));
+  ASSERT_EQ(scans.columns.size(), 3U);  // no position
+  EXPECT_EQ(scans.columns[0].name, "volume");
+  EXPECT_EQ(scans.size_unit, "length");
+  EXPECT_EQ(scans.sizes[1], 3.0);
+  EXPECT_EQ(scans.masses[1], 7.0 * 27.0);
+  ASSERT_EQ(scans.notes.size(), 1U);
+  EXPECT_NE(scans.notes[0].find("1 grain without a size"), std::string::npos);
+  options.of = SampledMesh::Remesh;
+  const GrainSample remeshes = sample_with(sizes, options);
+  ASSERT_EQ(remeshes.columns.size(), 1U);
+  EXPECT_EQ(remeshes.sizes[1], 6.0);
+  // Without a volume masses are those of spheres.
+  EXPECT_NEAR(remeshes.masses[1], 7.0 * pi / 6.0 * 216.0, 1e-9);
+  options.size = SizeMeasure::LargestFeret;
+  EXPECT_THROW(sample_with(sizes, options), Error);
+  EXPECT_THROW(sample_with(Eigen::Vector2d(1.0, missing)), Error);
+}
+
+TEST(SampleStatistics, SizesOfAUniformSampleAreItsShares) {
+  // Sizes 0.5, 1.5, ..., 999.5: by number D10 is 100; by mass (cubes) D10 is 1000 * 0.1^(1/4).
+  const Eigen::VectorXd sizes = Eigen::VectorXd::LinSpaced(1000, 0.5, 999.5);
+  SampleOptions options;
+  options.repetitions = 0;
+  const SampleStatistics s = measure_sample(sample_with(sizes, options), options, Execution(1));
+  EXPECT_NEAR(s.size_by_number.d10.value, 100.0, 1e-9);
+  EXPECT_NEAR(s.size_by_number.d60.value, 600.0, 1e-9);
+  EXPECT_NEAR(s.size_by_number.uniformity.value, 6.0, 1e-9);
+  EXPECT_NEAR(s.size_by_number.curvature.value, 300.0 * 300.0 / (100.0 * 600.0), 1e-9);
+  // A sum in place of an integral: half a grain.
+  EXPECT_NEAR(s.size_by_mass.d10.value, 1000.0 * std::pow(0.1, 0.25), 0.1);
+  EXPECT_NEAR(s.size_by_mass.d50.value, 1000.0 * std::pow(0.5, 0.25), 0.1);
+  EXPECT_TRUE(std::isnan(s.size_by_mass.d50.lower));
+  ASSERT_EQ(s.columns.size(), 3U);
+  const ColumnStatistics& size = s.columns[1];
+  EXPECT_EQ(size.count, 1000U);
+  EXPECT_EQ(size.smallest, 0.5);
+  EXPECT_EQ(size.largest, 999.5);
+  EXPECT_NEAR(size.by_number.mean.value, 500.0, 1e-9);
+  // Variance (n^2 - 1) / 12 over n, here over n - 1.
+  EXPECT_NEAR(size.by_number.deviation.value, std::sqrt(999999.0 / 12.0 * 1000.0 / 999.0), 1e-9);
+  EXPECT_NEAR(size.by_mass.mean.value, 800.0, 0.1);
+  EXPECT_NEAR(size.size_correlation.value, 1.0, 1e-12);
+}
+
+TEST(SampleStatistics, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  // Uniform sizes; 200 samples of 60: of 95 % intervals 190 are to hold the mean, and 4 deviations
+  // of the binomial are 12. Percentile intervals of 60 grains are 1 to 2 % short.
+  int held_mean = 0;
+  int held_median = 0;
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    SampleOptions options;
+    options.seed = k;
+    options.repetitions = 200;
+    const SampleStatistics s = measure_sample(
+        sample_with(uniform(60, k + 500).array() + 1.0, options), options, Execution(1));
+    const ColumnEstimates& size = s.columns[1].by_number;
+    held_mean += size.mean.lower <= 1.5 && 1.5 <= size.mean.upper ? 1 : 0;
+    held_median += size.median.lower <= 1.5 && 1.5 <= size.median.upper ? 1 : 0;
+  }
+  EXPECT_NEAR(held_mean, 188, 14);
+  EXPECT_NEAR(held_median, 188, 14);
+}
+
+TEST(SampleStatistics, TheIntervalOfAMeanIsThatOfTheNormalDistribution) {
+  SampleOptions options;
+  options.repetitions = 2000;
+  const SampleStatistics s =
+      measure_sample(sample_with(uniform(400, 3).array() + 1.0), options, Execution(2));
+  const ColumnEstimates& size = s.columns[1].by_number;
+  const double reach = 1.96 * size.deviation.value / 20.0;
+  // Ends of 2000 repetitions scatter by 4 %.
+  EXPECT_NEAR(size.mean.upper - size.mean.value, reach, 0.15 * reach);
+  EXPECT_NEAR(size.mean.value - size.mean.lower, reach, 0.15 * reach);
+  // Half the interval wants four times the grains.
+  const double now = 100.0 * 0.5 * (size.mean.upper - size.mean.lower) / size.mean.value;
+  EXPECT_NEAR(grains_needed(size.mean, 400, 0.5 * now), 1600.0, 1.0);
+  EXPECT_TRUE(std::isnan(grains_needed({1.0, missing, missing}, 400, 1.0)));
+}
+
+TEST(SampleStatistics, HaveTheSameBytesOnAnyNumberOfThreads) {
+  const GrainSample sample = sample_with(uniform(50, 9).array() + 1.0);
+  const GrainSample other = sample_with(uniform(40, 10).array() + 1.1);
+  SampleOptions options;
+  options.repetitions = 50;
+  const auto numbers = [&](int threads) {
+    const SampleStatistics s = measure_sample(sample, options, Execution(threads));
+    std::vector<double> all = {s.size_by_mass.d10.lower, s.size_by_mass.curvature.upper};
+    for (const ColumnStatistics& column : s.columns) {
+      all.push_back(column.by_mass.deviation.lower);
+      all.push_back(column.by_number.percent_90.upper);
+    }
+    for (const ColumnComparison& row :
+         compare_samples(sample, other, options, Execution(threads))) {
+      all.push_back(row.by_mass.wasserstein_p);
+      all.push_back(row.by_number.kolmogorov);
+    }
+    return all;
+  };
+  const std::vector<double> one = numbers(1);
+  for (const int threads : {2, 5}) {
+    const std::vector<double> more = numbers(threads);
+    ASSERT_EQ(more.size(), one.size());
+    EXPECT_EQ(std::memcmp(more.data(), one.data(), one.size() * sizeof(double)), 0) << threads;
+  }
+  options.seed = 2;
+  EXPECT_NE(numbers(1), one);
+}
+
+TEST(RankCorrelation, IsSpearmansWithTies) {
+  // Ranks 1, 2.5, 2.5, 4, 5 against 5, 4, 3, 2, 1: sums of the deviations' products -9.5, squares
+  // 9.5 and 10.
+  Eigen::VectorXd one(6);
+  one << 1.0, 20.0, 20.0, 300.0, 4000.0, missing;
+  Eigen::VectorXd other(6);
+  other << 9.0, 8.0, 7.0, 6.0, -5.0, 1.0;
+  const Estimate r = rank_correlation(one, other);
+  EXPECT_NEAR(r.value, -9.5 / std::sqrt(9.5 * 10.0), 1e-14);
+  EXPECT_LT(r.lower, r.value);
+  EXPECT_GT(r.upper, r.value);
+  EXPECT_TRUE(std::isnan(rank_correlation(Eigen::VectorXd::Ones(9), uniform(9, 1)).value));
+}
+
+TEST(SampleComparison, DistancesOfKnownSamples) {
+  const auto of = [](const std::vector<double>& values, const std::vector<double>& weights) {
+    const auto n = static_cast<Eigen::Index>(values.size());
+    return Distribution(Eigen::Map<const Eigen::VectorXd>(values.data(), n),
+                        Eigen::Map<const Eigen::VectorXd>(weights.data(), n));
+  };
+  // Shares 1/4 and 3/4 at 1 and 3, against 1/2 and 1/2 at 2 and 7: differences 1/4, -1/4, 1/2.
+  const SampleDistance far =
+      distance_between(of({3.0, 1.0}, {6.0, 2.0}), of({2.0, 7.0}, {5.0, 5.0}));
+  EXPECT_NEAR(far.kolmogorov, 0.5, 1e-15);
+  EXPECT_NEAR(far.wasserstein, 0.25 * 1.0 + 0.25 * 1.0 + 0.5 * 4.0, 1e-15);
+  // Moved by 0.7: Wasserstein's distance is 0.7. Values that are equal in both are one step.
+  const Distribution uniform_one(uniform(300, 5));
+  EXPECT_NEAR(
+      distance_between(uniform_one, Distribution(uniform(300, 5).array() + 0.7)).wasserstein, 0.7,
+      1e-12);
+  const SampleDistance none = distance_between(uniform_one, uniform_one);
+  EXPECT_NEAR(none.kolmogorov, 0.0, 1e-12);
+  EXPECT_NEAR(none.wasserstein, 0.0, 1e-12);
+}
+
+TEST(SampleComparison, PTellsSamplesOfOneFromThoseOfTwo) {
+  SampleOptions options;
+  options.repetitions = 99;
+  // Of 40 pairs of one population 2 are to be below 0.05; of another, moved by half its width, all.
+  int same = 0;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    options.seed = k;
+    const GrainSample one = sample_with(uniform(50, 2 * k).array() + 1.0);
+    const GrainSample other = sample_with(uniform(60, 2 * k + 1).array() + 1.0);
+    const auto rows = compare_samples(one, other, options, Execution(1));
+    same += rows[0].by_number.wasserstein_p <= 0.05 ? 1 : 0;
+    if (k > 3) continue;
+    const GrainSample moved = sample_with(uniform(60, 2 * k + 1).array() + 1.5);
+    const auto farther = compare_samples(one, moved, options, Execution(1));
+    EXPECT_EQ(farther[0].column.name, "size");
+    EXPECT_EQ(farther[0].by_number.kolmogorov_p, 0.01);
+    EXPECT_EQ(farther[0].by_mass.wasserstein_p, 0.01);
+    EXPECT_GT(farther[3].by_number.wasserstein_p, 0.01) << farther[3].column.name;
+  }
+  EXPECT_LE(same, 7);  // more than 7 of 40 at 0.05: one run in 1,500
+}
+
+}  // namespace
+}  // namespace wscvt
