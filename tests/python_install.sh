@@ -17,8 +17,14 @@ mkdir -p "$work/source"
 trap 'rm -rf "$work"' EXIT
 # pip builds beside setup.py.
 cp -r "$root/CMakeLists.txt" "$root/lib" "$work/source"
-# NumPy, pytest and what pip builds with are Debian's.
+# What is missing is named. The environment's folder of programs has no CMake.
 /usr/bin/python3 -m venv --system-site-packages "$work/environment"
+! env PATH="$work/environment/bin" "$work/environment/bin/python" -m pip install --no-index \
+  --no-build-isolation "$work/source/lib/python" > "$work/missing.txt" 2>&1 ||
+  fail "pip installed the module without CMake."
+grep -q 'cmake is missing' "$work/missing.txt" && grep -q 'apt-get install g++ cmake' "$work/missing.txt" ||
+  fail "pip does not name what is missing: $(tail -n 20 "$work/missing.txt")"
+# NumPy, pytest and what pip builds with are Debian's.
 python=$work/environment/bin/python
 "$python" -m pip install --no-index --no-build-isolation "$work/source/lib/python" \
   > "$work/installed.txt" 2>&1 || fail "$(tail -n 40 "$work/installed.txt")"

@@ -90,7 +90,7 @@ for step in "$@"; do
       tests/types.sh build/release ;;
     wheel)
       # After release; as root, for debootstrap: the roots have nothing but Python and NumPy.
-      tests/install_packages.sh debootstrap patchelf binutils python3-pip
+      tests/install_packages.sh debootstrap patchelf binutils python3-pip python3-venv
       tests/wheel.sh build/release build/wheel ;;
     blender)
       # After release. A step of its own, because Blender is 1 GB.

@@ -51,3 +51,20 @@ wscvt.write_mesh("/opt/remesh.ply", wscvt.remesh("/opt/sand_7228.ply", 300))'
   done
   echo "The wheel works in a bare root of $suite, with Python $python."
 done
+
+# The commands of the texts word for word, as in a clone where build/release is built.
+rm -rf "$work/clone"
+mkdir -p "$work/clone/build"
+ln -s "$root/lib" "$root/filter_wscvt" "$root/meshes" "$work/clone"
+ln -s "$build" "$work/clone/build/release"
+cd "$work/clone"
+for text in lib/python filter_wscvt/host_blender; do
+  sed -n 's/^    \([a-z].*\)/\1/p' "$root/$text/README.md" > commands.txt
+  [ -s commands.txt ] || fail "$text/README.md has no commands."
+  while read -r command; do
+    env -u PYTHONPATH PATH=/usr/bin:/bin sh -euc "$command" > said.txt 2>&1 < /dev/null ||
+      fail "$text/README.md: $command: $(cat said.txt)"
+  done < commands.txt
+done
+[ -f build/blender/wscvt-*-blender.zip ] || fail "The add-on's zip is not where its text says."
+echo "The commands of lib/python/README.md and filter_wscvt/host_blender/README.md work."

@@ -118,12 +118,16 @@ def test_materials_and_colours_are_kept():
         height.data[k].color = (*(vertex.co + away), 1.0)  # none is below 0
     for k, loop in enumerate(scanned.data.loops):
         corner.data[k].color = height.data[loop.vertex_index].color
+    scanned.data.color_attributes.render_color_index = 1
+    scanned.data.color_attributes.active_color_index = 0
     scanned.data.update()
     made = remeshed()
     assert [one.name for one in made.data.materials] == ["below", "above"]
     for polygon in made.data.polygons:
         if abs(polygon.center.x - 0.1) > 0.05:
             assert polygon.material_index == int(polygon.center.x > 0.1)
+    assert made.data.color_attributes.render_color_index == 1
+    assert made.data.color_attributes.active_color_index == 0
     for name in ("height", "corner"):
         carried = made.data.color_attributes[name]
         assert carried.domain == "POINT"

@@ -33,10 +33,14 @@ class Scan:
             read(mesh.loop_triangles, "polygon_index", 1, np.int32)]
         self._colours = [
             (colours.name, colours.data_type, colours.domain, read(colours.data, "color", 4, np.float32))
-            for colours in mesh.color_attributes if colours.domain in {"POINT", "CORNER"}]
+            for colours in mesh.color_attributes]
+        self._shown_colours = mesh.color_attributes.active_color_index
+        self._rendered_colours = mesh.color_attributes.render_color_index
 
     def carry_to(self, mesh):
         """Gives a mesh the materials' indices and the colours of the nearest points of the scan."""
+        if not self._colours and not self._materials.any():
+            return  # a tree of a large scan takes seconds
         tree = BVHTree.FromPolygons(self.vertices.tolist(), self.triangles.tolist())
         points = read(mesh.vertices, "co", 3, np.float32)
         if self._colours:
@@ -47,6 +51,8 @@ class Scan:
                 carried = np.einsum("ij,ijk->ik", weights, values[corners])
                 mesh.color_attributes.new(name, data_type, "POINT").data.foreach_set(
                     "color", carried.astype(np.float32).ravel())
+            mesh.color_attributes.active_color_index = self._shown_colours
+            mesh.color_attributes.render_color_index = self._rendered_colours
         if self._materials.any():
             corners = read(mesh.polygons, "vertices", 3, np.int32)
             _, triangles = nearest(tree, points[corners].mean(axis=1))
