@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [page] [engines] [package] [pip] [types] [wheel] [blender] [slurm] [hosts] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [page] [engines] [package] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [debian12] [debian13] [sid]
 # Without arguments: install, release and hosts. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -96,6 +96,10 @@ for step in "$@"; do
       # After release. A step of its own, because Blender is 1 GB.
       tests/install_packages.sh blender patchelf binutils xvfb xauth xdotool libgl1-mesa-dri
       tests/blender.sh build/release build/blender ;;
+    blender13)
+      # After blender; as root.
+      tests/install_packages.sh debootstrap
+      tests/blender_debian13.sh build/blender/wscvt-*-blender.zip build/blender13 ;;
     slurm)
       # After release; as root.
       tests/install_packages.sh slurm-wlm parallel

@@ -19,7 +19,7 @@ import pathlib
 import threading
 
 from . import _wscvt
-from ._wscvt import Error, Remesh, __version__, create, options
+from ._wscvt import Error, Remesh, __version__, options
 
 __all__ = ["Error", "Remesh", "batch", "create", "describe", "distance_grid", "extract", "options",
            "read_mesh", "remesh", "signed_distances", "write_mesh"]
@@ -65,6 +65,26 @@ def remesh(vertices, faces=None, nodes=None, **options):
     if isinstance(vertices, (str, os.PathLike)):
         options.setdefault("source", os.path.basename(vertices))
     return _wscvt.remesh(*_arrays(vertices, faces), **options)
+
+
+def create(surface, **options):
+    """Makes a mesh of N nodes of a surface that is known exactly; returns a Remesh.
+
+    create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=500)
+
+    surface: "ellipsoid", "superellipsoid" or "harmonics".
+    semi_axes: three lengths > 0; (1, 1, 1) by default.
+    polar_exponent: of a superellipsoid from pole to pole, 0.1 to 2; 1, the default, is an ellipsoid.
+    azimuthal_exponent: the same around the equator.
+    coefficients_file: of harmonics; a path that ends in .dat, .sh or .json.
+    coefficient_degree: where the series is cut; -1 takes all of it.
+    threads: and progress: as for remesh.
+    All other options have the names and values of options(). Nodes lie on the surface unless
+    placement says otherwise.
+
+    Raises Error, and TypeError for options that there are not.
+    """
+    return _wscvt.create(surface, **options)
 
 
 def batch(scans, nodes=None, *, threads=0, **options):
