@@ -26,6 +26,7 @@
 #include "describe_command.h"
 #include "exit_code.h"
 #include "extract_command.h"
+#include "grow_command.h"
 #include "man_pages.h"
 #include "remesh_command.h"
 #include "sample_command.h"
@@ -33,6 +34,7 @@
 #include "signals.h"
 #include "split_command.h"
 #include "standard_streams.h"
+#include "templates_command.h"
 #include "wrong_call.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/readable_text.h"
@@ -69,6 +71,7 @@ int run(int argc, char** argv) {
       make_command<program::SegmentArguments>(app), make_command<program::ExtractArguments>(app),
       make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
       make_command<program::SplitArguments>(app),   make_command<program::SampleArguments>(app),
+      make_command<program::GrowArguments>(app),    make_command<program::TemplatesArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is

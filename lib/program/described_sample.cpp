@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "described_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "grain_run.h"
+#include "shape_files.h"
+#include "wscvt/base/convex_hull.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/measures/descriptor_table.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/form_axes.h"
+#include "wscvt/sample/grain_table.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/mesh_io.h"
+#include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/harmonic_surface.h"
+
+namespace wscvt::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of a mesh of SH coefficients: 2,562 points.
+constexpr int frequency = 16;
+
+double diameter_of(double volume) { return std::cbrt(6.0 / pi * volume); }
+
+/// What is measured in a moment; the others take all descriptors.
+std::vector<DescriptorValue> quick_descriptors(const IndexedMesh& mesh,
+                                               const Execution& execution) {
+  const ShapeDescriptors shape = describe_shape(mesh, execution);
+  std::vector<DescriptorValue> rows = list_descriptors(shape);
+  const Vector3& axes = shape.inertia_semi_axes;
+  const FormRatios ratios = form_ratios({axes[0], axes[1], axes[2]});
+  rows.push_back({"zingg_elongation_inertia", "", "", ratios.zingg_elongation});
+  rows.push_back({"zingg_flatness_inertia", "", "", ratios.zingg_flatness});
+  const ShapeDescriptors hull = describe_shape(convex_hull(mesh.points, execution), execution);
+  rows.push_back({"convexity", "", "", shape.volume / hull.volume});
+  return rows;
+}
+
+const DescriptorValue* find(const std::vector<DescriptorValue>& rows, const std::string& key) {
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const DescriptorValue& r) { return r.key == key; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+bool are_quick(const std::vector<std::string>& keys) {
+  const std::vector<DescriptorValue> rows = quick_descriptors(subdivided_sphere(2), Execution(1));
+  return std::all_of(keys.begin(), keys.end(),
+                     [&](const std::string& key) { return find(rows, key) != nullptr; });
+}
+
+/// The diameter of a grain, then its descriptors.
+std::vector<double> measured(const std::string& file, const std::vector<std::string>& keys,
+                             bool quick, const Execution& execution) {
+  const IndexedMesh mesh = grain_mesh(file, execution);
+  const std::vector<DescriptorValue> rows =
+      quick ? quick_descriptors(mesh, execution)
+            : list_descriptors(describe_shape_in_detail(mesh, DetailedOptions(), execution));
+  std::vector<double> values = {diameter_of(find(rows, "volume")->value)};
+  for (const std::string& key : keys) {
+    const DescriptorValue* row = find(rows, key);
+    if (row == nullptr) {
+      std::string names;
+      for (const DescriptorValue& known : rows) names += (names.empty() ? "" : ", ") + known.key;
+      refuse("There is no descriptor \"" + key + "\"; give some of: " + names + ".");
+    }
+    if (!std::isfinite(row->value)) {
+      refuse("The grain has no " + key + "; leave out the descriptor or the grain.");
+    }
+    values.push_back(row->value);
+  }
+  return values;
+}
+
+void add(DescribedSample& sample, const std::string& file, const std::vector<double>& values,
+         std::vector<std::vector<double>>& rows) {
+  sample.files.push_back(file);
+  sample.diameters.push_back(values.front());
+  rows.emplace_back(values.begin() + 1, values.end());
+}
+
+void fill(DescribedSample& sample, const std::vector<std::vector<double>>& rows,
+          std::size_t columns) {
+  sample.descriptors.resize(static_cast<Eigen::Index>(rows.size()),
+                            static_cast<Eigen::Index>(columns));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      sample.descriptors(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
+    }
+  }
+}
+
+/// A column named as it is, or of the scan.
+std::size_t column_of(const GrainTable& table, const std::string& key) {
+  const auto found = table.find("scan." + key);
+  return found ? *found : table.index_of(key);
+}
+
+DescribedSample sample_of_table(const std::string& path, const std::vector<std::string>& keys) {
+  const GrainTable table = read_grain_table(path);
+  std::vector<std::size_t> columns = {column_of(table, "volume")};
+  for (const std::string& key : keys) columns.push_back(column_of(table, key));
+  const fs::path folder = fs::path(path).parent_path();
+  DescribedSample sample;
+  sample.left_out = table.failed;
+  std::vector<std::vector<double>> rows;
+  for (std::size_t grain = 0; grain < table.grains.size(); ++grain) {
+    std::vector<double> values;
+    for (const std::size_t column : columns) {
+      values.push_back(
+          table.values(static_cast<Eigen::Index>(grain), static_cast<Eigen::Index>(column)));
+    }
+    values.front() = diameter_of(values.front());
+    const bool is_whole = std::all_of(values.begin(), values.end(),
+                                      [](double value) { return std::isfinite(value); });
+    if (!is_whole || !(values.front() > 0.0)) {
+      ++sample.left_out;
+      continue;
+    }
+    const std::string& file = table.files.empty() ? table.grains[grain] : table.files[grain];
+    add(sample, (folder / file).string(), values, rows);
+  }
+  fill(sample, rows, keys.size());
+  return sample;
+}
+
+}  // namespace
+
+const std::vector<std::string>& usual_template_descriptors() {
+  static const std::vector<std::string> keys = {"sphericity_wadell", "zingg_elongation_inertia",
+                                                "zingg_flatness_inertia", "convexity"};
+  return keys;
+}
+
+IndexedMesh grain_mesh(const std::string& file, const Execution& execution) {
+  if (is_coefficient_file(file)) {
+    return mesh_of_surface(read_coefficients(file), frequency, execution);
+  }
+  MeshFile read = read_mesh_file(file, execution);
+  return check_mesh(std::move(read.mesh), MeshCheckOptions(), execution).mesh;
+}
+
+DescribedSample described_sample(const std::vector<std::string>& inputs,
+                                 const std::vector<std::string>& keys, int threads, bool quiet) {
+  if (inputs.size() == 1 && ending_of(inputs.front()) == ".csv") {
+    return sample_of_table(inputs.front(), keys);
+  }
+  const std::vector<std::string> files = shape_files(inputs);
+  const bool quick = are_quick(keys);
+  std::vector<std::vector<double>> measures(files.size());
+  GrainRun all;
+  all.count = files.size();
+  all.threads = threads;
+  all.quiet = quiet;
+  all.when_stopped = "Nothing was written.";
+  all.name = [&](std::size_t k) { return files[k]; };
+  all.work = [&](std::size_t k, const Execution& execution) {
+    return row_or_failure(
+        [&]() -> GrainRow {
+          measures[k] = measured(files[k], keys, quick, execution);
+          return {};
+        },
+        [](const std::string& sentence) -> GrainRow {
+          return {"", sentence};
+        });
+  };
+  all.take = [](std::size_t, const GrainRow&) {};
+  const GrainRunEnd end = run_grains(all);
+  if (end.was_cancelled) throw Error(ErrorCode::Cancelled, "Cancelled while reading the sample.");
+  DescribedSample sample;
+  sample.left_out = end.failed;
+  std::vector<std::vector<double>> rows;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (!measures[k].empty()) add(sample, files[k], measures[k], rows);
+  }
+  fill(sample, rows, keys.size());
+  return sample;
+}
+
+}  // namespace wscvt::program

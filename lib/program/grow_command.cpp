@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grow_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "command.h"
+#include "common_arguments.h"
+#include "exit_code.h"
+#include "grain_run.h"
+#include "shape_files.h"
+#include "signals.h"
+#include "work.h"
+#include "wrong_call.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/sample/given_sizes.h"
+#include "wscvt/sample/grain_grower.h"
+#include "wscvt/sample/grown_mesh.h"
+#include "wscvt/sample/nearest_grain.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr NumberOption<int> grown_count_option = {"grains", "number of grains", 1, 10000000};
+constexpr NumberOption<int> grown_nodes_option = {"nodes", "number of nodes", 12,
+                                                  1000000, Ends::Both,        "of each mesh"};
+
+constexpr const char* table_heading[] = {"grain",
+                                         "file",
+                                         "equivalent_diameter [length]",
+                                         "volume [length^3]",
+                                         "sphericity",
+                                         "inertia_elongation",
+                                         "inertia_flatness",
+                                         "convexity",
+                                         "donors",
+                                         "nearest_grain",
+                                         "nearest_distance [%]",
+                                         "collage [%]",
+                                         "redraws"};
+
+/// One number of each grain, for the summary.
+struct GrownNumbers {
+  std::vector<double> sphericity, elongation, flatness, convexity;
+
+  explicit GrownNumbers(std::size_t count)
+      : sphericity(count), elongation(count), flatness(count), convexity(count) {}
+  void set(std::size_t k, const GrownShape& shape) {
+    sphericity[k] = shape.sphericity;
+    elongation[k] = shape.elongation;
+    flatness[k] = shape.flatness;
+    convexity[k] = shape.convexity;
+  }
+};
+
+/// Everything that a grain is made and measured with.
+struct Growing {
+  const GrowArguments& arguments;
+  std::vector<std::string> files;  ///< of the real grains
+  GrainGrower grower;
+  GrainSearch search;
+  GrownMeshes meshes;
+  std::optional<GivenSizes> sizes;
+  std::vector<std::size_t> size_order;  ///< which part of the curve each grain's size is from
+  GrownNumbers numbers;
+  std::vector<double> distances;  ///< to the nearest real grain
+  std::vector<double> collages;
+  std::vector<int> redraws;
+};
+
+std::string name_of(const GrowArguments& arguments, std::size_t k) {
+  const std::size_t digits = std::max<std::size_t>(5, std::to_string(arguments.grains).size());
+  const std::string number = std::to_string(k + 1);
+  return "grown-" + std::string(digits - number.size(), '0') + number;
+}
+
+std::string file_of(const GrowArguments& arguments, std::size_t k) {
+  return name_of(arguments, k) + "." + (arguments.coefficients ? "json" : arguments.format);
+}
+
+std::string short_name(const std::string& file) { return fs::path(file).filename().string(); }
+
+/// Each of `count` parts of the curve once, in an order that the seed draws.
+std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  RandomStream random(seed, std::uint64_t{1} << 61);
+  for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random.below(k)]);
+  return order;
+}
+
+GrainRow grown_row(Growing& growing, std::size_t k, const Execution& execution) {
+  const GrowArguments& arguments = growing.arguments;
+  GrownGrain grain = growing.grower.grow(k);
+  if (growing.sizes) {
+    const double fraction = (static_cast<double>(growing.size_order[k]) + 0.5) /
+                            static_cast<double>(growing.size_order.size());
+    grain.radius = 0.5 * growing.sizes->diameter(fraction);
+  }
+  const IndexedMesh mesh = growing.meshes.mesh(grain.radial, grain.radius);
+  const GrownShape shape = grown_shape(mesh, execution);
+  const NearestGrain nearest = growing.search.nearest(grain.radial);
+  const std::string path = (fs::path(arguments.folder) / file_of(arguments, k)).string();
+  if (arguments.coefficients) {
+    std::vector<double> coefficients = grain.radial;
+    for (double& coefficient : coefficients) coefficient *= grain.radius;
+    write_harmonics(path, HarmonicSurface(std::move(coefficients)));
+  } else {
+    write_mesh(mesh, path);
+  }
+  growing.numbers.set(k, shape);
+  growing.distances[k] = nearest.distance;
+  growing.collages[k] = grain.collage;
+  growing.redraws[k] = grain.redraws;
+  std::string donors;
+  for (const std::size_t donor : grain.donors) {
+    donors += (donors.empty() ? "" : ";") + short_name(growing.files[donor]);
+  }
+  const double cube = grain.radius * grain.radius * grain.radius;
+  return {
+      csv_record({name_of(arguments, k), file_of(arguments, k), format_exact(2.0 * grain.radius),
+                  format_exact(4.0 * pi / 3.0 * cube), format_exact(shape.sphericity),
+                  format_exact(shape.elongation), format_exact(shape.flatness),
+                  format_exact(shape.convexity), donors, short_name(growing.files[nearest.grain]),
+                  format_exact(100.0 * nearest.distance), format_exact(100.0 * grain.collage),
+                  std::to_string(grain.redraws)}),
+      ""};
+}
+
+GrownNumbers numbers_of_sample(const Growing& growing, const Execution& execution) {
+  const std::vector<SampleGrain>& sample = growing.grower.sample();
+  GrownNumbers numbers(sample.size());
+  execution.parallel_for(sample.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      numbers.set(k, grown_shape(growing.meshes.mesh(sample[k].radial, 1.0), Execution(1)));
+    }
+  });
+  return numbers;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::string percent(double fraction) { return format_number(100.0 * fraction, 3) + " %"; }
+
+std::vector<std::string> summary_lines(const Growing& growing, std::size_t left_out,
+                                       const Execution& execution) {
+  const std::size_t real = growing.grower.sample().size();
+  const std::size_t grown = growing.distances.size();
+  const GrownNumbers sample = numbers_of_sample(growing, execution);
+  const GrownNumbers& made = growing.numbers;
+  const auto distance = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return format_number(distribution_distance(a, b), 2);
+  };
+  std::vector<double> nearest = growing.distances;
+  std::sort(nearest.begin(), nearest.end());
+  const auto redrawn =
+      growing.redraws.size() -
+      static_cast<std::size_t>(std::count(growing.redraws.begin(), growing.redraws.end(), 0));
+  // Of two samples of one population the distance is larger than this once in twenty times.
+  const double by_chance =
+      1.36 * std::sqrt(1.0 / static_cast<double>(real) + 1.0 / static_cast<double>(grown));
+  std::vector<std::string> lines = {
+      std::to_string(grown) + " virtual grains of " + std::to_string(real) + " real ones (" +
+          std::to_string(left_out) + " left out), " +
+          std::to_string(growing.arguments.options.donors) + " donors each, degree " +
+          std::to_string(growing.arguments.degree) + ", seed " +
+          std::to_string(growing.arguments.options.seed) + ".",
+      "Redrawn because they were not star-shaped: " + std::to_string(redrawn) + " grains.",
+      "Kolmogorov-Smirnov distance to the sample (" + format_number(by_chance, 2) +
+          " by chance in 1 of 20 samples):"};
+  for (const std::string& line :
+       aligned_lines({{"  sphericity", distance(made.sphericity, sample.sphericity)},
+                      {"  I/L of inertia", distance(made.elongation, sample.elongation)},
+                      {"  S/I of inertia", distance(made.flatness, sample.flatness)},
+                      {"  convexity", distance(made.convexity, sample.convexity)}})) {
+    lines.push_back(line);
+  }
+  lines.push_back("Distance to the nearest real grain, rms of the radius: median " +
+                  percent(nearest[grown / 2]) + ", smallest " + percent(nearest.front()) + ".");
+  lines.push_back("Usual distance between real grains: " +
+                  percent(growing.search.usual_distance(execution)) + ".");
+  lines.push_back("Collage, caps of 40 degrees that follow one donor: " +
+                  percent(mean(growing.collages)) + ".");
+  return lines;
+}
+
+void check_arguments(const GrowArguments& arguments) {
+  require_in_range(arguments.degree, sample_degree_option);
+  if (!arguments.coefficients) check_format(arguments.format);
+}
+
+}  // namespace
+
+CLI::App& add_command(CLI::App& program, GrowArguments& arguments) {
+  CLI::App& app = add_command(
+      program,
+      {"grow",
+       "Make virtual grains with the statistics of a sample",
+       {"scans -n 10000 -o grown", "coefficients -n 500 -o grown --nodes 300 --format stl",
+        "scans -n 2000 -o grown --sizes sieve.csv --donors 2"},
+       "OUT gets a mesh per grain and grown.csv. The same sample, options and version give "
+       "the same\nbytes on any number of threads. Each grain stands in its principal frame "
+       "about the origin.",
+       false,
+       true});
+  app.add_option(
+         "sample", arguments.inputs,
+         "Real grains: closed meshes or SH coefficients (.dat, .sh, .json); files, folders, "
+         "patterns in quotes, or @FILE with one of these per line")
+      ->type_name("SAMPLE")
+      ->required();
+  app.add_option("-o,--output", arguments.folder, "Folder for all that is made")
+      ->type_name("OUT")
+      ->required();
+  add_number(app, "-n,--grains", arguments.grains, grown_count_option);
+  add_number(app, "--nodes", arguments.nodes, grown_nodes_option);
+  add_format_argument(app, arguments.format);
+  app.add_flag("--coefficients", arguments.coefficients,
+               "Write SH coefficients (.json) in place of meshes");
+  add_file_argument(app, "--sizes", arguments.sizes,
+                    "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
+                    "Default: the sizes of the sample");
+  add_number(app, "--donors", arguments.options.donors, donors_option);
+  add_number(app, "--degree", arguments.degree, sample_degree_option);
+  add_number(app, "--seed", arguments.options.seed, sample_seed_option);
+  add_threads_argument(app, arguments.threads);
+  app.add_flag("-q,--quiet", arguments.quiet,
+               "No summary on the standard output, no progress; failures stay");
+  return app;
+}
+
+int run(const GrowArguments& arguments) {
+  checked([&] { check_arguments(arguments); });
+  if (!arguments.quiet) check_writable("/dev/stdout");
+  const std::vector<std::string> files = checked([&] { return shape_files(arguments.inputs); });
+  std::optional<GivenSizes> sizes;
+  if (!arguments.sizes.empty()) sizes = checked([&] { return read_given_sizes(arguments.sizes); });
+  std::error_code ignored;
+  fs::create_directories(arguments.folder, ignored);
+  const std::string table = (fs::path(arguments.folder) / "grown.csv").string();
+  check_writable(table);
+
+  const auto grids = std::make_unique<const SampleGrids>(arguments.degree);
+  SampleShapes shapes = read_shapes(files, *grids, arguments.threads, arguments.quiet);
+  const Execution execution(arguments.threads);
+  const auto count = static_cast<std::size_t>(arguments.grains);
+  GrainSearch search(shapes.grains);
+  Growing growing{arguments,
+                  std::move(shapes.files),
+                  GrainGrower(std::move(shapes.grains), *grids, arguments.options),
+                  std::move(search),
+                  GrownMeshes(arguments.nodes, execution),
+                  std::move(sizes),
+                  drawn_order(count, arguments.options.seed),
+                  GrownNumbers(count),
+                  std::vector<double>(count),
+                  std::vector<double>(count),
+                  std::vector<int>(count)};
+  std::string rows = csv_record({std::begin(table_heading), std::end(table_heading)});
+  GrainRun all;
+  all.count = count;
+  all.threads = arguments.threads;
+  all.quiet = arguments.quiet;
+  all.when_stopped = "There is no table; the grains that were made are in the folder.";
+  all.name = [&](std::size_t k) { return name_of(arguments, k); };
+  all.work = [&](std::size_t k, const Execution& one) { return grown_row(growing, k, one); };
+  all.take = [&](std::size_t, const GrainRow& row) { rows += row.record; };
+  if (run_grains(all).was_cancelled) return 128 + noted_signal();
+  write_file(table, rows);
+  print(summary_lines(growing, shapes.left_out, execution), arguments.quiet);
+  return shapes.left_out == 0 ? Done : SomeFailed;
+}
+
+}  // namespace wscvt::program

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "wscvt/sample/sample_grain.h"
+#include "wscvt/surface/harmonic_surface.h"
+
+namespace wscvt::program {
+
+/// The files of a sample's grains, by name: those that grain_files gives, and of a folder without
+/// meshes the files of SH coefficients, .dat and .sh, or else .json. Throws wscvt::Error.
+std::vector<std::string> shape_files(const std::vector<std::string>& inputs);
+
+/// Whether the file holds SH coefficients, by its ending.
+bool is_coefficient_file(const std::string& path);
+
+/// Reads such a file. Throws wscvt::Error, NotStarShaped for the coefficients of a harmonic map.
+HarmonicSurface read_coefficients(const std::string& path);
+
+/// The grains of a sample that have a radius in each direction.
+struct SampleShapes {
+  std::vector<SampleGrain> grains;
+  std::vector<std::string> files;  ///< one per grain
+  std::size_t left_out = 0;        ///< grains that failed; the standard error says why
+};
+
+/// Reads them, on the threads and with a line on a terminal unless quiet. Throws wscvt::Error, also
+/// Cancelled, for what is not about one grain.
+SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrids& grids,
+                         int threads, bool quiet);
+
+}  // namespace wscvt::program

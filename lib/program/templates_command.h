@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+#include "wscvt/sample/templates.h"
+
+namespace wscvt::program {
+
+/// `wscvt templates`: K grains that stand for a sample.
+struct TemplatesArguments {
+  std::vector<std::string> inputs;
+  std::string folder;
+  std::string format = "ply";
+  std::vector<std::string> descriptors;  ///< keys; empty: usual_template_descriptors
+  int nodes = 500;
+  TemplateOptions options;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments);
+
+/// Does what the call says; gives the exit code. Throws wscvt::Error.
+int run(const TemplatesArguments& arguments);
+
+}  // namespace wscvt::program

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wscvt {
+
+/// A size curve that virtual grains are to follow: the percentage by mass of grains that are
+/// smaller than a diameter, straight between its points over the logarithm of the diameter. The
+/// diameter is that of the sphere of equal volume.
+class GivenSizes {
+ public:
+  /// Diameters ascending and above 0, length; percentages ascending from 0 to 100. Throws
+  /// Error(InvalidInput) for less than two points and for others than these.
+  GivenSizes(std::vector<double> diameters, std::vector<double> percentages);
+
+  /// The diameter that a fraction of the grains, by number, is smaller than; length. `fraction` in
+  /// [0, 1].
+  double diameter(double fraction) const;
+
+ private:
+  std::vector<double> diameters_;
+  std::vector<double> numbers_;  ///< cumulative, of the grains, last 1
+};
+
+/// Reads a table of two columns, diameter and percentage finer by mass, with or without a heading.
+/// Throws Error: InvalidInput, with the line, for other content; InputOutput.
+GivenSizes read_given_sizes(const std::string& path);
+
+}  // namespace wscvt

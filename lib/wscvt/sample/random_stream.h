@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/pi.h"
+
+namespace wscvt {
+
+/// Random numbers by SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number
+/// generators", OOPSLA) and arithmetic of our own: a seed gives the same numbers with every
+/// compiler. Streams of different keys are independent, so that each grain has one of its own,
+/// whatever thread draws it.
+class RandomStream {
+ public:
+  /// The stream of a seed for the keys, such as the grain's number and the attempt.
+  RandomStream(std::uint64_t seed, std::uint64_t key, std::uint64_t second_key = 0)
+      : state_(
+            mixed(mixed(mixed(seed + golden) ^ (key + 1) * golden) ^ (second_key + 1) * golden)) {}
+
+  std::uint64_t bits() {
+    state_ += golden;
+    return mixed(state_);
+  }
+  /// In [0, 1).
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform(double from, double to) { return from + (to - from) * uniform(); }
+  /// A whole number below `count` >= 1.
+  std::size_t below(std::size_t count) {
+    return static_cast<std::size_t>(uniform() * static_cast<double>(count));
+  }
+  /// Normal, mean 0, deviation 1 (Box and Muller).
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * std::cos(2.0 * pi * uniform());
+  }
+  /// A direction, uniform on the sphere.
+  Vector3 direction() {
+    const double z = uniform(-1.0, 1.0);
+    const double azimuth = 2.0 * pi * uniform();
+    const double sine = std::sqrt((1.0 - z) * (1.0 + z));
+    return {sine * std::cos(azimuth), sine * std::sin(azimuth), z};
+  }
+
+ private:
+  static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
+  static std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
+  }
+  std::uint64_t state_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Templates of a sample by the program.
+
+#include <string>
+#include <vector>
+
+#include "program_run.h"
+#include "support/random_sample.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/sample/grain_table.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Templates : public test::ProgramRun {
+ protected:
+  void write_scans(int count) {
+    fs::create_directory(path("scans"));
+    int k = 0;
+    for (const HarmonicSurface& surface : test::random_surfaces(count, 5, 51)) {
+      write_mesh(mesh_of_surface(surface, 9, Execution(1)),
+                 path("scans/s" + std::to_string(10 + k++) + ".stl"));
+    }
+  }
+};
+
+TEST_F(Templates, WritesMeshesTablesAndAScript) {
+  write_scans(12);
+  const Outcome outcome = run("templates scans -k 4 -n 60 -o a --seed 2 -t 1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("4 templates of 12 grains (0 left out), seed 2."),
+            std::string::npos)
+      << outcome.output;
+  const GrainTable table = read_grain_table(path("a/templates.csv"));
+  ASSERT_EQ(table.grains.size(), 4U);
+  for (const char* weight : {"weight_by_number", "weight_by_mass"}) {
+    EXPECT_NEAR(table.values.col(static_cast<Eigen::Index>(table.index_of(weight))).sum(), 1.0,
+                1e-12);
+  }
+  for (const std::string& file : table.files) {
+    const IndexedMesh mesh = read_mesh(path("a/" + file));
+    EXPECT_EQ(mesh.points.size(), 60U);
+    const ShapeDescriptors shape = describe_shape(mesh, Execution(1));
+    EXPECT_NEAR(shape.volume, 3.14159265358979 / 6.0, 1e-9);
+    EXPECT_LT(shape.centroid.norm(), 1e-9);
+  }
+  for (const char* file : {"a/sizes.csv", "a/distances.csv", "a/yade_packing.py"}) {
+    EXPECT_TRUE(exists(file)) << file;
+  }
+  EXPECT_EQ(run("templates scans -k 4 -n 60 -o b --seed 2 -t 2 -q").output, "");
+  for (const char* file : {"templates.csv", "sizes.csv", "distances.csv", "template-04.ply"}) {
+    EXPECT_EQ(content(std::string("a/") + file), content(std::string("b/") + file)) << file;
+  }
+}
+
+TEST_F(Templates, ReadsATableOfShapes) {
+  write_scans(3);
+  std::ofstream(path("shape.csv"))
+      << "grain,file,scan.volume [length^3],scan.convexity,scan.roundness_wadell\r\n"
+         "a,scans/s10.stl,8,0.9,0.5\r\nb,scans/s11.stl,1,0.8,0.3\r\nc,scans/s12.stl,27,0.7,\r\n";
+  const Outcome outcome =
+      run("templates shape.csv -k 2 -n 50 -o out --descriptors convexity,roundness_wadell");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_NE(outcome.output.find("2 templates of 2 grains (1 left out)"), std::string::npos)
+      << outcome.output;
+  EXPECT_NE(content("out/templates.csv").find("s10.stl,0.5,0.888"), std::string::npos)
+      << content("out/templates.csv");
+}
+
+TEST_F(Templates, RefusesWrongCalls) {
+  write_scans(3);
+  expect_refused("templates",
+                 {{"scans -k 4 -o out", 1, "3 grains"},
+                  {"scans -k 0 -o out", 2, "templates"},
+                  {"scans -k 2 -o out --descriptors volume,nonsense", 1, "nonsense"},
+                  {"scans -k 2 -o out --format xyz", 2, "format"},
+                  {"none.csv -k 2 -o out", 1, "none.csv"}},
+                 {"out/templates.csv"});
+}
+
+}  // namespace
+}  // namespace wscvt

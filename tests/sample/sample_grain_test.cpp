@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/sample_grain.h"
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/random_sample.h"
+#include "wscvt/surface/quadric_surface.h"
+
+namespace wscvt {
+namespace {
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
+  return largest;
+}
+
+IndexedMesh mesh_of(const HarmonicSurface& surface) {
+  return mesh_of_surface(surface, 30, Execution(1));
+}
+
+// The white grain of an ellipsoid is the unit sphere, whose logarithm is zero. Its mesh of 10,242
+// points lies 3e-4 inside.
+TEST(SampleGrain, TakesTheFormOutOfAnEllipsoid) {
+  const SampleGrids grids(8);
+  const Vector3 axes(4.0, 2.5, 2.0);
+  const IndexedMesh mesh =
+      test::transformed(test::scaled(test::sphere(5), axes), test::random_rotation(4));
+  const SampleGrain grain = sample_grain(mesh, grids, Execution(1));
+  const double radius = std::cbrt(axes.prod());
+  EXPECT_NEAR(grain.radius, radius, 1e-3 * radius);
+  EXPECT_LT((grain.deviations - axes / (radius * std::sqrt(5.0))).norm(), 1e-3);
+  for (const double coefficient : grain.white) EXPECT_NEAR(coefficient, 0.0, 2e-3);
+  const HarmonicSurface standing(grain.radial);
+  EXPECT_NEAR(standing.radius({1, 0, 0}), axes.x() / radius, 0.02);
+  EXPECT_NEAR(standing.radius({0, 1, 0}), axes.y() / radius, 0.02);
+  EXPECT_NEAR(standing.radius({0, 0, 1}), axes.z() / radius, 0.02);
+}
+
+TEST(SampleGrain, IsTheSameInEveryPoseAndSize) {
+  const SampleGrids grids(8);
+  for (const HarmonicSurface& surface : test::random_surfaces(4, 8, 11)) {
+    const IndexedMesh mesh = mesh_of(surface);
+    const SampleGrain grain = sample_grain(mesh, grids, Execution(1));
+    const IndexedMesh moved =
+        test::moved(test::transformed(mesh, test::random_rotation(17)), 2.5, {3, -1, 8});
+    const SampleGrain again = sample_grain(moved, grids, Execution(1));
+    EXPECT_NEAR(again.radius, 2.5 * grain.radius, 1e-9);
+    EXPECT_LT((again.deviations - grain.deviations).norm(), 1e-9);
+    EXPECT_LT(largest_difference(again.radial, grain.radial), 1e-9);
+    EXPECT_LT(largest_difference(again.white, grain.white), 1e-9);
+  }
+}
+
+// A mesh of 9,002 points lies 5e-4 inside its surface.
+TEST(SampleGrain, IsTheSameOfASeriesAndOfItsMesh) {
+  const SampleGrids grids(8);
+  for (const HarmonicSurface& surface : test::random_surfaces(4, 8, 12)) {
+    const SampleGrain grain = sample_grain(surface, grids, Execution(1));
+    const SampleGrain meshed = sample_grain(mesh_of(surface), grids, Execution(1));
+    EXPECT_NEAR(meshed.radius, grain.radius, 2e-3 * grain.radius);
+    EXPECT_LT(largest_difference(meshed.radial, grain.radial), 3e-3);
+    EXPECT_LT(largest_difference(meshed.white, grain.white), 3e-3);
+  }
+}
+
+TEST(SampleGrain, HasUnitVolumeAndStandsInItsPrincipalFrame) {
+  const SampleGrids grids(8);
+  for (const HarmonicSurface& surface : test::random_surfaces(5, 8, 13)) {
+    const SampleGrain grain = sample_grain(surface, grids, Execution(1));
+    const HarmonicGrid& grid = grids.fine_radial();
+    const RadialMoments moments = radial_moments(grid, grid.values(grain.radial));
+    EXPECT_NEAR(moments.volume, 4.0 * pi / 3.0, 5e-3);
+    EXPECT_LT(moments.centroid.norm(), 2e-3);
+    const Eigen::Matrix3d expected = grain.deviations.cwiseAbs2().asDiagonal();
+    EXPECT_LT((moments.covariance - expected).norm(), 3e-3);
+    EXPECT_GT(grain.deviations[0], grain.deviations[1]);
+    EXPECT_GT(grain.deviations[1], grain.deviations[2]);
+  }
+}
+
+TEST(SampleGrain, RefusesWhatRaysDoNotSee) {
+  const SampleGrids grids(4);
+  EXPECT_ERROR(sample_grain(test::torus(3.0, 1.0, 24), grids, Execution(1)), NotStarShaped);
+  EXPECT_ERROR(sample_grain(HarmonicSurface({1.0, 9.0, 0.0, 0.0}), grids, Execution(1)),
+               InvalidInput);
+  EXPECT_ERROR(SampleGrids(3), InvalidInput);
+  EXPECT_ERROR(SampleGrids(57), InvalidInput);
+}
+
+TEST(SampleGrain, FindsRadiiInAnotherFrame) {
+  const Ellipsoid ellipsoid({3.0, 2.0, 1.5});
+  const LogRadii surface = [&](const std::vector<Vector3>& directions,
+                               std::vector<double>& values) {
+    ellipsoid.evaluate_radii(directions.data(), directions.size(), values.data());
+    for (double& value : values) value = std::log(value);
+    return true;
+  };
+  const Vector3 centre(0.4, -0.3, 0.2);
+  const Eigen::Matrix3d axes =
+      test::random_rotation(5) * Vector3(0.5, 1.5, 2.0).asDiagonal().toDenseMatrix();
+  const std::vector<Vector3> directions = random_directions(50, 6);
+  const auto radii = radii_in_frame(surface, centre, axes, directions);
+  ASSERT_TRUE(radii.has_value());
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const Vector3 point = centre + (*radii)[k] * (axes * directions[k]);
+    EXPECT_NEAR(point.cwiseQuotient(Vector3(3.0, 2.0, 1.5)).norm(), 1.0, 1e-7);
+  }
+  EXPECT_FALSE(radii_in_frame(surface, {5, 0, 0}, axes, directions).has_value());
+}
+
+}  // namespace
+}  // namespace wscvt

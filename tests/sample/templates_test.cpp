@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/templates.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <numeric>
+#include <set>
+
+#include "support/expect_error.h"
+#include "wscvt/sample/random_stream.h"
+
+namespace wscvt {
+namespace {
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Grains with two descriptors that depend on each other and on the mass.
+struct MadeSample {
+  Eigen::MatrixXd descriptors;
+  std::vector<double> masses;
+
+  explicit MadeSample(int grains, std::uint64_t seed = 3) : descriptors(grains, 2) {
+    RandomStream random(seed, 0);
+    for (int k = 0; k < grains; ++k) {
+      const double a = random.normal(), b = random.uniform();
+      descriptors(k, 0) = 5.0 + 0.1 * a + 0.2 * b * b;
+      descriptors(k, 1) = 300.0 * b;
+      masses.push_back(std::exp(a + 0.5 * random.normal()));
+    }
+  }
+};
+
+TemplateOptions with(int count, std::uint64_t seed = 1) {
+  TemplateOptions options;
+  options.count = count;
+  options.seed = seed;
+  return options;
+}
+
+TEST(Templates, AllGrainsAreAtDistanceZero) {
+  const MadeSample sample(30);
+  const SampleTemplates all =
+      choose_templates(sample.descriptors, sample.masses, with(30), Execution(1));
+  ASSERT_EQ(all.grains.size(), 30U);
+  for (std::size_t k = 0; k < 30; ++k) {
+    EXPECT_EQ(all.grains[k], k);
+    EXPECT_EQ(all.stands_for[k], k);
+    EXPECT_NEAR(all.by_mass[k], sample.masses[k] / sum(sample.masses), 1e-12);
+  }
+  for (const double distance : all.reached.by_number) EXPECT_NEAR(distance, 0.0, 1e-12);
+  for (const double distance : all.reached.by_mass) EXPECT_NEAR(distance, 0.0, 1e-12);
+}
+
+// Of random choices the distances are .3 at K = 8, as the square root of K says.
+TEST(Templates, AreCloserThanRandomGrains) {
+  const MadeSample sample(300);
+  for (const int count : {8, 20}) {
+    const SampleTemplates chosen =
+        choose_templates(sample.descriptors, sample.masses, with(count), Execution(1));
+    const std::set<std::size_t> grains(chosen.grains.begin(), chosen.grains.end());
+    EXPECT_EQ(grains.size(), static_cast<std::size_t>(count));
+    EXPECT_TRUE(std::is_sorted(chosen.grains.begin(), chosen.grains.end()));
+    EXPECT_NEAR(sum(chosen.by_number), 1.0, 1e-12);
+    EXPECT_NEAR(sum(chosen.by_mass), 1.0, 1e-12);
+    for (std::size_t k = 0; k < chosen.grains.size(); ++k) {
+      EXPECT_GE(chosen.by_number[k], 0.0);
+      EXPECT_GE(chosen.by_mass[k], 0.0);
+      EXPECT_EQ(chosen.stands_for[chosen.grains[k]], k);
+    }
+    for (std::size_t j = 0; j < 2; ++j) {
+      EXPECT_LT(chosen.reached.by_number[j], 0.5 * chosen.random.by_number[j]);
+      EXPECT_LT(chosen.reached.by_mass[j], 0.5 * chosen.random.by_mass[j]);
+    }
+  }
+}
+
+// Three kinds of grains in known parts: three templates must be one of each kind, with those parts.
+TEST(Templates, FindTheWeightsOfAMixture) {
+  const double values[3][2] = {{0.0, 9.0}, {1.0, 2.0}, {4.0, 5.0}};
+  const int parts[3] = {20, 50, 30};
+  const double mass[3] = {5.0, 1.0, 2.0};
+  Eigen::MatrixXd descriptors(100, 2);
+  std::vector<double> masses;
+  std::vector<std::size_t> kinds;
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    for (int k = 0; k < parts[kind]; ++k) {
+      const auto row = static_cast<Eigen::Index>(masses.size());
+      descriptors(row, 0) = values[kind][0];
+      descriptors(row, 1) = values[kind][1];
+      masses.push_back(mass[kind]);
+      kinds.push_back(kind);
+    }
+  }
+  const SampleTemplates chosen = choose_templates(descriptors, masses, with(3), Execution(1));
+  std::set<std::size_t> found;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t kind = kinds[chosen.grains[k]];
+    found.insert(kind);
+    EXPECT_NEAR(chosen.by_number[k], parts[kind] / 100.0, 1e-6);
+    EXPECT_NEAR(chosen.by_mass[k], parts[kind] * mass[kind] / 210.0, 1e-6);
+  }
+  EXPECT_EQ(found.size(), 3U);
+  for (std::size_t i = 0; i < 100; ++i)
+    EXPECT_EQ(kinds[chosen.grains[chosen.stands_for[i]]], kinds[i]);
+}
+
+TEST(Templates, HangOnTheSeedOnlyAndNotOnUnits) {
+  const MadeSample sample(120);
+  const SampleTemplates one =
+      choose_templates(sample.descriptors, sample.masses, with(6, 4), Execution(1));
+  const SampleTemplates threads =
+      choose_templates(sample.descriptors, sample.masses, with(6, 4), Execution(2));
+  EXPECT_EQ(one.grains, threads.grains);
+  EXPECT_EQ(one.by_number, threads.by_number);
+  EXPECT_EQ(one.by_mass, threads.by_mass);
+  Eigen::MatrixXd scaled = sample.descriptors;
+  scaled.col(1) *= 1024.0;
+  const SampleTemplates units = choose_templates(scaled, sample.masses, with(6, 4), Execution(1));
+  EXPECT_EQ(one.grains, units.grains);
+  EXPECT_NE(one.grains,
+            choose_templates(sample.descriptors, sample.masses, with(6, 5), Execution(1)).grains);
+}
+
+TEST(Templates, RefuseWhatTheyCannotChooseFrom) {
+  MadeSample sample(10);
+  const auto choose = [&](int count) {
+    return choose_templates(sample.descriptors, sample.masses, with(count), Execution(1));
+  };
+  EXPECT_ERROR(choose(11), InvalidInput);
+  EXPECT_ERROR(choose(0), InvalidInput);
+  sample.masses.back() = 0.0;
+  EXPECT_ERROR(choose(3), InvalidInput);
+  sample.masses.pop_back();
+  EXPECT_ERROR(choose(3), InvalidInput);
+  sample = MadeSample(10);
+  sample.descriptors(9, 1) = std::nan("");
+  EXPECT_ERROR(choose(3), InvalidInput);
+  sample.descriptors.col(1).setConstant(0.7);
+  EXPECT_ERROR(choose(3), InvalidInput);
+}
+
+TEST(WassersteinDistance, IsTheAreaBetweenTheFunctions) {
+  EXPECT_DOUBLE_EQ(wasserstein_distance({0, 1}, {1, 1}, {1, 0}, {5, 5}), 0.0);
+  EXPECT_DOUBLE_EQ(wasserstein_distance({2}, {1}, {5}, {1}), 3.0);
+  EXPECT_DOUBLE_EQ(wasserstein_distance({0, 4}, {3, 1}, {0}, {1}), 1.0);
+  EXPECT_DOUBLE_EQ(wasserstein_distance({0, 4}, {1, 1}, {1, 5}, {1, 1}), 1.0);
+  EXPECT_ERROR(wasserstein_distance({}, {}, {1}, {1}), InvalidInput);
+  EXPECT_ERROR(wasserstein_distance({1, 2}, {1}, {1}, {1}), InvalidInput);
+}
+
+// The conditions of Karush, Kuhn and Tucker, which only the minimum meets.
+TEST(NonnegativeMinimum, MeetsItsConditions) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, 0);
+    constexpr int count = 12;
+    Eigen::MatrixXd a(20, count);
+    Eigen::VectorXd y(20);
+    for (double& value : a.reshaped()) value = random.normal() + 0.5;
+    for (double& value : y) value = random.normal();
+    const Eigen::MatrixXd g = a.transpose() * a;
+    const Eigen::VectorXd b = a.transpose() * y;
+    std::vector<bool> start;
+    for (int k = 0; k < count; ++k) start.push_back(random.uniform() < 0.5);
+    for (const std::vector<bool>& from :
+         {std::vector<bool>(), start, std::vector<bool>(count, true)}) {
+      const Eigen::VectorXd w = nonnegative_minimum(g, b, from);
+      const Eigen::VectorXd slope = b - g * w;
+      for (int k = 0; k < count; ++k) {
+        EXPECT_GE(w[k], 0.0);
+        EXPECT_LT(slope[k], 1e-6);
+        if (w[k] > 0.0) {
+          EXPECT_NEAR(slope[k], 0.0, 1e-6);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
