@@ -67,7 +67,8 @@ class OBJECT_OT_remesh_grain_wscvt(bpy.types.Operator):
             self.report({"ERROR"}, MISSING)
             return False
         self.arguments = context.scene.wscvt.options()
-        self.scans = [one for one in context.selected_objects if one.type == "MESH"]
+        self.scans = sorted((one for one in context.selected_objects if one.type == "MESH"),
+                            key=lambda one: one.name)
         self.count = len(self.scans)
         self.made, self.failures = [], []
         self.job, self.is_cancelled = None, False
