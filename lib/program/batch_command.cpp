@@ -27,6 +27,7 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/carried_attributes.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/sample_summary.h"
@@ -129,6 +130,9 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
                                     output.levels().front().mesh(grain)](const RemeshResult& made) {
       return as_written(made.mesh, path);
     };
+    const bool carries =
+        holds_attributes(output.levels().front().mesh(grain)) && !scan.attributes.empty();
+    const IndexedMesh read = carries ? scan.mesh : IndexedMesh();
     std::vector<RemeshResult> results =
         remeshes_of(arguments, std::move(scan.mesh), options, execution);
     std::vector<std::string> records;
@@ -139,7 +143,10 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
       result.warnings.insert(result.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
       const std::string error =
           describes ? describe_level(arguments, result, shape, execution) : "";
-      write_mesh(result.mesh, folder.mesh(grain));
+      const MeshAttributes attributes =
+          carries ? carried_attributes(read, scan.attributes, result.mesh, execution)
+                  : MeshAttributes();
+      write_mesh(result.mesh, attributes, folder.mesh(grain));
       records.push_back(sample_row(grain, result, seconds()));
       if (!describes) continue;
       records.push_back(error.empty() ? shape_row(grain, folder.mesh_name(grain), result, shape)

@@ -118,10 +118,10 @@ void BatchGrains::begin(std::size_t first) {
 
 GrainScan BatchGrains::read(std::size_t grain, const Execution& execution) {
   const Place& place = places_[grain];
-  if (place.kind == Place::Body) return {bodies_[place.grain], {}};
+  if (place.kind == Place::Body) return {bodies_[place.grain], {}, {}};
   if (place.kind == Place::File) {
     MeshFile file = read_mesh_file(names_[grain], execution);
-    return {std::move(file.mesh), std::move(file.warnings)};
+    return {std::move(file.mesh), std::move(file.attributes), std::move(file.warnings)};
   }
   LabelGrain label = volumes_[place.volume]->read(place.grain, execution);
   if (label.mesh.points.empty()) {
@@ -130,7 +130,7 @@ GrainScan BatchGrains::read(std::size_t grain, const Execution& execution) {
                     " pieces, of which the largest is smaller than the smallest grain that is "
                     "taken; segment it again.");
   }
-  return {std::move(label.mesh), warnings_of(label)};
+  return {std::move(label.mesh), {}, warnings_of(label)};
 }
 
 }  // namespace wscvt::program

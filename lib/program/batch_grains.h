@@ -11,12 +11,14 @@
 #include "volume/label_grains.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 
 namespace wscvt::program {
 
 /// A grain as it was scanned.
 struct GrainScan {
   IndexedMesh mesh;
+  MeshAttributes attributes;          ///< of a file; of its bodies none
   std::vector<std::string> warnings;  ///< about how it came to be
 };
 

@@ -13,6 +13,7 @@
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/file_name.h"
+#include "wscvt/measures/carried_attributes.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
@@ -103,14 +104,20 @@ int run(const RemeshArguments& arguments) {
                     work.execution().part(reading_share, reading_share));
     });
   }
+  // The scan as read, which the remesh takes its colours and labels from.
+  const bool carries = holds_attributes(arguments.output) && !file.attributes.empty();
+  const IndexedMesh scan = carries ? file.mesh : IndexedMesh();
   RemeshResult result =
       remesh(std::move(file.mesh), options, work.execution().part(reading_share, 1.0));
   result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
 
   const ReportOrigin origin = origin_of(arguments.scan);
   const SimulationFrame frame = simulation_frame(result.original, simulation.options.frame);
-  work.write(arguments.output, [&](const std::string& path, const Execution&) {
-    write_mesh(in_frame(result.mesh, frame), path);
+  work.write(arguments.output, [&](const std::string& path, const Execution& execution) {
+    const MeshAttributes attributes =
+        carries ? carried_attributes(scan, file.attributes, result.mesh, execution)
+                : MeshAttributes();
+    write_mesh(in_frame(result.mesh, frame), attributes, path);
   });
   for (const std::string& nodes : simulation.nodes) {
     work.write(nodes, [&](const std::string& path, const Execution&) {

@@ -62,6 +62,45 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+TEST_F(Commands, RemeshAndBatchCarryColoursAndLabelsInPly) {
+  const IndexedMesh scan = read_mesh(path("scan.ply"));
+  MeshAttributes own;
+  own.of_vertices = {{"red", ScalarType::Uint8, {}}};
+  own.of_faces = {{"label", ScalarType::Int32, {}}};
+  for (const Vector3& p : scan.points) own.of_vertices[0].values.push_back(128.0 + 90.0 * p.y());
+  for (const Triangle& t : scan.triangles) {
+    own.of_faces[0].values.push_back(scan.points[t[0]].x() > 0.0 ? 41.0 : 7.0);
+  }
+  fs::create_directory(path("scans"));
+  write_mesh(scan, own, path("scans/coloured.ply"));
+  // A frame turns the remesh after it took its colours.
+  ASSERT_EQ(run("remesh scans/coloured.ply remesh.ply -n 200 -q").exit_code, 0);
+  ASSERT_EQ(run("remesh scans/coloured.ply turned.ply -n 200 -q --frame principal").exit_code, 0);
+  ASSERT_EQ(run("batch scans -o out -n 200 -q").exit_code, 0);
+  const MeshFile remesh = read_mesh_file(path("remesh.ply"));
+  ASSERT_EQ(remesh.attributes.of_vertices.size(), 1U);
+  ASSERT_EQ(remesh.attributes.of_faces.size(), 1U);
+  for (std::size_t i = 0; i < remesh.mesh.points.size(); ++i) {
+    // Rounded once in each file; the nearest point lies within the misfit, some hundredths.
+    EXPECT_NEAR(remesh.attributes.of_vertices[0].values[i],
+                128.0 + 90.0 * remesh.mesh.points[i].y(), 1.0 + 90.0 * 0.05);
+  }
+  for (std::size_t t = 0; t < remesh.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = remesh.mesh.triangles[t];
+    const auto& p = remesh.mesh.points;
+    const double x = (p[a] + p[b] + p[c]).x() / 3.0;
+    // A vertex of a scan's face is within its edge, .15.
+    if (std::abs(x) < 0.2) continue;
+    EXPECT_EQ(remesh.attributes.of_faces[0].values[t], x > 0.0 ? 41.0 : 7.0);
+  }
+  for (const char* same : {"turned.ply", "out/coloured.ply"}) {
+    const MeshFile other = read_mesh_file(path(same));
+    ASSERT_EQ(other.attributes.of_vertices.size(), 1U) << same;
+    EXPECT_EQ(other.attributes.of_vertices[0].values, remesh.attributes.of_vertices[0].values);
+    EXPECT_EQ(other.attributes.of_faces[0].values, remesh.attributes.of_faces[0].values);
+  }
+}
+
 TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
   std::vector<std::string> all = commands();
   all.emplace_back("");

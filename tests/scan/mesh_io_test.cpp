@@ -97,6 +97,41 @@ TEST_F(MeshIo, ReadsFilesOfManyBuffersWhereverTheirLinesEnd) {
   }
 }
 
+TEST_F(MeshIo, WritesAndReadsBackWhatPlyCarriesInEveryType) {
+  const IndexedMesh mesh = test::tetrahedron(2.0);
+  MeshAttributes own;
+  const std::vector<double> whole{0.0, 5.0, 99.0, 127.0};
+  for (int type = 0; type < 8; ++type) {
+    own.of_vertices.push_back({"v" + std::to_string(type), static_cast<ScalarType>(type), whole});
+    own.of_faces.push_back({"f" + std::to_string(type), static_cast<ScalarType>(type), whole});
+  }
+  write_mesh(mesh, own, path("a.ply"));
+  const MeshFile read = read_mesh_file(path("a.ply"));
+  EXPECT_EQ(read.mesh.points, mesh.points);
+  EXPECT_EQ(read.mesh.triangles, mesh.triangles);
+  ASSERT_EQ(read.attributes.of_vertices.size(), 8U);
+  ASSERT_EQ(read.attributes.of_faces.size(), 8U);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_EQ(read.attributes.of_vertices[k].name, own.of_vertices[k].name);
+    EXPECT_EQ(read.attributes.of_vertices[k].type, own.of_vertices[k].type);
+    EXPECT_EQ(read.attributes.of_vertices[k].values, whole);
+    EXPECT_EQ(read.attributes.of_faces[k].type, own.of_faces[k].type);
+    EXPECT_EQ(read.attributes.of_faces[k].values, whole);
+  }
+  // Colours between those of vertices are rounded, and stay within their type.
+  own.of_vertices = {{"red", ScalarType::Uint8, {99.4, 99.6, 300.0, -4.0}}};
+  own.of_faces.clear();
+  write_mesh(mesh, own, path("b.ply"));
+  EXPECT_EQ(read_mesh_file(path("b.ply")).attributes.of_vertices[0].values,
+            (std::vector<double>{99.0, 100.0, 255.0, 0.0}));
+  // Other formats hold none.
+  EXPECT_FALSE(holds_attributes(path("b.obj")));
+  write_mesh(mesh, own, path("b.obj"));
+  EXPECT_TRUE(read_mesh_file(path("b.obj")).attributes.empty());
+  own.of_vertices[0].values.pop_back();
+  EXPECT_ERROR(write_mesh(mesh, own, path("b.ply")), InvalidInput);
+}
+
 TEST_F(MeshIo, WritesPlyInSinglePrecisionWhenTold) {
   const IndexedMesh mesh = test::lumpy(2);
   write_mesh(mesh, path("a.ply"), PlyCoordinates::Float);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,49 @@ TEST(PlyReader, ReadsEveryScalarTypeInEveryEncoding) {
         }
       }
     }
+  }
+}
+
+TEST(PlyReader, KeepsNumbersOfVerticesAndFacesButNotNormals) {
+  const std::string rest =
+      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty uchar red\nproperty double quality\nproperty short red\n"
+      "element face 2\nproperty int label\nproperty list uchar int vertex_indices\n"
+      "property uchar flags\nproperty float heat\n";
+  for (const std::string encoding : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    SCOPED_TRACE(encoding);
+    const auto put = [&](double value, const std::string& type) {
+      return number(value, type, encoding);
+    };
+    const std::string end = encoding == "ascii" ? "\n" : "";
+    std::string content = header_of(encoding, rest);
+    for (int i = 0; i < 4; ++i) {
+      for (const double k : corners[static_cast<std::size_t>(i)]) content += put(k, "float");
+      content +=
+          put(9, "float") + put(10 * i, "uchar") + put(7 - i, "double") + put(77, "short") + end;
+    }
+    content += put(-5, "int") + put(4, "uchar");
+    for (const int k : {0, 2, 1, 3}) content += put(k, "int");
+    content += put(1, "uchar") + put(6, "float") + end + put(1234, "int") + put(3, "uchar");
+    for (const int k : {0, 1, 3}) content += put(k, "int");
+    content += put(1, "uchar") + put(8, "float") + end;
+    MeshAttributes kept;
+    std::istringstream stream(content);
+    ByteReader reader(stream, content.size(), "a file");
+    const IndexedMesh mesh = read_ply_attributes(reader, kept);
+    ASSERT_EQ(mesh.triangles.size(), 3U);  // a quadrangle and a triangle
+    EXPECT_EQ(mesh.points, corners);
+    ASSERT_EQ(kept.of_vertices.size(), 2U);
+    EXPECT_EQ(kept.of_vertices[0].name, "red");
+    EXPECT_EQ(kept.of_vertices[0].type, ScalarType::Uint8);
+    EXPECT_EQ(kept.of_vertices[0].values, (std::vector<double>{0, 10, 20, 30}));
+    EXPECT_EQ(kept.of_vertices[1].name, "quality");
+    EXPECT_EQ(kept.of_vertices[1].values, (std::vector<double>{7, 6, 5, 4}));
+    ASSERT_EQ(kept.of_faces.size(), 2U);
+    EXPECT_EQ(kept.of_faces[0].name, "label");
+    EXPECT_EQ(kept.of_faces[0].type, ScalarType::Int32);
+    EXPECT_EQ(kept.of_faces[0].values, (std::vector<double>{-5, -5, 1234}));
+    EXPECT_EQ(kept.of_faces[1].values, (std::vector<double>{6, 6, 8}));
   }
 }
 

@@ -51,6 +51,11 @@ Vector3 MeshDistance::nearest_point(const Vector3& point) const {
   return boxes_->nearest_point(point);
 }
 
+std::vector<MeshPlace> MeshDistance::nearest_places(const std::vector<Vector3>& points,
+                                                    const Execution& execution) const {
+  return boxes_->nearest_places(points, execution);
+}
+
 bool MeshDistance::contains(const Vector3& point) const {
   return boxes_->faces_met(point) % 2 == 1;
 }

@@ -31,6 +31,10 @@ class MeshDistance {
   /// The nearest point of the surface.
   Vector3 nearest_point(const Vector3& point) const;
 
+  /// The places of the mesh nearest to points.
+  std::vector<MeshPlace> nearest_places(const std::vector<Vector3>& points,
+                                        const Execution& execution) const;
+
   /// Whether `point` lies inside; the mesh must be closed. Either answer on the surface itself.
   bool contains(const Vector3& point) const;
 

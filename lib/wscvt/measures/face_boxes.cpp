@@ -50,6 +50,7 @@ class FaceBoxes::Builder {
       if (!(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) continue;
       middles_.push_back({corners[0] + corners[1] + corners[2], faces_.size()});
       faces_.push_back(corners);
+      numbers_.push_back(static_cast<std::int32_t>(f));
     }
   }
 
@@ -57,6 +58,7 @@ class FaceBoxes::Builder {
     const std::size_t count = faces_.size();
     if (count == 0) return;
     boxes_.faces_.resize(count);
+    boxes_.numbers_.resize(count);
     boxes_.nodes_.resize(2 * ((count + faces_a_leaf - 1) / faces_a_leaf) - 1);
     execution.report(0.0, stage);
     deal({0, count, 0}, execution, stage);
@@ -130,6 +132,7 @@ class FaceBoxes::Builder {
           leaf.high = leaf.high.cwiseMax(p);
         }
         boxes_.faces_[i] = corners;
+        boxes_.numbers_[i] = numbers_[middles_[i].face];
       }
       boxes_.nodes_[part.node] = leaf;
       return;
@@ -150,6 +153,7 @@ class FaceBoxes::Builder {
 
   FaceBoxes& boxes_;
   std::vector<Corners> faces_;  ///< in the mesh's order
+  std::vector<std::int32_t> numbers_;
   std::vector<Middle> middles_;
   std::vector<Part> parts_;
   std::vector<Part> upper_;
@@ -215,6 +219,20 @@ std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,
     for (std::size_t i = begin; i < end; ++i) result[i] = std::sqrt(search(points[i], face));
   });
   return result;
+}
+
+std::vector<MeshPlace> FaceBoxes::nearest_places(const std::vector<Vector3>& points,
+                                                 const Execution& execution) const {
+  std::vector<MeshPlace> places(points.size());
+  execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
+    std::size_t face = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      search(points[i], face);
+      const auto& [a, b, c] = faces_[face];
+      places[i] = {numbers_[face], nearest_weights(a, b, c, points[i])};
+    }
+  });
+  return places;
 }
 
 std::size_t FaceBoxes::faces_met(const Vector3& point) const {

@@ -10,6 +10,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 
@@ -36,6 +37,10 @@ class FaceBoxes {
   /// The same of many points. Where they follow each other along a surface the search is shortest.
   std::vector<double> distances(const std::vector<Vector3>& points,
                                 const Execution& execution) const;
+
+  /// The places of the mesh nearest to points; its triangles are counted as there.
+  std::vector<MeshPlace> nearest_places(const std::vector<Vector3>& points,
+                                        const Execution& execution) const;
 
   /// How many faces a ray from `point` meets, decided exactly by CGAL; its direction is the same
   /// for all points. Odd inside a closed mesh.
@@ -74,7 +79,8 @@ class FaceBoxes {
   /// distance.
   double search(const Vector3& point, std::size_t& face) const;
 
-  std::vector<Corners> faces_;  ///< in the order of the leaves
+  std::vector<Corners> faces_;         ///< in the order of the leaves
+  std::vector<std::int32_t> numbers_;  ///< of these faces in the mesh
   std::vector<Node> nodes_;
 };
 

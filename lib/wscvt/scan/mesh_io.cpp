@@ -10,9 +10,11 @@
 #include <array>
 #include <boost/endian/conversion.hpp>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -73,28 +75,74 @@ class Bytes {
   std::size_t used_ = 0;
 };
 
-bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
-  const std::string type = coordinates == PlyCoordinates::Double ? "double" : "float";
-  stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.points.size();
-  for (const char* name : {" x", " y", " z"}) stream << "\nproperty " << type << name;
-  stream << "\nelement face " << mesh.triangles.size()
-         << "\nproperty list uchar int vertex_indices\nend_header\n";
-  Bytes bytes(stream);
-  for (const Vector3& p : mesh.points) {
-    for (const double coordinate : p) {
-      if (coordinates == PlyCoordinates::Double) {
-        bytes.add(coordinate);
-      } else {
-        bytes.add(static_cast<float>(coordinate));
-      }
-    }
+const char* ply_name(ScalarType type) {
+  constexpr std::array<const char*, 8> names{"char", "uchar", "short", "ushort",
+                                             "int",  "uint",  "float", "double"};
+  return names[static_cast<std::size_t>(type)];
+}
+
+/// Adds the nearest whole number that the type holds.
+template <class Whole>
+void add_rounded(Bytes& bytes, double value) {
+  const double low = std::numeric_limits<Whole>::min();
+  const double high = std::numeric_limits<Whole>::max();
+  bytes.add(static_cast<Whole>(std::nearbyint(value > low ? std::min(value, high) : low)));
+}
+
+void add_number(Bytes& bytes, ScalarType type, double value) {
+  switch (type) {
+    case ScalarType::Int8:
+      return add_rounded<std::int8_t>(bytes, value);
+    case ScalarType::Uint8:
+      return add_rounded<std::uint8_t>(bytes, value);
+    case ScalarType::Int16:
+      return add_rounded<std::int16_t>(bytes, value);
+    case ScalarType::Uint16:
+      return add_rounded<std::uint16_t>(bytes, value);
+    case ScalarType::Int32:
+      return add_rounded<std::int32_t>(bytes, value);
+    case ScalarType::Uint32:
+      return add_rounded<std::uint32_t>(bytes, value);
+    case ScalarType::Float32:
+      return bytes.add(static_cast<float>(value));
+    case ScalarType::Float64:
+      return bytes.add(value);
   }
-  for (const Triangle& t : mesh.triangles) {
+}
+
+void write_properties(std::ostream& stream, const std::vector<MeshAttribute>& attributes) {
+  for (const MeshAttribute& attribute : attributes) {
+    stream << "\nproperty " << ply_name(attribute.type) << ' ' << attribute.name;
+  }
+}
+
+bool write_ply_with(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates,
+                    const MeshAttributes& attributes) {
+  const ScalarType type =
+      coordinates == PlyCoordinates::Double ? ScalarType::Float64 : ScalarType::Float32;
+  stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.points.size();
+  for (const char* name : {" x", " y", " z"}) stream << "\nproperty " << ply_name(type) << name;
+  write_properties(stream, attributes.of_vertices);
+  stream << "\nelement face " << mesh.triangles.size()
+         << "\nproperty list uchar int vertex_indices";
+  write_properties(stream, attributes.of_faces);
+  stream << "\nend_header\n";
+  Bytes bytes(stream);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    for (const double coordinate : mesh.points[i]) add_number(bytes, type, coordinate);
+    for (const MeshAttribute& a : attributes.of_vertices) add_number(bytes, a.type, a.values[i]);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     bytes.add(std::uint8_t{3});
-    for (const std::int32_t v : t) bytes.add(v);
+    for (const std::int32_t v : mesh.triangles[t]) bytes.add(v);
+    for (const MeshAttribute& a : attributes.of_faces) add_number(bytes, a.type, a.values[t]);
   }
   bytes.flush();
   return true;
+}
+
+bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
+  return write_ply_with(stream, mesh, coordinates, MeshAttributes());
 }
 
 /// Number of points that single precision puts where another, different one is.
@@ -208,8 +256,11 @@ const Format& format_of(const std::string& path, MeshUse use) {
 }
 
 MeshFile read_as(ByteReader& reader, const Format& format) {
-  IndexedMesh mesh = format.read(reader);
-  return {std::move(mesh), reader.warnings()};
+  MeshFile file;
+  file.mesh =
+      format.read == read_ply ? read_ply_attributes(reader, file.attributes) : format.read(reader);
+  file.warnings = reader.warnings();
+  return file;
 }
 
 /// What is at hand as a text.
@@ -307,6 +358,28 @@ void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates
                    "to the origin first.");
   }
   write_file(path, [&](std::ostream& stream) { return format.write(stream, mesh, coordinates); });
+}
+
+bool holds_attributes(const std::string& path) {
+  const Format* const format = known_format(path, MeshUse::Write);
+  return format != nullptr && format->write == write_ply;
+}
+
+void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes,
+                const std::string& path) {
+  if (!holds_attributes(path)) return write_mesh(mesh, path);
+  for (const auto& [all, count] : {std::pair(&attributes.of_vertices, mesh.points.size()),
+                                   std::pair(&attributes.of_faces, mesh.triangles.size())}) {
+    for (const MeshAttribute& attribute : *all) {
+      if (attribute.values.size() == count) continue;
+      refuse("The attribute \"" + attribute.name + "\" has " +
+             std::to_string(attribute.values.size()) + " values for " + std::to_string(count) +
+             " vertices or faces; give one each.");
+    }
+  }
+  write_file(path, [&](std::ostream& stream) {
+    return write_ply_with(stream, mesh, PlyCoordinates::Double, attributes);
+  });
 }
 
 }  // namespace wscvt

@@ -6,6 +6,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 
 namespace wscvt {
 
@@ -25,6 +26,7 @@ IndexedMesh read_mesh(const std::string& path, const Execution& execution = Exec
 /// A mesh as its file holds it.
 struct MeshFile {
   IndexedMesh mesh;
+  MeshAttributes attributes;          ///< of PLY: colour, quality, labels
   std::vector<std::string> warnings;  ///< of what is odd about the file, a sentence each
 };
 
@@ -65,5 +67,13 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path,
 /// the extension is not known.
 void write_mesh(const IndexedMesh& mesh, const std::string& path,
                 PlyCoordinates coordinates = PlyCoordinates::Double);
+
+/// Whether write_mesh keeps attributes in a file of that name: PLY does.
+bool holds_attributes(const std::string& path);
+
+/// Writes a mesh with the numbers at its vertices and faces, which only PLY keeps. Numbers of a
+/// whole type are rounded. Throws as the function above, and Error(InvalidInput) for another number
+/// of values than of vertices or faces.
+void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes, const std::string& path);
 
 }  // namespace wscvt

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +20,6 @@ namespace {
 
 using boost::endian::order;
 
-enum class ScalarType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
-
 enum class Encoding { Text, LittleEndian, BigEndian };
 
 struct Property {
@@ -28,6 +27,7 @@ struct Property {
   ScalarType type = ScalarType::Float32;  ///< of a list: of its items
   bool is_list = false;
   ScalarType count_type = ScalarType::Uint8;  ///< of a list
+  bool is_kept = false;                       ///< as an attribute
 };
 
 struct Element {
@@ -188,10 +188,36 @@ std::size_t find_property(const Element& element, const Fits& fits) {
   return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), fits) - all.begin());
 }
 
+/// Marks the numbers that a remesh can carry: not the place, which the remesh has of its own, nor
+/// normals, texture coordinates and flags, which tell of this mesh alone.
+void mark_attributes(Header& header) {
+  static const std::set<std::string_view> others{
+      "x", "y", "z", "nx",        "ny",        "nz",        "u",
+      "v", "s", "t", "texture_u", "texture_v", "texnumber", "flags"};
+  for (Element& element : header.elements) {
+    if (element.name != "vertex" && element.name != "face") continue;
+    std::set<std::string_view> names;
+    for (Property& property : element.properties) {
+      property.is_kept = !property.is_list && !property.name.empty() &&
+                         others.count(property.name) == 0 && names.insert(property.name).second;
+    }
+  }
+}
+
+/// Empty columns for what is marked.
+std::vector<MeshAttribute> begin_attributes(const Element& element) {
+  std::vector<MeshAttribute> attributes;
+  for (const Property& property : element.properties) {
+    if (property.is_kept) attributes.push_back({property.name, property.type, {}});
+  }
+  return attributes;
+}
+
 /// What follows the header: the records of the elements, in the header's order.
 class Body {
  public:
-  Body(ByteReader& reader, const Header& header) : reader_(reader), header_(header) {}
+  Body(ByteReader& reader, const Header& header, MeshAttributes& attributes)
+      : reader_(reader), header_(header), attributes_(attributes) {}
 
   IndexedMesh read() {
     const Element* vertices = nullptr;
@@ -273,12 +299,14 @@ class Body {
       }
     }
     mesh_.points.reserve(static_cast<std::size_t>(element.count));
+    attributes_.of_vertices = begin_attributes(element);
     switch (header_.encoding) {
       case Encoding::Text:
         for (std::uint64_t i = 0; i < element.count; ++i) {
           read_text_record(element, i, element.properties.size());
           mesh_.points.emplace_back(scalars_[columns[0]], scalars_[columns[1]],
                                     scalars_[columns[2]]);
+          keep_attributes(element, 1, attributes_.of_vertices);
         }
         return;
       case Encoding::LittleEndian:
@@ -299,6 +327,7 @@ class Body {
       for (std::uint64_t i = 0; i < element.count; ++i) {
         read_binary_record<Order>(element, i, properties.size());
         mesh_.points.emplace_back(scalars_[columns[0]], scalars_[columns[1]], scalars_[columns[2]]);
+        keep_attributes(element, 1, attributes_.of_vertices);
       }
       return;
     }
@@ -317,8 +346,25 @@ class Body {
         mesh_.points.emplace_back(static_cast<double>(number(bytes + x)),
                                   static_cast<double>(number(bytes + y)),
                                   static_cast<double>(number(bytes + z)));
+        auto attribute = attributes_.of_vertices.begin();
+        for (std::size_t k = 0; k < properties.size(); ++k) {
+          if (!properties[k].is_kept) continue;
+          (attribute++)
+              ->values.push_back(load_as_double<Order>(properties[k].type, bytes + offsets[k]));
+        }
       }
     });
+  }
+
+  /// Keeps the numbers of the record read last, for so many elements of the mesh.
+  void keep_attributes(const Element& element, std::size_t count,
+                       std::vector<MeshAttribute>& attributes) {
+    auto attribute = attributes.begin();
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      if (!element.properties[k].is_kept) continue;
+      std::vector<double>& values = (attribute++)->values;
+      values.insert(values.end(), count, scalars_[k]);
+    }
   }
 
   /// Faces, or strips of triangles.
@@ -331,6 +377,7 @@ class Body {
       reader_.fail("declares elements \"" + element.name +
                    "\" without the list \"vertex_indices\"" + export_again);
     }
+    if (!strips) attributes_.of_faces = begin_attributes(element);
     // A strip's number of triangles is not known before it is read.
     if (!strips) mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
     switch (header_.encoding) {
@@ -354,7 +401,8 @@ class Body {
                                            [](const auto& p) { return p.is_list; }) > 1;
     const Property& indices = properties[list];
     const bool whole = indices.type != ScalarType::Float32 && indices.type != ScalarType::Float64;
-    if (other_lists || !whole || indices.count_type != ScalarType::Uint8 || strips) {
+    const bool plain = !other_lists && whole && indices.count_type == ScalarType::Uint8;
+    if (!plain || strips || !attributes_.of_faces.empty()) {
       for (std::uint64_t f = 0; f < element.count; ++f) {
         read_binary_record<Order>(element, f, list);
         add_polygon(element, f, strips);
@@ -409,6 +457,7 @@ class Body {
       end_strip();
     } else {
       add_fan(corners_.data(), corners_.size(), mesh_.triangles);
+      keep_attributes(element, std::max<std::size_t>(corners_.size(), 2) - 2, attributes_.of_faces);
     }
   }
 
@@ -527,6 +576,7 @@ class Body {
 
   ByteReader& reader_;
   const Header& header_;
+  MeshAttributes& attributes_;
   IndexedMesh mesh_;
   std::uint64_t vertices_ = 0;
   std::vector<double> scalars_;
@@ -538,7 +588,14 @@ class Body {
 
 IndexedMesh read_ply(ByteReader& reader) {
   const Header header = read_header(reader);
-  return Body(reader, header).read();
+  MeshAttributes none;
+  return Body(reader, header, none).read();
+}
+
+IndexedMesh read_ply_attributes(ByteReader& reader, MeshAttributes& attributes) {
+  Header header = read_header(reader);
+  mark_attributes(header);
+  return Body(reader, header, attributes).read();
 }
 
 }  // namespace wscvt

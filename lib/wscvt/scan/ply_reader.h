@@ -2,6 +2,7 @@
 #pragma once
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 #include "wscvt/scan/byte_reader.h"
 
 namespace wscvt {
@@ -14,5 +15,10 @@ namespace wscvt {
 /// coordinates are whole numbers or a property stands before the first element, believes the counts
 /// of lists, and takes eleven times as long.
 IndexedMesh read_ply(ByteReader& reader);
+
+/// Reads a PLY file as read_ply, with the numbers at its vertices and faces: every property that is
+/// no list, no coordinate, normal, texture coordinate or flag. Triangles of a polygon have the
+/// polygon's numbers; triangle strips have none.
+IndexedMesh read_ply_attributes(ByteReader& reader, MeshAttributes& attributes);
 
 }  // namespace wscvt
