@@ -5,6 +5,7 @@
 
 #include "log_text.h"
 #include "report_file.h"
+#include "shown_words.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/report/descriptor_report.h"
@@ -107,7 +108,9 @@ std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds) {
   masses.push_back({"this layer", mass_properties(measures.grain.descriptors.basic)});
   append(mass_rows(masses));
   lines.push_back(seconds_line(seconds));
-  return as_log(remarks(measures), lines);
+  std::vector<std::string> warnings;
+  for (const std::string& remark : remarks(measures)) warnings.push_back(shown_words(remark));
+  return as_log(warnings, lines);
 }
 
 }  // namespace wscvt::filter

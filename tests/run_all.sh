@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [page] [engines] [package] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [debian12] [debian13] [sid]
 # Without arguments: install, release and hosts. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -68,6 +68,11 @@ for step in "$@"; do
       commands_file_by_file "-DMESHLAB_OTHER_SOURCE_DIRS=$newer_source"
       sources lib filter_wscvt | grep '\.cpp$' |
         xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/files ;;
+    docs)
+      # Pages of the C++ interface; a warning is an error.
+      tests/install_packages.sh doxygen
+      configure release
+      cmake --build --preset release --target docs ;;
     page)
       # After release. A step of its own, because a browser is 300 MB.
       tests/install_packages.sh chromium poppler-utils

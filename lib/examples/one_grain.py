@@ -15,7 +15,7 @@ wscvt.write_mesh(output, result.vertices, result.faces)
 
 for name in ("volume", "area", "sphericity_wadell"):
     row = result.report["descriptors"][name]
-    print(f"{name}: scan {row['original']:.5g}, remesh {row['remesh']:.5g}")
+    print(f"{name}: scan {row['scan']:.5g}, remesh {row['remesh']:.5g}")
 print("nodes:", result.vertices.shape, "centroid:", result.vertices.mean(axis=0).round(3))
 for warning in result.warnings:
     print("Warning:", warning)

@@ -16,7 +16,7 @@ CLI::App& add_command(CLI::App& program, CompareArguments& arguments) {
                     mesh_argument_text("Closed mesh", MeshUse::Read))
       ->required();
   add_file_argument(app, "reference", arguments.reference,
-                    "The original, which errors and distances are taken against")
+                    "The mesh that errors and distances are measured against")
       ->required();
   add_measure_arguments(app, arguments.measure);
   return app;

@@ -405,7 +405,7 @@ class JoinedBytes : public ByteSource {
       const std::size_t got = bytes_->read(bytes + filled, wanted);
       if (got < wanted) {
         throw Error(ErrorCode::InputOutput,
-                    "\"" + paths_[next_ - 1] + "\" holds fewer voxels than its share, " +
+                    "\"" + paths_[next_ - 1] + "\" holds fewer voxels than its part, " +
                         std::to_string(part_) + " bytes; copy it again, or export it again.");
       }
       filled += got;

@@ -25,7 +25,7 @@ Json description_of(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   Json description = Json::parse(stream, nullptr, false);
   if (!description.is_object()) {
-    refuse_volume(path, "is no JSON object; see lib/README.md for what it has to hold.");
+    refuse_volume(path, "is no JSON object; see lib/doc/files.md for what it has to hold.");
   }
   return description;
 }
@@ -38,7 +38,7 @@ void check_keys(const Json& description, const std::string& path) {
                                                   "origin",     "unit", "offset",     "file"};
     if (std::any_of(known.begin(), known.end(), is_key)) continue;
     refuse_volume(path, "has the key " + in_quotes(key) +
-                            ", which describes no raw file; lib/README.md has those that do.");
+                            ", which describes no raw file; lib/doc/files.md has those that do.");
   }
 }
 

@@ -1133,7 +1133,7 @@ TEST(Filter, HandsBackItsResultsWhereTheHostTakesThem) {
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   EXPECT_EQ(loaded.values().at("vertices"), 300.0);
   EXPECT_EQ(loaded.values().at("faces"), 596.0);
-  const double from = loaded.values().at("volume_original");
+  const double from = loaded.values().at("volume_scan");
   const double to = loaded.values().at("volume");
   EXPECT_NEAR(loaded.values().at("volume_error_percent"), 100.0 * (to / from - 1.0), 1e-9);
 }

@@ -56,7 +56,7 @@ TEST(ServerCreates, AnEllipsoidWithItsVolume) {
   // Fitted nodes have the formula's volume; the coordinates are floats.
   EXPECT_NEAR(describe_shape(mesh, Execution()).volume / volume, 1.0, 1e-6);
   const nlohmann::json report = read_json(folder.filePath("report.json"));
-  EXPECT_NEAR(report["descriptors"]["volume"]["original"].get<double>() / volume, 1.0, 1e-6);
+  EXPECT_NEAR(report["descriptors"]["volume"]["scan"].get<double>() / volume, 1.0, 1e-6);
 }
 
 TEST(ServerCreates, ASuperellipsoidWithinItsBox) {

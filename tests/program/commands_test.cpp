@@ -334,7 +334,7 @@ TEST_F(Commands, CreateMakesTheSurfaceOfItsFormula) {
   const Json ellipsoid =
       report_of("create ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 200 -p fitted --report t.csv");
   const Json& volume = ellipsoid.at("descriptors").at("volume");
-  EXPECT_NEAR(volume.at("original").get<double>(), 4.0 / 3.0 * pi * 0.48, 1e-9);
+  EXPECT_NEAR(volume.at("scan").get<double>(), 4.0 / 3.0 * pi * 0.48, 1e-9);
   EXPECT_NEAR(volume.at("remesh").get<double>(), 4.0 / 3.0 * pi * 0.48, 1e-9);
   EXPECT_EQ(ellipsoid.at("source"), "Ellipsoid");
   // On the surface unless told otherwise.
@@ -348,7 +348,7 @@ TEST_F(Commands, CreateMakesTheSurfaceOfItsFormula) {
     return report_of("create " + arguments + " any.ply -n 100")
         .at("descriptors")
         .at("volume")
-        .at("original")
+        .at("scan")
         .get<double>();
   };
   const double block =
@@ -388,7 +388,7 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
         std::make_pair(std::string("map.json"), volume_of_hook)}) {
     const Json report = report_of("create harmonics grain.ply -n 150 --coefficients " + file);
     EXPECT_EQ(read_mesh(path("grain.ply")).points.size(), 150U);
-    EXPECT_NEAR(report.at("descriptors").at("volume").at("original").get<double>() / volume, 1.0,
+    EXPECT_NEAR(report.at("descriptors").at("volume").at("scan").get<double>() / volume, 1.0,
                 0.05);
     EXPECT_EQ(report.at("source"), file.substr(0, file.find('.')));
   }

@@ -747,7 +747,7 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
   EXPECT_FALSE(has_warning(wrapped, "Make a surface of them first"));
-  EXPECT_TRUE(has_warning(wrapped, "taken by its shrink-wrap:"));
+  EXPECT_TRUE(has_warning(wrapped, "replaced by its shrink-wrap:"));
   cloud.triangles = {{0, 1, 2}};
   const RemeshResult with_faces = remesh(cloud, options, Execution(1));
   EXPECT_EQ(with_faces.mesh.points, wrapped.mesh.points);

@@ -71,17 +71,18 @@ TEST(RemeshWarnings, ThereAreNoneOfACleanResult) {
 }
 
 TEST(RemeshWarnings, TellAnSdqThatIsWhatItsClipSays) {
-  expect_warnings({{[](RemeshResult& r) {
-                      r.original.sdq = 0.5;
-                      r.original.sdq_half_clip = 0.52;
-                      r.original.sdq_clipped_share = 0.09;
-                    },
-                    {"Walls of the scan stand along rays", "9 % of its square", "4 % larger"}},
-                   {[](RemeshResult& r) {
-                      r.original.sdq = 0.5;
-                      r.original.sdq_half_clip = 0.509;
-                    },
-                    {}}});
+  expect_warnings(
+      {{[](RemeshResult& r) {
+          r.original.sdq = 0.5;
+          r.original.sdq_half_clip = 0.52;
+          r.original.sdq_clipped_share = 0.09;
+        },
+        {"Sdq (invariant form) of the scan is not reliable", "9 % of its square", "4 % larger"}},
+       {[](RemeshResult& r) {
+          r.original.sdq = 0.5;
+          r.original.sdq_half_clip = 0.509;
+        },
+        {}}});
 }
 
 TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
@@ -103,7 +104,7 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
        {"taken as points: volume"}},
       {[](RemeshResult& r) { r.steep_area_fraction = 0.5; }, {}},
       {[](RemeshResult& r) { r.options.envelope.opening_percent = 5.0; },
-       {"by its shrink-wrap: volume", "narrower than 5 %"}},
+       {"by its shrink-wrap: volume", "gaps up to 5 %"}},
       {[&](RemeshResult& r) {
          points(r, 0.5);
          r.options.envelope.opening_percent = 5.0;
@@ -129,7 +130,7 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
          r.input.flap_area_share = 0.01;
          r.input.filled_area_share = 0.03;
        },
-       {"mended", "4 % of its area"}},
+       {"repaired", "4 % of its area"}},
       {[](RemeshResult& r) {
          as_published(r);
          r.input.genus = 1;

@@ -30,7 +30,7 @@ TEST(DescriptorReport, JsonHoldsTheNumbersToTheLastBit) {
   EXPECT_EQ(report.at("grain"), "ball, \"one\"");
   EXPECT_EQ(report.at("descriptors").at("volume").get<double>(),
             alone.grain.descriptors.basic.volume);
-  EXPECT_TRUE(report.at("remarks").empty());
+  EXPECT_TRUE(report.at("warnings").empty());
   // Every key is explained once.
   ASSERT_EQ(report.at("descriptor_names").size(), report.at("descriptors").size());
   for (const auto& name : report.at("descriptor_names")) {

@@ -82,7 +82,7 @@ TEST(Figures, HistogramsShowEverySeriesByItsName) {
   EXPECT_EQ(count_of(svg, "<path"), 2U);
   EXPECT_NE(svg.find("&lt;one&gt;"), std::string::npos);
   EXPECT_NE(svg.find(">two<"), std::string::npos);
-  EXPECT_NE(svg.find("share of the edges, %"), std::string::npos);
+  EXPECT_NE(svg.find("fraction of the edges, %"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   // Each name has a patch of its colour beside it, which without a width would not be seen.
   for (const char* side : {"width", "height"}) {
@@ -203,7 +203,7 @@ TEST(Figures, DistancesArePositiveOutsideAndAsLargeAsTheyAre) {
   const IndexedMesh larger = test::transformed(ball, 1.25 * Eigen::Matrix3d::Identity());
   const auto check = [](const IndexedMesh& shown, const IndexedMesh& reference, double sign) {
     const PageFigures figures =
-        page_figures(ShownMesh{reference, "original"}, {shown, "remesh"}, Execution(1));
+        page_figures(ShownMesh{reference, "scan"}, {shown, "remesh"}, Execution(1));
     // Beside the scale of the colours, which ends at the usual distance.
     const std::string& scale = figures.pictures.back().content;
     const std::size_t end = scale.rfind("</text>");
@@ -241,7 +241,7 @@ TEST(Figures, PicturesShowBothMeshesWhole) {
   IndexedMesh larger = ball;
   for (Vector3& p : larger.points) p *= 1.5;
   const auto first_picture = [&](const IndexedMesh& shown) {
-    return page_figures(ShownMesh{ball, "original"}, {shown, "remesh"}, Execution(1))
+    return page_figures(ShownMesh{ball, "scan"}, {shown, "remesh"}, Execution(1))
         .pictures.front()
         .content;
   };
@@ -253,7 +253,7 @@ TEST(Figures, StopWhenAskedTo) {
   // Before each picture and histogram, and while the tree of 20,480 faces is made.
   const auto run = [](const IndexedMesh& original) {
     return [&original](const Execution& execution) {
-      page_figures(ShownMesh{original, "original"}, {test::sphere(1), "remesh"}, execution);
+      page_figures(ShownMesh{original, "scan"}, {test::sphere(1), "remesh"}, execution);
     };
   };
   const IndexedMesh small = test::sphere(2);

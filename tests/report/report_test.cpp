@@ -151,14 +151,14 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.warnings = {"First warning.", "Second warning."};
   const std::string text = text_of(result);
   for (const char* part :
-       {"1 equal vertex merged (within 2.5e-12)", "4 degenerate faces dropped",
-        "3 duplicate faces dropped (1.5 % of the area)",
-        "2 folded faces dropped (0.1 % of the area)", "7 non-manifold edges taken apart",
-        "5 faces of flaps and walls dropped there (0.2 % of the area)", "6 holes filled",
-        "20 faces put into them (0.3 % of the area)", "8 faces without a finite position dropped",
-        "3 inner surfaces dropped (25 % of the volume)",
-        "2 smaller bodies dropped (1.23 % of the volume)", "100 faces dropped with them",
-        "2 vertices added where the surface touched itself", "1 face of no area kept",
+       {"1 equal vertex merged (within 2.5e-12)", "4 degenerate faces removed",
+        "3 duplicate faces removed (1.5 % of the area)",
+        "2 back-to-back faces removed (0.1 % of the area)", "7 non-manifold edges separated",
+        "5 faces of flaps and internal walls removed there (0.2 % of the area)", "6 holes filled",
+        "20 faces put into them (0.3 % of the area)", "8 faces without a finite position removed",
+        "3 inner surfaces removed (25 % of the volume)",
+        "2 smaller bodies removed (1.23 % of the volume)", "100 faces removed with them",
+        "2 vertices duplicated where the surface touches itself", "1 face of no area kept",
         "0.05 % of the solid angle",
         "degree 9 (lowered from 20: above it the series is not positive everywhere)",
         "not converged: stopped at the limit of 2 iterations", "First warning.",
@@ -194,7 +194,8 @@ TEST(Report, TellsOfTheMethodOnTheScan) {
   EXPECT_EQ(line_of(result, "Handles"), "");
   EXPECT_EQ(line_of(result, "Method").rfind("on the scan: ", 0), 0U);
   EXPECT_EQ(line_of(result, "Weighting"), label_of(CellWeighting::Area));
-  EXPECT_EQ(line_of(result, "Nodes"), "coarsened on 10242 vertices, evened in 100 steps");
+  EXPECT_EQ(line_of(result, "Nodes"),
+            "coarsened on 10242 vertices, edge lengths equalized in 100 steps");
   EXPECT_EQ(line_of(result, "Fit"),
             "40 rounds, 1 edge flipped, 2 nodes relocated; volume corrected by an offset of 0.013");
   EXPECT_EQ(line_of(result, "Intersections"), "0 pairs of 1280 triangles");
@@ -203,7 +204,7 @@ TEST(Report, TellsOfTheMethodOnTheScan) {
   report.nodes.mended_intersections = 3;
   report.nodes.mean_edge_ratio = 1.1375;
   EXPECT_EQ(line_of(result, "Edge ratio"), "mean 1.137 (wanted 1.105)");
-  EXPECT_EQ(line_of(result, "Intersections"), "1 pair of 1280 triangles, 3 mended");
+  EXPECT_EQ(line_of(result, "Intersections"), "1 pair of 1280 triangles, 3 removed");
   report.handles.cut = {{0.25, {1, 2, 3}, 3}};
   EXPECT_EQ(line_of(result, "Handles"), "1 handle cut and closed: loop of 0.25 at (1, 2, 3)");
   report.handles.cut.assign(6, {0.5, {-1, 0, 1}, 3});
@@ -245,12 +246,12 @@ TEST(Report, TellsScanFitAndDistance) {
             "rms from scan to remesh 0.25 (12.5 % of the equivalent radius)");
   published(result).fit.residual = 0.01;
   EXPECT_EQ(line_of(result, "Fit"),
-            "spherical harmonics of degree 20, residual 0.01 (0.5 % of the equivalent radius)");
+            "SH series of degree 20, residual 0.01 (0.5 % of the equivalent radius)");
   result.input.input_faces = 0;
   result.input.unreferenced_vertices = 1;
   result.input.reoriented_faces = 2;
   EXPECT_EQ(line_of(result, "Repairs"),
-            "1 unused vertex dropped, 2 faces turned outward, points triangulated");
+            "1 unused vertex removed, 2 faces turned outward, points triangulated");
   result.input.input_vertices = 0;
   published(result).fit.rays = 0;
   EXPECT_EQ(line_of(result, "Scan"), "surface from a formula or coefficients, equivalent radius 2");
@@ -293,7 +294,7 @@ TEST(Report, TablesHoldDistancesAndQualityOfBoth) {
   result.quality.smallest_angle = 9.0;
   result.original_quality.mean_smallest_angle = 30.0;
   result.quality.mean_smallest_angle = 31.0;
-  EXPECT_EQ(cells_of(result, "edge length, deviation / mean"), (Cells{"0.0625", "0.125"}));
+  EXPECT_EQ(cells_of(result, "edge length, CV (deviation / mean)"), (Cells{"0.0625", "0.125"}));
   EXPECT_EQ(cells_of(result, "edge ratio of the triangles, mean"), (Cells{"1.25", "1.125"}));
   EXPECT_EQ(cells_of(result, "edge ratio of the triangles, deviation"), (Cells{"0.25", "0.375"}));
   EXPECT_EQ(cells_of(result, "edge ratio of the triangles, largest"), (Cells{"5.5", "6.5"}));
@@ -358,7 +359,7 @@ TEST(Report, JsonHoldsTheNumbersToTheLastBit) {
   EXPECT_EQ(json.at("quality").at("remesh").at("edge_length").at("mean").get<double>(),
             result.quality.edge_length.mean);
   const auto& volume = json.at("descriptors").at("volume");
-  EXPECT_EQ(volume.at("original").get<double>(), result.original.volume);
+  EXPECT_EQ(volume.at("scan").get<double>(), result.original.volume);
   EXPECT_EQ(volume.at("remesh").get<double>(), result.remesh.volume);
   EXPECT_EQ(volume.at("error_percent").get<double>(),
             relative_error_percent(result.remesh.volume, result.original.volume));
@@ -373,13 +374,13 @@ TEST(Report, HoldsTheMassPropertiesOfBothBodies) {
       test::transformed(test::box(1, 2, 3), test::random_rotation(2), {7, 8, 9}), Execution(1));
   const auto mass = nlohmann::json::parse(report_json(result)).at("mass");
   const MassProperties original = mass_properties(result.original);
-  EXPECT_EQ(mass.at("original").at("volume").get<double>(), original.volume);
-  EXPECT_EQ(mass.at("original").at("centroid").at("z").get<double>(), original.centroid.z());
-  const auto& tensor = mass.at("original").at("inertia_tensor");
+  EXPECT_EQ(mass.at("scan").at("volume").get<double>(), original.volume);
+  EXPECT_EQ(mass.at("scan").at("centroid").at("z").get<double>(), original.centroid.z());
+  const auto& tensor = mass.at("scan").at("inertia_tensor");
   EXPECT_EQ(tensor.at("xx").get<double>(), original.inertia_tensor(0, 0));
   EXPECT_EQ(tensor.at("xz").get<double>(), original.inertia_tensor(0, 2));
-  EXPECT_NEAR(mass.at("original").at("principal_moments").at("least").get<double>(), 2.5, 1e-10);
-  EXPECT_EQ(mass.at("original").at("principal_axes").at("w").get<double>(),
+  EXPECT_NEAR(mass.at("scan").at("principal_moments").at("least").get<double>(), 2.5, 1e-10);
+  EXPECT_EQ(mass.at("scan").at("principal_axes").at("w").get<double>(),
             original.principal_axes.w());
   EXPECT_EQ(mass.at("remesh").at("volume").get<double>(), result.remesh.volume);
   const std::string text = text_of(result);
@@ -490,7 +491,7 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   set("/as_published/fit/rays", method.fit.rays);
   set("/as_published/fit/residual", method.fit.residual);
   set("/as_published/fit/smallest_radius", method.fit.smallest_radius);
-  for (auto [name, quality] : {std::pair("/quality/original", &result.original_quality),
+  for (auto [name, quality] : {std::pair("/quality/scan", &result.original_quality),
                                std::pair("/quality/remesh", &result.quality)}) {
     const std::string of = name;
     set(of + "/edge_length/mean", quality->edge_length.mean);
@@ -504,17 +505,16 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
     set(of + "/edge_ratio/maximum", quality->edge_ratio.maximum);
     set(of + "/smallest_angle_degrees", quality->smallest_angle);
     set(of + "/mean_smallest_angle_degrees", quality->mean_smallest_angle);
-    set(of + "/valence_six_share", quality->valence_six_share);
+    set(of + "/valence_six_fraction", quality->valence_six_share);
   }
   set("/rms_distance/scan_to_remesh", result.rms_distance);
   result.distances.emplace();
   set("/distances/from_remesh/maximum", result.distances->to_reference.maximum);
   set("/distances/from_remesh/root_mean_square", result.distances->to_reference.root_mean_square);
   set("/distances/from_remesh/mean", result.distances->to_reference.mean);
-  set("/distances/from_original/maximum", result.distances->from_reference.maximum);
-  set("/distances/from_original/root_mean_square",
-      result.distances->from_reference.root_mean_square);
-  set("/distances/from_original/mean", result.distances->from_reference.mean);
+  set("/distances/from_scan/maximum", result.distances->from_reference.maximum);
+  set("/distances/from_scan/root_mean_square", result.distances->from_reference.root_mean_square);
+  set("/distances/from_scan/mean", result.distances->from_reference.mean);
   set("/distances/largest", result.distances->largest);
   set("/distances/root_mean_square", result.distances->root_mean_square);
   result.search.emplace();
@@ -547,7 +547,7 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   EXPECT_EQ(at("/node_count_search/trials/1/node_count"), 642);
   EXPECT_EQ(at("/node_count_search/trials/1/error_percent"), 0.5);
   // The mass of each body, its tensor without symmetry between the axes.
-  for (const auto& [name, body] : {std::pair(std::string("/mass/original"), &result.original),
+  for (const auto& [name, body] : {std::pair(std::string("/mass/scan"), &result.original),
                                    std::pair(std::string("/mass/remesh"), &result.remesh)}) {
     EXPECT_EQ(at(name + "/volume"), body->volume);
     EXPECT_EQ(at(name + "/inertia_tensor/yz").get<double>(), body->inertia_tensor(1, 2));
@@ -569,14 +569,14 @@ TEST(Report, EveryNumberOfTheMethodOnTheScanStandsUnderItsOwnName) {
   set("genus", nodes.genus);
   set("split_vertices", nodes.split_vertices);
   set("coarsened_vertices", nodes.proxy_vertices);
-  set("evening_steps", nodes.evening_steps);
-  set("evening_flips", nodes.evening_flips);
+  set("equalization_steps", nodes.evening_steps);
+  set("equalization_flips", nodes.evening_flips);
   set("fit_rounds", nodes.fit_rounds);
   set("fit_flips", nodes.fit_flips);
   set("fit_relocations", nodes.relocations);
   set("volume_offset", nodes.volume_offset);
   set("mean_edge_ratio", nodes.mean_edge_ratio);
-  set("mended_intersections", nodes.mended_intersections);
+  set("removed_intersections", nodes.mended_intersections);
   set("self_intersections", nodes.self_intersections);
   const auto json = nlohmann::json::parse(report_json(result));
   for (const auto& [name, value] : expected) {

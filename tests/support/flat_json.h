@@ -49,7 +49,7 @@ inline void flatten(const nlohmann::ordered_json& value, const std::string& path
     for (const auto& [name, member] : value.items()) {
       flatten(member, path.empty() ? name : path + "." + name, members);
     }
-  } else if (!value.is_array() || path == "warnings" || path == "remarks") {
+  } else if (!value.is_array() || path == "warnings") {
     members[path] = value;
   }
 }

@@ -16,7 +16,8 @@ if(count GREATER 250)
   string(APPEND faults "  lib/wscvt/remesh.cpp has ${count} lines, more than 250: it conducts, no more\n")
 endif()
 
-set(texts README.md filter_wscvt/README.md filter_wscvt/host_blender/README.md lib/README.md lib/python/README.md meshes/README.md tests/README.md tests/faults/README.md
+file(GLOB pages RELATIVE ${source_dir} ${source_dir}/lib/doc/*.md)
+set(texts README.md CONTRIBUTING.md ${pages} filter_wscvt/README.md filter_wscvt/host_blender/README.md lib/README.md lib/python/README.md meshes/README.md tests/README.md tests/faults/README.md
   tests/benchmarks/README.md tests/study/README.md tests/study/contacts.md)
 foreach(text ${texts})
   get_filename_component(folder ${source_dir}/${text} DIRECTORY)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""run_readme.py SOURCE BINARY FOLDER: runs the commands of README.md word for word, in their order, as
-somebody would after its first command, in FOLDER, which gets links to the project and its build.
+"""run_readme.py SOURCE BINARY FOLDER [TEXT ...]: runs the commands of README.md, or of the TEXTs named
+by their path in SOURCE, word for word and in their order, as somebody would after README's first command,
+in FOLDER, which gets links to the project and its build.
 
 Exit code 0 if each command ends with 0, each file that one names after -o, --report, --node-table or
 --sdf, or as the output of wscvt, is there, and the text says nothing of the project that is not run.
@@ -15,6 +16,9 @@ import sys
 
 # What sets up or tests, and so takes minutes; tests/run_all.sh and its step debian12 run these.
 SETUP = {"filter_wscvt/demo.sh", "tests/run_all.sh"}
+
+# How a command begins; other indented lines are what a program prints.
+STARTS = ("build/", "filter_wscvt/", "tests/", "lib/", "python3 ", "xvfb-run ", "PYTHONPATH=", "cmake ")
 
 
 def commands_of(text):
@@ -38,9 +42,11 @@ def main():
     for name in ("meshes", "filter_wscvt", "lib", "tests"):
         (folder / name).symlink_to(source / name)
     (folder / "build" / "release").symlink_to(binary)
-    commands = [one for one in commands_of((source / "README.md").read_text()) if one not in SETUP]
+    texts = sys.argv[4:] or ["README.md"]
+    commands = [one for text in texts for one in commands_of((source / text).read_text())
+                if one.startswith(STARTS) and one not in SETUP]
     if len(commands) < 6:
-        sys.exit(f"README.md has {len(commands)} commands to run, fewer than 6: {commands}")
+        sys.exit(f"{texts} have {len(commands)} commands to run, fewer than 6: {commands}")
     for command in commands:
         # Debian's programs, Python above all, as a newcomer has them.
         run = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True,

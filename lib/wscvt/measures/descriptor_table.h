@@ -42,7 +42,7 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
 
 /// What the columns of two meshes are called, in text and in files.
 struct ComparisonNames {
-  std::string reference = "original";
+  std::string reference = "scan";
   std::string value = "remesh";
 };
 

@@ -77,7 +77,7 @@ struct MassProperties {
   Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();  ///< about the centroid; length^5
   Vector3 principal_moments = Vector3::Zero();               ///< ascending; length^5
   /// Unit quaternion q: a point p of the principal frame is centroid + q p in the mesh's. x runs
-  /// along the longest axis, z along the shortest; lib/README.md says how signs are chosen.
+  /// along the longest axis, z along the shortest; lib/doc/descriptors.md says how signs are chosen.
   Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
 };
 
@@ -189,7 +189,7 @@ struct Roughness {
 
 /// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
 /// that computes it: form_axes.h, feret_diameters.h, inscribed_sphere.h, orientation_tensor.h,
-/// roundness.h, roughness.h. lib/README.md has them all in one table.
+/// roundness.h, roughness.h. lib/doc/descriptors.md has them all in one table.
 struct DetailedDescriptors {
   ShapeDescriptors basic;
   /// Of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell (1932);

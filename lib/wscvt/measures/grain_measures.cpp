@@ -41,9 +41,9 @@ void append_detail_remarks(const std::string& name, const DetailedDescriptors& d
   if (std::isnan(roundness.roundness)) {
     sentences.push_back(
         "The edges of '" + name +
-        "' are too long for its roundness: they ask for balls of radius " +
-        format_number(roundness.ball_radius, 3) + ", and the largest inscribed sphere has radius " +
-        format_number(descriptors.inscribed_sphere.radius, 3) + ". Give a denser mesh.");
+        "' are too long to measure roundness: they need balls of radius " +
+        format_number(roundness.ball_radius, 3) + ", but the largest inscribed sphere has radius " +
+        format_number(descriptors.inscribed_sphere.radius, 3) + ". Use a denser mesh.");
   } else if (roundness.roundness < roundness.smallest_radius) {
     sentences.push_back("The corners of '" + name +
                         "' are sharper than its mesh resolves: roundness is below " +
@@ -51,33 +51,33 @@ void append_detail_remarks(const std::string& name, const DetailedDescriptors& d
   }
   const Roughness& roughness = descriptors.roughness;
   if (!descriptors.has_roughness) {
-    sentences.push_back("The edges of '" + name + "' are too long for its roughness: the cut-off " +
-                        "length is " + format_number(roughness.cutoff, 3) +
-                        ", and edges of this length carry waves from " +
+    sentences.push_back("The edges of '" + name +
+                        "' are too long to measure roughness: the cut-off " + "length is " +
+                        format_number(roughness.cutoff, 3) +
+                        ", but edges of this length only show waves from " +
                         format_number(descriptors.least_cutoff, 3) +
-                        " on. Give a denser mesh or a larger cut-off.");
+                        " on. Use a denser mesh or a larger --roughness-cutoff.");
   } else if (roughness.form_leak > told_leak_share * roughness.sq) {
     sentences.push_back("Up to " + format_number(roughness.form_leak, 3) + " of the roughness Sq " +
                         format_number(roughness.sq, 3) + " of '" + name +
-                        "' may be its form, so Ssk and Sku say more of its edges than of its " +
-                        "roughness. Give a smaller cut-off length.");
+                        "' may be form: Ssk and Sku then describe edges more than roughness. " +
+                        "Use a smaller --roughness-cutoff.");
   }
   std::string clipped = sdq_clip_sentence("'" + name + "'", descriptors.basic);
   if (!clipped.empty()) sentences.push_back(std::move(clipped));
-  const std::string missing = ", so it has no Sdq as printed, which is of a radius seen from " +
-                              std::string("there; Sdq in its invariant form is that of any body.");
+  const std::string missing = ". Sdq as printed (eq. 17) needs a star-shaped grain and is left " +
+                              std::string("empty. Sdq (invariant form) is valid.");
   if (!descriptors.has_radius && descriptors.folded_share < 1.0) {
-    sentences.push_back(
-        "Seen from its centroid '" + name + "' folds over itself: sheets beyond the first fill " +
-        format_percent(descriptors.folded_share) + " of the solid angle, more than " +
-        format_percent(largest_measured_fold) + missing);
+    sentences.push_back("'" + name + "' is not star-shaped: overhangs cover " +
+                        format_percent(descriptors.folded_share) + " of the sphere (limit " +
+                        format_percent(largest_measured_fold) + ")" + missing);
   } else if (!descriptors.has_radius) {
-    sentences.push_back("The volume centroid of '" + name + "' lies outside it" + missing);
+    sentences.push_back("'" + name + "' is not star-shaped: its volume centroid lies outside it" +
+                        missing);
   } else if (descriptors.folded_share > told_folded_share) {
-    sentences.push_back("Seen from its centroid '" + name +
-                        "' folds over itself: sheets beyond the first fill " +
+    sentences.push_back("Overhangs of '" + name + "' cover " +
                         format_percent(descriptors.folded_share) +
-                        " of the solid angle. Sdq as printed is that of its outermost layer.");
+                        " of the sphere. Sdq as printed is that of its outermost surface.");
   }
 }
 
@@ -92,7 +92,7 @@ void append_remarks(const MeasuredGrain& grain, std::vector<std::string>& senten
   const double mended = report.flap_area_share + report.filled_area_share;
   if (mended > 0.0) {
     sentences.push_back("Holes and non-manifold edges of '" + grain.name +
-                        "' were mended for the measurement, which changed " +
+                        "' were repaired for the measurement. This changed " +
                         format_percent(mended) + " of its area.");
   }
   append_detail_remarks(grain.name, grain.descriptors, sentences);

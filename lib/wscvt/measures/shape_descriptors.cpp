@@ -166,12 +166,12 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
 std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& descriptors) {
   const double change = descriptors.sdq_half_clip / descriptors.sdq - 1.0;
   if (!(change > told_clip_change)) return {};
-  return "Walls of " + grain +
-         " stand along rays from its centre, so its Sdq (invariant form) is " +
-         "what the smallest cosine of " + format_number(smallest_cosine) +
-         " makes of them: " + format_percent(descriptors.sdq_clipped_share) +
-         " of its square comes from there, and with half that cosine Sdq is " +
-         format_percent(change) + " larger. Do not compare it with that of other grains.";
+  return "Sdq (invariant form) of " + grain +
+         " is not reliable: parts of the surface lie along rays from the centroid. " +
+         format_percent(descriptors.sdq_clipped_share) +
+         " of its square comes from faces at the smallest cosine, " +
+         format_number(smallest_cosine) + "; with half that cosine Sdq is " +
+         format_percent(change) + " larger. Do not compare it with other grains.";
 }
 
 double relative_error_percent(double value, double reference) {

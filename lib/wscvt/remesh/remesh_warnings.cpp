@@ -28,22 +28,23 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   if (result.options.points && !wraps) {
     warnings.push_back(
         "The scan was taken as points" + unused +
-        ": volume, area and folds of the original are those of the surface that was made for them, "
-        "with one radius in each direction, not those of the body. Check the result against it.");
+        ": volume and area of the scan are those of the star-shaped surface that was built through "
+        "them. Overhangs of the body are lost. Check the result against the body.");
     if (result.steep_area_fraction > steep_points_limit) {
       warnings.push_back(
           format_percent(result.steep_area_fraction) +
-          " of the area of the surface made of the points is steep, as where some lie behind "
-          "others: they have no one radius in each direction. " +
+          " of the area of the surface through the points is inclined more than 75 degrees to the "
+          "radius. Some points probably lie behind others, as in an overhang. " +
           surface_of_points_advice());
     }
   }
   if (wraps) {
-    warnings.push_back("The scan was taken by its shrink-wrap" + unused +
-                       ": volume, area and distances of the original are those "
-                       "of the shrink-wrap, in which what is narrower than " +
-                       format_percent(0.01 * result.options.envelope.opening_percent) +
-                       " of the bounding box is filled. Check the result against the scan.");
+    warnings.push_back(
+        "The scan was replaced by its shrink-wrap" + unused +
+        ": volume, area and distances are measured against the shrink-wrap. It closes gaps up "
+        "to " +
+        format_percent(0.01 * result.options.envelope.opening_percent) +
+        " of the bounding-box diagonal. Check the result against the scan.");
   }
   const MeshCheckReport& input = result.input;
   if (input.has_voxel_steps) warnings.push_back(voxel_steps_advice("The scan"));
@@ -60,7 +61,7 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   }
   const double mended = input.flap_area_share + input.filled_area_share;
   if (mended > 0.0) {
-    warnings.push_back("Holes and non-manifold edges of the scan were mended, which changed " +
+    warnings.push_back("Holes and non-manifold edges of the scan were repaired. This changed " +
                        format_percent(mended) + " of its area. Check the result against the scan.");
   }
 }
@@ -99,7 +100,7 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
                      " of triangles of the remesh intersect: ";
   const std::size_t of_scan = report->nodes.scan_self_intersections;
   if (of_scan > 0) {
-    text += "so do " + std::to_string(of_scan) + " of the scan. Mend the scan first.";
+    text += "so do " + std::to_string(of_scan) + " of the scan. Repair the scan first.";
   } else {
     text += "parts of the grain are closer together than " + nodes + " can follow. ";
     text += report->nodes.enough_nodes > 0

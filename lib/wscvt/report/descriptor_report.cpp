@@ -46,7 +46,7 @@ Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
     report["mass"] = {{"reference", json_of(bodies.front().mass)},
                       {"value", json_of(bodies.back().mass)}};
   }
-  report["remarks"] = remarks(measures);
+  report["warnings"] = remarks(measures);
   return report;
 }
 

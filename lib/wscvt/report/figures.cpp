@@ -184,8 +184,8 @@ std::string histogram_figure(const std::string& axis, const std::string& counted
     y.upper = largest > 0.0 ? 1.05 * largest : 1.0;
   }
   std::string svg =
-      frame(axis, x, ticks_of(round_ticks(x.lower, x.upper, 8)), "share of the " + counted + ", %",
-            y, ticks_of(round_ticks(y.lower, y.upper, 6)));
+      frame(axis, x, ticks_of(round_ticks(x.lower, x.upper, 8)),
+            "fraction of the " + counted + ", %", y, ticks_of(round_ticks(y.lower, y.upper, 6)));
   double legend = left + 10.0;
   for (const NamedHistogram& one : histograms) {
     svg += bars(one, total_of(one.histogram), x, y);

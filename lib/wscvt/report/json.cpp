@@ -19,7 +19,7 @@ struct Columns {
 
 bool holds_sentences(const Json& list, const std::string& name) {
   // An empty list has no type to tell by, and a column must not come and go with what it holds.
-  if (list.empty()) return name == "warnings" || name == "remarks";
+  if (list.empty()) return name == "warnings";
   return list.front().is_string();
 }
 
@@ -74,7 +74,7 @@ Json json_of(const MeshQuality& quality) {
           {"edge_ratio", json_of(quality.edge_ratio)},
           {"smallest_angle_degrees", quality.smallest_angle},
           {"mean_smallest_angle_degrees", quality.mean_smallest_angle},
-          {"valence_six_share", quality.valence_six_share}};
+          {"valence_six_fraction", quality.valence_six_share}};
 }
 
 Json json_of(const OneSidedDistance& distance) {

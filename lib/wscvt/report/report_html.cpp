@@ -60,7 +60,7 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
                         const Execution& execution) {
   std::optional<ShownMesh> reference;
   if (!result.repaired_scan.triangles.empty()) {
-    reference.emplace(ShownMesh{result.repaired_scan, "original"});
+    reference.emplace(ShownMesh{result.repaired_scan, "scan"});
   }
   const PageFigures figures = page_figures(reference, {result.mesh, "remesh"}, execution);
 
@@ -75,8 +75,8 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh)),
       ComparisonNames());
   page.add_heading("Mass properties");
-  page.add_rows(mass_rows({{"original", mass_properties(result.original)},
-                           {"remesh", mass_properties(result.remesh)}}));
+  page.add_rows(mass_rows(
+      {{"scan", mass_properties(result.original)}, {"remesh", mass_properties(result.remesh)}}));
   page.add_heading("Distributions");
   page.add_figures(figures.distributions);
   if (result.search) {

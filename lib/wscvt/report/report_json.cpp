@@ -88,14 +88,14 @@ Json json_of(const OnScanReport& report) {
           {"genus", nodes.genus},
           {"split_vertices", nodes.split_vertices},
           {"coarsened_vertices", nodes.proxy_vertices},
-          {"evening_steps", nodes.evening_steps},
-          {"evening_flips", nodes.evening_flips},
+          {"equalization_steps", nodes.evening_steps},
+          {"equalization_flips", nodes.evening_flips},
           {"fit_rounds", nodes.fit_rounds},
           {"fit_flips", nodes.fit_flips},
           {"fit_relocations", nodes.relocations},
           {"volume_offset", nodes.volume_offset},
           {"mean_edge_ratio", nodes.mean_edge_ratio},
-          {"mended_intersections", nodes.mended_intersections},
+          {"removed_intersections", nodes.mended_intersections},
           {"self_intersections", nodes.self_intersections}};
 }
 
@@ -163,7 +163,7 @@ Json json_of(const std::optional<MeshDistances>& distances) {
   const OneSidedDistance none = {unknown, unknown, unknown};
   const MeshDistances shown = distances.value_or(MeshDistances{none, none, unknown, unknown});
   return {{"from_remesh", json_of(shown.to_reference)},
-          {"from_original", json_of(shown.from_reference)},
+          {"from_scan", json_of(shown.from_reference)},
           {"largest", shown.largest},
           {"root_mean_square", shown.root_mean_square}};
 }
@@ -211,7 +211,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
       {"result",
        {{"vertices", result.mesh.points.size()}, {"faces", result.mesh.triangles.size()}}},
       {"quality",
-       {{"original", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
+       {{"scan", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
       {"rms_distance",
        {{"scan_to_remesh", result.rms_distance},
         {"percent_of_equivalent_radius",
@@ -221,7 +221,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
       {"descriptors", json_of(comparison, ComparisonNames())},
       {"descriptor_names", json_names_of(comparison)},
       {"mass",
-       {{"original", json_of(mass_properties(result.original))},
+       {{"scan", json_of(mass_properties(result.original))},
         {"remesh", json_of(mass_properties(result.remesh))}}},
       {"warnings", result.warnings},
   };

@@ -39,32 +39,32 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
   const auto with_area = [](const char* what, double share) {
     return std::string(what) + " (" + format_percent(share) + " of the area)";
   };
-  add(input.lost_faces, "face", "faces", "without a finite position dropped");
+  add(input.lost_faces, "face", "faces", "without a finite position removed");
   add(input.welded_vertices, "equal vertex", "equal vertices",
       "merged (within " + format_number(input.weld_tolerance, 3) + ")");
-  add(input.unreferenced_vertices, "unused vertex", "unused vertices", "dropped");
-  add(input.degenerate_faces, "degenerate face", "degenerate faces", "dropped");
+  add(input.unreferenced_vertices, "unused vertex", "unused vertices", "removed");
+  add(input.degenerate_faces, "degenerate face", "degenerate faces", "removed");
   add(input.duplicate_faces, "duplicate face", "duplicate faces",
-      with_area("dropped", input.duplicate_area_share));
-  add(input.folded_faces, "folded face", "folded faces",
-      with_area("dropped", input.folded_area_share));
-  add(input.non_manifold_edges, "non-manifold edge", "non-manifold edges", "taken apart");
+      with_area("removed", input.duplicate_area_share));
+  add(input.folded_faces, "back-to-back face", "back-to-back faces",
+      with_area("removed", input.folded_area_share));
+  add(input.non_manifold_edges, "non-manifold edge", "non-manifold edges", "separated");
   add(input.flap_faces, "face", "faces",
-      with_area("of flaps and walls dropped there", input.flap_area_share));
+      with_area("of flaps and internal walls removed there", input.flap_area_share));
   add(input.filled_holes, "hole", "holes", "filled");
   add(input.filling_faces, "face", "faces", with_area("put into them", input.filled_area_share));
   add(input.reoriented_faces, "face", "faces", "turned outward");
-  add(input.split_vertices, "vertex", "vertices", "added where the surface touched itself");
+  add(input.split_vertices, "vertex", "vertices", "duplicated where the surface touches itself");
   add(input.sliver_faces, "face", "faces", "of no area kept");
   if (input.input_faces == 0) parts.emplace_back("points triangulated");
   const std::size_t inner = input.inner_components;
   const std::size_t outer = input.components > inner ? input.components - inner - 1 : 0;
   add(inner, "inner surface", "inner surfaces",
-      "dropped (" + format_percent(input.inner_volume_share) + " of the volume)");
+      "removed (" + format_percent(input.inner_volume_share) + " of the volume)");
   add(outer, "smaller body", "smaller bodies",
-      "dropped (" + format_percent(input.dropped_volume_share) + " of the volume)");
+      "removed (" + format_percent(input.dropped_volume_share) + " of the volume)");
   if (inner + outer > 0) {
-    parts.push_back(counted(input.dropped_faces, "face", "faces") + " dropped with them");
+    parts.push_back(counted(input.dropped_faces, "face", "faces") + " removed with them");
   }
   return parts;
 }
@@ -117,7 +117,7 @@ void append_fit(const AsPublishedReport& report, double radius, std::vector<std:
   if (fit.rays == 0) return;
   lines.push_back(line("Overhang", format_percent(report.overhang_fraction) +
                                        " of the solid angle behind the outermost surface"));
-  std::string text = "spherical harmonics of degree " + std::to_string(fit.degree);
+  std::string text = "SH series of degree " + std::to_string(fit.degree);
   if (fit.degree < fit.requested_degree) {
     text +=
         " (lowered from " + std::to_string(fit.requested_degree) + ": " + label_of(fit.limit) + ")";
@@ -143,14 +143,14 @@ void append_method(const OnScanReport& report, const RemeshResult& result,
   append_handles(report.handles, lines);
   lines.push_back(
       line("Method",
-           "on the scan: centroidal Voronoi cells on the grain's own surface, not those "
-           "of the paper, on the sphere"));
+           "on the scan: centroidal Voronoi cells on the grain's own surface (the paper: on "
+           "the sphere)"));
   lines.push_back(
       line("Weighting", weighting_text(options, options.weighting == CellWeighting::Curvature)));
   const ScanNodesReport& nodes = report.nodes;
   lines.push_back(
       line("Nodes", "coarsened on " + counted(nodes.proxy_vertices, "vertex", "vertices") +
-                        ", evened in " +
+                        ", edge lengths equalized in " +
                         counted(static_cast<std::size_t>(nodes.evening_steps), "step", "steps")));
   if (nodes.fit_rounds > 0) {
     lines.push_back(
@@ -163,12 +163,12 @@ void append_method(const OnScanReport& report, const RemeshResult& result,
   }
   lines.push_back(line("Edge ratio", "mean " + format_number(nodes.mean_edge_ratio, 4) +
                                          " (wanted " + format_typed(options.edge_ratio) + ")"));
-  lines.push_back(
-      line("Intersections", counted(nodes.self_intersections, "pair", "pairs") + " of " +
-                                counted(result.mesh.triangles.size(), "triangle", "triangles") +
-                                (nodes.mended_intersections > 0
-                                     ? ", " + std::to_string(nodes.mended_intersections) + " mended"
-                                     : std::string())));
+  lines.push_back(line("Intersections",
+                       counted(nodes.self_intersections, "pair", "pairs") + " of " +
+                           counted(result.mesh.triangles.size(), "triangle", "triangles") +
+                           (nodes.mended_intersections > 0
+                                ? ", " + std::to_string(nodes.mended_intersections) + " removed"
+                                : std::string())));
 }
 
 void append_method(const AsPublishedReport& report, const RemeshResult& result,
@@ -194,7 +194,7 @@ void append_method(const AsPublishedReport& report, const RemeshResult& result,
   if (!relaxation.coarser_levels.empty()) text += ")";
   if (!relaxation.history.empty()) {
     const RelaxationStep& last = relaxation.history.back();
-    text += ", displacement " + format_number(last.displacement, 2) + " h, cell area spread " +
+    text += ", displacement " + format_number(last.displacement, 2) + " h, CV of the cell areas " +
             format_number(last.area_spread, 2);
   }
   lines.push_back(line("Relaxation", text));
@@ -231,7 +231,7 @@ void append_distances(const RemeshResult& result, std::vector<std::string>& line
   const OneSidedDistance& to = result.distances->to_reference;
   const OneSidedDistance& from = result.distances->from_reference;
   const std::vector<std::vector<std::string>> rows = {
-      {"Distance", "from remesh", "from original", "two-sided", "% of equivalent radius"},
+      {"Distance", "from remesh", "from scan", "two-sided", "% of equivalent radius"},
       row("  largest sampled", to.maximum, from.maximum, result.distances->largest),
       row("  root mean square", to.root_mean_square, from.root_mean_square,
           result.distances->root_mean_square),
@@ -247,11 +247,11 @@ void append_quality(const RemeshResult& result, std::vector<std::string>& lines)
     return std::vector<std::string>{label, format_number(before, 4), format_number(after, 4)};
   };
   const std::vector<std::vector<std::string>> rows = {
-      {"Quality", "original", "remesh"},
+      {"Quality", "scan", "remesh"},
       row("  edge length, mean", a.edge_length.mean, b.edge_length.mean),
       row("  edge length, deviation", a.edge_length.standard_deviation,
           b.edge_length.standard_deviation),
-      row("  edge length, deviation / mean", a.edge_variation, b.edge_variation),
+      row("  edge length, CV (deviation / mean)", a.edge_variation, b.edge_variation),
       row("  edge ratio of the triangles, mean", a.edge_ratio.mean, b.edge_ratio.mean),
       row("  edge ratio of the triangles, deviation", a.edge_ratio.standard_deviation,
           b.edge_ratio.standard_deviation),
@@ -288,7 +288,7 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
     lines.push_back(std::move(text));
   }
-  for (std::string& text : aligned_lines(mass_rows({{"original", mass_properties(result.original)},
+  for (std::string& text : aligned_lines(mass_rows({{"scan", mass_properties(result.original)},
                                                     {"remesh", mass_properties(result.remesh)}}))) {
     lines.push_back(std::move(text));
   }

@@ -42,7 +42,7 @@ inline constexpr NumberOption<double> mended_area_limit_option = {
 /// Not an option of a remesh either: above a quarter there is no main body.
 inline constexpr NumberOption<double> dropped_volume_limit_option = {
     "dropped-volume",
-    "largest share of the volume to drop with smaller parts",
+    "largest fraction of the volume to drop with smaller parts",
     0.0,
     1.0,
     Ends::Neither,

@@ -40,7 +40,7 @@ void compute_power_cells(const SphereTriangulation& triangulation,
   if (count != triangulation.vertex_count() || (!weights.empty() && weights.size() != count)) {
     throw Error(ErrorCode::InvalidInput,
                 "The triangulation has " + std::to_string(triangulation.vertex_count()) +
-                    " vertices, but there are " + std::to_string(count) + " sites and " +
+                    " vertices, but there are " + std::to_string(count) + " seeds and " +
                     std::to_string(weights.size()) + " weights; give one each.");
   }
   const std::vector<Triangle>& triangles = triangulation.triangles();
