@@ -6,7 +6,7 @@
 
 namespace wscvt {
 
-/// What kind of thing went wrong; a caller branches on this and shows `what()` to a person.
+/// The kind of an error. A caller branches on it and shows `what()` to a person.
 enum class ErrorCode {
   InvalidInput,      ///< the mesh, the file's content or an option is not usable
   NotStarShaped,     ///< rays from the centre meet the surface more often than the caller allows

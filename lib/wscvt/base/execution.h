@@ -12,8 +12,8 @@
 
 namespace wscvt {
 
-/// Called on the thread that called the library, with the share of the work done in [0, 1] and the
-/// name of the stage. Returning false cancels: the library throws Error(Cancelled).
+/// Called on the thread that called the library, with the fraction of the work done, 0 to 1, and
+/// the name of the stage. Returning false cancels: the library throws Error(Cancelled).
 using ProgressCallback = std::function<bool(double fraction, const std::string& stage)>;
 
 /// Work went beyond what it may cost, see Execution::counted.
@@ -22,8 +22,8 @@ class WorkExceeded : public std::exception {
   const char* what() const noexcept override { return "The work costs more than it may."; }
 };
 
-/// How to run: number of threads, and progress with cancel. Cheap to copy. Whatever takes one may
-/// throw Error(Cancelled), also where its comment does not say so.
+/// Settings of a run: number of threads, and progress with cancel. Cheap to copy. Whatever takes
+/// one may throw Error(Cancelled), also where its comment does not say so.
 ///
 /// Results never depend on the number of threads: work is cut into blocks whose bounds follow from
 /// the problem size alone, and partial sums are added in block order.
@@ -36,17 +36,17 @@ class Execution {
   /// to the part of the work this Execution stands for (see `part`).
   void report(double fraction, const std::string& stage) const;
 
-  /// The same execution, whose progress fills only [begin, end] of this one's; 0 <= begin <= end
+  /// Returns a part, whose progress fills only [begin, end] of this one's; 0 <= begin <= end
   /// <= 1.
   Execution part(double begin, double end) const;
 
-  /// The same execution with a count of its own of what is done, from 0; it counts for this one as
+  /// Returns this execution with its own count of what is done, from 0; it counts for this one as
   /// well. A loop that takes it above `most` throws WorkExceeded.
   Execution counted(std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
 
-  /// How much was done by this execution, its copies and parts: the elements of all their loops,
-  /// of which most take some hundredths to tenths of a microsecond. A measure that, other than a
-  /// clock, gives the same on every machine and any number of threads.
+  /// Returns the work done by this execution, its copies and parts: the elements of all their
+  /// loops, of which most take some hundredths to tenths of a microsecond. A measure that, other
+  /// than a clock, gives the same on every machine and any number of threads.
   std::uint64_t work() const;
 
   /// Calls body(begin, end) for consecutive blocks of at most `block` >= 1 indices covering [0,

@@ -90,13 +90,13 @@ const Enumerator<Enumeration>& row_of(Enumeration value) {
   return enumerators<Enumeration>()[static_cast<std::size_t>(value)];
 }
 
-/// What one types for a value. Throws as require_valid.
+/// Returns the text that one types for a value. Throws as require_valid.
 template <class Enumeration>
 std::string key_of(Enumeration value) {
   return std::string(row_of(value).key);
 }
 
-/// What a person reads for a value. Throws as require_valid.
+/// Returns the label of a value, for people. Throws as require_valid.
 template <class Enumeration>
 std::string label_of(Enumeration value) {
   return std::string(row_of(value).label);
@@ -118,7 +118,7 @@ Enumeration from_key(std::string_view key) {
 // What an option that is a number or a flag is called and what it may be, in one constant beside
 // its struct, which is read in the same places.
 
-/// Which ends of a range belong to it.
+/// The ends that belong to a range.
 enum class Ends { Both, NotMinimum, NotMaximum, Neither };
 
 /// An option that is a number. The largest number of its type, or infinity, is no limit.

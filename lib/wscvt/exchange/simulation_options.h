@@ -13,7 +13,7 @@ namespace wscvt {
 // How a grain is written for a simulation: in which frame and size, and with which grid of
 // distances.
 
-/// Which coordinates files for a simulation hold.
+/// Frame of the files for a simulation.
 enum class Frame {
   Input,      ///< the scan's
   Centred,    ///< the scan's, about the grain's volume centroid
@@ -36,7 +36,7 @@ struct EnumerationTable<Frame> {
 /// In which frame and size a grain is written.
 struct FrameOptions {
   Frame frame = Frame::Input;
-  /// What lengths are multiplied with; > 0.
+  /// Factor of all lengths; > 0.
   double scale = 1.0;
   /// Equivalent diameter that the grain is brought to; 0: as it is scaled.
   double size = 0.0;
@@ -75,7 +75,7 @@ SimulationFrame simulation_frame(const ShapeDescriptors& grain, const FrameOptio
 IndexedMesh in_frame(IndexedMesh mesh, const SimulationFrame& frame);
 MassProperties in_frame(const MassProperties& mass, const SimulationFrame& frame);
 
-/// How fine and how large a grid is.
+/// Resolution and extent of a grid.
 struct GridOptions {
   /// Length, >= 0; 0: a fiftieth of the equivalent diameter, or as much more as a grid of 20
   /// million points takes.
@@ -103,7 +103,7 @@ struct EnumerationTable<GridSurface> {
   };
 };
 
-/// How a remesh and files of it are written for a simulation.
+/// Options of a remesh and its files for a simulation.
 struct SimulationOptions {
   FrameOptions frame;
   GridSurface surface = GridSurface::Scan;

@@ -40,7 +40,7 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& descrip
 std::vector<DescriptorComparison> compare_descriptors(const std::vector<DescriptorValue>& reference,
                                                       const std::vector<DescriptorValue>& values);
 
-/// What the columns of two meshes are called, in text and in files.
+/// Names of the columns of two meshes, in text and in files.
 struct ComparisonNames {
   std::string reference = "scan";
   std::string value = "remesh";

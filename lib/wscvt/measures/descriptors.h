@@ -69,7 +69,7 @@ double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescripto
 /// Descriptors measured in lengths of `unit` about `centre`, in plain lengths.
 void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre);
 
-/// What a simulation asks of a rigid body, at unit density: mass is volume times density, moments
+/// Mass properties of a rigid body at unit density: mass is volume times density, moments
 /// are those here times density.
 struct MassProperties {
   double volume = 0.0;                                       ///< length^3
@@ -77,7 +77,7 @@ struct MassProperties {
   Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();  ///< about the centroid; length^5
   Vector3 principal_moments = Vector3::Zero();               ///< ascending; length^5
   /// Unit quaternion q: a point p of the principal frame is centroid + q p in the mesh's. x runs
-  /// along the longest axis, z along the shortest; lib/doc/descriptors.md says how signs are chosen.
+  /// along the longest axis, z along the shortest; lib/doc/descriptors.md has the signs.
   Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
 };
 

@@ -47,7 +47,7 @@ class MeshDistance {
   std::unique_ptr<FaceBoxes> boxes_;
 };
 
-/// Where distances are taken.
+/// Sample points of the distances.
 struct DistanceOptions {
   /// Points spread evenly by area over each of the two surfaces, 1 to 1e8. See measure_distances
   /// for what they decide.

@@ -42,7 +42,7 @@ GrainMeasures measure_grain(NamedMesh grain, std::optional<NamedMesh> reference,
 /// The grain's descriptors against the reference's. There must be one.
 std::vector<DescriptorComparison> compare_descriptors(const GrainMeasures& measures);
 
-/// What a reader should know before reading the numbers, in sentences: parts left out, descriptors
+/// Warnings about the numbers, in sentences: parts left out, descriptors
 /// that do not exist, folds.
 std::vector<std::string> remarks(const GrainMeasures& measures);
 

@@ -25,14 +25,14 @@ struct Histogram {
   std::vector<std::size_t> counts;
 };
 
-/// How even a triangle mesh is.
+/// Quality of the triangles of a mesh.
 struct MeshQuality {
   Statistics edge_length;            ///< over the edges, each once; length
   double edge_variation = 0.0;       ///< standard deviation / mean of the edge length (ECV)
   Statistics edge_ratio;             ///< longest / shortest edge over the triangles; >= 1
   double smallest_angle = 0.0;       ///< degrees
   double mean_smallest_angle = 0.0;  ///< mean over the triangles of each one's smallest, degrees
-  double valence_six_share = 0.0;    ///< share of the vertices with six neighbours, 0 to 1
+  double valence_six_share = 0.0;    ///< fraction of the vertices with six neighbours, 0 to 1
 };
 
 /// Measures a closed, consistently oriented mesh without edges of no length (what check_mesh

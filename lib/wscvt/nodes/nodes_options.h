@@ -11,7 +11,7 @@ namespace wscvt {
 
 // How many nodes there are: by the error of their mesh.
 
-/// By what a remesh's error is told; each in % of the scan's own.
+/// Error measure of a remesh; each in % of the scan's value.
 enum class ErrorMeasure {
   Volume,      ///< of the volume
   Area,        ///< of the area
@@ -58,7 +58,7 @@ struct NodeCountTrial {
   double error = 0.0;  ///< >= 0, any unit
 };
 
-/// What a search found.
+/// Report of a search.
 struct NodeCountSearch {
   bool met = false;  ///< the target was reached within the limits
   int node_count =

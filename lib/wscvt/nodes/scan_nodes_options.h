@@ -5,7 +5,7 @@
 
 namespace wscvt {
 
-/// How large the cell of a node on the scan is to be.
+/// Weighting: the wanted size of the cell of a node on the scan.
 enum class CellWeighting {
   Area,           ///< WSCVT-D: equal areas of the surface
   Curvature,      ///< WSCVT-C: smaller cells where the surface bends
@@ -17,7 +17,7 @@ inline constexpr double least_edge_ratio = 1.08;
 inline constexpr double most_edge_ratio = 1.7;
 inline constexpr double default_edge_ratio = 1.105;
 
-/// How nodes are placed on a scan.
+/// Options of the nodes on a scan.
 struct ScanNodesOptions {
   CellWeighting weighting = CellWeighting::Area;
   double curvature_alpha = 1.0;  ///< alpha of WSCVT-C, -3 to 3
@@ -27,7 +27,7 @@ struct ScanNodesOptions {
   bool fitted = true;  ///< false: nodes stay evened, on the scan, and `edge_ratio` is not read
 };
 
-/// How the placing of nodes went.
+/// Report of the placement of nodes.
 struct ScanNodesReport {
   std::size_t scan_vertices = 0;
   std::size_t split_vertices = 0;  ///< put on long edges of a scan too coarse for its nodes

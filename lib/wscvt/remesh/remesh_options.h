@@ -18,7 +18,7 @@ namespace wscvt {
 
 struct RemeshResult;
 
-/// How the nodes are found. Each method has options of its own.
+/// Method that finds the nodes. Each method has its own options.
 enum class Method {
   OnScan,       ///< cells on the grain's own surface, see OnScanOptions
   AsPublished,  ///< the paper's: cells on the unit sphere, see AsPublishedOptions
@@ -53,7 +53,7 @@ struct EnumerationTable<CellWeighting> {
   };
 };
 
-/// Where the nodes are put relative to the scan.
+/// Placement of the nodes relative to the scan.
 enum class ScanPlacement {
   Fitted,      ///< off it, so that the triangles are nearest to it and enclose exactly its volume
   OnSurface,   ///< on it
@@ -107,7 +107,7 @@ inline constexpr NumberOption<double> edge_ratio_option = {
     "wanted mean of longest / shortest edge: small is even, large is closer to the "
     "scan"};
 
-/// Where the nodes are put along their directions.
+/// Placement of the nodes along their directions.
 enum class PublishedPlacement {
   Series,   ///< on the spherical-harmonic surface: the paper's
   Surface,  ///< on the scan, where the ray from the centroid leaves it
@@ -144,7 +144,7 @@ inline constexpr NumberOption<double> max_overhang_option = {
     "the scan is refused if rays from its centroid meet more surface than this "
     "behind the first"};
 
-/// What is measured beyond descriptors and quality.
+/// Measures beyond descriptors and quality.
 struct MeasureOptions {
   bool distances = false;        ///< fill RemeshResult::distances and vertex_distances
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
@@ -166,7 +166,7 @@ struct RemeshOptions {
   /// that it has are not used. Without it a scan without faces is refused.
   bool points = false;
   EnvelopeOptions envelope;
-  /// Largest share of the scan's area that repairs may change, in %, 0 to 100.
+  /// Max. fraction of the scan's area that repairs may change, in %, 0 to 100.
   double max_repaired_area_percent = MeshCheckOptions().mended_area_limit_percent;
   /// Of the SH series: as published of the surface, on the scan of the coefficients that
   /// `measures.coefficients` asks for.

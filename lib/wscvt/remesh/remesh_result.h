@@ -27,13 +27,13 @@ struct SuggestedSetting {
   double area_difference = 0.0;  ///< area of that remesh / the scan's, less 1
 };
 
-/// How the method OnScan went.
+/// Report of the method OnScan.
 struct OnScanReport {
   HandleReport handles;  ///< lengths and places of the input
   ScanNodesReport nodes;
 };
 
-/// How the method AsPublished went.
+/// Report of the method AsPublished.
 struct AsPublishedReport {
   double overhang_fraction = 0.0;  ///< of the scan, see folded_solid_angle; 0 of a formula
   HarmonicFitReport fit;           ///< of the SH series; empty of a formula

@@ -314,9 +314,10 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
   if (!report.comparison.empty()) {
     page.add_heading("Distances between the samples");
     page.add_paragraph(
-        "K-S: largest difference of the shares below a value (Kolmogorov and Smirnov). "
+        "K-S: largest difference of the fractions below a value (Kolmogorov and Smirnov). "
         "Wasserstein: "
-        "area between the two shares, over the first sample's standard deviation. p: share of "
+        "area between the two fractions, over the first sample's standard deviation. p: fraction "
+        "of "
         "random partings of all grains that are as far apart; below 0.05 the samples differ by "
         "more "
         "than chance.");

@@ -374,7 +374,7 @@ const columnChoices = data.samples[0].columns.map(column => [column.name, headin
 const first = ["sphericity_wadell", "convexity"].find(name => values(data.samples[0], name)) ||
     columnChoices[0][0];
 
-figure("curves", "size", "Share of the sample that is smaller.", sizeCurve);
+figure("curves", "size", "Fraction of the sample that is smaller.", sizeCurve);
 let formWeighting = "number";
 const forms = [];
 data.samples.forEach(sample => {

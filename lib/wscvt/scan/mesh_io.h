@@ -30,7 +30,7 @@ struct MeshFile {
   std::vector<std::string> warnings;  ///< of what is odd about the file, a sentence each
 };
 
-/// The same with what is odd about the file and does no harm, such as bytes behind its end.
+/// A mesh with remarks on its file that do no harm, such as bytes behind its end.
 MeshFile read_mesh_file(const std::string& path, const Execution& execution = Execution(1));
 
 /// Formats are read, written, or both.
@@ -50,7 +50,7 @@ std::string mesh_extensions(MeshUse use);
 /// points are not: they have to be named.
 bool is_mesh_file(const std::string& path);
 
-/// How many digits a binary PLY file keeps of each coordinate.
+/// Number of digits that a binary PLY file keeps of each coordinate.
 enum class PlyCoordinates { Double, Float };
 
 /// The mesh with the coordinates that write_mesh keeps in a file of that name. Throws as

@@ -13,17 +13,17 @@ namespace wscvt {
 
 // How a scan becomes one closed surface, and what was done to it.
 
-/// What of a scan may be mended.
+/// Limits of the repair of a scan.
 struct MeshCheckOptions {
-  /// Points nearer to each other than this share of the diagonal of the mesh's box, in each
+  /// Points nearer to each other than this fraction of the diagonal of the mesh's box, in each
   /// coordinate, are welded; 0 to 0.01, 0: exact copies only. The poles of published asteroids
   /// lie 1e-17 apart; the default is far above what writing and reading numbers does, and far below
   /// the accuracy of any scan.
   double weld_tolerance = 1e-12;
-  /// Largest share of the area that may be mended, in %, 0 to 100: of the faces dropped where more
+  /// Max. repaired fraction of the area, in %, 0 to 100: of the faces dropped where more
   /// than two met in an edge and of those put into holes. Above it the mesh is refused.
   double mended_area_limit_percent = 5.0;
-  /// Largest share in (0, 1) of the total volume that may be dropped with other bodies; above it
+  /// Max. fraction in (0, 1) of the total volume that may be dropped with other bodies; above it
   /// there is no main body and the mesh is refused.
   double dropped_volume_limit = 0.25;
 };
@@ -48,7 +48,7 @@ inline constexpr NumberOption<double> dropped_volume_limit_option = {
     Ends::Neither,
     "above it the scan is refused"};
 
-/// What was found and what was mended. Shares of area are of the area of the mesh kept.
+/// Faults and repairs of a scan. Fractions of area refer to the mesh that was kept.
 struct MeshCheckReport {
   std::size_t input_vertices = 0;
   std::size_t input_faces = 0;
@@ -59,15 +59,15 @@ struct MeshCheckReport {
   std::size_t degenerate_faces = 0;       ///< faces with two equal corners after welding, dropped
   std::size_t sliver_faces = 0;  ///< faces of no area with three corners: kept, else a hole opens
   std::size_t duplicate_faces = 0;     ///< copies of a face kept, dropped
-  double duplicate_area_share = 0.0;   ///< their share of area
+  double duplicate_area_share = 0.0;   ///< their fraction of area
   std::size_t folded_faces = 0;        ///< faces folded flat onto each other, dropped
-  double folded_area_share = 0.0;      ///< their share of area
+  double folded_area_share = 0.0;      ///< their fraction of area
   std::size_t non_manifold_edges = 0;  ///< of the main part, on which more than two faces met
   std::size_t flap_faces = 0;          ///< faces of flaps and inner walls on them, dropped
-  double flap_area_share = 0.0;        ///< their share of area
+  double flap_area_share = 0.0;        ///< their fraction of area
   std::size_t filled_holes = 0;        ///< of the mesh kept
   std::size_t filling_faces = 0;       ///< put into them
-  double filled_area_share = 0.0;      ///< their share of area
+  double filled_area_share = 0.0;      ///< their fraction of area
   std::size_t reoriented_faces = 0;    ///< faces kept that were turned round to face outward
   std::size_t split_vertices = 0;      ///< vertices added where the surface touched itself
   std::size_t components = 0;          ///< parts after the repairs, the one kept included
@@ -108,7 +108,7 @@ inline constexpr NumberOption<double> envelope_option = {
     "the bounding box's diagonal; 0: the scan itself. For scans that are refused for flaws or "
     "pores"};
 
-/// Smallest share that is not 0. The finer the envelope, the longer it takes: of a porous scan of
+/// Smallest opening but 0. The finer the shrink-wrap, the longer it takes: of a porous scan of
 /// 31,000 faces with its remesh 7 s at 5 %, 52 s at 2 %, 165 s at 1 %, on a busy machine.
 inline constexpr double smallest_opening_percent = 1.0;
 
@@ -116,7 +116,7 @@ inline constexpr double smallest_opening_percent = 1.0;
 /// smallest_opening_percent to 50.
 void check_envelope_options(const EnvelopeOptions& options);
 
-/// What is done about handles: tunnels through the grain, and bridges from one place to another.
+/// Treatment of handles: tunnels through the grain, and bridges from one place to another.
 enum class HandleAction {
   Cut,     ///< those with a short loop, which are the scanner's, are cut; others stay
   Keep,    ///< all stay
@@ -137,7 +137,7 @@ struct EnumerationTable<HandleAction> {
   };
 };
 
-/// Which handles are cut.
+/// Options that decide which handles are cut.
 struct HandleOptions {
   HandleAction action = HandleAction::Cut;
   /// Longest loop along which a handle is cut, in equivalent radii; >= 0. Scanner noise makes
@@ -165,7 +165,7 @@ struct CutHandle {
   int edges = 0;                    ///< of the loop
 };
 
-/// Which handles were cut, and which stay.
+/// Handles that were cut, and those that stay.
 struct HandleReport {
   std::vector<CutHandle> cut;  ///< in the order in which they were cut, shortest loops first
   int kept = 0;                ///< handles left: the genus of the mesh remeshed

@@ -10,7 +10,7 @@
 
 namespace wscvt {
 
-/// Which formula a surface has.
+/// Formula of a surface.
 enum class SurfaceKind { Ellipsoid, Superellipsoid, Harmonics };
 
 template <>

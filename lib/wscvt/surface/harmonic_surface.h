@@ -126,13 +126,13 @@ class HarmonicMap : public SphereSurface {
 /// -1 keeps all.
 HarmonicSurface read_complex_harmonics(const std::string& path, int degree = -1);
 
-/// What a file of `write_harmonics` or `write_harmonic_map` holds.
+/// Content of a file of `write_harmonics` or `write_harmonic_map` holds.
 enum class HarmonicKind {
   Radial,  ///< one series, of the radius
   Map,     ///< three, of x, y and z over the map to the sphere
 };
 
-/// Which of the two a file holds; Radial where it has no "kind".
+/// Returns the kind that a file holds; Radial if it has no "kind".
 HarmonicKind read_harmonic_kind(const std::string& path);
 
 /// Reads what `write_harmonics` writes. A file without "kind" is taken for a radial one.

@@ -14,7 +14,7 @@ namespace wscvt {
 
 using Matrix3 = Eigen::Matrix3d;
 
-/// How far derivatives are to be filled in.
+/// Order of the derivatives to compute.
 enum class Derivatives { None, First, Second };
 
 /// Principal curvatures, positive where the surface is convex: maximum >= minimum. Unit 1/length.
@@ -67,11 +67,11 @@ class SphereSurface {
   virtual void evaluate_shapes(const Vector3* directions, std::size_t count,
                                Derivatives derivatives, LocalShape* shapes) const;
 
-  /// As `evaluate_jets`, for a whole array and on the threads of `execution`.
+  /// Like `evaluate_jets`, for a whole array and on the threads of `execution`.
   std::vector<SurfaceJet> surface_jets(const std::vector<Vector3>& directions,
                                        Derivatives derivatives, const Execution& execution) const;
 
-  /// As `evaluate_positions`, for a whole array and on the threads of `execution`.
+  /// Like `evaluate_positions`, for a whole array and on the threads of `execution`.
   std::vector<Vector3> positions(const std::vector<Vector3>& directions,
                                  const Execution& execution) const;
 
@@ -155,11 +155,11 @@ class RadialSurface : public SphereSurface {
   /// Radii only, for `count` unit vectors. The default goes through `evaluate`.
   virtual void evaluate_radii(const Vector3* directions, std::size_t count, double* radii) const;
 
-  /// As `evaluate`, for a whole array and on the threads of `execution`.
+  /// Like `evaluate`, for a whole array and on the threads of `execution`.
   std::vector<RadialJet> jets(const std::vector<Vector3>& directions, Derivatives derivatives,
                               const Execution& execution) const;
 
-  /// As `evaluate_radii`, for a whole array and on the threads of `execution`.
+  /// Like `evaluate_radii`, for a whole array and on the threads of `execution`.
   std::vector<double> radii(const std::vector<Vector3>& directions,
                             const Execution& execution) const;
 

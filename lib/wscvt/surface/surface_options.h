@@ -48,7 +48,7 @@ struct EnumerationTable<DegreeLimit> {
   };
 };
 
-/// How the fit of a series went.
+/// Report of the fit of a series.
 struct HarmonicFitReport {
   int requested_degree = 0;
   int degree = 0;  ///< lowered when the series of the requested one is not positive everywhere
@@ -59,7 +59,7 @@ struct HarmonicFitReport {
   double smallest_radius = 0.0;  ///< of the series on a fine grid, length, > 0
 };
 
-/// How a map to the sphere came out. Distortions are those of the triangles of the mesh whose area
+/// Report of a map to the sphere. Distortions are those of the triangles of the mesh whose area
 /// is not zero.
 struct SphereMapReport {
   std::size_t vertices = 0;

@@ -10,7 +10,7 @@ namespace wscvt {
 
 // How the directions of the nodes are chosen, weighed and relaxed, and how that went.
 
-/// How the directions of the nodes are chosen.
+/// Method that chooses the directions of the nodes.
 enum class Sampling {
   Weighted,     ///< relaxed to a weighted centroidal tessellation: WSCVT
   Fibonacci,    ///< Fibonacci lattice, as it is
@@ -38,7 +38,7 @@ inline constexpr NumberOption<int> node_count_option = {
     4,          1000000,
     Ends::Both, "of the remesh, exactly; with an error target the first number tried"};
 
-/// What a seed weighs, and so how large its cell becomes: w in steradian, for N seeds on a surface
+/// Weight of a seed, which decides the size of its cell: w in steradian, for N seeds on a surface
 /// of area S, at radius r and area per solid angle g = dA/dOmega. The paper is that of remesh.h.
 enum class Weighting {
   Constant,        ///< equal solid angles
@@ -61,7 +61,7 @@ struct EnumerationTable<Weighting> {
   };
 };
 
-/// How cells are weighed.
+/// Options of the weights.
 struct WeightingOptions {
   Weighting kind = Weighting::RadialDistance;
   double curvature_alpha = 1.0;  ///< alpha of eq. 11, -3 to 3
@@ -121,7 +121,7 @@ struct RelaxationLevel {
   RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
 };
 
-/// How a relaxation went.
+/// Report of a relaxation.
 struct RelaxationReport {
   RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
   int iterations = 0;                           ///< with all the seeds
