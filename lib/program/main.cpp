@@ -18,6 +18,7 @@
 
 #include "batch_command.h"
 #include "call_words.h"
+#include "clump_command.h"
 #include "collect_command.h"
 #include "command.h"
 #include "compare_command.h"
@@ -72,6 +73,7 @@ int run(int argc, char** argv) {
       make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
       make_command<program::SplitArguments>(app),   make_command<program::SampleArguments>(app),
       make_command<program::GrowArguments>(app),    make_command<program::TemplatesArguments>(app),
+      make_command<program::ClumpArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is

@@ -8,6 +8,8 @@
 #include "output_paths.h"
 #include "work.h"
 #include "wrong_call.h"
+#include "wscvt/clump/sphere_mesh.h"
+#include "wscvt/exchange/clump_files.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/report/report.h"
 #include "wscvt/scan/mesh_io.h"
@@ -26,7 +28,7 @@ void add_measure_arguments(CLI::App& app, MeasureArguments& arguments) {
 void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference) {
   const CommonArguments& common = arguments.common;
   checked([&] {
-    check_mesh_format(arguments.grain, MeshUse::Read);
+    if (!is_clump_file(arguments.grain)) check_mesh_format(arguments.grain, MeshUse::Read);
     if (reference) check_mesh_format(*reference, MeshUse::Read);
     check_output_paths({{"the grain", arguments.grain}, {"the reference", reference.value_or("")}},
                        named_reports(common.reports), common.overwrite);
@@ -37,6 +39,9 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
   Work work(common);
   std::vector<std::string> warnings;
   const auto read = [&](const std::string& path, double begin, double end) {
+    if (is_clump_file(path)) {
+      return NamedMesh{path, sphere_union_mesh(read_clump(path), work.execution())};
+    }
     MeshFile file = read_mesh_file(path, work.execution().part(begin, end));
     warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
     return NamedMesh{path, std::move(file.mesh)};

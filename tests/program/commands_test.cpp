@@ -201,6 +201,7 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
     test::write_bytes(folder_ / "slices" / (std::to_string(z) + ".tif"), test::tiff(volume, z, 1));
   }
   write_mesh(read_mesh(path("first.ply")), path("scans/c.ply"));
+  std::ofstream(folder_ / "clump.csv") << "x,y,z,r\n0,0,0,1\n0.9,0.3,0.2,0.7\n";
   std::ofstream(folder_ / "supplier.csv") << "grain,feret_min,convexity\na,2,0.9\nb,3,0.8\n";
   for (const std::string& command : commands()) {
     for (const std::string& line : lines_of(run(command + " --help").output)) {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "clump_command.h"
+
+#include <utility>
+
+#include "command.h"
+#include "exit_code.h"
+#include "output_paths.h"
+#include "work.h"
+#include "wrong_call.h"
+#include "wscvt/clump/clump.h"
+#include "wscvt/exchange/clump_files.h"
+#include "wscvt/report/clump_report.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt::program {
+
+namespace {
+
+/// Adds an argument for each option of a clump, under its key.
+struct AddClumpOption {
+  CLI::App& app;
+
+  template <class Number>
+  void operator()(Number& value, const NumberOption<Number>& option) {
+    const bool is_count = option.key == sphere_count_option.key;
+    add_number(app, (is_count ? "-k,--" : "--") + std::string(option.key), value, option);
+  }
+  void operator()(bool& value, const FlagOption& option) {
+    app.add_flag("--" + std::string(option.key), value, help_of(value, option));
+  }
+};
+
+}  // namespace
+
+CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
+  CLI::App& app = add_command(
+      program, {"clump",
+                "Fit overlapping spheres to a grain, for engines that take clumps",
+                {"scan.ply -k 20 -o clump.csv --report clump.html",
+                 "scan.ply --max-error 3 -o clump.multisphere -o clump.chrono.csv --size 0.01",
+                 "scan.ply -k 50 --inside -o clump.py"},
+                "Mass, centre and inertia are the grain's. The report has the errors of taking the "
+                "spheres' own.\nwscvt compare clump.csv scan.ply measures a clump.",
+                true});
+  add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
+      ->required();
+  app.add_option("-o,--output", arguments.outputs,
+                 "Write the clump to this file, by its ending: .csv (x,y,z,r), .multisphere "
+                 "(LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for "
+                 "MercuryDPM), .p3dat (PFC). May be given more than once")
+      ->type_name("FILE")
+      ->required()
+      ->allow_extra_args(false);
+  AddClumpOption add{app};
+  for_each_clump_option(arguments.options, add);
+  for (const std::string_view key : {points_option.key, envelope_option.key,
+                                     mended_area_limit_option.key, most_spheres_option.key}) {
+    app.get_option("--" + std::string(key))->group(finer_settings);
+  }
+  add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.frame.frame)
+      ->group(finer_settings);
+  add_number(app, "--" + std::string(size_option.key), arguments.frame.size, size_option);
+  add_number(app, "--" + std::string(scale_option.key), arguments.frame.scale, scale_option)
+      ->group(finer_settings);
+  add_common_arguments(app, arguments.common);
+  for (const char* name : {"--threads", "--overwrite", "--quiet"}) {
+    app.get_option(name)->group(finer_settings);
+  }
+  return app;
+}
+
+int run(const ClumpArguments& arguments) {
+  const CommonArguments& common = arguments.common;
+  checked([&] {
+    check_clump_options(arguments.options);
+    check_frame_options(arguments.frame);
+    check_mesh_format(arguments.scan, MeshUse::Read);
+    std::vector<NamedFile> outputs = named_reports(common.reports);
+    for (const std::string& output : arguments.outputs) {
+      check_clump_path(output);
+      for (const std::string& file : files_of_clump(output)) {
+        if (file.rfind(output + "/", 0) != 0) outputs.push_back({"the clump", file});
+      }
+    }
+    check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
+    for (const std::string& report : common.reports) check_clump_report(report);
+  });
+  Work work(common);
+  MeshFile file = read_mesh_file(arguments.scan, work.execution().part(0.0, reading_share));
+  ClumpResult clump = make_clump(std::move(file.mesh), arguments.options,
+                                 work.execution().part(reading_share, 1.0));
+  clump.warnings.insert(clump.warnings.begin(), file.warnings.begin(), file.warnings.end());
+  for (const std::string& output : arguments.outputs) {
+    work.write(output, [&](const std::string& path, const Execution&) {
+      write_clump(path, clump, arguments.frame);
+    });
+  }
+  for (const std::string& report : common.reports) {
+    work.write(report, [&](const std::string& path, const Execution& execution) {
+      write_report(path, clump, origin_of(arguments.scan), execution);
+    });
+  }
+  work.print(clump.warnings, clump_lines(clump));
+  return Done;
+}
+
+}  // namespace wscvt::program

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "wscvt/base/option.h"
+#include "wscvt/remesh/remesh_options.h"
+
+namespace wscvt {
+
+/// How a grain is made into a clump: overlapping spheres that move as one body.
+struct ClumpOptions {
+  int sphere_count = 20;  ///< K; not used with an allowed error
+  /// Rms distance from scan to clump that is allowed, in % of the equivalent radius: the clump gets
+  /// as few spheres as meet it, to a tenth of their number. 0: sphere_count spheres.
+  double max_error_percent = 0.0;
+  int most_spheres = 200;  ///< with an allowed error
+  /// Radius of the smallest sphere, in % of the equivalent radius; time steps follow it.
+  double smallest_radius_percent = 0.0;
+  bool inside = false;  ///< no sphere reaches out of the scan
+  /// Nodes of a remesh whose error of first contact is measured beside the clump's; 0: none.
+  int compared_nodes = 0;
+  bool points = false;  ///< as RemeshOptions::points
+  EnvelopeOptions envelope;
+  double max_repaired_area_percent = MeshCheckOptions().mended_area_limit_percent;
+};
+
+inline constexpr NumberOption<int> sphere_count_option = {"spheres",  "number of spheres", 1, 1000,
+                                                          Ends::Both, "of the clump"};
+inline constexpr NumberOption<double> clump_error_option = {
+    "max-error",
+    "allowed error",
+    0.0,
+    100.0,
+    Ends::NotMaximum,
+    "rms distance from scan to clump in % of the equivalent radius, with as few spheres as meet "
+    "it; "
+    "0 takes the number of spheres"};
+inline constexpr NumberOption<int> most_spheres_option = {
+    "max-spheres", "largest number of spheres", 1, 1000, Ends::Both, "with an allowed error"};
+inline constexpr NumberOption<double> smallest_radius_option = {
+    "smallest-radius", "smallest radius of a sphere",  0.0, 100.0,
+    Ends::Both,        "in % of the equivalent radius"};
+inline constexpr FlagOption inside_option = {"inside", "keep every sphere inside",
+                                             "the scan, which it then touches from within"};
+inline constexpr NumberOption<int> compared_nodes_option = {
+    "remesh-nodes",
+    "number of nodes of a remesh",
+    0,
+    100000,
+    Ends::Both,
+    "whose error of first contact the report shows beside the clump's; 0 makes none"};
+
+/// Calls `visitor` for every option, as for_each_option of a remesh does. The scan's own options
+/// (points, shrink-wrap, repairs) have the names that they have there.
+template <class Options, class Visitor>
+void for_each_clump_option(Options& options, Visitor& visitor) {
+  visitor(options.sphere_count, sphere_count_option);
+  visitor(options.max_error_percent, clump_error_option);
+  visitor(options.most_spheres, most_spheres_option);
+  visitor(options.smallest_radius_percent, smallest_radius_option);
+  visitor(options.inside, inside_option);
+  visitor(options.compared_nodes, compared_nodes_option);
+  visitor(options.points, points_option);
+  visitor(options.envelope.opening_percent, envelope_option);
+  visitor(options.max_repaired_area_percent, mended_area_limit_option);
+}
+
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_clump_options(const ClumpOptions& options);
+
+}  // namespace wscvt

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wscvt/clump/clump.h"
+#include "wscvt/exchange/simulation_options.h"
+
+namespace wscvt {
+
+// Files of a clump. The ending of the name says which:
+//   .csv          x,y,z,r with a header, in the frame of the options; read back by read_clump
+//   .multisphere  LIGGGHTS: lines "x y z r"; beside it NAME.in with the fix that takes the file
+//   .py           Yade: a script with the template, and a function that adds a clump
+//   .chrono.csv   Chrono DEM-Engine: x,y,z,r, then mass and moments as comments
+//   .mclump       MercuryDPM: a folder as its tool MClump leaves it
+//   .p3dat        PFC: the command "clump template create"
+// All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
+// is diagonal, and hold the grain's mass properties at unit density.
+
+/// The endings, as above.
+const std::vector<std::string>& clump_endings();
+
+/// Whether a name has one of the endings, in either case.
+bool is_clump_name(const std::string& path);
+
+/// Throws Error(InvalidInput), with the endings, for another one.
+void check_clump_path(const std::string& path);
+
+/// The files that one path makes, itself among them.
+std::vector<std::string> files_of_clump(const std::string& path);
+
+/// Writes the clump. Throws Error: InvalidInput for another ending, InputOutput.
+void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame);
+
+/// Whether a file is a table of spheres: its first line is x,y,z,r. False where it cannot be read.
+bool is_clump_file(const std::string& path);
+
+/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for another
+/// content; InputOutput.
+std::vector<Sphere> read_clump(const std::string& path);
+
+}  // namespace wscvt

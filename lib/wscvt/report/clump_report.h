@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/clump/clump.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+/// The result as lines of plain text for a log.
+std::vector<std::string> clump_lines(const ClumpResult& clump);
+
+/// The same as a JSON document, with the spheres; as report_json. Shares of the equivalent radius
+/// are in %.
+std::string clump_json(const ClumpResult& clump, const ReportOrigin& origin = {});
+
+/// The same as CSV, a header and a row; as report_csv.
+std::string clump_csv(const ClumpResult& clump, const ReportOrigin& origin = {});
+
+/// The same as a page; as report_html. Its pictures show the scan, the clump, and the clump with
+/// its distance to the scan in colour. Throws Error(Cancelled).
+std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
+                       const Execution& execution);
+
+/// As check_remesh_report.
+void check_clump_report(const std::string& path);
+
+/// As write_report of a remesh.
+void write_report(const std::string& path, const ClumpResult& clump, const ReportOrigin& origin,
+                  const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/clump/clump.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "support/distance_bodies.h"
+#include "support/expect_error.h"
+#include "support/test_shapes.h"
+#include "wscvt/clump/sphere_mesh.h"
+#include "wscvt/measures/distances.h"
+
+namespace wscvt {
+namespace {
+
+ClumpResult clump_of(const IndexedMesh& scan, int spheres, int threads = 2) {
+  ClumpOptions options;
+  options.sphere_count = spheres;
+  return make_clump(scan, options, Execution(threads));
+}
+
+/// The spheres, the largest first.
+std::vector<Sphere> by_size(std::vector<Sphere> spheres) {
+  std::sort(spheres.begin(), spheres.end(),
+            [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; });
+  return spheres;
+}
+
+/// The union of spheres as a scanner sees it.
+IndexedMesh scan_of_spheres(const std::vector<Sphere>& spheres) {
+  const auto distance = [spheres](const Vector3& p) {
+    double least = 1e9;
+    for (const Sphere& sphere : spheres) least = std::min(least, sphere.distance(p));
+    return least;
+  };
+  return test::scan_of(distance, 2.3, 0.12);
+}
+
+/// A body without symmetry.
+IndexedMesh bent_body() {
+  return scan_of_spheres({{{0.1, 0.2, 0.0}, 1.0},
+                          {{1.1, 0.3, 0.2}, 0.7},
+                          {{0.2, -0.9, 0.4}, 0.6},
+                          {{0.0, 0.5, -0.9}, 0.5},
+                          {{1.6, 0.8, 0.1}, 0.35}});
+}
+
+double percent(const ClumpResult& clump, double length) {
+  return 100.0 * length / clump.equivalent_radius;
+}
+
+TEST(Clump, OfASphereIsTheSphere) {
+  const IndexedMesh scan = test::moved(test::sphere(4), 2.5, {7.0, -3.0, 11.0});
+  const ClumpResult clump = clump_of(scan, 1);
+  ASSERT_EQ(clump.spheres.size(), 1U);
+  // Of a mesh with vertices on the sphere the faces lie within it, by 0.1 % of the radius here.
+  EXPECT_LT((clump.spheres[0].centre - Vector3(7.0, -3.0, 11.0)).norm(), 1e-3);
+  EXPECT_NEAR(clump.spheres[0].radius, 2.5, 3e-3);
+  EXPECT_LT(percent(clump, clump.largest_distance), 0.3);
+  EXPECT_GT(clump.intersection_over_union, 0.99);
+  EXPECT_NEAR(clump.contact.mean, 0.0, 0.3);
+  EXPECT_LT(clump.contact.scatter, 0.2);
+  EXPECT_TRUE(clump.warnings.empty());
+}
+
+TEST(Clump, FindsTheSpheresThatABodyIsMadeOf) {
+  const std::vector<Sphere> made = {{{0.2, 0.1, 0.0}, 1.0}, {{1.2, 0.4, -0.3}, 0.7}};
+  const std::vector<Sphere> found = by_size(clump_of(scan_of_spheres(made), 2).spheres);
+  ASSERT_EQ(found.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    // The faces lie within the spheres by up to 0.12^2 / 8.
+    EXPECT_LT((found[k].centre - made[k].centre).norm(), 4e-3) << k;
+    EXPECT_NEAR(found[k].radius, made[k].radius, 4e-3) << k;
+  }
+}
+
+TEST(Clump, OfAPlateARodAndARingComesNear) {
+  const auto error_of = [](const IndexedMesh& scan, int spheres) {
+    const ClumpResult clump = clump_of(scan, spheres);
+    EXPECT_EQ(clump.spheres.size(), static_cast<std::size_t>(spheres));
+    EXPECT_NEAR(clump.united.error.volume_percent, 0.0, 8.0);
+    return percent(clump, clump.rms_distance);
+  };
+  EXPECT_LT(error_of(test::scan_of(test::rounded_box({2.0, 1.5, 0.3}, 0.1), 2.2, 0.08), 40), 6.0);
+  EXPECT_LT(error_of(test::scan_of(test::capsule(3.0, 0.4), 3.6, 0.1), 12), 3.0);
+  EXPECT_LT(error_of(test::torus(2.0, 0.5, 60), 16), 4.0);
+}
+
+TEST(Clump, BetterWithMoreSpheres) {
+  const IndexedMesh scan = test::lumpy(4);
+  double before = 1e9;
+  for (const int count : {1, 3, 8, 20}) {
+    const ClumpResult clump = clump_of(scan, count);
+    EXPECT_LT(clump.rms_distance, 0.8 * before) << count;
+    before = clump.rms_distance;
+    EXPECT_EQ(clump.stages.back().spheres, static_cast<std::size_t>(count));
+    EXPECT_DOUBLE_EQ(clump.stages.back().rms_distance, clump.rms_distance);
+  }
+}
+
+TEST(Clump, InsideNoSphereReachesOut) {
+  const IndexedMesh scan = bent_body();
+  ClumpOptions options;
+  options.sphere_count = 9;
+  options.inside = true;
+  const ClumpResult clump = make_clump(scan, options, Execution(2));
+  ASSERT_EQ(clump.spheres.size(), 9U);
+  const MeshDistance surface(scan);
+  for (const Sphere& sphere : clump.spheres) {
+    EXPECT_TRUE(surface.contains(sphere.centre));
+    EXPECT_GE(surface.distance(sphere.centre), sphere.radius);
+    // And it touches.
+    EXPECT_NEAR(surface.distance(sphere.centre), sphere.radius, 1e-6);
+  }
+  EXPECT_LT(clump.united.error.volume_percent, 0.0);
+}
+
+TEST(Clump, SmallestRadiusIsKept) {
+  for (const bool inside : {false, true}) {
+    ClumpOptions options;
+    options.sphere_count = 25;
+    options.smallest_radius_percent = 40.0;
+    options.inside = inside;
+    const ClumpResult clump = make_clump(bent_body(), options, Execution(2));
+    for (const Sphere& sphere : clump.spheres) {
+      EXPECT_GE(sphere.radius, 0.4 * clump.equivalent_radius * (1.0 - 1e-6)) << inside;
+    }
+  }
+  ClumpOptions options;
+  options.smallest_radius_percent = 95.0;
+  options.inside = true;
+  const std::string sentence = test::refusal(
+      ErrorCode::InvalidInput, [&] { make_clump(bent_body(), options, Execution(2)); });
+  EXPECT_NE(sentence.find("--smallest-radius"), std::string::npos) << sentence;
+}
+
+TEST(Clump, AllowedErrorIsMetByFewSpheres) {
+  const IndexedMesh scan = test::lumpy(4);
+  ClumpOptions options;
+  options.max_error_percent = 4.0;
+  options.most_spheres = 60;
+  const ClumpResult clump = make_clump(scan, options, Execution(2));
+  EXPECT_LE(percent(clump, clump.rms_distance), 4.0);
+  EXPECT_LT(clump.spheres.size(), 60U);
+  // A fifth fewer do not meet it.
+  const auto fewer = static_cast<int>(clump.spheres.size() * 4 / 5);
+  const ClumpResult smaller = clump_of(scan, fewer);
+  EXPECT_GT(percent(smaller, smaller.rms_distance), 4.0);
+  options.most_spheres = 3;
+  const ClumpResult short_of = make_clump(scan, options, Execution(2));
+  EXPECT_EQ(short_of.spheres.size(), 3U);
+  ASSERT_EQ(short_of.warnings.size(), 1U);
+  EXPECT_NE(short_of.warnings[0].find("--max-spheres"), std::string::npos);
+}
+
+TEST(Clump, MovesTurnsAndGrowsWithTheScan) {
+  const IndexedMesh scan = bent_body();
+  const ClumpResult clump = clump_of(scan, 6);
+  const Eigen::Matrix3d turn = test::random_rotation(5);
+  const Vector3 shift(30.0, -20.0, 4.0);
+  const IndexedMesh other = test::moved(test::transformed(scan, turn, Vector3::Zero()), 3.0, shift);
+  const ClumpResult moved = clump_of(other, 6);
+  ASSERT_EQ(moved.spheres.size(), clump.spheres.size());
+  for (std::size_t k = 0; k < clump.spheres.size(); ++k) {
+    // Rounding, which the steps of the fit multiply.
+    EXPECT_LT((moved.spheres[k].centre - (3.0 * (turn * clump.spheres[k].centre) + shift)).norm(),
+              1e-5);
+    EXPECT_NEAR(moved.spheres[k].radius, 3.0 * clump.spheres[k].radius, 1e-5);
+  }
+  EXPECT_NEAR(moved.rms_distance, 3.0 * clump.rms_distance, 1e-6);
+  EXPECT_NEAR(moved.contact.mean, clump.contact.mean, 1e-3);
+}
+
+TEST(Clump, IsTheSameOnAnyNumberOfThreads) {
+  const IndexedMesh scan = test::lumpy(3);
+  const ClumpResult one = clump_of(scan, 7, 1);
+  const ClumpResult three = clump_of(scan, 7, 3);
+  ASSERT_EQ(one.spheres.size(), three.spheres.size());
+  for (std::size_t k = 0; k < one.spheres.size(); ++k) {
+    EXPECT_EQ(std::memcmp(&one.spheres[k], &three.spheres[k], sizeof(Sphere)), 0) << k;
+  }
+  EXPECT_EQ(one.contact.mean, three.contact.mean);
+  EXPECT_EQ(one.intersection_over_union, three.intersection_over_union);
+}
+
+TEST(Clump, TellsTheMassOfUnionAndSum) {
+  // The sum counts twice what two spheres share.
+  const ClumpResult clump =
+      clump_of(scan_of_spheres({{{0.0, 0.0, 0.0}, 1.0}, {{0.8, 0.5, 0.1}, 0.8}}), 2);
+  EXPECT_NEAR(clump.united.error.volume_percent, 0.0, 0.3);
+  EXPECT_NEAR(clump.united.error.inertia_percent, 0.0, 0.5);
+  double sum = 0.0;
+  for (const Sphere& sphere : clump.spheres) sum += 4.0 / 3.0 * pi * std::pow(sphere.radius, 3);
+  EXPECT_NEAR(clump.summed.mass.volume, sum, 1e-12);
+  EXPECT_NEAR(clump.summed.error.volume_percent, 100.0 * (sum / clump.original.volume - 1.0), 1e-9);
+  EXPECT_GT(clump.summed.error.volume_percent, 10.0);
+  EXPECT_GT(clump.summed.error.inertia_percent, 1.0);
+}
+
+TEST(Clump, SpheresApartAreTold) {
+  ClumpOptions options;
+  options.sphere_count = 2;
+  options.inside = true;
+  const ClumpResult clump =
+      make_clump(test::scan_of(test::capsule(3.0, 0.4), 3.6, 0.1), options, Execution(2));
+  ASSERT_FALSE(clump.warnings.empty());
+  EXPECT_NE(clump.warnings.back().find("2 groups"), std::string::npos) << clump.warnings.back();
+}
+
+TEST(Clump, RemeshBesideIsNearer) {
+  ClumpOptions options;
+  options.sphere_count = 5;
+  options.compared_nodes = 300;
+  const ClumpResult clump = make_clump(test::lumpy(4), options, Execution(2));
+  ASSERT_TRUE(clump.remesh_contact.has_value());
+  EXPECT_LT(clump.remesh_contact->scatter, 0.3 * clump.contact.scatter);
+}
+
+TEST(Clump, RefusesOptionsOutOfRange) {
+  const auto with = [](auto change) {
+    ClumpOptions options;
+    change(options);
+    return options;
+  };
+  EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.sphere_count = 0; })),
+               InvalidInput);
+  EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.max_error_percent = 100.0; })),
+               InvalidInput);
+  EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.most_spheres = 1001; })),
+               InvalidInput);
+  EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.smallest_radius_percent = -1.0; })),
+               InvalidInput);
+  EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.compared_nodes = 2; })),
+               InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt
