@@ -156,7 +156,7 @@ def test_values_of_version_2_and_of_the_other_method_are_refused(scan, given, pa
 def keywords_of_the_stub(function):
     stub = pathlib.Path(wscvt.__file__).with_name("__init__.pyi").read_text()
     node = next(n for n in ast.parse(stub).body if getattr(n, "name", "") == function)
-    return {a.arg: ast.unparse(a.annotation) for a in node.args.kwonlyargs}
+    return {a.arg: ast.unparse(a.annotation) for a in node.args.args + node.args.kwonlyargs}
 
 
 @pytest.mark.parametrize("function", ["remesh", "create"])

@@ -32,6 +32,7 @@ def check(scan: pathlib.Path) -> None:
     result: wscvt.Remesh = wscvt.remesh(ours, faces, nodes=500, edge_ratio=1.2, weighting="wscvt-d",
                                         progress=progress, keep_scan=False)
     wscvt.remesh("scan.ply", 500)
+    wscvt.remesh(vertices, faces, 500)
     wscvt.remesh(scan, nodes=500)
     wscvt.remesh(TrimeshLike(), 500)
     wscvt.remesh(PyVistaLike(), 500)
