@@ -36,15 +36,11 @@ py::object describe(const Points& vertices, const py::object& faces, const py::o
 }  // namespace
 
 void bind_measures(py::module_& module) {
-  module.def(
-      "describe", &describe, py::arg("vertices"), py::arg("faces"),
-      py::arg("reference") = py::none(), py::kw_only(),
-      py::arg("roundness_ball") = DetailedOptions().roundness_ball,
-      py::arg("roughness_cutoff") = DetailedOptions().roughness_cutoff, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
-      "Size, form, roundness, roughness and orientation of a closed mesh, as the dictionary "
-      "of a JSON report; with reference=(vertices, faces) errors and distances against that. "
-      "Arrays as for remesh; lengths in the unit of the mesh.");
+  module.def("describe", &describe, py::arg("vertices"), py::arg("faces"),
+             py::arg("reference") = py::none(), py::kw_only(),
+             py::arg("roundness_ball") = DetailedOptions().roundness_ball,
+             py::arg("roughness_cutoff") = DetailedOptions().roughness_cutoff,
+             py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

@@ -60,27 +60,16 @@ Remesh create(const std::string& kind, const std::array<double, 3>& semi_axes,
 
 }  // namespace
 
+// wscvt/__init__.py has the words for what these take and give.
 void bind_remesh(py::module_& module) {
-  module.def(
-      "remesh", &remesh, py::arg("vertices"), py::arg("faces"), py::kw_only(),
-      py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("source") = "",
-      py::arg("keep_scan") = true,
-      "Remeshes a dense scan to exactly N nodes. vertices: (n, 3) float64, any unit of length; "
-      "faces: (m, 3) whole numbers counted from 0, or None for points with points=True. A path, or "
-      "a "
-      "mesh of trimesh or PyVista, takes the place of both: remesh('scan.ply', 500). "
-      "Options by name: see options(). threads: 0 takes all; they change no result. "
-      "progress(fraction, stage) is called in between; False, or an exception, cancels. "
-      "source: what the report names as the scan. Raises Error, and TypeError for options "
-      "that there are not.");
-  module.def(
-      "create", &create, py::arg("surface"), py::kw_only(),
-      py::arg("semi_axes") = std::array<double, 3>{1.0, 1.0, 1.0}, py::arg("polar_exponent") = 1.0,
-      py::arg("azimuthal_exponent") = 1.0, py::arg("coefficients_file") = "",
-      py::arg("coefficient_degree") = -1, py::arg("threads") = 0, py::arg("progress") = py::none(),
-      "A mesh of N nodes of a surface that is known exactly: ellipsoid, superellipsoid, or "
-      "harmonics from coefficients_file (.dat, .sh or .json). semi_axes: three lengths. Nodes lie "
-      "on the surface unless placement says otherwise. The rest as remesh.");
+  module.def("remesh", &remesh, py::arg("vertices"), py::arg("faces"), py::kw_only(),
+             py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("source") = "",
+             py::arg("keep_scan") = true);
+  module.def("create", &create, py::arg("surface"), py::kw_only(),
+             py::arg("semi_axes") = std::array<double, 3>{1.0, 1.0, 1.0},
+             py::arg("polar_exponent") = 1.0, py::arg("azimuthal_exponent") = 1.0,
+             py::arg("coefficients_file") = "", py::arg("coefficient_degree") = -1,
+             py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

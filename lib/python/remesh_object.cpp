@@ -151,7 +151,8 @@ std::string repr_of(const Remesh& one) {
   if (!percent.is_none()) {
     text += "rms distance " + py::str("{:.2g} %").format(percent).cast<std::string>() + " of R, ";
   }
-  return text + std::to_string(one.result.warnings.size()) + " warnings>";
+  const std::size_t count = one.result.warnings.size();
+  return text + std::to_string(count) + (count == 1 ? " warning>" : " warnings>");
 }
 
 void add_arrays(RemeshClass& type) {

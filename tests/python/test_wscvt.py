@@ -539,7 +539,7 @@ def test_results_pickle(scan):
 def test_a_repr_says_what_it_is(scan):
     text = repr(wscvt.remesh(*scan, nodes=60, source="sand"))
     assert text.startswith("<wscvt.Remesh of 60 nodes and 116 faces, of 'sand', rms distance ")
-    assert text.endswith(" % of R, 1 warnings>")
+    assert text.endswith(" % of R, 1 warning>")
     assert "of ''" not in repr(wscvt.remesh(*scan, nodes=60))
 
 
