@@ -15,6 +15,7 @@ void bind_measures(pybind11::module_& module);
 void bind_distances(pybind11::module_& module);
 void bind_extract(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
+void bind_sample(pybind11::module_& module);
 
 }  // namespace wscvt::python
 

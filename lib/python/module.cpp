@@ -17,4 +17,5 @@ PYBIND11_MODULE(_wscvt, module) {
   wscvt::python::bind_distances(module);
   wscvt::python::bind_extract(module);
   wscvt::python::bind_files(module);
+  wscvt::python::bind_sample(module);
 }

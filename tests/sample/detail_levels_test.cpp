@@ -13,7 +13,7 @@
 namespace wscvt {
 namespace {
 
-/// Eleven grains whose descriptors are off by 0, 1, ..., 10 times 50 / N %.
+/// Eleven grains whose descriptors are off by 0, 1, ..., 10 times 50 / N + 0.05 %.
 GrainTable table_with(double nodes) {
   GrainTable table;
   table.columns = {{"nodes", ""}, {"rms_distance", "length"}};
@@ -24,7 +24,7 @@ GrainTable table_with(double nodes) {
   table.values.setConstant(11, static_cast<Eigen::Index>(table.columns.size()), 4.0);
   for (Eigen::Index k = 0; k < 11; ++k) {
     table.grains.push_back(std::to_string(k));
-    const double off = static_cast<double>(k) * 0.5 / nodes;
+    const double off = static_cast<double>(k) * (0.5 / nodes + 0.0005);
     table.values(k, 0) = nodes;
     table.values(k, 1) = 2.0 * off;  // of the radius 2
     for (std::size_t c = 2 + rows.size(); c < table.columns.size(); ++c) {
@@ -47,11 +47,12 @@ TEST(DetailLevels, TellMedianAnd90PercentAndTheNodesNeeded) {
     ASSERT_EQ(row.levels.size(), 3U);
     EXPECT_EQ(row.levels[0].count, 11U);
     // Of 11 grains the middle of the sixth is the median; 0.9 is 0.4 behind that of the tenth.
-    EXPECT_NEAR(row.levels[0].median, 5.0 * 0.5, 1e-9);
-    EXPECT_NEAR(row.levels[0].percent_90, 9.4 * 0.5, 1e-9);
-    EXPECT_NEAR(row.levels[2].percent_90, 9.4 * 0.05, 1e-9);
-    // The error is 470 / N, a straight line on logarithmic axes.
-    EXPECT_EQ(row.nodes_needed, std::ceil(470.0 / 1.5));
+    EXPECT_NEAR(row.levels[0].median, 5.0 * 0.55, 1e-9);
+    EXPECT_NEAR(row.levels[0].percent_90, 9.4 * 0.55, 1e-9);
+    EXPECT_NEAR(row.levels[2].percent_90, 9.4 * 0.1, 1e-9);
+    // Between 300 and 1000, at 9.4 times 0.21667 and 0.1, on logarithmic axes.
+    const double slope = std::log(1.0 / 0.3) / std::log(0.65 / 3.0 / 0.1);
+    EXPECT_EQ(row.nodes_needed, std::ceil(300.0 * std::pow(9.4 * 0.65 / 3.0 / 1.5, slope)));
   }
   EXPECT_EQ(measure_levels({table_with(100.0)}, 50.0).rows[3].nodes_needed, 100.0);
   EXPECT_TRUE(std::isnan(measure_levels({table_with(100.0)}, 0.1).rows[3].nodes_needed));

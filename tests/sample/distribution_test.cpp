@@ -58,7 +58,7 @@ TEST(WeightedQuantiles, AreThoseOfTheDistribution) {
   const std::vector<double> shares = {0.0, 0.1, 0.25, 0.5, 0.9, 1.0};
   const Distribution all(vector_of(values), vector_of(weights));
   std::vector<double> quantiles(shares.size());
-  weighted_quantiles(values, weights, shares, quantiles.data());
+  weighted_quantiles(values, weights, 10.5, shares, quantiles.data());
   for (std::size_t k = 0; k < shares.size(); ++k) {
     EXPECT_NEAR(quantiles[k], all.quantile(shares[k]), 1e-14) << shares[k];
   }

@@ -12,7 +12,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/sample/distribution.h"
-#include "wscvt/sample/random_numbers.h"
+#include "wscvt/sample/random_stream.h"
 #include "wscvt/sample/sample_comparison.h"
 
 namespace wscvt {
@@ -22,9 +22,9 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers in [0, 1).
 Eigen::VectorXd uniform(Eigen::Index count, std::uint64_t seed) {
-  RandomNumbers random(seed, 1000);
+  RandomStream random(seed, 1000);
   Eigen::VectorXd values(count);
-  for (double& value : values) value = std::ldexp(static_cast<double>(random.next() >> 11), -53);
+  for (double& value : values) value = random.uniform();
   return values;
 }
 

@@ -18,11 +18,13 @@ import os
 import pathlib
 import threading
 
+import numpy
+
 from . import _wscvt
 from ._wscvt import Error, Remesh, __version__, options
 
 __all__ = ["Error", "Remesh", "batch", "create", "describe", "distance_grid", "extract", "options",
-           "read_mesh", "remesh", "signed_distances", "write_mesh"]
+           "read_mesh", "read_table", "remesh", "sample", "signed_distances", "write_mesh"]
 
 
 def _arrays(mesh, faces=None):
@@ -209,6 +211,81 @@ def distance_grid(vertices, faces=None, spacing=0.0, **options):
     is at origin + spacing * (i, j, k). Raises Error, also for more than 20 million points.
     """
     return _wscvt.distance_grid(*_arrays(vertices, faces), spacing, **options)
+
+
+def _table_parts(table):
+    """The grains, files, columns, numbers and failures of what a caller calls a table."""
+    if isinstance(table, (str, os.PathLike)):
+        return _wscvt.read_table(_table_file(table))
+    if hasattr(table, "to_records"):  # pandas
+        table = table.to_records(index=False)
+    if hasattr(table, "dtype"):
+        names = table.dtype.names or ()
+    else:
+        names = list(table)
+    columns = {name: numpy.asarray(table[name]) for name in names}
+    texts = {name: [str(text) for text in columns.pop(name)]
+             for name in list(columns) if columns[name].dtype.kind not in "biuf"}
+    if not columns:
+        raise TypeError("The table has no columns of numbers. Give a structured array, a DataFrame, a "
+                        "dictionary of arrays, or a path.")
+    matrix = numpy.column_stack([column.astype(float) for column in columns.values()])
+    grains = texts.get("grain") or [str(row) for row in range(len(matrix))]
+    # Units stand in the headings of files; arrays have names only.
+    return grains, texts.get("file", []), [(name, "") for name in columns], matrix, 0
+
+
+def _table_file(path):
+    path = pathlib.Path(path)
+    return path / "shape.csv" if path.is_dir() else path
+
+
+def read_table(path):
+    """Reads a table of grains, such as shape.csv of "wscvt batch", as a structured array.
+
+    path: a .csv file, or the folder of a batch.
+
+    The fields are "grain", "file" if the table has it, and the columns of numbers under their names
+    without units, as float64; NaN where a number is missing. pandas.DataFrame(table) makes a
+    DataFrame. Grains that failed are left out. Raises Error with the line that is wrong.
+    """
+    grains, files, columns, values, _ = _wscvt.read_table(_table_file(path))
+    fields = {"grain": numpy.array(grains)}
+    if files:
+        fields["file"] = numpy.array(files)
+    fields.update((name, values[:, k]) for k, (name, _) in enumerate(columns))
+    table = numpy.empty(len(grains), [(name, column.dtype) for name, column in fields.items()])
+    for name, column in fields.items():
+        table[name] = column
+    return table
+
+
+def sample(table, other=None, *, report=(), **options):
+    """Statistics of a sample by number and by mass, or of two that are compared; a dictionary.
+
+    sizes = wscvt.sample("out", density=2650.0)["samples"][0]["size"]["by_mass"]
+
+    table: the folder of a batch, a .csv file, a structured array (read_table), a DataFrame of pandas
+        or a dictionary of arrays, with columns named as in shape.csv.
+    other: a second sample to compare with.
+    report: a path or several that end in .html, .json or .csv, which are written.
+    size: "sieve", "equivalent-diameter", "feret-max" or "feret-min".
+    of: "scan" or "remesh".
+    density: mass / volume; 1 by default.
+    seed, repetitions: of the 95 % intervals and of p; 1 and 1000 by default.
+    threads, progress: as for remesh. Threads change no result.
+
+    The dictionary is the JSON report of "wscvt sample". Raises Error, and TypeError for what is no
+    table.
+    """
+    tables = []
+    for number, one in enumerate([table] if other is None else [table, other]):
+        is_path = isinstance(one, (str, os.PathLike))
+        folder = str(_table_file(one).parent) if is_path else ""
+        name = pathlib.Path(one).name if is_path else f"sample {number + 1}"
+        tables.append((name, folder, _table_parts(one)))
+    reports = [report] if isinstance(report, (str, os.PathLike)) else report
+    return _wscvt.sample(tables, [str(path) for path in reports], **options)
 
 
 def read_mesh(path):

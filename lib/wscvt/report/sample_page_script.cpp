@@ -78,10 +78,9 @@ function path(points, colour, more) {
   return `<polyline points="${points.map(p => at(p[0]) + "," + at(p[1])).join(" ")}" ` +
       `fill="none" stroke="${colour}" stroke-width="1.8" ${more || ""}/>`;
 }
-function names(drawnSamples, extra) {
-  const all = drawnSamples.map((sample, k) => [sample.name, colours[k]]);
-  return all.map(([name, colour], k) => text(left + 8, top_ + 14 + 15 * k, name,
-      `fill="${colour}"`)).join("") + (extra || "");
+function names(drawnSamples) {
+  return drawnSamples.map((sample, k) => text(left + 8, top_ + 14 + 15 * k, sample.name,
+      `fill="${colours[k]}"`)).join("");
 }
 )JS"
                                        R"JS(
@@ -104,7 +103,7 @@ function ticks(low, high, logarithmic) {
   for (let v = Math.ceil(low / step) * step; v <= high + step * 1e-9; v += step) list.push(v);
   return list;
 }
-function axes(x, y) {
+function axes(x, y) {  // of each: low, high, label; log; at: the places of the numbers
   const map = (axis, from, to) => {
     const f = axis.log ? Math.log10 : v => v;
     const a = f(axis.low), b = f(axis.high);
@@ -112,7 +111,7 @@ function axes(x, y) {
   };
   const px = map(x, left, width - right), py = map(y, height - bottom, top_);
   let body = "";
-  for (const v of ticks(x.low, x.high, x.log)) {
+  for (const v of x.at || ticks(x.low, x.high, x.log)) {
     body += line(px(v), top_, px(v), height - bottom, "#ddd");
     body += text(px(v), height - bottom + 16, shown(v), 'text-anchor="middle"');
   }
@@ -169,9 +168,7 @@ function sizeCurve() {
       for (const p of points) rows.push([sample.name, weighting, p[0], p[1]]);
     }
   });
-  body += names(data.samples, text(width - right - 6, height - bottom - 8,
-      "line: by mass; dashed: by number", 'text-anchor="end" fill="#444"'));
-  return {svg: svgOf(body), rows: rows};
+  return {svg: svgOf(body + names(data.samples)), rows: rows};
 }
 )JS"
                                        R"JS(
@@ -335,7 +332,8 @@ function errors(name) {
   const all = row.median.concat(row.percent_90).filter(v => found(v) && v > 0);
   const [least, most] = all.length ? range([all.concat([levels.mark])]) : [0.1, 10];
   const first = levels.nodes[0], last = levels.nodes[levels.nodes.length - 1];
-  const a = axes({low: first * 0.9, high: last * 1.1, log: true, label: "number of nodes N"},
+  const a = axes({low: first * 0.9, high: last * 1.1, log: true, at: levels.nodes,
+                  label: "number of nodes N"},
                  {low: least * 0.8, high: most * 1.25, log: true, label: "error, %"});
   const curve = list => levels.nodes.map((n, k) => [n, list[k]])
       .filter(p => found(p[1]) && p[1] > 0).map(p => [a.px(p[0]), a.py(p[1])]);
@@ -345,8 +343,6 @@ function errors(name) {
   for (const p of curve(row.percent_90).concat(curve(row.median))) {
     body += `<circle cx="${at(p[0])}" cy="${at(p[1])}" r="3" fill="${colours[0]}"/>`;
   }
-  body += text(left + 8, height - bottom - 8, name + ": line: 90 % of the grains; dashed: median",
-               'fill="#444"');
   const rows = [["nodes", "median_percent", "percent_90"]];
   levels.nodes.forEach((n, k) => rows.push([n, row.median[k], row.percent_90[k]]));
   return {svg: svgOf(body), rows: rows};
@@ -374,7 +370,8 @@ const columnChoices = data.samples[0].columns.map(column => [column.name, headin
 const first = ["sphericity_wadell", "convexity"].find(name => values(data.samples[0], name)) ||
     columnChoices[0][0];
 
-figure("curves", "size", "Fraction of the sample that is smaller.", sizeCurve);
+figure("curves", "size", "Fraction of the sample that is smaller. Line: by mass. Dashed: by number.",
+       sizeCurve);
 let formWeighting = "number";
 const forms = [];
 data.samples.forEach(sample => {
@@ -408,7 +405,8 @@ choice("distributions-choice", "Weight of a grain", weightings, shownWeighting, 
 });
 if (data.levels) {
   let shownLevel = "rms_distance";
-  const redraw = figure("levels", "levels", "Error of the remeshes.", () => errors(shownLevel));
+  const caption = "Line: 90 % of the grains have a smaller error. Dashed: median. Red: mark.";
+  const redraw = figure("levels", "levels", caption, () => errors(shownLevel));
   choice("levels-choice", "Error of", data.levels.rows.map(row => [row.name, row.name]), shownLevel,
          value => {
            shownLevel = value;

@@ -18,6 +18,7 @@
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
 #include "wscvt/report/report.h"
+#include "wscvt/sample/distribution.h"
 
 namespace wscvt {
 
@@ -46,10 +47,10 @@ constexpr Source sources[] = {
     {"area_error", "error of the area", "%", "descriptors.area.error_percent", nullptr},
     {"sphericity_error", "error of the sphericity", "%",
      "descriptors.sphericity_wadell.error_percent", nullptr},
-    {"rms_distance", "rms distance (% of equivalent radius)", "%",
+    {"rms_distance", "rms distance / equivalent radius", "%",
      "rms_distance.percent_of_equivalent_radius", nullptr},
-    {"edge_ratio", "mean longest / shortest edge of a triangle", "",
-     "quality.remesh.edge_ratio.mean", nullptr},
+    {"edge_ratio", "mean of longest / shortest edge", "", "quality.remesh.edge_ratio.mean",
+     nullptr},
     {"smallest_angle", "smallest angle", "degrees", "quality.remesh.smallest_angle_degrees",
      nullptr},
 };
@@ -85,20 +86,14 @@ double number_of(const std::string& field) {
   return value;
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
+Distribution distribution_of(const std::vector<double>& values) {
+  return Distribution(
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
 }
 
-/// Of the population that the values are a sample of, so it divides by one less than their number;
-/// not a number for a single value.
+double mean_of(const std::vector<double>& values) { return distribution_of(values).mean(); }
 double deviation_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1))
-                           : std::numeric_limits<double>::quiet_NaN();
+  return distribution_of(values).deviation();
 }
 
 double first_of(const std::vector<double>& values) { return quantile(values, 0.0); }
@@ -272,9 +267,17 @@ std::string summary_html(const SampleSummary& summary) {
 
 std::vector<std::string> summary_lines(const SampleSummary& summary) {
   std::vector<std::string> lines = {count_line(summary)};
-  const auto table = table_of(summary);
-  if (table.size() == 1) return lines;
-  for (std::string& line : aligned_lines(table)) lines.push_back(std::move(line));
+  // What fits 80 characters; the files have the rest.
+  std::vector<std::vector<std::string>> rows = {{"of the grains", "mean", "10 %", "50 %", "90 %"}};
+  for (const SampleDistribution& one : summary.distributions) {
+    if (one.values.empty()) continue;
+    rows.push_back({with_unit(one), format_number(mean_of(one.values), 3)});
+    for (const double share : {0.1, 0.5, 0.9}) {
+      rows.back().push_back(format_number(quantile(one.values, share), 3));
+    }
+  }
+  if (rows.size() == 1) return lines;
+  for (std::string& line : aligned_lines(rows)) lines.push_back(std::move(line));
   return lines;
 }
 

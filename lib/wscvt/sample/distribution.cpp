@@ -73,8 +73,7 @@ double Distribution::share_below(double value) const {
 }
 
 void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
-                        const std::vector<double>& shares, double* quantiles) {
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+                        double total, const std::vector<double>& shares, double* quantiles) {
   double below = 0.0;
   double last_middle = 0.0;
   double last_value = no_number;

@@ -48,8 +48,9 @@ class Distribution {
 };
 
 /// Several quantiles of sorted values with weights, zeros among them, as Distribution::quantile has
-/// them; `shares` ascend. For repetitions, which change the weights only.
+/// them; `shares` ascend, `total` is the sum of the weights. For repetitions, which change the
+/// weights only.
 void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
-                        const std::vector<double>& shares, double* quantiles);
+                        double total, const std::vector<double>& shares, double* quantiles);
 
 }  // namespace wscvt

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "wscvt/sample/random_numbers.h"
+#include "wscvt/sample/random_stream.h"
 
 namespace wscvt {
 
@@ -89,7 +89,7 @@ SampleDistance tested_distance(const Distribution& one, const Distribution& othe
   std::vector<std::pair<bool, bool>> farther(partings);
   execution.parallel_for(partings, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      RandomNumbers random(options.seed, k);
+      RandomStream random(options.seed, k);
       std::vector<std::uint32_t> places = identity(n);
       for (std::size_t last = n; last > 1; --last) {
         std::swap(places[last - 1], places[random.below(last)]);

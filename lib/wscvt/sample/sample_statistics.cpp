@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "wscvt/sample/distribution.h"
-#include "wscvt/sample/random_numbers.h"
+#include "wscvt/sample/random_stream.h"
 
 namespace wscvt {
 
@@ -33,59 +33,50 @@ const std::vector<double> size_shares = {0.1, 0.3, 0.5, 0.6, 0.9};
 class Repeated {
  public:
   Repeated(const Eigen::VectorXd& values, const Eigen::VectorXd& weights, bool is_size)
-      : distribution_(values, weights), is_size_(is_size) {}
+      : distribution_(values, weights), middle_(distribution_.mean()), is_size_(is_size) {}
 
   std::size_t numbers() const { return is_size_ ? size_numbers : column_numbers; }
 
-  /// The statistics of the sample itself.
-  std::vector<double> own() const {
-    std::vector<double> weights = distribution_.weights();
-    std::vector<double> result(numbers());
-    measure(weights, result.data());
-    if (!is_size_) result[1] = distribution_.deviation();
-    return result;
-  }
-
-  /// Those of a draw, in which the grains come `times`.
-  void drawn(const std::vector<std::uint16_t>& times, std::vector<double>& weights,
-             double* result) const {
-    const std::size_t n = distribution_.size();
-    weights.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      weights[k] = times[distribution_.grains()[k]] * distribution_.weights()[k];
-    }
-    measure(weights, result);
-    if (is_size_) return;
-    // A grain that was drawn twice is two grains.
+  /// The statistics of a draw in which the grains come `times`. `weights` is room to work in.
+  void measure(const std::vector<std::uint16_t>& times, std::vector<double>& weights,
+               double* result) const {
+    const std::vector<double>& values = distribution_.values();
+    const std::vector<double>& own = distribution_.weights();
+    const std::vector<std::uint32_t>& grains = distribution_.grains();
+    weights.resize(values.size());
+    // In one pass, about the mean of the sample, where no digits are lost. A grain that was drawn
+    // twice is two grains.
     double total = 0.0;
     double squares = 0.0;
-    double sum = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double difference = distribution_.values()[k] - result[0];
-      total += weights[k];
-      squares += weights[k] * distribution_.weights()[k];
-      sum += weights[k] * difference * difference;
+    double first = 0.0;
+    double second = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double weight = times[grains[k]] * own[k];
+      const double difference = values[k] - middle_;
+      weights[k] = weight;
+      total += weight;
+      squares += weight * own[k];
+      first += weight * difference;
+      second += weight * difference * difference;
     }
-    result[1] = std::sqrt(sum / (total - squares / total));
+    if (!(total > 0.0)) {
+      // No grain of the draw has a value.
+      std::fill(result, result + numbers(), no_number);
+    } else if (is_size_) {
+      weighted_quantiles(values, weights, total, size_shares, result);
+      result[5] = result[3] / result[0];
+      result[6] = result[1] * result[1] / (result[0] * result[3]);
+    } else {
+      result[0] = middle_ + first / total;
+      const double spread = std::max(0.0, second - first * first / total);
+      result[1] = std::sqrt(spread / (total - squares / total));
+      weighted_quantiles(values, weights, total, column_shares, result + 2);
+    }
   }
 
  private:
-  void measure(const std::vector<double>& weights, double* result) const {
-    const std::vector<double>& values = distribution_.values();
-    if (is_size_) {
-      weighted_quantiles(values, weights, size_shares, result);
-      result[5] = result[3] / result[0];
-      result[6] = result[1] * result[1] / (result[0] * result[3]);
-      return;
-    }
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    result[0] = std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) / total;
-    weighted_quantiles(values, weights, column_shares, result + 2);
-    // No draw has a value: none of these numbers exists.
-    if (!(total > 0.0)) std::fill(result, result + column_numbers, no_number);
-  }
-
   Distribution distribution_;
+  double middle_;
   bool is_size_;
 };
 
@@ -117,21 +108,25 @@ std::vector<Estimate> bootstrap(const std::vector<Repeated>& all, std::size_t gr
                            std::vector<std::uint16_t> times;
                            std::vector<double> weights;
                            for (std::size_t k = begin; k < end; ++k) {
-                             RandomNumbers random(seed, k);
+                             RandomStream random(seed, k);
                              times.assign(grains, 0);
                              for (std::size_t draw = 0; draw < grains; ++draw)
                                ++times[random.below(grains)];
                              double* result = &drawn[k * width];
                              for (const Repeated& one : all) {
-                               one.drawn(times, weights, result);
+                               one.measure(times, weights, result);
                                result += one.numbers();
                              }
                            }
                          });
   std::vector<Estimate> estimates;
   std::vector<double> repeated;
+  const std::vector<std::uint16_t> once(grains, 1);
+  std::vector<double> weights;
   for (const Repeated& one : all) {
-    for (const double value : one.own()) {
+    std::vector<double> own(one.numbers());
+    one.measure(once, weights, own.data());
+    for (const double value : own) {
       repeated.clear();
       for (std::size_t k = estimates.size(); k < drawn.size(); k += width) {
         repeated.push_back(drawn[k]);

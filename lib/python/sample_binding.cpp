@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tables of grains and the statistics of samples. The package makes NumPy's structured arrays of
+// the parts that are given here.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "work.h"
+#include "wscvt/base/error.h"
+#include "wscvt/report/sample_report.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// Grains, files, columns as pairs of name and unit, a matrix with a row per grain, and the number
+/// of grains that failed.
+using TableParts =
+    std::tuple<std::vector<std::string>, std::vector<std::string>,
+               std::vector<std::pair<std::string, std::string>>, Eigen::MatrixXd, std::size_t>;
+
+/// A name, the folder of the grains' files and the table.
+using NamedTable = std::tuple<std::string, std::string, TableParts>;
+
+TableParts read_table(const std::filesystem::path& path) {
+  GrainTable table = read_grain_table(path.string());
+  std::vector<std::pair<std::string, std::string>> columns;
+  for (GrainColumn& column : table.columns) {
+    columns.emplace_back(std::move(column.name), std::move(column.unit));
+  }
+  return {std::move(table.grains), std::move(table.files), std::move(columns),
+          std::move(table.values), table.failed};
+}
+
+GrainTable table_of(TableParts parts) {
+  GrainTable table;
+  table.grains = std::move(std::get<0>(parts));
+  table.files = std::move(std::get<1>(parts));
+  for (auto& [name, unit] : std::get<2>(parts)) {
+    table.columns.push_back({std::move(name), std::move(unit)});
+  }
+  table.values = std::move(std::get<3>(parts));
+  table.failed = std::get<4>(parts);
+  return table;
+}
+
+py::object sample(std::vector<NamedTable> tables, const std::vector<std::string>& reports,
+                  const std::string& size, const std::string& of, double density,
+                  std::uint64_t seed, int repetitions, int threads, const py::object& progress) {
+  SampleReport report;
+  report.options.size = from_key<SizeMeasure>(size);
+  report.options.of = from_key<SampledMesh>(of);
+  report.options.density = density;
+  report.options.seed = seed;
+  report.options.repetitions = repetitions;
+  const std::string json = work_on(threads, progress, [&](const Execution& execution) {
+    for (auto& [name, folder, parts] : tables) {
+      ReportedSample one;
+      one.name = std::move(name);
+      one.folder = std::move(folder);
+      one.sample = sample_of(table_of(std::move(parts)), report.options);
+      one.statistics = measure_sample(one.sample, report.options, execution);
+      report.samples.push_back(std::move(one));
+    }
+    if (report.samples.size() > 1) {
+      report.comparison = compare_samples(report.samples[0].sample, report.samples[1].sample,
+                                          report.options, execution);
+    }
+    for (const std::string& path : reports) write_sample_report(path, report, execution);
+    return sample_json(report);
+  });
+  return parsed(json);
+}
+
+}  // namespace
+
+void bind_sample(py::module_& module) {
+  const SampleOptions defaults;
+  module.def("read_table", &read_table, py::arg("path"));
+  module.def("sample", &sample, py::arg("tables"), py::arg("reports"), py::kw_only(),
+             py::arg("size") = key_of(defaults.size), py::arg("of") = key_of(defaults.of),
+             py::arg("density") = defaults.density, py::arg("seed") = defaults.seed,
+             py::arg("repetitions") = defaults.repetitions, py::arg("threads") = 0,
+             py::arg("progress") = py::none());
+}
+
+}  // namespace wscvt::python
