@@ -172,17 +172,17 @@ void write_tables(const TemplatesArguments& arguments, const DescribedSample& sa
 
 CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments) {
   CLI::App& app = add_command(
-      program,
-      {"templates",
-       "Choose K grains with weights that stand for a sample",
-       {"scans -k 20 -n 500 -o out", "shape.csv -k 50 -o out --format stl",
-        "scans -k 10 -o out --descriptors sphericity_wadell,convexity,roundness_wadell"},
-       "OUT gets a mesh per template, of the volume of a sphere of diameter 1, about its centroid; "
-       "templates.csv\n(weights and sizes); sizes.csv (the size curve); distances.csv; and a "
-       "script "
-       "for Yade.",
-       false,
-       true});
+      program, {"templates",
+                "Choose K grains with weights that stand for a sample",
+                {"scans -k 20 -n 500 -o out", "shape.csv -k 50 -o out --format stl",
+                 "scans -k 10 -o out --descriptors sphericity_wadell,convexity,roundness_wadell"},
+                "OUT gets a mesh per template, of the volume of a sphere of diameter 1, about its "
+                "centroid;\n"
+                "templates.csv (weights and sizes); sizes.csv (the size curve); distances.csv; and "
+                "a script\n"
+                "for Yade.",
+                false,
+                true});
   app.add_option("sample", arguments.inputs,
                  "Grains: closed meshes or SH coefficients (.dat, .sh, .json); files, folders, "
                  "patterns in quotes, or @FILE with one of these per line; or one table of shapes "
