@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -159,6 +160,11 @@ TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
     found = true;
   }
   EXPECT_TRUE(found);
+  // An error of nothing but rounding is no number.
+  const std::vector<std::string> lines = summary_lines(summary);
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.rfind("error of the volume", 0) == 0 && line.find("exact") != std::string::npos;
+  }));
 }
 
 TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {

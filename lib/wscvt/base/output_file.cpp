@@ -130,7 +130,7 @@ void write_through(const std::string& path, const Target& target,
                                            : ::open(target.path.c_str(), O_WRONLY | O_NOCTTY);
   bool good = made && content && descriptor >= 0 && write_all(descriptor, content.str());
   if (descriptor >= 0) good = ::close(descriptor) == 0 && good;
-  if (!good) fail(path, "did not take what was to be written to it; check what reads it.");
+  if (!good) fail(path, "cannot be written. The program that reads it may have stopped.");
 }
 
 /// Gives the new file what the old one had; false when that is not allowed.

@@ -62,10 +62,8 @@ void check_nodes_path(const std::string& path, const SimulationOptions& options)
   const std::string ending = ending_of(path);
   if (ending == ".csv" || ending == ".vtp") return;
   if (ending != ".shp") {
-    throw Error(ErrorCode::InvalidInput,
-                "\"" + path +
-                    "\" is to hold the nodes, but its ending says no form of them; give a name "
-                    "that ends in .csv, .vtp or .shp (Rockable).");
+    throw Error(ErrorCode::InvalidInput, "Unknown format of a node table: \"" + path +
+                                             "\". Use .csv, .vtp or .shp (Rockable).");
   }
   if (options.frame.frame != Frame::Principal) {
     throw Error(ErrorCode::InvalidInput,
@@ -78,10 +76,8 @@ void check_nodes_path(const std::string& path, const SimulationOptions& options)
 void check_grid_path(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".npy" || ending == ".vti" || ending == ".json") return;
-  throw Error(ErrorCode::InvalidInput,
-              "\"" + path +
-                  "\" is to hold signed distances, but its ending says no form of them; give a "
-                  "name that ends in .npy, .vti or .json (NetDEM).");
+  throw Error(ErrorCode::InvalidInput, "Unknown format of signed distances: \"" + path +
+                                           "\". Use .npy, .vti or .json (NetDEM).");
 }
 
 std::string grid_description_path(const std::string& path) {

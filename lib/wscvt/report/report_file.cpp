@@ -38,9 +38,7 @@ ReportFormat report_format(const std::string& path) {
   const auto found = std::find(endings.begin(), endings.end(), ending_of(path));
   if (found == endings.end()) {
     throw Error(ErrorCode::InvalidInput,
-                "\"" + path +
-                    "\" is to hold a report, but its ending says no kind of it; give a name that "
-                    "ends in .html, .json or .csv.");
+                "Unknown report format: \"" + path + "\". Use .html, .json or .csv.");
   }
   return static_cast<ReportFormat>(found - endings.begin());
 }

@@ -103,16 +103,22 @@ std::string with_unit(const SampleDistribution& one) {
   return one.unit.empty() ? one.label : one.label + ", " + one.unit;
 }
 
+/// A number of a row. An error that is nothing but rounding is exact.
+std::string shown(const SampleDistribution& one, double value, int digits) {
+  const bool is_rounding = one.unit == "%" && std::abs(value) < 1e-9;
+  return is_rounding ? "exact" : format_number(value, digits);
+}
+
 std::vector<std::vector<std::string>> table_of(const SampleSummary& summary) {
-  std::vector<std::vector<std::string>> rows = {{"of the grains", "mean", "std. dev. (n - 1)",
-                                                 "smallest", "10 %", "50 %", "90 %", "largest"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"Quantity", "mean", "std. dev. (n - 1)", "smallest", "10 %", "50 %", "90 %", "largest"}};
   for (const SampleDistribution& one : summary.distributions) {
     if (one.values.empty()) continue;
-    rows.push_back(
-        {with_unit(one), format_number(mean_of(one.values), 4),
-         format_number(deviation_of(one.values), 4), format_number(first_of(one.values), 4),
-         format_number(quantile(one.values, 0.1), 4), format_number(quantile(one.values, 0.5), 4),
-         format_number(quantile(one.values, 0.9), 4), format_number(last_of(one.values), 4)});
+    rows.push_back({with_unit(one), shown(one, mean_of(one.values), 4),
+                    shown(one, deviation_of(one.values), 4), shown(one, first_of(one.values), 4),
+                    shown(one, quantile(one.values, 0.1), 4),
+                    shown(one, quantile(one.values, 0.5), 4),
+                    shown(one, quantile(one.values, 0.9), 4), shown(one, last_of(one.values), 4)});
   }
   return rows;
 }
@@ -268,12 +274,12 @@ std::string summary_html(const SampleSummary& summary) {
 std::vector<std::string> summary_lines(const SampleSummary& summary) {
   std::vector<std::string> lines = {count_line(summary)};
   // What fits 80 characters; the files have the rest.
-  std::vector<std::vector<std::string>> rows = {{"of the grains", "mean", "10 %", "50 %", "90 %"}};
+  std::vector<std::vector<std::string>> rows = {{"Quantity", "mean", "10 %", "50 %", "90 %"}};
   for (const SampleDistribution& one : summary.distributions) {
     if (one.values.empty()) continue;
-    rows.push_back({with_unit(one), format_number(mean_of(one.values), 3)});
+    rows.push_back({with_unit(one), shown(one, mean_of(one.values), 3)});
     for (const double share : {0.1, 0.5, 0.9}) {
-      rows.back().push_back(format_number(quantile(one.values, share), 3));
+      rows.back().push_back(shown(one, quantile(one.values, share), 3));
     }
   }
   if (rows.size() == 1) return lines;
