@@ -687,6 +687,9 @@ TEST(Filter, LogEndsByTheNumberOfWarningsThatThePanelDoesNotHold) {
   EXPECT_FALSE(last({}).warning);
   EXPECT_EQ(last({"Short."}).text, "Short.");
   EXPECT_EQ(last({"One.", "Two."}).text, "Two.");
+  const std::vector<filter::LogLine> two = filter::as_log({"One.", "Two."}, {"a line"});
+  ASSERT_EQ(two.size(), 4U);
+  for (std::size_t k = 0; k < two.size(); ++k) EXPECT_EQ(two[k].warning, k >= 2) << k;
   const std::string sentence = "Ten words of text fill a row of this panel. ";
   EXPECT_EQ(last({sentence + sentence + sentence}).text, sentence + sentence + sentence);
   const filter::LogLine end = last({sentence + sentence, sentence + sentence});
