@@ -179,6 +179,7 @@ TEST(DescriptorTable, LinesNameTheColumns) {
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_NE(lines[0].find("scan"), std::string::npos);
   EXPECT_NE(lines[0].find("mesh"), std::string::npos);
+  EXPECT_EQ(lines[1].rfind("  volume, length^3 ", 0), 0U) << "the unit";
   EXPECT_NE(lines[1].find("+100.000"), std::string::npos);
   EXPECT_EQ(lines[2].back(), '-');
   EXPECT_EQ(table_lines({{"one", "first", "", 1.5}}).back(), "  first       1.5");

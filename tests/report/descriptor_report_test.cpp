@@ -76,7 +76,8 @@ TEST(DescriptorReport, TextHasARowForEveryDescriptorAndDistance) {
     const std::string label = cutoff == std::string::npos
                                   ? row.label
                                   : row.label.substr(0, cutoff) + " (each at its cut-off)";
-    EXPECT_NE(text.find("  " + label + " "), std::string::npos) << label;
+    const std::string unit = row.unit.empty() ? "" : ", " + row.unit;
+    EXPECT_NE(text.find("  " + label + unit + " "), std::string::npos) << label;
   }
   for (const DistanceRow& row : list_distances(pair)) {
     EXPECT_NE(text.find("  " + row.label + " "), std::string::npos) << row.label;

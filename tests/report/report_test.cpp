@@ -299,9 +299,10 @@ TEST(Report, TablesHoldDistancesAndQualityOfBoth) {
   EXPECT_EQ(cells_of(result, "edge ratio of the triangles, deviation"), (Cells{"0.25", "0.375"}));
   EXPECT_EQ(cells_of(result, "edge ratio of the triangles, largest"), (Cells{"5.5", "6.5"}));
   EXPECT_EQ(cells_of(result, "smallest angle, degrees"), (Cells{"8", "9"}));
-  EXPECT_EQ(cells_of(result, "smallest angle of the triangles, mean"), (Cells{"30", "31"}));
-  EXPECT_EQ(cells_of(result, "edge length, mean"), (Cells{"1.5", "3"}));
-  EXPECT_EQ(cells_of(result, "edge length, deviation"), (Cells{"0.5", "0.75"}));
+  EXPECT_EQ(cells_of(result, "smallest angle of the triangles, mean, degrees"),
+            (Cells{"30", "31"}));
+  EXPECT_EQ(cells_of(result, "edge length, mean, length"), (Cells{"1.5", "3"}));
+  EXPECT_EQ(cells_of(result, "edge length, deviation, length"), (Cells{"0.5", "0.75"}));
   EXPECT_EQ(cells_of(result, "vertices with six neighbours, %"), (Cells{"50", "87.5"}));
 }
 

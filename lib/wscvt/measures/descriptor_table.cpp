@@ -150,10 +150,18 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
   return rows;
 }
 
+namespace {
+
+std::string label_cell(const std::string& label, const std::string& unit) {
+  return "  " + label + (unit.empty() ? "" : ", " + unit);
+}
+
+}  // namespace
+
 std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values) {
   std::vector<std::vector<std::string>> cells = {{"Descriptor", "value"}};
   for (const DescriptorValue& row : values) {
-    cells.push_back({"  " + row.label, format_number(row.value)});
+    cells.push_back({label_cell(row.label, row.unit), format_number(row.value)});
   }
   return aligned_lines(cells);
 }
@@ -163,8 +171,8 @@ std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& ro
   std::vector<std::vector<std::string>> cells = {
       {"Descriptor", names.reference, names.value, "error %"}};
   for (const DescriptorComparison& row : rows) {
-    cells.push_back({"  " + row.label, format_number(row.reference), format_number(row.value),
-                     format_error(row.error_percent)});
+    cells.push_back({label_cell(row.label, row.unit), format_number(row.reference),
+                     format_number(row.value), format_error(row.error_percent)});
   }
   return aligned_lines(cells);
 }

@@ -18,10 +18,12 @@ std::string listed(std::initializer_list<double> numbers) {
 }  // namespace
 
 std::vector<std::vector<std::string>> mass_rows(const std::vector<NamedMass>& bodies) {
-  std::vector<std::vector<std::string>> rows = {
-      {"Mass at unit density"},          {"  centroid x, y, z"},
-      {"  inertia about it xx, yy, zz"}, {"  inertia about it xy, xz, yz"},
-      {"  principal moments"},           {"  principal axes, quaternion w, x, y, z"}};
+  std::vector<std::vector<std::string>> rows = {{"Mass at unit density"},
+                                                {"  centroid x, y, z, length"},
+                                                {"  inertia about it xx, yy, zz, length^5"},
+                                                {"  inertia about it xy, xz, yz, length^5"},
+                                                {"  principal moments, length^5"},
+                                                {"  principal axes, quaternion w, x, y, z"}};
   for (const NamedMass& body : bodies) {
     const MassProperties& mass = body.mass;
     const Eigen::Matrix3d& tensor = mass.inertia_tensor;

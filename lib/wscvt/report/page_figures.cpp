@@ -136,7 +136,7 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
           "beyond the ends of the scale.",
       colour_scale(usual)));
   figures.distributions.push_back(
-      {histogram_figure("signed distance to " + reference->name, "surface",
+      {histogram_figure("signed distance to " + reference->name + ", length", "surface",
                         {{shown.name, shown_colour, histogram_of(distances, 1.5 * usual)}}),
        "How far " + shown.name + " lies outside (positive) and inside of " + reference->name +
            ", by area. Values beyond the ends are counted in the end bins."});

@@ -77,7 +77,8 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
     return;
   }
   lines.push_back(line("Scan", counted(input.input_vertices, "vertex", "vertices") + ", " +
-                                   counted(input.input_faces, "face", "faces")));
+                                   counted(input.input_faces, "face", "faces") +
+                                   "; lengths are in its unit"));
   const std::vector<std::string> done = repairs(input);
   lines.push_back(line("Repairs", done.empty() ? "none needed" : joined(done)));
   lines.push_back(line("Repaired", counted(input.vertices, "vertex", "vertices") + ", " +
@@ -231,7 +232,7 @@ void append_distances(const RemeshResult& result, std::vector<std::string>& line
   const OneSidedDistance& to = result.distances->to_reference;
   const OneSidedDistance& from = result.distances->from_reference;
   const std::vector<std::vector<std::string>> rows = {
-      {"Distance", "from remesh", "from scan", "two-sided", "% of equivalent radius"},
+      {"Distance, length", "from remesh", "from scan", "two-sided", "% of equivalent radius"},
       row("  largest sampled", to.maximum, from.maximum, result.distances->largest),
       row("  root mean square", to.root_mean_square, from.root_mean_square,
           result.distances->root_mean_square),
@@ -248,8 +249,8 @@ void append_quality(const RemeshResult& result, std::vector<std::string>& lines)
   };
   const std::vector<std::vector<std::string>> rows = {
       {"Quality", "scan", "remesh"},
-      row("  edge length, mean", a.edge_length.mean, b.edge_length.mean),
-      row("  edge length, deviation", a.edge_length.standard_deviation,
+      row("  edge length, mean, length", a.edge_length.mean, b.edge_length.mean),
+      row("  edge length, deviation, length", a.edge_length.standard_deviation,
           b.edge_length.standard_deviation),
       row("  edge length, CV (deviation / mean)", a.edge_variation, b.edge_variation),
       row("  edge ratio of the triangles, mean", a.edge_ratio.mean, b.edge_ratio.mean),
@@ -257,7 +258,8 @@ void append_quality(const RemeshResult& result, std::vector<std::string>& lines)
           b.edge_ratio.standard_deviation),
       row("  edge ratio of the triangles, largest", a.edge_ratio.maximum, b.edge_ratio.maximum),
       row("  smallest angle, degrees", a.smallest_angle, b.smallest_angle),
-      row("  smallest angle of the triangles, mean", a.mean_smallest_angle, b.mean_smallest_angle),
+      row("  smallest angle of the triangles, mean, degrees", a.mean_smallest_angle,
+          b.mean_smallest_angle),
       row("  vertices with six neighbours, %", 100.0 * a.valence_six_share,
           100.0 * b.valence_six_share),
   };
