@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the Debian packages of what is built, installs them, uses program, library, module
+# Makes the Debian packages of what is built, looks at them by lintian, installs them, uses program, library, module
 # and plugin from where they are then, and removes them: nothing may be left. As root or with sudo.
 #   tests/packages.sh BUILD_FOLDER WORK_FOLDER
 set -eu
@@ -30,6 +30,8 @@ for name in wscvt libwscvt-dev python3-wscvt wscvt-meshlab-plugin; do
   echo "$names" | grep -qw "$name" || fail "There is no package $name among$names."
 done
 
+lintian --allow-root --fail-on error,warning made/*.deb > lintian.txt 2>&1 || fail "$(cat lintian.txt)"
+
 remove() {
   # shellcheck disable=SC2086
   $as_root env DEBIAN_FRONTEND=noninteractive dpkg --purge $names > removed.txt 2>&1 || true
@@ -47,10 +49,17 @@ wscvt "$root/meshes/sand_7228.ply" "$work/remesh.ply" -q -n 200
 grep -aq "element vertex 200" "$work/remesh.ply"
 bash -c '. /usr/share/bash-completion/completions/wscvt && complete -p wscvt' > /dev/null
 for command in $(wscvt --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
-  [ -e "/usr/share/man/man1/wscvt-$command.1" ] || fail "There is no manual page of $command."
+  [ -e "/usr/share/man/man1/wscvt-$command.1.gz" ] || fail "There is no manual page of $command."
+done
+for name in $names; do
+  [ -e "/usr/share/doc/$name/copyright" ] && [ -e "/usr/share/doc/$name/changelog.gz" ] ||
+    fail "The documents of $name are not there."
+done
+for file in wscvt/README.md python3-wscvt/README.md wscvt-meshlab-plugin/examples/wscvt_d.mlx; do
+  [ -e "/usr/share/doc/$file" ] || fail "There is no /usr/share/doc/$file."
 done
 # The library, by a project that knows nothing of this folder.
-cmake -S "$root/tests/consumer" -B "$work/consumer" > "$work/consumer.txt"
+cmake -S "$root/tests/consumer" -B "$work/consumer" -D "examples_dir=$root/lib/examples" > "$work/consumer.txt"
 cmake --build "$work/consumer" >> "$work/consumer.txt"
 grep -q "wscvt_DIR:PATH=/usr/lib" "$work/consumer/CMakeCache.txt" ||
   fail "The consumer was not built on the installed library."

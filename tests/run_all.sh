@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [debian12] [debian13] [sid]
 # Without arguments: install, release and hosts. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -83,6 +83,7 @@ for step in "$@"; do
       tests/engines/run.sh build/release/lib/wscvt build/engines ;;
     package)
       # After release. A step of its own, because it installs and removes packages of the system.
+      tests/install_packages.sh lintian
       tests/packages.sh build/release build/packages ;;
     pip)
       # After release, whose program the module is held against. A step of its own, because pip builds
@@ -105,6 +106,10 @@ for step in "$@"; do
       # After blender; as root.
       tests/install_packages.sh debootstrap
       tests/blender_debian13.sh build/blender/wscvt-*-blender.zip build/blender13 ;;
+    release-files)
+      # After hosts; as root, for debootstrap.
+      tests/install_packages.sh debootstrap patchelf binutils xz-utils xvfb
+      tests/release_files.sh build/release build/release-files build/release-test ;;
     slurm)
       # After release; as root.
       tests/install_packages.sh slurm-wlm parallel

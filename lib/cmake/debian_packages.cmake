@@ -3,7 +3,10 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME wscvt)
 set(CPACK_PACKAGE_VENDOR wscvt)
-set(CPACK_PACKAGE_CONTACT "The maintainers of wscvt <maintainers@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(WSCVT_MAINTAINER "The wscvt authors <wscvt@example.org>" CACHE STRING
+  "Who answers for the Debian packages, with an address")
+set(CPACK_PACKAGE_CONTACT ${WSCVT_MAINTAINER})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
@@ -11,10 +14,27 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENTS_ALL development)
+# Scripts and plugins need no bit that lets others write.
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ
+  GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+# What Debian's policy wants of each package, and the texts that its users read.
+include(GNUInstallDirs)
+set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
+file(MAKE_DIRECTORY ${documents})
+file(READ packages/debian/changelog changelog)
+string(CONFIGURE "${changelog}" changelog @ONLY)
+file(WRITE ${documents}/changelog "${changelog}")
+execute_process(COMMAND gzip -9nf ${documents}/changelog COMMAND_ERROR_IS_FATAL ANY)
+function(wscvt_install_documents component package)
+  install(FILES packages/debian/copyright ${documents}/changelog.gz ${ARGN}
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
+endfunction()
+wscvt_install_documents(development libwscvt-dev)
 
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Remeshing of scanned grains: library
- A static library that remeshes dense scans of grains to an exact number of nodes, with its headers
- and what find_package(wscvt) needs.")
+A static library that remeshes dense scans of grains to an exact number of
+nodes, with its headers and what find_package(wscvt) needs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwscvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
@@ -23,30 +43,38 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 if(WSCVT_BUILD_PROGRAM)
   list(APPEND CPACK_COMPONENTS_ALL program)
   set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Remeshing of scanned grains: program
- Remeshes dense scans of grains to an exact number of nodes, one or a whole sample, and measures their
- shape.")
+wscvt remeshes dense scans of grains to an exact number of nodes, one or a
+whole sample, and measures their shape.")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wscvt)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+  wscvt_install_documents(program wscvt README.md CHANGELOG.md)
+  install(FILES lib/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wscvt/lib COMPONENT program)
 endif()
 
 if(WSCVT_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Remeshing of scanned grains: Python module
- Remeshes dense scans of grains, as NumPy arrays, to an exact number of nodes, and measures their
- shape.")
+wscvt remeshes dense scans of grains, as NumPy arrays, to an exact number of
+nodes, and measures their shape.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wscvt)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  wscvt_install_documents(python python3-wscvt lib/python/README.md)
   # The module is for one version of Python.
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "python3-numpy, python${PYTHON_VERSION_MAJOR}.${PYTHON_VERSION_MINOR}")
+    "python3, python3-numpy, python${PYTHON_VERSION_MAJOR}.${PYTHON_VERSION_MINOR}")
 endif()
 
 if(TARGET filter_wscvt)
   list(APPEND CPACK_COMPONENTS_ALL meshlab_plugin)
   set(CPACK_COMPONENT_MESHLAB_PLUGIN_DESCRIPTION "Remeshing of scanned grains: plugin for MeshLab
- Filters that remesh dense scans of grains to an exact number of nodes and measure their shape.")
+Filters that remesh dense scans of grains to an exact number of nodes and
+measure their shape.")
   set(CPACK_DEBIAN_MESHLAB_PLUGIN_PACKAGE_NAME wscvt-meshlab-plugin)
   set(CPACK_DEBIAN_MESHLAB_PLUGIN_PACKAGE_SECTION science)
+  wscvt_install_documents(meshlab_plugin wscvt-meshlab-plugin filter_wscvt/README.md)
+  file(GLOB scripts filter_wscvt/*.mlx)
+  install(FILES ${scripts} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wscvt-meshlab-plugin/examples
+    COMPONENT meshlab_plugin)
   # It loads into the version it was built for, and into no other.
   set(CPACK_DEBIAN_MESHLAB_PLUGIN_PACKAGE_DEPENDS
     "meshlab (>= ${wscvt_meshlab_version}), meshlab (<< ${wscvt_meshlab_version}.)")
