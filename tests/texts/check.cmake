@@ -27,7 +27,7 @@ foreach(text ${texts})
   string(REPLACE "](" "link:(" linked "${content}")
   string(REGEX MATCHALL "link:\\([^)#]+\\)" links "${linked}")
   string(REGEX MATCHALL
-    "(^|[` \n])(\\.\\./)*(lib|tests|filter_wscvt|meshes)/[A-Za-z0-9_./-]*[A-Za-z0-9_/]" names "${content}")
+    "(^|[` \n])(\\.\\./)*(lib|tests|filter_wscvt|meshes|packages)/[A-Za-z0-9_./-]*[A-Za-z0-9_/]" names "${content}")
   foreach(name ${links} ${names})
     string(REGEX REPLACE "^link:\\(|\\)$|^[` \n]" "" path "${name}")
     if(path MATCHES "^https?:")
