@@ -120,6 +120,11 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   return place == std::string::npos ? text : text.erase(place);
 }
 
+std::string HelpFormatter::make_option_usage(const CLI::Option* option) const {
+  const std::string name = option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
+  return option->get_required() ? name : "[" + name + "]";
+}
+
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
   return wrapped_paragraphs(option->get_description(), extent_ == Extent::Brief);
 }

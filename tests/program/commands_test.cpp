@@ -116,6 +116,7 @@ TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
       return line.rfind("  wscvt " + command, 0) == 0;
     });
     EXPECT_GE(examples, 2);
+    EXPECT_EQ(help.output.find("x)\n"), std::string::npos) << "a word of the parser";
   }
 }
 
@@ -154,7 +155,7 @@ TEST_F(Commands, AnOutputIsTheLastWordOrNamed) {
   EXPECT_TRUE(exists("bodies/1.ply"));
   // Whatever makes something takes -o; the others have only reports.
   for (const std::string& command : commands()) {
-    const bool measures = command == "describe" || command == "compare";
+    const bool measures = command == "describe" || command == "compare" || command == "sample";
     EXPECT_EQ(run(command + " --help").output.find("-o,--output") == std::string::npos, measures)
         << command;
   }
