@@ -173,8 +173,14 @@ TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
   volume.fill_ball(1, {22, 10, 10}, 5.0);
   test::write_bytes(folder_ / "pieces.nrrd", test::nrrd(volume, "spacings: 1 1 1\n"));
   EXPECT_EQ(run("extract pieces.nrrd grains -q").exit_code, 3);
-  for (const std::string& command : commands()) {
-    const bool may_be_three = command == "batch" || command == "collect" || command == "extract";
+  for (const auto& [command, may_be_three] :
+       std::vector<std::pair<std::string, bool>>{{"batch", true},
+                                                 {"collect", true},
+                                                 {"extract", true},
+                                                 {"remesh", false},
+                                                 {"describe", false},
+                                                 {"compare", false},
+                                                 {"create", false}}) {
     EXPECT_EQ(run(command + " --help").output.find(", 3 done, but some") != std::string::npos,
               may_be_three)
         << command;
@@ -390,8 +396,7 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
         std::make_pair(std::string("map.json"), volume_of_hook)}) {
     const Json report = report_of("create harmonics grain.ply -n 150 --coefficients " + file);
     EXPECT_EQ(read_mesh(path("grain.ply")).points.size(), 150U);
-    EXPECT_NEAR(report.at("descriptors").at("volume").at("scan").get<double>() / volume, 1.0,
-                0.05);
+    EXPECT_NEAR(report.at("descriptors").at("volume").at("scan").get<double>() / volume, 1.0, 0.05);
     EXPECT_EQ(report.at("source"), file.substr(0, file.find('.')));
   }
   {
