@@ -20,6 +20,7 @@
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/exchange/template_files.h"
 #include "wscvt/sample/given_sizes.h"
 #include "wscvt/sample/grain_grower.h"
 #include "wscvt/sample/grown_mesh.h"
@@ -206,16 +207,15 @@ void check_arguments(const GrowArguments& arguments) {
 
 CLI::App& add_command(CLI::App& program, GrowArguments& arguments) {
   CLI::App& app = add_command(
-      program,
-      {"grow",
-       "Make virtual grains with the statistics of a sample",
-       {"scans -n 10000 -o grown", "coefficients -n 500 -o grown --nodes 300 --format stl",
-        "scans -n 2000 -o grown --sizes sieve.csv --donors 2"},
-       "OUT gets a mesh per grain and grown.csv. The same sample, options and version give "
-       "the same\nbytes on any number of threads. Each grain stands in its principal frame "
-       "about the origin.",
-       false,
-       true});
+      program, {"grow",
+                "Make virtual grains with the statistics of a sample",
+                {"scans -n 10000 -o grown", "coefficients -n 500 -o grown --nodes 300 --format stl",
+                 "scans -n 2000 -o grown --sizes sieve.csv --donors 2"},
+                "OUT gets a mesh per grain, grown.csv and a script for Yade. The same sample, "
+                "options and\nversion give the same bytes on any number of threads. Each grain "
+                "stands in its principal\nframe about the origin.",
+                false,
+                true});
   app.add_option(
          "sample", arguments.inputs,
          "Real grains: closed meshes or SH coefficients (.dat, .sh, .json); files, folders, "
@@ -280,6 +280,9 @@ int run(const GrowArguments& arguments) {
   all.take = [&](std::size_t, const GrainRow& row) { rows += row.record; };
   if (run_grains(all).was_cancelled) return 128 + noted_signal();
   write_file(table, rows);
+  if (!arguments.coefficients && arguments.format == "ply") {
+    write_file((fs::path(arguments.folder) / "yade_packing.py").string(), yade_packing_script());
+  }
   print(summary_lines(growing, shapes.left_out, execution), arguments.quiet);
   return shapes.left_out == 0 ? Done : SomeFailed;
 }

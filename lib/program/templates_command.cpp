@@ -19,6 +19,7 @@
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/clump/clump_fit.h"
 #include "wscvt/exchange/template_files.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/remesh.h"
@@ -34,6 +35,8 @@ namespace fs = std::filesystem;
 constexpr NumberOption<int> template_nodes_option = {"nodes", "number of nodes", 12,
                                                      1000000, Ends::Both,        "of each mesh"};
 
+constexpr int spheres_of_template = 12;  ///< of a template's clump
+
 std::string name_of(const TemplatesArguments& arguments, std::size_t k) {
   const std::size_t digits =
       std::max<std::size_t>(2, std::to_string(arguments.options.count).size());
@@ -45,12 +48,22 @@ std::string in_folder(const TemplatesArguments& arguments, const std::string& fi
   return (fs::path(arguments.folder) / file).string();
 }
 
-/// At the size of diameter 1, about its centroid.
+/// At the size of radius 1, about its centroid in its principal frame.
 IndexedMesh unit_mesh(IndexedMesh mesh, const Execution& execution) {
   const ShapeDescriptors shape = describe_shape(mesh, execution);
-  const double diameter = std::cbrt(6.0 / pi * shape.volume);
-  for (Vector3& point : mesh.points) point = (point - shape.centroid) / diameter;
+  const double radius = std::cbrt(3.0 / (4.0 * pi) * shape.volume);
+  const Eigen::Matrix3d turn = shape.principal_axes.toRotationMatrix().transpose();
+  for (Vector3& point : mesh.points) point = turn * (point - shape.centroid) / radius;
   return mesh;
+}
+
+/// A clump for the template, at the size of diameter 1.
+std::vector<Sphere> clump_of(const IndexedMesh& unit, const Execution& execution) {
+  ClumpOptions options;
+  options.sphere_count = spheres_of_template;
+  std::vector<Sphere> spheres = fit_spheres(unit, options, execution).spheres;
+  for (Sphere& sphere : spheres) sphere = {0.5 * sphere.centre, 0.5 * sphere.radius};
+  return spheres;
 }
 
 std::vector<double> masses_of(const DescribedSample& sample) {
@@ -138,9 +151,11 @@ std::string distance_table(const TemplatesArguments& arguments, const SampleTemp
   return table;
 }
 
-/// Writes the meshes. Throws wscvt::Error for the first grain that fails; false if cancelled.
+/// Writes the meshes and their spheres. Throws wscvt::Error for the first grain that fails; false
+/// if cancelled.
 bool write_meshes(const TemplatesArguments& arguments, const DescribedSample& sample,
-                  const SampleTemplates& templates) {
+                  const SampleTemplates& templates, std::vector<ClumpTemplate>& clumps) {
+  clumps.resize(templates.grains.size());
   GrainRun all;
   all.count = templates.grains.size();
   all.threads = arguments.threads;
@@ -153,8 +168,12 @@ bool write_meshes(const TemplatesArguments& arguments, const DescribedSample& sa
     options.measures.suggestions = false;
     const IndexedMesh scan = grain_mesh(sample.files[templates.grains[k]], execution);
     IndexedMesh mesh = remesh(scan, options, execution).mesh;
-    write_mesh(unit_mesh(std::move(mesh), execution),
-               in_folder(arguments, name_of(arguments, k) + "." + arguments.format));
+    mesh = unit_mesh(std::move(mesh), execution);
+    const std::vector<Sphere> spheres = clump_of(mesh, execution);
+    for (Vector3& point : mesh.points) point *= 0.5;
+    write_mesh(mesh, in_folder(arguments, name_of(arguments, k) + "." + arguments.format));
+    clumps[k] = {name_of(arguments, k) + ".spheres", spheres.size(), templates.by_mass[k]};
+    write_file(in_folder(arguments, clumps[k].file), sphere_rows(spheres));
     return {};
   };
   all.take = [](std::size_t, const GrainRow&) {};
@@ -166,6 +185,7 @@ void write_tables(const TemplatesArguments& arguments, const DescribedSample& sa
   write_file(in_folder(arguments, "templates.csv"), template_table(arguments, sample, templates));
   write_file(in_folder(arguments, "distances.csv"), distance_table(arguments, templates));
   write_file(in_folder(arguments, "sizes.csv"), size_curve_csv(sample.diameters));
+  write_file(in_folder(arguments, "mercury_psd.csv"), mercury_psd_csv(sample.diameters));
 }
 
 }  // namespace
@@ -176,11 +196,9 @@ CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments) {
                 "Choose K grains with weights that stand for a sample",
                 {"scans -k 20 -n 500 -o out", "shape.csv -k 50 -o out --format stl",
                  "scans -k 10 -o out --descriptors sphericity_wadell,convexity,roundness_wadell"},
-                "OUT gets a mesh per template, of the volume of a sphere of diameter 1, about its "
-                "centroid;\n"
-                "templates.csv (weights and sizes); sizes.csv (the size curve); distances.csv; and "
-                "a script\n"
-                "for Yade.",
+                "OUT gets a mesh per template (volume of a sphere of diameter 1, principal "
+                "frame),\ntemplates.csv (weights and sizes), sizes.csv (the size curve), "
+                "distances.csv, and files\nfor Yade, LIGGGHTS and MercuryDPM.",
                 false,
                 true});
   app.add_option("sample", arguments.inputs,
@@ -220,9 +238,15 @@ int run(const TemplatesArguments& given) {
       described_sample(arguments.inputs, arguments.descriptors, arguments.threads, arguments.quiet);
   const SampleTemplates templates = choose_templates(
       sample.descriptors, masses_of(sample), arguments.options, Execution(arguments.threads));
-  if (!write_meshes(arguments, sample, templates)) return 128 + noted_signal();
+  std::vector<ClumpTemplate> clumps;
+  if (!write_meshes(arguments, sample, templates, clumps)) return 128 + noted_signal();
   write_tables(arguments, sample, templates);
-  write_file(in_folder(arguments, "yade_packing.py"), yade_template_script());
+  write_file(in_folder(arguments, "yade_packing.py"), yade_packing_script());
+  std::vector<double> diameters;  // each for a third of the mass
+  for (const double sixths : {1.0, 3.0, 5.0}) {
+    diameters.push_back(diameter_by_mass(sample.diameters, sixths / 6.0));
+  }
+  write_file(in_folder(arguments, "liggghts.in"), liggghts_template_input(clumps, diameters));
   print(summary_lines(arguments, sample, templates), arguments.quiet);
   return sample.left_out == 0 ? Done : SomeFailed;
 }

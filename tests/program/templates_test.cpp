@@ -47,7 +47,8 @@ TEST_F(Templates, WritesMeshesTablesAndAScript) {
     EXPECT_NEAR(shape.volume, 3.14159265358979 / 6.0, 1e-9);
     EXPECT_LT(shape.centroid.norm(), 1e-9);
   }
-  for (const char* file : {"a/sizes.csv", "a/distances.csv", "a/yade_packing.py"}) {
+  for (const char* file : {"a/sizes.csv", "a/distances.csv", "a/yade_packing.py", "a/liggghts.in",
+                           "a/template-01.spheres"}) {
     EXPECT_TRUE(exists(file)) << file;
   }
   EXPECT_EQ(run("templates scans -k 4 -n 60 -o b --seed 2 -t 2 -q").output, "");

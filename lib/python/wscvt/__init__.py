@@ -23,8 +23,9 @@ import numpy
 from . import _wscvt
 from ._wscvt import Error, Remesh, __version__, options
 
-__all__ = ["Error", "Remesh", "batch", "create", "describe", "distance_grid", "extract", "options",
-           "read_mesh", "read_table", "remesh", "sample", "signed_distances", "write_mesh"]
+__all__ = ["Error", "Remesh", "batch", "create", "describe", "distance_grid", "extract", "grow",
+           "options", "read_mesh", "read_table", "remesh", "sample", "signed_distances",
+           "templates", "write_mesh"]
 
 
 def _arrays(mesh, faces=None):
@@ -299,3 +300,55 @@ def write_mesh(path, vertices, faces=None):
 for _function in (read_mesh, write_mesh):
     _function.__doc__ = getattr(_wscvt, _function.__name__).__doc__
 del _function
+
+
+def _matrix(descriptors):
+    """Rows of numbers of an array (n, d), or of the fields of a structured array."""
+    descriptors = numpy.asarray(descriptors)
+    if descriptors.dtype.names:
+        descriptors = numpy.column_stack([descriptors[name] for name in descriptors.dtype.names])
+    return numpy.asarray(descriptors, dtype=float)
+
+
+def templates(descriptors, masses, k=20, *, seed=1, threads=0, progress=None):
+    """K grains with weights that stand for a sample: (table, distances).
+
+    descriptors: an array (n, d), or a structured array with a field per descriptor; masses: n
+    numbers. table is a structured array with the fields grain, weight_by_number and weight_by_mass.
+    distances is a dictionary: the Wasserstein distance of each descriptor in standard deviations of
+    the sample (by_number, by_mass), that of random grains (random_by_number, random_by_mass), and
+    stands_for, the row of the table that is nearest to each grain.
+    """
+    parts = _wscvt.templates_of(_matrix(descriptors), list(masses), k, seed, threads, progress)
+    table = numpy.empty(len(parts["grains"]), [("grain", "i8"), ("weight_by_number", "f8"),
+                                               ("weight_by_mass", "f8")])
+    table["grain"] = parts["grains"]
+    table["weight_by_number"] = parts["by_number"]
+    table["weight_by_mass"] = parts["by_mass"]
+    return table, {"by_number": parts["distance_by_number"], "by_mass": parts["distance_by_mass"],
+                   "random_by_number": parts["random_by_number"],
+                   "random_by_mass": parts["random_by_mass"], "stands_for": parts["stands_for"]}
+
+
+def grow(grains, n, *, nodes=500, donors=3, degree=20, seed=1, threads=0, progress=None):
+    """Virtual grains with the statistics of real ones: (meshes, table).
+
+    grains: meshes, as remesh takes them, or arrays of SH coefficients, 8 or more. meshes is a list
+    of n pairs (vertices, faces) in their principal frames. table is a structured array with the
+    fields equivalent_diameter, base_grain, nearest_grain, nearest_distance (rms of the radius at
+    radius 1), collage and redraws; grains are numbered from 0.
+    """
+    real = []
+    for grain in grains:
+        if isinstance(grain, numpy.ndarray) and grain.ndim == 1:
+            real.append(grain.tolist())
+        elif isinstance(grain, tuple):
+            real.append(grain)
+        else:
+            real.append(tuple(_arrays(grain)))
+    rows = _wscvt.grow_of(real, n, nodes, donors, degree, seed, threads, progress)
+    table = numpy.array([row[2:] for row in rows],
+                        [("equivalent_diameter", "f8"), ("base_grain", "i8"),
+                         ("nearest_grain", "i8"), ("nearest_distance", "f8"), ("collage", "f8"),
+                         ("redraws", "i4")])
+    return [row[:2] for row in rows], table

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
@@ -13,99 +14,104 @@ namespace {
 
 constexpr int percent_step = 2;
 
-constexpr const char* yade_script =
-    R"py(# Packs grains of the templates in Yade, by gravity in a box:
-#   yade -n -x yade_packing.py 200
-# Sizes follow sizes.csv, shapes weight_by_number in templates.csv. Yade's polyhedra are convex, so
-# that each grain is the hull of its template.
-import csv, math, random, sys
-import numpy
-from yade import polyhedra_utils
+constexpr const char* liggghts_head =
+    R"(# Packs grains of the templates in LIGGGHTS, by gravity in a box: liggghts -in liggghts.in
+# Each template is a clump of spheres (its .spheres file, for diameter 1) at diameters of the size
+# curve; weights are by mass. Set the number of grains, the material and the time step below.
+variable grains equal 60
+variable side equal SIDE
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+units si
+hard_particles yes
+variable height equal 2*${side}
+region box block 0 ${side} 0 ${side} 0 ${height} units box
+create_box 1 box
+variable skin equal 0.01*${side}
+neighbor ${skin} bin
+neigh_modify delay 0
+# As stiff as 1000 times the weight of the column, in whatever unit lengths are.
+variable stiffness equal 1000*2650*9.81*${height}
+fix m1 all property/global youngsModulus peratomtype ${stiffness}
+fix m2 all property/global poissonsRatio peratomtype 0.3
+fix m3 all property/global coefficientRestitution peratomtypepair 1 0.2
+fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
+pair_style gran model hertz tangential history
+pair_coeff * *
+variable step equal 0.002*${side}*sqrt(2650/${stiffness})
+timestep ${step}
+fix gravity all gravity 9.81 vector 0.0 0.0 -1.0
+fix bottom all wall/gran model hertz tangential history primitive type 1 zplane 0.0
+fix left all wall/gran model hertz tangential history primitive type 1 xplane 0.0
+fix right all wall/gran model hertz tangential history primitive type 1 xplane ${side}
+fix front all wall/gran model hertz tangential history primitive type 1 yplane 0.0
+fix back all wall/gran model hertz tangential history primitive type 1 yplane ${side}
+)";
+constexpr const char* liggghts_tail =
+    R"(fix source all insert/pack seed 32452843 distributiontemplate mixture insert_every once &
+    overlapcheck yes all_in yes vel constant 0 0 0 region box particles_in_region ${grains}
+fix clumps all multisphere allow_group_and_set yes
+variable lowest equal bound(all,zmin)
+thermo_style custom step atoms ke v_lowest
+thermo 5000
+run 100000
+)";
 
-count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
-random.seed(1)
+/// LIGGGHTS wants another prime above 10,000 as the seed of each template.
+int next_prime(int above) {
+  for (int number = above + 1;; ++number) {
+    bool is_prime = true;
+    for (int factor = 2; factor * factor <= number && is_prime; ++factor) {
+      is_prime = number % factor != 0;
+    }
+    if (is_prime) return number;
+  }
+}
 
+/// Grains in the order of their diameters, with the mass up to each. The first grain's own mass
+/// counts from its diameter on.
+class CumulativeMass {
+ public:
+  explicit CumulativeMass(std::vector<double> diameters) : diameters_(std::move(diameters)) {
+    if (diameters_.empty()) refuse("There are no grains for a size curve; give some.");
+    std::sort(diameters_.begin(), diameters_.end());
+    double mass = 0.0;
+    for (const double diameter : diameters_) {
+      mass += diameter * diameter * diameter;
+      finer_.push_back(mass);
+    }
+  }
 
-def nodes(file):
-    data = open(file, "rb").read()
-    head, body = data.split(b"end_header\n", 1)
-    words = head.decode().split()
-    number = int(words[words.index("vertex") + 1])
-    kind = "<f8" if "double" in words else "<f4"
-    return numpy.frombuffer(body, kind, 3 * number).reshape(number, 3)
+  double diameter(double fraction) const {
+    const double wanted = finer_.front() + fraction * (finer_.back() - finer_.front());
+    const auto above = std::lower_bound(finer_.begin(), finer_.end(), wanted);
+    const auto k = std::min(static_cast<std::size_t>(above - finer_.begin()), finer_.size() - 1);
+    if (k == 0) return diameters_[k];
+    const double part = (wanted - finer_[k - 1]) / (finer_[k] - finer_[k - 1]);
+    return diameters_[k - 1] * std::pow(diameters_[k] / diameters_[k - 1], part);
+  }
 
-
-templates = list(csv.DictReader(open("templates.csv", newline="")))
-shapes = [nodes(row["file"]) for row in templates]
-weights = [float(row["weight_by_number"]) for row in templates]
-curve = [(float(a), float(b)) for a, b in list(csv.reader(open("sizes.csv", newline="")))[1:]]
-# Grains per mass go with 1 / d^3.
-classes = [(a, b, (q - p) / (a * b) ** 1.5) for (a, p), (b, q) in zip(curve, curve[1:])]
-
-
-def diameter():
-    a, b, _ = random.choices(classes, [c[2] for c in classes])[0]
-    return a * (b / a) ** random.random()
-
-
-largest = curve[-1][0]
-material = PolyhedraMat(density=2650, young=1e7, poisson=0.3, frictionAngle=math.radians(30))
-O.materials.append(material)
-side = 1.2 * largest * max(2, round(count ** (1 / 3)))
-per_row = max(1, int(side / (1.6 * largest)))
-O.bodies.append(utils.wall((0, 0, 0), 2, sense=1, material=material))
-for axis in (0, 1):
-    for place, sense in ((0, 1), (side, -1)):
-        O.bodies.append(utils.wall(place, axis, sense=sense, material=material))
-for k in range(count):
-    shape = random.choices(shapes, weights)[0] * diameter()
-    body = polyhedra_utils.polyhedra(material, v=[Vector3(*map(float, p)) for p in shape])
-    i, j, layer = k % per_row, k // per_row % per_row, k // per_row ** 2
-    body.state.pos = ((i + .5) * side / per_row, (j + .5) * side / per_row, (layer + .8) * 1.6 * largest)
-    turn = Quaternion(random.gauss(0, 1), random.gauss(0, 1), random.gauss(0, 1), random.gauss(0, 1))
-    turn.normalize()
-    body.state.ori = turn
-    O.bodies.append(body)
-O.engines = [
-    ForceResetter(),
-    InsertionSortCollider([Bo1_Polyhedra_Aabb(), Bo1_Wall_Aabb()]),
-    InteractionLoop([Ig2_Wall_Polyhedra_PolyhedraGeom(), Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
-                    [Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
-                    [Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()]),
-    NewtonIntegrator(gravity=(0, 0, -9.81), damping=0.4),
-]
-O.dt = 0.2 * polyhedra_utils.PWaveTimeStep()
-O.run(int(sys.argv[2]) if len(sys.argv) > 2 else 20000, True)
-solid = sum(b.state.mass for b in O.bodies if isinstance(b.shape, Polyhedra)) / 2650
-top = max(b.state.pos[2] for b in O.bodies if isinstance(b.shape, Polyhedra))
-print("Packed %d grains of %d templates, highest centroid %.4g, volume of the hulls %.4g"
-      % (count, len(templates), top, solid))
-)py";
+ private:
+  std::vector<double> diameters_;
+  std::vector<double> finer_;
+};
 
 }  // namespace
 
+double diameter_by_mass(std::vector<double> diameters, double fraction) {
+  const CumulativeMass curve(std::move(diameters));
+  return curve.diameter(fraction);
+}
+
 std::string size_curve_csv(std::vector<double> diameters) {
-  if (diameters.empty()) refuse("There are no grains for a size curve; give some.");
-  std::sort(diameters.begin(), diameters.end());
-  std::vector<double> finer;
-  double mass = 0.0;
-  for (const double diameter : diameters) {
-    mass += diameter * diameter * diameter;
-    finer.push_back(mass);
-  }
-  // The first grain's own mass counts from its diameter on.
-  const double first = finer.front();
+  const CumulativeMass curve(std::move(diameters));
   std::string table = csv_record({"equivalent_diameter [length]", "finer_by_mass [%]"});
   double last = 0.0;
   for (int percent = 0; percent <= 100; percent += percent_step) {
-    const double wanted = first + 0.01 * percent * (mass - first);
-    const auto above = std::lower_bound(finer.begin(), finer.end(), wanted);
-    const auto k = std::min(static_cast<std::size_t>(above - finer.begin()), finer.size() - 1);
-    double diameter = diameters[k];
-    if (k > 0 && finer[k] > finer[k - 1]) {
-      const double part = (wanted - finer[k - 1]) / (finer[k] - finer[k - 1]);
-      diameter = diameters[k - 1] * std::pow(diameters[k] / diameters[k - 1], part);
-    }
+    double diameter = curve.diameter(0.01 * percent);
     // Of grains of one size the curve has two points all the same.
     if (percent > 0 && !(diameter > last)) diameter = last * (1.0 + 1e-9);
     last = diameter;
@@ -114,6 +120,53 @@ std::string size_curve_csv(std::vector<double> diameters) {
   return table;
 }
 
-std::string yade_template_script() { return yade_script; }
+std::string mercury_psd_csv(std::vector<double> diameters) {
+  const CumulativeMass curve(std::move(diameters));
+  std::string table;
+  for (int percent = 0; percent <= 100; percent += percent_step) {
+    table += format_exact(0.5 * curve.diameter(0.01 * percent)) + "," +
+             format_exact(0.01 * percent) + "\n";
+  }
+  return table;
+}
+
+std::string sphere_rows(const std::vector<Sphere>& spheres) {
+  std::string rows;
+  for (const Sphere& sphere : spheres) {
+    for (const double coordinate : sphere.centre) rows += format_exact(coordinate) + " ";
+    rows += format_exact(sphere.radius) + "\n";
+  }
+  return rows;
+}
+
+std::string liggghts_template_input(const std::vector<ClumpTemplate>& templates,
+                                    const std::vector<double>& diameters) {
+  if (templates.empty() || diameters.empty()) {
+    refuse("There are no templates or no diameters for LIGGGHTS; give some.");
+  }
+  const double side = 8.0 * *std::max_element(diameters.begin(), diameters.end());
+  const std::string text = format_typed(side);
+  std::string input = liggghts_head;
+  input.replace(input.find("SIDE"), 4, text);
+  std::string distribution;
+  std::size_t count = 0;
+  int seed = 15485867;
+  for (const ClumpTemplate& one : templates) {
+    if (!(one.weight_by_mass > 0.0)) continue;
+    for (const double diameter : diameters) {
+      const std::string name = "t" + std::to_string(++count);
+      seed = next_prime(seed);
+      input += "fix " + name + " all particletemplate/multisphere " + std::to_string(seed) +
+               " atom_type 1 density " + "constant 2650 nspheres " + std::to_string(one.spheres) +
+               " ntry 200000 spheres file " + one.file + " scale " + format_typed(diameter) +
+               " type " + std::to_string(count) + "\n";
+      distribution += " " + name + " " +
+                      format_typed(one.weight_by_mass / static_cast<double>(diameters.size()));
+    }
+  }
+  input += "fix mixture all particledistribution/discrete 15485867 " + std::to_string(count) +
+           distribution + "\n";
+  return input + liggghts_tail;
+}
 
 }  // namespace wscvt

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
+
+#include "wscvt/clump/sphere.h"
 
 namespace wscvt {
 
@@ -11,8 +14,33 @@ namespace wscvt {
 /// above 0, length; throws Error(InvalidInput) if there are none.
 std::string size_curve_csv(std::vector<double> diameters);
 
-/// A Python script for Yade that packs grains of the templates: run with `yade -n -x` in the folder
-/// of templates.csv, sizes.csv and the meshes in PLY, with the number of grains.
-std::string yade_template_script();
+/// The same curve for MercuryDPM, PSD::setPSDFromCSV with CUMULATIVE_VOLUME_DISTRIBUTION: radius
+/// and fraction finer by volume, without a heading.
+std::string mercury_psd_csv(std::vector<double> diameters);
+
+/// The diameter that a fraction of the mass of the grains is smaller than; throws as
+/// size_curve_csv.
+double diameter_by_mass(std::vector<double> diameters, double fraction);
+
+/// A Python script that packs virtual grains or grains of templates in Yade: run by `yade -n -x` in
+/// the folder of grown.csv or of templates.csv and sizes.csv, with the number of grains. The meshes
+/// have to be PLY files.
+std::string yade_packing_script();
+
+/// The spheres as lines "x y z r", the file of LIGGGHTS's particletemplate/multisphere.
+std::string sphere_rows(const std::vector<Sphere>& spheres);
+
+/// A template for LIGGGHTS.
+struct ClumpTemplate {
+  std::string file;         ///< of sphere_rows
+  std::size_t spheres = 0;  ///< their number
+  double weight_by_mass = 0.0;
+};
+
+/// An input for LIGGGHTS that packs grains: a particletemplate for each template of a weight above
+/// 0 at each of the diameters, which have equal masses, and their particledistribution. Throws
+/// Error(InvalidInput) for no templates or no diameters.
+std::string liggghts_template_input(const std::vector<ClumpTemplate>& templates,
+                                    const std::vector<double>& diameters);
 
 }  // namespace wscvt

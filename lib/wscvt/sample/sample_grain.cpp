@@ -19,8 +19,7 @@ namespace wscvt {
 
 namespace {
 
-/// Stretching moves waves to higher degrees. Cut at degree + 4, grown grains lost their sharp
-/// edges: a classifier told them from real ones with an AUC of 0.80 in place of 0.67.
+/// Stretching moves waves to higher degrees. Cut at degree + 4, white grains lose the sharp edges.
 int white_degree_of(int degree) { return degree + (3 * degree + 4) / 5; }
 
 int checked_degree(int degree) {

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Templates of a sample and virtual grains. The package makes structured arrays of the parts that
+// are given here.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "work.h"
+#include "wscvt/sample/grain_grower.h"
+#include "wscvt/sample/grown_mesh.h"
+#include "wscvt/sample/nearest_grain.h"
+#include "wscvt/sample/templates.h"
+#include "wscvt/scan/mesh_check.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::dict templates(const Eigen::MatrixXd& descriptors, const std::vector<double>& masses, int k,
+                   std::uint64_t seed, int threads, const py::object& progress) {
+  TemplateOptions options;
+  options.count = k;
+  options.seed = seed;
+  const SampleTemplates chosen = work_on(threads, progress, [&](const Execution& execution) {
+    return choose_templates(descriptors, masses, options, execution);
+  });
+  py::dict parts;
+  parts["grains"] = py::array(py::cast(chosen.grains));
+  parts["by_number"] = array_of(chosen.by_number);
+  parts["by_mass"] = array_of(chosen.by_mass);
+  parts["stands_for"] = py::array(py::cast(chosen.stands_for));
+  parts["distance_by_number"] = array_of(chosen.reached.by_number);
+  parts["distance_by_mass"] = array_of(chosen.reached.by_mass);
+  parts["random_by_number"] = array_of(chosen.random.by_number);
+  parts["random_by_mass"] = array_of(chosen.random.by_mass);
+  return parts;
+}
+
+/// Coefficients of a grain, or its mesh: one of the two is empty.
+struct RealGrain {
+  std::vector<double> coefficients;
+  IndexedMesh mesh;
+};
+
+RealGrain real_grain(const py::handle& grain) {
+  RealGrain real;
+  if (py::isinstance<py::tuple>(grain)) {
+    real.mesh = mesh_of_reference(py::reinterpret_borrow<py::object>(grain));
+  } else {
+    real.coefficients = py::cast<std::vector<double>>(grain);
+  }
+  return real;
+}
+
+std::vector<SampleGrain> sample_of_grains(std::vector<RealGrain>& grains, const SampleGrids& grids,
+                                          const Execution& execution) {
+  std::vector<SampleGrain> sample(grains.size());
+  execution.parallel_for(grains.size(), 1, [&](std::size_t begin, std::size_t) {
+    const Execution one_thread(1);
+    RealGrain& grain = grains[begin];
+    sample[begin] =
+        grain.coefficients.empty()
+            ? sample_grain(check_mesh(std::move(grain.mesh), MeshCheckOptions(), one_thread).mesh,
+                           grids, one_thread)
+            : sample_grain(HarmonicSurface(grain.coefficients), grids, one_thread);
+  });
+  return sample;
+}
+
+/// A grown grain with its mesh.
+struct GrownBody {
+  GrownGrain grain;
+  IndexedMesh mesh;
+  NearestGrain nearest;
+};
+
+py::list grow(const py::list& grains, std::size_t n, int nodes, int donors, int degree,
+              std::uint64_t seed, int threads, const py::object& progress) {
+  std::vector<RealGrain> real;
+  for (const py::handle& grain : grains) real.push_back(real_grain(grain));
+  GrowOptions options;
+  options.donors = donors;
+  options.seed = seed;
+  const std::vector<GrownBody> bodies = work_on(threads, progress, [&](const Execution& execution) {
+    const SampleGrids grids(degree);
+    std::vector<SampleGrain> sample = sample_of_grains(real, grids, execution.part(0.0, 0.2));
+    const GrainSearch search(sample);
+    const GrainGrower grower(std::move(sample), grids, options);
+    const GrownMeshes meshes(nodes, execution);
+    std::vector<GrownBody> grown(n);
+    constexpr std::size_t block = 64;
+    for (std::size_t first = 0; first < n; first += block) {
+      execution.report(0.2 + 0.8 * static_cast<double>(first) / static_cast<double>(n), "Growing");
+      execution.parallel_for(std::min(block, n - first), 1, [&](std::size_t begin, std::size_t) {
+        GrownBody& body = grown[first + begin];
+        body.grain = grower.grow(first + begin);
+        body.mesh = meshes.mesh(body.grain.radial, body.grain.radius);
+        body.nearest = search.nearest(body.grain.radial);
+      });
+    }
+    return grown;
+  });
+  py::list list;
+  for (const GrownBody& body : bodies) {
+    list.append(py::make_tuple(array_of(body.mesh.points), array_of(body.mesh.triangles),
+                               2.0 * body.grain.radius, body.grain.donors.front(),
+                               body.nearest.grain, body.nearest.distance, body.grain.collage,
+                               body.grain.redraws));
+  }
+  return list;
+}
+
+}  // namespace
+
+void bind_grow(py::module_& module) {
+  module.def("templates_of", &templates);
+  module.def("grow_of", &grow);
+}
+
+}  // namespace wscvt::python
