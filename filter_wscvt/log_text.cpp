@@ -26,7 +26,7 @@ std::vector<std::string> broken(const std::string& text, std::size_t width) {
     if (space == std::string::npos || space < begin) space = rest.find(' ', begin);
     if (space == std::string::npos) break;
     lines.push_back(rest.substr(0, space));
-    rest = more + rest.substr(space + 1);
+    rest.replace(0, space + 1, more);
   }
   lines.push_back(rest);
   return lines;

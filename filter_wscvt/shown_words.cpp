@@ -74,6 +74,15 @@ void show_values(std::string& text, const std::string& subject) {
   }
 }
 
+/// The text with the label before a parameter of scripts: "Parameter \"Report file\" (ReportFile)".
+std::string with_label(const std::string& text, const std::string& name, const std::string& label) {
+  const std::string shown = "\"" + label + "\" (" + name + ")";
+  const std::regex alone("\\bParameter " + name + "\\b");
+  const std::regex among_others("(\\bParameters .*)\\b" + name + "\\b(?!\\))");
+  return std::regex_replace(std::regex_replace(text, alone, "Parameter " + shown), among_others,
+                            "$1" + shown);
+}
+
 }  // namespace
 
 std::string shown_words(const std::string& sentence) {
@@ -86,13 +95,7 @@ std::string shown_words(const std::string& sentence) {
   });
   show_values<Method>(text, "method");
   show_values<ScanPlacement>(text, "placement");
-  for (const auto& [name, label] : labels) {
-    const std::string shown = "\"" + label + "\" (" + name + ")";
-    text =
-        std::regex_replace(text, std::regex("\\bParameter " + name + "\\b"), "Parameter " + shown);
-    text = std::regex_replace(text, std::regex("(\\bParameters .*)\\b" + name + "\\b(?!\\))"),
-                              "$1" + shown);
-  }
+  for (const auto& [name, label] : labels) text = with_label(text, name, label);
   return text;
 }
 
