@@ -26,7 +26,7 @@ for k in $(seq 19); do
 done
 echo "no mesh" > body_20.ply
 for k in $(seq 1000); do ln -s "../body_$((k % 20 + 1)).ply" "scans/grain_$k.ply"; done
-options="-n 60 -d 6"
+options="-n 60 -d 6 --describe none"
 # shellcheck disable=SC2086
 "$program" batch "$work/scans" -o whole -q $options 2> whole.txt && fail "Nothing failed." || code=$?
 [ "$code" -eq 3 ] || fail "One batch ended with $code."

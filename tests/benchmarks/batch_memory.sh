@@ -32,5 +32,5 @@ import resource, subprocess, sys
 subprocess.run(sys.argv[2:], check=True)
 peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
 print(f"{sys.argv[1]} grains: {peak / 1024:.1f} MiB")' \
-    "$count" "$program" batch scans -o out -q "$@"
+    "$count" "$program" batch scans -o out -q --describe none "$@"
 done

@@ -23,6 +23,10 @@ done
 end=$(now)
 rate "one process a file" "$start" "$end"
 start=$(now)
+"$program" batch scans -o plain -q --describe none "$@"
+end=$(now)
+rate "wscvt batch without descriptors" "$start" "$end"
+start=$(now)
 "$program" batch scans -o out -q "$@"
 end=$(now)
-rate "wscvt batch" "$start" "$end"
+rate "wscvt batch with all descriptors" "$start" "$end"

@@ -110,26 +110,27 @@ TEST_F(MachineRefusals, WorkGoesOnWithTheThreadsThatItGets) {
 
 TEST_F(MachineRefusals, AFullDiskStopsABatchWhichThenGoesOn) {
   write_scans(3);
-  const std::string call = "batch scans -o out -q -n 1500 --format off";
-  ASSERT_EQ(run("batch scans -o whole -q -n 1500 --format off").exit_code, 0);
+  const std::string call = "batch scans -o out -q --describe none -n 1500 --format off";
+  ASSERT_EQ(run("batch scans -o whole -q --describe none -n 1500 --format off").exit_code, 0);
   // The limit of a file's size, in place of a disk that is full: the table fits, a mesh does not.
   const rlim_t most = 40000;
   ASSERT_GT(fs::file_size(folder_ / "whole/a.off"), most);
   ASSERT_LT(fs::file_size(folder_ / "whole/grains.csv"), most);
-  const Outcome stopped =
-      run_limited({"batch", "scans", "-o", "out", "-q", "-n", "1500", "--format", "off", "-t", "2"},
-                  {{RLIMIT_FSIZE, most}});
+  const Outcome stopped = run_limited({"batch", "scans", "-o", "out", "-q", "--describe", "none",
+                                       "-n", "1500", "--format", "off", "-t", "2"},
+                                      {{RLIMIT_FSIZE, most}});
   EXPECT_NE(stopped.errors.find("ulimit -f"), std::string::npos) << stopped.errors;
   expect_stopped_and_going_on(stopped, call, "whole");
 }
 
 TEST_F(MachineRefusals, AFullDiskStopsAnExtractionWhichThenGoesOn) {
   write_volume();
-  ASSERT_EQ(run("batch sample.nrrd -o whole -q -n 1500 --format off").exit_code, 0);
-  const Outcome stopped =
-      run_limited({"batch", "sample.nrrd", "-o", "out", "-q", "-n", "1500", "--format", "off"},
-                  {{RLIMIT_FSIZE, 40000}});
-  expect_stopped_and_going_on(stopped, "batch sample.nrrd -o out -q -n 1500 --format off", "whole");
+  ASSERT_EQ(run("batch sample.nrrd -o whole -q --describe none -n 1500 --format off").exit_code, 0);
+  const Outcome stopped = run_limited({"batch", "sample.nrrd", "-o", "out", "-q", "--describe",
+                                       "none", "-n", "1500", "--format", "off"},
+                                      {{RLIMIT_FSIZE, 40000}});
+  expect_stopped_and_going_on(
+      stopped, "batch sample.nrrd -o out -q --describe none -n 1500 --format off", "whole");
   ASSERT_EQ(run("extract sample.nrrd dense -q").exit_code, 0);
   fs::remove_all(folder_ / "out");
   const Outcome dense =
@@ -144,8 +145,8 @@ TEST_F(MachineRefusals, ADiskThatFillsWithinABatchDoesNotFailItsGrains) {
   if (mount("none", path("disk").c_str(), "tmpfs", 0, "size=80k") != 0) {
     GTEST_SKIP() << "a disk of its own takes root";
   }
-  ASSERT_EQ(run("batch scans -o whole -q -n 700").exit_code, 0);  // 36 KB a mesh
-  const std::string call = "batch scans -o disk/out -q -n 700";
+  ASSERT_EQ(run("batch scans -o whole -q --describe none -n 700").exit_code, 0);  // 36 KB a mesh
+  const std::string call = "batch scans -o disk/out -q --describe none -n 700";
   const Outcome full = run(call + " -t 1");
   EXPECT_EQ(full.exit_code, 1) << full.errors;
   EXPECT_EQ(failed_rows("disk/out/grains.csv"), 0U);
@@ -160,13 +161,13 @@ TEST_F(MachineRefusals, ADiskThatFillsWithinABatchDoesNotFailItsGrains) {
 
 TEST_F(MachineRefusals, AnOutputFolderThatIsGoneForAMomentStopsABatch) {
   write_scans(4);
-  ASSERT_EQ(run("batch scans -o whole -q -n 60").exit_code, 0);
+  ASSERT_EQ(run("batch scans -o whole -q --describe none -n 60").exit_code, 0);
   // The third grain is a pipe that gives nothing until the folder is away.
   const std::string third = content(scan(2));
   fs::remove(folder_ / scan(2));
   ASSERT_EQ(mkfifo(path(scan(2)).c_str(), 0600), 0);
-  const pid_t child =
-      start_limited({"batch", "scans", "-o", "out", "-q", "-n", "60", "-t", "1"}, {});
+  const pid_t child = start_limited(
+      {"batch", "scans", "-o", "out", "-q", "--describe", "none", "-n", "60", "-t", "1"}, {});
   for (int tries = 0; tries < 3000 && !exists("out/b.ply"); ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -181,18 +182,20 @@ TEST_F(MachineRefusals, AnOutputFolderThatIsGoneForAMomentStopsABatch) {
   fs::rename(folder_ / "away", folder_ / "out");
   fs::remove(folder_ / scan(2));
   std::ofstream(folder_ / scan(2), std::ios::binary) << third;
-  expect_stopped_and_going_on(stopped, "batch scans -o out -q -n 60", "whole");
+  expect_stopped_and_going_on(stopped, "batch scans -o out -q --describe none -n 60", "whole");
 }
 
 TEST_F(MachineRefusals, AnInputFolderThatIsGoneForAMomentStopsABatch) {
   write_scans(3);
-  ASSERT_EQ(run("batch scans/a.ply scans/b.ply scans/c.ply -o whole -q -n 60").exit_code, 0);
+  ASSERT_EQ(
+      run("batch scans/a.ply scans/b.ply scans/c.ply -o whole -q --describe none -n 60").exit_code,
+      0);
   fs::create_directory(folder_ / "first");
   fs::rename(folder_ / scan(0), folder_ / "kept.ply");
   const std::string first = content("kept.ply");
   ASSERT_EQ(mkfifo(path(scan(0)).c_str(), 0600), 0);
   const pid_t child = start_limited({"batch", "scans/a.ply", "scans/b.ply", "scans/c.ply", "-o",
-                                     "out", "-q", "-n", "60", "-t", "1"},
+                                     "out", "-q", "--describe", "none", "-n", "60", "-t", "1"},
                                     {});
   {
     std::ofstream pipe(folder_ / scan(0), std::ios::binary);
@@ -205,8 +208,9 @@ TEST_F(MachineRefusals, AnInputFolderThatIsGoneForAMomentStopsABatch) {
   fs::rename(folder_ / "away", folder_ / "scans");
   fs::remove(folder_ / scan(0));
   fs::rename(folder_ / "kept.ply", folder_ / scan(0));
-  expect_stopped_and_going_on(stopped, "batch scans/a.ply scans/b.ply scans/c.ply -o out -q -n 60",
-                              "whole");
+  expect_stopped_and_going_on(
+      stopped, "batch scans/a.ply scans/b.ply scans/c.ply -o out -q --describe none -n 60",
+      "whole");
 }
 
 TEST_F(MachineRefusals, MemoryIsNeverAGrainsFailure) {
@@ -214,8 +218,9 @@ TEST_F(MachineRefusals, MemoryIsNeverAGrainsFailure) {
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
   write_scans(3, 4);
-  const Call call = {"batch", "scans", "-o", "out", "-q", "-n", "60", "-t", "2"};
-  ASSERT_EQ(run("batch scans -o whole -q -n 60").exit_code, 0);
+  const Call call = {"batch", "scans", "-o", "out", "-q", "--describe",
+                     "none",  "-n",    "60", "-t",  "2"};
+  ASSERT_EQ(run("batch scans -o whole -q --describe none -n 60").exit_code, 0);
   bool has_stopped = false;
   // From what is enough down to what the program does not start with: its libraries take 48 MB of
   // addresses, and some of them end a program that has less before it begins.
@@ -230,7 +235,7 @@ TEST_F(MachineRefusals, MemoryIsNeverAGrainsFailure) {
     if (outcome.exit_code == 1) {
       EXPECT_NE(outcome.errors.find("not enough memory"), std::string::npos) << outcome.errors;
       has_stopped = true;
-      EXPECT_EQ(run("batch scans -o out -q -n 60").exit_code, 0);
+      EXPECT_EQ(run("batch scans -o out -q --describe none -n 60").exit_code, 0);
       expect_same("out", "whole");
     }
     fs::remove_all(folder_ / "out");
