@@ -108,7 +108,7 @@ std::string template_table(const TemplatesArguments& arguments, const DescribedS
   return table;
 }
 
-double mean(const std::vector<double>& values) {
+double mean_distance(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -123,8 +123,8 @@ std::vector<std::vector<std::string>> distance_rows(const TemplatesArguments& ar
     rows.push_back({arguments.descriptors[j], number(a.by_number[j]), number(b.by_number[j]),
                     number(a.by_mass[j]), number(b.by_mass[j])});
   }
-  rows.push_back({"mean", number(mean(a.by_number)), number(mean(b.by_number)),
-                  number(mean(a.by_mass)), number(mean(b.by_mass))});
+  rows.push_back({"mean", number(mean_distance(a.by_number)), number(mean_distance(b.by_number)),
+                  number(mean_distance(a.by_mass)), number(mean_distance(b.by_mass))});
   return rows;
 }
 

@@ -18,7 +18,7 @@
 namespace wscvt {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers in [0, 1).
 Eigen::VectorXd uniform(Eigen::Index count, std::uint64_t seed) {
@@ -48,7 +48,7 @@ GrainSample sample_with(const Eigen::VectorXd& sizes, const SampleOptions& optio
 }
 
 TEST(GrainSample, TakesTheColumnsOfOneMesh) {
-  const Eigen::Vector4d sizes(1.0, missing, 3.0, 2.0);
+  const Eigen::Vector4d sizes(1.0, no_value, 3.0, 2.0);
   SampleOptions options;
   options.density = 7.0;
   const GrainSample scans = sample_with(sizes, options);
@@ -68,7 +68,7 @@ TEST(GrainSample, TakesTheColumnsOfOneMesh) {
   EXPECT_NEAR(remeshes.masses[1], 7.0 * pi / 6.0 * 216.0, 1e-9);
   options.size = SizeMeasure::LargestFeret;
   EXPECT_THROW(sample_with(sizes, options), Error);
-  EXPECT_THROW(sample_with(Eigen::Vector2d(1.0, missing)), Error);
+  EXPECT_THROW(sample_with(Eigen::Vector2d(1.0, no_value)), Error);
 }
 
 TEST(SampleStatistics, SizesOfAUniformSampleAreItsShares) {
@@ -129,7 +129,7 @@ TEST(SampleStatistics, TheIntervalOfAMeanIsThatOfTheNormalDistribution) {
   // Half the interval wants four times the grains.
   const double now = 100.0 * 0.5 * (size.mean.upper - size.mean.lower) / size.mean.value;
   EXPECT_NEAR(grains_needed(size.mean, 400, 0.5 * now), 1600.0, 1.0);
-  EXPECT_TRUE(std::isnan(grains_needed({1.0, missing, missing}, 400, 1.0)));
+  EXPECT_TRUE(std::isnan(grains_needed({1.0, no_value, no_value}, 400, 1.0)));
 }
 
 TEST(SampleStatistics, HaveTheSameBytesOnAnyNumberOfThreads) {
@@ -165,7 +165,7 @@ TEST(RankCorrelation, IsSpearmansWithTies) {
   // Ranks 1, 2.5, 2.5, 4, 5 against 5, 4, 3, 2, 1: sums of the deviations' products -9.5, squares
   // 9.5 and 10.
   Eigen::VectorXd one(6);
-  one << 1.0, 20.0, 20.0, 300.0, 4000.0, missing;
+  one << 1.0, 20.0, 20.0, 300.0, 4000.0, no_value;
   Eigen::VectorXd other(6);
   other << 9.0, 8.0, 7.0, 6.0, -5.0, 1.0;
   const Estimate r = rank_correlation(one, other);

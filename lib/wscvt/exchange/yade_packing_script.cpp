@@ -6,7 +6,7 @@ namespace wscvt {
 namespace {
 
 // clang-format off
-constexpr const char* yade_script = R"py(# Packs grains of this folder in Yade, by gravity in a box, and prints how high they lie:
+constexpr const char* yade_packing_text = R"py(# Packs grains of this folder in Yade, by gravity in a box, and prints how high they lie:
 #   yade -n -x yade_packing.py 200
 # Virtual grains (grown.csv) are taken in their order. Of templates (templates.csv) shapes follow
 # weight_by_number and sizes follow sizes.csv. Each grain is a clump of overlapping spheres inside its
@@ -102,6 +102,6 @@ print("Packed %d grains: centroids from %.4g to %.4g above the bottom, after %d 
 
 }  // namespace
 
-std::string yade_packing_script() { return yade_script; }
+std::string yade_packing_script() { return yade_packing_text; }
 
 }  // namespace wscvt

@@ -13,10 +13,10 @@ namespace wscvt {
 
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_comparison = std::numeric_limits<double>::quiet_NaN();
 /// A parting costs n for each descriptor: above this many grains fewer are made.
-constexpr std::size_t most_grains_at_full = 4000;
-constexpr int least_repetitions = 200;
+constexpr std::size_t most_grains_permuted = 4000;
+constexpr int least_permutations = 200;
 
 /// Two samples in one ascending list.
 class Pooled {
@@ -41,7 +41,7 @@ class Pooled {
       totals[places[all_.grains()[k]] < of_one_ ? 0 : 1] += all_.weights()[k];
     }
     double difference = 0.0;
-    SampleDistance result{0.0, 0.0, no_number, no_number};
+    SampleDistance result{0.0, 0.0, no_comparison, no_comparison};
     for (std::size_t k = 0; k < all_.size(); ++k) {
       const bool is_one = places[all_.grains()[k]] < of_one_;
       difference += is_one ? all_.weights()[k] / totals[0] : -all_.weights()[k] / totals[1];
@@ -72,11 +72,11 @@ std::vector<std::uint32_t> identity(std::size_t count) {
 bool is_as_far(double parted, double own) { return parted >= own * (1.0 - 1e-12); }
 
 std::size_t partings_for(std::size_t grains, int asked) {
-  if (grains <= most_grains_at_full || asked <= least_repetitions) {
+  if (grains <= most_grains_permuted || asked <= least_permutations) {
     return static_cast<std::size_t>(asked);
   }
-  const double share = static_cast<double>(most_grains_at_full) / static_cast<double>(grains);
-  return static_cast<std::size_t>(std::max<double>(least_repetitions, asked * share));
+  const double share = static_cast<double>(most_grains_permuted) / static_cast<double>(grains);
+  return static_cast<std::size_t>(std::max<double>(least_permutations, asked * share));
 }
 
 SampleDistance tested_distance(const Distribution& one, const Distribution& other,
@@ -113,7 +113,8 @@ SampleDistance tested_distance(const Distribution& one, const Distribution& othe
 }  // namespace
 
 SampleDistance distance_between(const Distribution& one, const Distribution& other) {
-  if (one.size() == 0 || other.size() == 0) return {no_number, no_number, no_number, no_number};
+  if (one.size() == 0 || other.size() == 0)
+    return {no_comparison, no_comparison, no_comparison, no_comparison};
   const Pooled pooled(one, other);
   return pooled.distance(identity(pooled.size()));
 }

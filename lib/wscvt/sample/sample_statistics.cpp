@@ -13,7 +13,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_statistic = std::numeric_limits<double>::quiet_NaN();
 
 /// Two-sided 95 % of the normal distribution.
 constexpr double normal_95 = 1.959963984540054;
@@ -61,7 +61,7 @@ class Repeated {
     }
     if (!(total > 0.0)) {
       // No grain of the draw has a value.
-      std::fill(result, result + numbers(), no_number);
+      std::fill(result, result + numbers(), no_statistic);
     } else if (is_size_) {
       weighted_quantiles(values, weights, total, size_shares, result);
       result[5] = result[3] / result[0];
@@ -85,7 +85,7 @@ Estimate estimate_of(double value, std::vector<double>& repeated) {
   repeated.erase(std::remove_if(repeated.begin(), repeated.end(),
                                 [](double one) { return !std::isfinite(one); }),
                  repeated.end());
-  if (repeated.empty() || !std::isfinite(value)) return {value, no_number, no_number};
+  if (repeated.empty() || !std::isfinite(value)) return {value, no_statistic, no_statistic};
   const Distribution all(Eigen::Map<const Eigen::VectorXd>(
       repeated.data(), static_cast<Eigen::Index>(repeated.size())));
   return {value, all.quantile(0.025), all.quantile(0.975)};
@@ -171,7 +171,7 @@ Estimate rank_correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& oth
     b.push_back(other[k]);
   }
   const auto n = static_cast<double>(a.size());
-  if (a.size() < 4) return {no_number, no_number, no_number};
+  if (a.size() < 4) return {no_statistic, no_statistic, no_statistic};
   a = ranks_of(a);
   b = ranks_of(b);
   const double middle = 0.5 * (n + 1.0);
@@ -184,7 +184,7 @@ Estimate rank_correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& oth
     bb += (b[k] - middle) * (b[k] - middle);
   }
   const double r = ab / std::sqrt(aa * bb);
-  if (!std::isfinite(r)) return {no_number, no_number, no_number};
+  if (!std::isfinite(r)) return {no_statistic, no_statistic, no_statistic};
   const double z = std::atanh(std::clamp(r, -1.0, 1.0));
   const double reach = normal_95 * std::sqrt((1.0 + 0.5 * r * r) / (n - 3.0));
   return {r, std::tanh(z - reach), std::tanh(z + reach)};
@@ -232,7 +232,7 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
 double grains_needed(const Estimate& estimate, std::size_t grains, double percent) {
   const double reach = 0.5 * (estimate.upper - estimate.lower);
   const double wanted = 0.01 * percent * std::abs(estimate.value);
-  if (!std::isfinite(reach) || !(wanted > 0.0)) return no_number;
+  if (!std::isfinite(reach) || !(wanted > 0.0)) return no_statistic;
   return std::ceil(static_cast<double>(grains) * reach * reach / (wanted * wanted));
 }
 
