@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compare_command.h"
 
+#include <utility>
+
 #include "command.h"
 #include "exit_code.h"
+#include "output_paths.h"
+#include "work.h"
+#include "wrong_call.h"
+#include "wscvt/report/parts_report.h"
+#include "wscvt/scan/mesh_check.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 
@@ -11,7 +19,7 @@ CLI::App& add_command(CLI::App& program, CompareArguments& arguments) {
       add_command(program, {"compare",
                             "Measure a grain against another: errors of shape, distances",
                             {"remesh.ply scan.ply", "remesh.ply scan.ply --report difference.html",
-                             "clump.csv scan.ply"},
+                             "clump.csv scan.ply", "remesh.ply scan.ply --parts"},
                             "Both must stand in the same place: nothing is moved to fit."});
   add_file_argument(
       app, "grain", arguments.measure.grain,
@@ -21,10 +29,49 @@ CLI::App& add_command(CLI::App& program, CompareArguments& arguments) {
                     "The mesh that errors and distances are measured against")
       ->required();
   add_measure_arguments(app, arguments.measure);
+  app.add_flag("--parts", arguments.parts,
+               "GRAIN holds convex parts, each a component of the mesh: measure their distances "
+               "and volume");
   return app;
 }
 
+namespace {
+
+void compare_parts(const CompareArguments& arguments) {
+  const MeasureArguments& measure = arguments.measure;
+  const CommonArguments& common = measure.common;
+  checked([&] {
+    check_mesh_format(measure.grain, MeshUse::Read);
+    check_mesh_format(arguments.reference, MeshUse::Read);
+    check_output_paths({{"the parts", measure.grain}, {"the reference", arguments.reference}},
+                       named_reports(common.reports), common.overwrite);
+    for (const std::string& report : common.reports) check_parts_report(report);
+  });
+  Work work(common);
+  const Execution reading = work.execution().part(0.0, reading_share);
+  PartsReport report;
+  report.parts = parts_of(read_mesh(measure.grain, reading));
+  MeshFile reference = read_mesh_file(arguments.reference, reading);
+  report.warnings = std::move(reference.warnings);
+  report.grain = check_mesh(std::move(reference.mesh), MeshCheckOptions(), reading).mesh;
+  report.measures =
+      measure_parts(report.parts, report.grain, work.execution().part(reading_share, 1.0));
+  report.mass = mass_properties(describe_shape(report.grain, work.execution().part(1.0, 1.0)));
+  for (const std::string& name : common.reports) {
+    work.write(name, [&](const std::string& path, const Execution& execution) {
+      write_report(path, report, origin_of(measure.grain), execution);
+    });
+  }
+  work.print(report.warnings, parts_lines(report));
+}
+
+}  // namespace
+
 int run(const CompareArguments& arguments) {
+  if (arguments.parts) {
+    compare_parts(arguments);
+    return Done;
+  }
   measure(arguments.measure, arguments.reference);
   return Done;
 }

@@ -12,6 +12,7 @@ namespace wscvt::program {
 struct CompareArguments {
   MeasureArguments measure;
   std::string reference;  ///< file
+  bool parts = false;     ///< the grain is a file of convex parts
 };
 
 /// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.

@@ -23,6 +23,7 @@
 #include "command.h"
 #include "compare_command.h"
 #include "completion.h"
+#include "convex_command.h"
 #include "create_command.h"
 #include "describe_command.h"
 #include "exit_code.h"
@@ -73,7 +74,7 @@ int run(int argc, char** argv) {
       make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
       make_command<program::SplitArguments>(app),   make_command<program::SampleArguments>(app),
       make_command<program::GrowArguments>(app),    make_command<program::TemplatesArguments>(app),
-      make_command<program::ClumpArguments>(app),
+      make_command<program::ClumpArguments>(app),   make_command<program::ConvexArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is

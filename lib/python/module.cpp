@@ -16,6 +16,8 @@ PYBIND11_MODULE(_wscvt, module) {
   wscvt::python::bind_measures(module);
   wscvt::python::bind_distances(module);
   wscvt::python::bind_extract(module);
+  wscvt::python::bind_attributes(module);
+  wscvt::python::bind_convex(module);
   wscvt::python::bind_files(module);
   wscvt::python::bind_sample(module);
   wscvt::python::bind_grow(module);

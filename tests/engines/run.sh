@@ -71,4 +71,12 @@ done
   exit 1
 }
 "$python" "$here/liggghts_packing_test.py" templates/packing.in templates/liggghts.out 20
+# The examples, from scans to a packing.
+examples=$here/../../lib/examples/engines
+mkdir -p scans
+cp "$here/../../meshes/sand_5658.ply" "$here/../../meshes/angular_6000.ply" scans
+WSCVT=$program yade -n -x "$examples/yade_polyhedra.py" scans 6 > polyhedra.log 2>&1
+grep '^Yade polyhedra:' polyhedra.log
+WSCVT=$program "$python" "$examples/mujoco_packing.py" scans 8 | grep '^MuJoCo:'
+for picture in polyhedra.png mujoco.png; do test -s "$picture"; done
 echo "The engines take the grain."

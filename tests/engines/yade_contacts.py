@@ -7,7 +7,7 @@ u, and so acts along the gradient of the distance to the surface that the node i
 it is Cundall and Strack's, as Yade's own (Law2_ScGeom_FrictPhys_CundallStrack). In a script of your own:
 
     from yade_contacts import GrainContacts
-    contacts = GrainContacts(grain, kn, ks, friction)      # grain: yade_grain.Grain
+    contacts = GrainContacts(grain, kn, ks, friction)      # grain: yade_grain.Grain, of several any one
     O.engines = [..., InteractionLoop([Ig2_LevelSet_LevelSet_ScGeom(), ...],
                                       [Ip2_FrictMat_FrictMat_FrictPhys(kn=..., ...)],   # 0 between grains
                                       [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
@@ -20,8 +20,8 @@ from yade import LevelSet, O, Vector3
 
 class GrainContacts:
     def __init__(self, grain, normal_stiffness, shear_stiffness, friction):
-        """Stiffnesses in N/m, friction as the tangent of its angle; all bodies of the grain's shape."""
-        self.shape = grain.shape
+        """Stiffnesses in N/m, friction as the tangent of its angle. Bodies may have other shapes than the
+        grain's, with grids as fine."""
         self.normal_stiffness = normal_stiffness
         self.shear_stiffness = shear_stiffness
         self.friction = friction
@@ -37,24 +37,25 @@ class GrainContacts:
         self.steps = [(axis * half, 1 / (2 * half)) for axis in
                       (Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1))]
 
-    def gradient(self, point):
-        """Of the distances as they are interpolated. LevelSet.normal has length 1, where this is
+    def gradient(self, shape, point):
+        """Of a shape's distances as they are interpolated. LevelSet.normal has length 1, where this is
         shorter in creases; with it a collision keeps its energy to 7 %, with this to 0.1 %."""
-        distance = self.shape.distance
+        distance = shape.distance
         return Vector3(*[(distance(point + step) - distance(point - step)) * scale
                          for step, scale in self.steps])
 
     def node(self, contact, first, second):
         """The deepest node, and the gradient of the distance that rises from the second body to the
         first. Yade's contact point lies half the depth from the node, along the node's own normal."""
+        one, other = O.bodies[contact.id1].shape, O.bodies[contact.id2].shape
         depth = contact.geom.penetrationDepth
         half = contact.geom.normal * (0.5 * depth)
         node = contact.geom.contactPoint + half
         place = second.ori.conjugate() * (node - second.pos)
-        if abs(self.shape.distance(place) + depth) < 1e-6 * depth:
-            return node, second.ori * self.gradient(place)
+        if abs(other.distance(place) + depth) < 1e-6 * depth:
+            return node, second.ori * self.gradient(other, place)
         node = contact.geom.contactPoint - half
-        return node, -(first.ori * self.gradient(first.ori.conjugate() * (node - first.pos)))
+        return node, -(first.ori * self.gradient(one, first.ori.conjugate() * (node - first.pos)))
 
     def apply(self):
         """Adds the forces of this step to the bodies'."""

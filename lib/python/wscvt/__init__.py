@@ -23,9 +23,9 @@ import numpy
 from . import _wscvt
 from ._wscvt import Error, Remesh, __version__, options
 
-__all__ = ["Error", "Remesh", "batch", "create", "describe", "distance_grid", "extract", "grow",
-           "options", "read_mesh", "read_table", "remesh", "sample", "signed_distances",
-           "templates", "write_mesh"]
+__all__ = ["Error", "Remesh", "batch", "carry_attributes", "convex", "create", "describe",
+           "distance_grid", "extract", "grow", "options", "read_attributes", "read_mesh", "read_table",
+           "remesh", "sample", "signed_distances", "templates", "write_mesh"]
 
 
 def _arrays(mesh, faces=None):
@@ -289,12 +289,55 @@ def sample(table, other=None, *, report=(), **options):
     return _wscvt.sample(tables, [str(path) for path in reports], **options)
 
 
+def convex(vertices, faces=None, **options):
+    """Takes a grain apart into at most `parts` convex parts, for physics engines.
+
+    vertices, faces: as for remesh. The grain is remeshed first, to 500 nodes.
+    parts: 1 to 1000; 8 by default.
+    part_faces: faces of a part at most; 255 by default.
+    tolerance: distance of hulls that need no cut, % of the equivalent radius; 0.5 by default.
+    threads, progress, and all options of remesh: as there.
+
+    Returns a list with a pair (vertices, faces) for each part, and a dictionary: distances from the
+    grain, volume, and the grain's mass properties at unit density. Raises Error.
+    """
+    return _wscvt.convex(*_arrays(vertices, faces), **options)
+
+
 def read_mesh(path):
     return _wscvt.read_mesh(path)
 
 
-def write_mesh(path, vertices, faces=None):
-    _wscvt.write_mesh(path, *_arrays(vertices, faces))
+def write_mesh(path, vertices, faces=None, *, vertex_attributes=None, face_attributes=None):
+    arrays = _arrays(vertices, faces)
+    if vertex_attributes or face_attributes:
+        _wscvt.write_attributes(os.fspath(path), *arrays, vertex_attributes or {}, face_attributes or {})
+    else:
+        _wscvt.write_mesh(path, *arrays)
+
+
+def read_attributes(path):
+    """The numbers that vertices and faces of a PLY file carry, such as red, quality or label.
+
+    Returns two dictionaries of arrays (n,), of the vertices and of the faces; both are empty for
+    other formats. Raises Error.
+    """
+    return _wscvt.read_attributes(os.fspath(path))
+
+
+def carry_attributes(scan, mesh, vertex_attributes=None, face_attributes=None, *, threads=0):
+    """Carries the numbers of a scan onto another mesh in the same place, by the nearest point.
+
+    scan, mesh: (vertices, faces), a path, or a mesh of trimesh or PyVista.
+    vertex_attributes, face_attributes: dictionaries of arrays (n,), a number for each vertex or face
+        of the scan. Without both, those of the scan's file are taken.
+
+    Returns two dictionaries with the same names and types. Raises Error.
+    """
+    if vertex_attributes is None and face_attributes is None:
+        vertex_attributes, face_attributes = read_attributes(scan)
+    pairs = [m if isinstance(m, tuple) else _arrays(m) for m in (scan, mesh)]
+    return _wscvt.carry_attributes(*pairs, vertex_attributes or {}, face_attributes or {}, threads=threads)
 
 
 for _function in (read_mesh, write_mesh):

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the examples beside this file share: scans of a folder, calls of wscvt, the places that grains
+are dropped from, and a picture of the packing."""
+import json
+import math
+import os
+import pathlib
+import random
+import subprocess
+
+WSCVT = os.environ.get("WSCVT", "wscvt")
+
+
+def scans(folder):
+    """The meshes of a folder, in the order of their names."""
+    return sorted(p for p in pathlib.Path(folder).iterdir() if p.suffix in (".ply", ".stl", ".obj"))
+
+
+def wscvt(*words):
+    subprocess.run([WSCVT, *map(str, words), "-q"], check=True)
+
+
+def drops(count, diameter, width, seed=1):
+    """Places (x, y, z) above the ground in a box about the z axis, layer on layer, and unit quaternions
+    (w, x, y, z) of random turns. Grains so far apart do not touch."""
+    step = 1.5 * diameter
+    side = max(1, int(width / step))
+    chance = random.Random(seed)
+    for k in range(count):
+        i, j, layer = k % side, k // side % side, k // side ** 2
+        place = [(i - (side - 1) / 2) * step, (j - (side - 1) / 2) * step, (layer + 0.8) * step]
+        turn = [chance.gauss(0, 1) for _ in range(4)]
+        size = math.sqrt(sum(q * q for q in turn))
+        yield place, [q / size for q in turn]
+
+
+def read_obj(path):
+    """Vertices and triangles of an OBJ file, whose faces name vertices alone."""
+    vertices, faces = [], []
+    for line in open(path):
+        words = line.split()
+        if words and words[0] == "v":
+            vertices.append([float(w) for w in words[1:4]])
+        elif words and words[0] == "f":
+            faces.append([int(w) - 1 for w in words[1:4]])
+    return vertices, faces
+
+
+def turned(vertices, place, turn):
+    """Vertices turned by a unit quaternion (w, x, y, z) and moved to a place."""
+    import numpy as np
+
+    w, x, y, z = turn
+    matrix = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                       [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                       [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.asarray(vertices) @ matrix.T + np.asarray(place)
+
+
+def picture(path, grains, width):
+    """A picture of grains, each (vertices, faces), in a box of that width about the z axis."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import numpy as np
+    from matplotlib import pyplot
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    axes = pyplot.figure(figsize=(8, 8)).add_subplot(projection="3d")
+    for k, (vertices, faces) in enumerate(grains):
+        colour = pyplot.cm.tab20(k % 20)
+        axes.add_collection3d(Poly3DCollection(np.asarray(vertices)[np.asarray(faces)], facecolor=colour,
+                                               edgecolor=(0, 0, 0, 0.3), linewidth=0.2))
+    axes.set(xlim=(-width / 2, width / 2), ylim=(-width / 2, width / 2), zlim=(0, width))
+    axes.set_box_aspect((1, 1, 1))
+    pyplot.savefig(path, dpi=100)

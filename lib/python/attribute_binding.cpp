@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "work.h"
+#include "wscvt/measures/carried_attributes.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// NumPy's names of the types, in the order of ScalarType.
+constexpr std::array<const char*, 8> type_names{"int8",  "uint8",  "int16",   "uint16",
+                                                "int32", "uint32", "float32", "float64"};
+
+/// The attributes of a dictionary of arrays, one number for each vertex or face. Other types of
+/// NumPy's, such as int64, become double.
+std::vector<MeshAttribute> attributes_of(const py::dict& arrays) {
+  std::vector<MeshAttribute> attributes;
+  for (const auto& [name, array] : arrays) {
+    MeshAttribute attribute{py::cast<std::string>(name), ScalarType::Float64, {}};
+    const std::string type =
+        py::str(py::module_::import("numpy").attr("asarray")(array).attr("dtype"));
+    for (std::size_t k = 0; k < type_names.size(); ++k) {
+      if (type == type_names[k]) attribute.type = static_cast<ScalarType>(k);
+    }
+    const auto values = py::cast<Points>(array);
+    if (values.ndim() != 1) {
+      throw py::type_error("The attribute \"" + attribute.name +
+                           "\" has another shape than (n,); give one number for each vertex or "
+                           "face.");
+    }
+    attribute.values.assign(values.data(), values.data() + values.size());
+    attributes.push_back(std::move(attribute));
+  }
+  return attributes;
+}
+
+/// Whole types are rounded, as in a file.
+py::dict arrays_of(const std::vector<MeshAttribute>& attributes) {
+  py::dict arrays;
+  for (const MeshAttribute& attribute : attributes) {
+    py::object array = array_of(attribute.values);
+    if (!holds_fractions(attribute.type)) array = array.attr("round")();
+    arrays[py::str(attribute.name)] =
+        array.attr("astype")(type_names[static_cast<std::size_t>(attribute.type)]);
+  }
+  return arrays;
+}
+
+py::tuple both(const MeshAttributes& attributes) {
+  return py::make_tuple(arrays_of(attributes.of_vertices), arrays_of(attributes.of_faces));
+}
+
+py::tuple carry_attributes(const py::object& scan, const py::object& mesh,
+                           const py::dict& of_vertices, const py::dict& of_faces, int threads) {
+  const IndexedMesh from = mesh_of_reference(scan);
+  const IndexedMesh to = mesh_of_reference(mesh);
+  const MeshAttributes own{attributes_of(of_vertices), attributes_of(of_faces)};
+  return both(work_on(threads, py::none(), [&](const Execution& execution) {
+    return carried_attributes(from, own, to, execution);
+  }));
+}
+
+}  // namespace
+
+void bind_attributes(py::module_& module) {
+  module.def(
+      "read_attributes",
+      [](const std::string& path) { return both(read_mesh_file(path).attributes); },
+      py::arg("path"),
+      "The numbers that the vertices and the faces of a PLY file carry, such as red, green, blue, "
+      "quality or label: two dictionaries of arrays (n,). Both are empty for other formats.");
+  module.def("carry_attributes", &carry_attributes, py::arg("scan"), py::arg("mesh"),
+             py::arg("vertex_attributes") = py::dict(), py::arg("face_attributes") = py::dict(),
+             py::kw_only(), py::arg("threads") = 0,
+             "Carries the numbers at a scan's vertices and faces onto another mesh in the same "
+             "place, each by the nearest point of the scan. scan and mesh: (vertices, faces). "
+             "Returns two dictionaries with the same names and types.");
+  module.def(
+      "write_attributes",
+      [](const std::string& path, const Points& vertices, const py::object& faces,
+         const py::dict& of_vertices, const py::dict& of_faces) {
+        write_mesh(mesh_of(vertices, faces), {attributes_of(of_vertices), attributes_of(of_faces)},
+                   path);
+      },
+      py::arg("path"), py::arg("vertices"), py::arg("faces"), py::arg("vertex_attributes"),
+      py::arg("face_attributes"));
+}
+
+}  // namespace wscvt::python

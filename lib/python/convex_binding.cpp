@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <utility>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "option_arguments.h"
+#include "work.h"
+#include "wscvt/convex/convex_parts.h"
+#include "wscvt/remesh.h"
+#include "wscvt/report/parts_report.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::tuple convex(const Points& vertices, const py::object& faces, int parts, int part_faces,
+                 double tolerance, int threads, const py::object& progress,
+                 const py::kwargs& given) {
+  RemeshOptions defaults;
+  defaults.node_count = convex_node_count;
+  RemeshOptions remesh_options = options_of(given, defaults);
+  remesh_options.measures.suggestions = false;
+  remesh_options.measures.repaired_scan = true;
+  const ConvexOptions options{parts, part_faces, tolerance};
+  IndexedMesh scan = mesh_of(vertices, faces);
+  const PartsReport report = work_on(threads, progress, [&](const Execution& execution) {
+    check_options(options);
+    RemeshResult result = remesh(std::move(scan), remesh_options, execution.part(0.0, 0.3));
+    PartsReport made;
+    made.warnings = result.warnings;
+    made.parts =
+        convex_parts(result.mesh, result.repaired_scan.points, options, execution.part(0.3, 0.9));
+    made.measures = measure_parts(made.parts, result.repaired_scan, execution.part(0.9, 1.0));
+    made.mass = mass_properties(result.original);
+    return made;
+  });
+  py::list list;
+  for (const IndexedMesh& part : report.parts) {
+    list.append(py::make_tuple(array_of(part.points), array_of(part.triangles)));
+  }
+  return py::make_tuple(list, parsed(parts_json(report)));
+}
+
+}  // namespace
+
+void bind_convex(py::module_& module) {
+  module.def("convex", &convex, py::arg("vertices"), py::arg("faces"), py::kw_only(),
+             py::arg("parts") = ConvexOptions().parts,
+             py::arg("part_faces") = ConvexOptions().faces,
+             py::arg("tolerance") = ConvexOptions().tolerance, py::arg("threads") = 0,
+             py::arg("progress") = py::none(),
+             "Takes a grain apart into at most `parts` convex parts, for physics engines. Returns "
+             "a list with a pair (vertices, faces) for each part, and their distances from the "
+             "grain, their volume and the grain's mass properties as a dictionary. part_faces: "
+             "faces of a part at most; tolerance: distance that needs no cut, % of the equivalent "
+             "radius. The scan and the options of its remesh as for remesh. Raises Error.");
+}
+
+}  // namespace wscvt::python

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/distances.h"
+
+namespace wscvt {
+
+/// Signed distances to a closed outward mesh at the points of a grid, and between them by linear
+/// interpolation: a hundred times as fast as the distance itself, and as good as the grid is fine.
+class SignedGrid {
+ public:
+  /// `cells` of them along the longest side of the box about the mesh, 1 or more. Throws
+  /// Error(Cancelled).
+  SignedGrid(const IndexedMesh& mesh, int cells, const Execution& execution);
+
+  /// Positive outside; length. Outside the grid the value at its nearest point.
+  double at(const Vector3& point) const;
+
+  /// The larger of `least` and the distance of a point outside the mesh; length. Takes the exact
+  /// distance where the grid's is larger than `least`.
+  double distance_beyond(double least, const Vector3& point) const;
+
+  double spacing() const { return spacing_; }
+
+ private:
+  std::size_t index(int i, int j, int k) const {
+    return static_cast<std::size_t>((k * counts_[1] + j) * counts_[0] + i);
+  }
+
+  MeshDistance distance_;
+  Vector3 origin_ = Vector3::Zero();
+  double spacing_ = 1.0;
+  std::array<int, 3> counts_{};
+  std::vector<double> values_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Convex parts, and what a scan carries."""
+import os
+import pathlib
+
+import numpy as np
+import pytest
+
+import wscvt
+
+MESHES = pathlib.Path(os.environ["WSCVT_MESHES_DIR"])
+
+
+def test_colours_and_labels_are_carried_and_kept_by_ply(tmp_path):
+    scan = wscvt.create("ellipsoid", nodes=400, semi_axes=(1.3, 1.0, 0.8))
+    vertices, faces = scan.vertices, scan.faces
+    red = np.round(100 + 60 * vertices[:, 1]).astype(np.uint8)
+    label = np.where(vertices[faces].mean(axis=1)[:, 2] > 0, 12, -7).astype(np.int32)
+    path = tmp_path / "coloured.ply"
+    wscvt.write_mesh(path, vertices, faces, vertex_attributes={"red": red}, face_attributes={"label": label})
+    of_vertices, of_faces = wscvt.read_attributes(path)
+    assert of_vertices["red"].dtype == np.uint8 and of_faces["label"].dtype == np.int32
+    np.testing.assert_array_equal(of_vertices["red"], red)
+    np.testing.assert_array_equal(of_faces["label"], label)
+    remesh = wscvt.remesh(path, 150)
+    carried, labels = wscvt.carry_attributes(path, remesh)
+    # Rounded twice; the nearest point lies within the distance of the remesh, some hundredths.
+    assert np.abs(carried["red"] - (100 + 60 * remesh.vertices[:, 1])).max() < 1 + 60 * 0.05
+    assert set(np.unique(labels["label"])) == {-7, 12}
+    with pytest.raises(wscvt.Error, match="give one each"):
+        wscvt.carry_attributes((vertices, faces), remesh, {"red": red[1:]})
+
+
+def test_convex_parts_hold_the_grain():
+    parts, report = wscvt.convex(MESHES / "sand_5658.ply", parts=2, nodes=150)
+    assert len(parts) == report["parts"] == 2
+    for vertices, faces in parts:
+        assert vertices.shape[1] == 3 and len(faces) == 2 * len(vertices) - 4 and len(faces) <= 255
+    assert 0 < report["rms_distance"] < report["largest_distance"]
+    assert report["mass_properties"]["volume"] > 0 and report["excess_volume_percent"] > 0
+    with pytest.raises(wscvt.Error, match="number of parts"):
+        wscvt.convex(MESHES / "sand_5658.ply", parts=0, nodes=150)
