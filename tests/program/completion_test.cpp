@@ -35,7 +35,7 @@ class Completion : public test::ProgramRun {
 using Words = std::set<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
-  EXPECT_EQ(completed("wscvt c"), (Words{"clump", "compare", "create", "collect"}));
+  EXPECT_EQ(completed("wscvt c"), (Words{"clump", "compare", "convex", "create", "collect"}));
   EXPECT_EQ(completed("wscvt --v"), Words{"--version"});
   EXPECT_EQ(completed("wscvt remesh a.ply --max-"),
             (Words{"--max-error", "--max-handle-loop", "--max-nodes", "--max-overhang",

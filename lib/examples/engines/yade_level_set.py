@@ -51,7 +51,7 @@ contacts = GrainContacts(grains[0], stiffness, 0.5 * stiffness, friction)
 
 def between(value):
     """Yade's own law acts at the walls only."""
-    return MatchMaker(matches=((wall.id, stone.id, value),), fallback="val", val=0)
+    return MatchMaker(matches=((wall.id, stone.id, value),), algo="val", val=0)
 
 
 O.engines = [
