@@ -57,20 +57,6 @@ std::string call_text(const BatchArguments& arguments) {
                         {"options", wscvt::json_of(arguments.options)}});
 }
 
-void check_call(const std::string& path, const std::string& call, bool is_begun) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file && errno != ENOENT && errno != ENOTDIR) refuse_to_read(path);
-  const std::string before((std::istreambuf_iterator<char>(file)), {});
-  if (before == call) return;
-  if (is_begun) {
-    throw Error(ErrorCode::InvalidInput,
-                "A batch of other options or another version stands in that folder: see \"" + path +
-                    "\"; call it as that says, or give another folder with -o.");
-  }
-  write_file(path, call);
-}
-
 /// The remesh of a grain, or one for each level.
 std::vector<RemeshResult> remeshes_of(const BatchArguments& arguments, IndexedMesh scan,
                                       const RemeshOptions& options, const Execution& execution) {

@@ -2,11 +2,15 @@
 #include "batch_output.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 
 namespace wscvt::program {
@@ -88,6 +92,20 @@ void BatchOutput::remove_parts(const std::vector<std::string>& grains, std::size
     for (std::size_t k = first; k < grains.size(); ++k) remove_partial_file(level.mesh(grains[k]));
     for (const char* ending : {".json", ".html"}) remove_partial_file(level.summary(ending));
   }
+}
+
+void check_call(const std::string& path, const std::string& call, bool is_begun) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file && errno != ENOENT && errno != ENOTDIR) refuse_to_read(path);
+  const std::string before((std::istreambuf_iterator<char>(file)), {});
+  if (before == call) return;
+  if (is_begun) {
+    throw Error(ErrorCode::InvalidInput,
+                "A batch of other options or another version stands in that folder: see \"" + path +
+                    "\"; call it as that says, or give another folder with -o.");
+  }
+  write_file(path, call);
 }
 
 }  // namespace wscvt::program

@@ -67,4 +67,8 @@ class BatchOutput {
   std::vector<std::unique_ptr<SampleTable>> tables_;
 };
 
+/// Notes in the file `path` what a batch was called with, or refuses a batch that is begun and was
+/// called otherwise. Throws Error.
+void check_call(const std::string& path, const std::string& call, bool is_begun);
+
 }  // namespace wscvt::program

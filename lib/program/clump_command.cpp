@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "clump_command.h"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "batch_grains.h"
+#include "batch_output.h"
 #include "command.h"
 #include "exit_code.h"
+#include "grain_run.h"
 #include "output_paths.h"
+#include "signals.h"
+#include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/clump/clump.h"
 #include "wscvt/exchange/clump_files.h"
 #include "wscvt/report/clump_report.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/sample_table.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -39,19 +50,35 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
                 "Fit overlapping spheres to a grain, for engines that take clumps",
                 {"scan.ply -k 20 -o clump.csv --report clump.html",
                  "scan.ply --max-error 3 -o clump.multisphere -o clump.chrono.csv --size 0.01",
-                 "scan.ply -k 50 --inside -o clump.py"},
+                 "scan.ply -k 50 --inside -o clump.py", "scans -k 10 -o clumps"},
                 "Mass, centre and inertia are the grain's. The report has the errors of taking the "
                 "spheres' own.\nwscvt compare clump.csv scan.ply measures a clump.",
+                true,
                 true});
-  add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
+  app.add_option("scans", arguments.inputs,
+                 mesh_argument_text("Scan", MeshUse::Read) +
+                     "; or several, folders, patterns in quotes, volumes of labels, or @FILE with "
+                     "one of these a line")
+      ->type_name("INPUT")
       ->required();
-  app.add_option("-o,--output", arguments.outputs,
-                 "Write the clump to this file, by its ending: .csv (x,y,z,r), .multisphere "
-                 "(LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for "
-                 "MercuryDPM), .p3dat (PFC). May be given more than once")
+  app.add_option(
+         "-o,--output", arguments.outputs,
+         "Write the clump to this file, by its ending: .csv (x,y,z,r), .multisphere "
+         "(LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for "
+         "MercuryDPM), .p3dat (PFC). May be given more than once. For several scans: the folder "
+         "of their clumps and of the table grains.csv")
       ->type_name("FILE")
       ->required()
       ->allow_extra_args(false);
+  app.add_option("--format", arguments.format,
+                 "Ending of the clumps of several scans, without its point. Default: csv")
+      ->type_name("NAME")
+      ->group(finer_settings);
+  add_typed(app, "--shard",
+            [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
+      ->description("Only the I-th of N parts of several scans, by their names")
+      ->type_name("I/N")
+      ->group(finer_settings);
   AddClumpOption add{app};
   for_each_clump_option(arguments.options, add);
   for (const std::string_view key : {points_option.key, envelope_option.key,
@@ -70,12 +97,113 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
   return app;
 }
 
+namespace {
+
+/// Whether the inputs are a sample: all but one file of a mesh.
+bool is_sample(const std::vector<std::string>& inputs) {
+  std::error_code error;
+  const std::string& first = inputs.front();
+  return inputs.size() > 1 || fs::is_directory(first, error) || first.front() == '@' ||
+         is_volume(first) ||
+         (!fs::exists(first, error) && first.find_first_of("*?[") != std::string::npos);
+}
+
+/// What a sample that is started again has to have been called with.
+std::string call_text(const ClumpArguments& arguments) {
+  return json_document({{"format", "wscvt-clumps"},
+                        {"made_by", made_by()},
+                        {"clumps", arguments.format},
+                        {"frame", key_of(arguments.frame.frame)},
+                        {"size", arguments.frame.size},
+                        {"scale", arguments.frame.scale},
+                        {"options", json_of(arguments.options)}});
+}
+
+GrainRow clump_row(const ClumpArguments& arguments, const OutputFolder& folder, BatchGrains& grains,
+                   std::size_t k, const Execution& execution) {
+  const std::string& grain = grains.names()[k];
+  const auto make = [&]() -> GrainRow {
+    GrainScan scan = grains.read(k, execution);
+    ClumpResult clump = make_clump(std::move(scan.mesh), arguments.options, execution);
+    clump.warnings.insert(clump.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
+    write_clump(folder.mesh(grain), clump, arguments.frame);
+    return {sample_row(grain, clump_csv(clump, {grain, ""}), {}), "", {}};
+  };
+  return row_or_failure(make, [&](const std::string& error) -> GrainRow {
+    return {failed_row(grain, error, clump_csv(ClumpResult()), {}), error, {}};
+  });
+}
+
+/// Works as a batch does, with its table, its call and its way to go on.
+int run_sample(const ClumpArguments& arguments) {
+  const bool quiet = arguments.common.quiet;
+  BatchArguments batch;
+  batch.format = arguments.format;
+  batch.shard = arguments.shard;
+  const std::vector<std::string> files = checked([&] {
+    if (arguments.outputs.size() != 1 || is_clump_name(arguments.outputs.front())) {
+      refuse("Several scans are given. Give one folder with -o, and --format for the clumps.");
+    }
+    if (!arguments.common.reports.empty()) {
+      refuse(
+          "Several scans are given. Their table is grains.csv in the folder of -o; leave out "
+          "--report.");
+    }
+    check_clump_path("clump." + arguments.format);
+    std::vector<std::string> found = grain_files(arguments.inputs);
+    for (const std::string& file : found) {
+      if (!is_volume(file)) check_mesh_format(file, MeshUse::Read);
+    }
+    return found;
+  });
+  batch.folder = arguments.outputs.front();
+  BatchGrains inputs(files, {}, arguments.shard, quiet);
+  const std::vector<std::string>& grains = inputs.names();
+  const BatchOutput output(batch);
+  const OutputFolder& folder = output.whole();
+  checked([&] { output.check_meshes(grains); });
+  std::error_code error;
+  fs::create_directories(folder.path(), error);
+  checked(
+      [&] { check_call(folder.call(), call_text(arguments), fs::exists(folder.table(), error)); });
+  SampleTable table = checked([&] {
+    return SampleTable(folder.table(), sample_header(clump_csv(ClumpResult()), false), grains);
+  });
+  const std::size_t first = table.rows();
+  output.remove_parts(grains, first);
+  inputs.begin(first);
+  GrainRun all;
+  all.first = first;
+  all.failed = table.failed_rows();
+  all.count = grains.size();
+  all.threads = arguments.common.threads;
+  all.quiet = quiet;
+  all.when_stopped = "The same call goes on from there.";
+  all.name = [&](std::size_t k) { return grains[k]; };
+  all.work = [&](std::size_t k, const Execution& execution) {
+    return clump_row(arguments, folder, inputs, k, execution);
+  };
+  all.take = [&](std::size_t, const GrainRow& row) { table.append(row.record); };
+  const GrainRunEnd end = run_grains(all);
+  if (end.was_cancelled) return 128 + noted_signal();
+  print({std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
+         " failed: " + folder.table()},
+        quiet);
+  return end.failed == 0 && !inputs.is_much_left_out() ? Done : SomeFailed;
+}
+
+}  // namespace
+
 int run(const ClumpArguments& arguments) {
   const CommonArguments& common = arguments.common;
   checked([&] {
     check_clump_options(arguments.options);
     check_frame_options(arguments.frame);
-    check_mesh_format(arguments.scan, MeshUse::Read);
+  });
+  if (is_sample(arguments.inputs)) return run_sample(arguments);
+  const std::string& scan = arguments.inputs.front();
+  checked([&] {
+    check_mesh_format(scan, MeshUse::Read);
     std::vector<NamedFile> outputs = named_reports(common.reports);
     for (const std::string& output : arguments.outputs) {
       check_clump_path(output);
@@ -83,11 +211,11 @@ int run(const ClumpArguments& arguments) {
         if (file.rfind(output + "/", 0) != 0) outputs.push_back({"the clump", file});
       }
     }
-    check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
+    check_output_paths({{"the scan", scan}}, outputs, common.overwrite);
     for (const std::string& report : common.reports) check_clump_report(report);
   });
   Work work(common);
-  MeshFile file = read_mesh_file(arguments.scan, work.execution().part(0.0, reading_share));
+  MeshFile file = read_mesh_file(scan, work.execution().part(0.0, reading_share));
   ClumpResult clump = make_clump(std::move(file.mesh), arguments.options,
                                  work.execution().part(reading_share, 1.0));
   clump.warnings.insert(clump.warnings.begin(), file.warnings.begin(), file.warnings.end());
@@ -98,7 +226,7 @@ int run(const ClumpArguments& arguments) {
   }
   for (const std::string& report : common.reports) {
     work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, clump, origin_of(arguments.scan), execution);
+      write_report(path, clump, origin_of(scan), execution);
     });
   }
   work.print(clump.warnings, clump_lines(clump));

@@ -5,16 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "batch_inputs.h"
 #include "common_arguments.h"
 #include "wscvt/clump/clump_options.h"
 #include "wscvt/exchange/simulation_options.h"
 
 namespace wscvt::program {
 
-/// `wscvt clump`: a clump of spheres of one grain.
+/// `wscvt clump`: a clump of spheres of one grain, or of each of a sample.
 struct ClumpArguments {
-  std::string scan;
-  std::vector<std::string> outputs;  ///< the ending says what each becomes
+  std::vector<std::string> inputs;   ///< a scan, or what a batch takes
+  std::vector<std::string> outputs;  ///< files, whose endings say what each becomes; or one folder
+  std::string format = "csv";        ///< of a sample: ending of the clumps
+  Shard shard;                       ///< of a sample
   ClumpOptions options;
   FrameOptions frame;
   CommonArguments common;

@@ -7,6 +7,7 @@
 #include "output_paths.h"
 #include "work.h"
 #include "wrong_call.h"
+#include "wscvt/report/clump_report.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/sample_summary.h"
 #include "wscvt/report/sample_table.h"
@@ -45,10 +46,13 @@ int run(const CollectArguments& arguments) {
     check_output_paths(inputs, outputs, false);
     for (const std::string& summary : arguments.summaries) check_summary(summary);
   });
-  if (is_shape_table(arguments.tables.front())) {
+  const bool holds_clumps = is_clump_table(arguments.tables.front());
+  if (holds_clumps || is_shape_table(arguments.tables.front())) {
     if (!arguments.summaries.empty()) {
-      throw WrongCall(
-          "Tables of shapes have no summary. Leave out --report, and call wscvt sample.");
+      throw WrongCall(holds_clumps
+                          ? "Tables of clumps have no summary. Leave out --report."
+                          : "Tables of shapes have no summary. Leave out --report, and call wscvt "
+                            "sample.");
     }
     join_tables(arguments.tables, arguments.output);
     return Done;

@@ -79,4 +79,23 @@ WSCVT=$program yade -n -x "$examples/yade_polyhedra.py" scans 6 > polyhedra.log 
 grep '^Yade polyhedra:' polyhedra.log
 WSCVT=$program "$python" "$examples/mujoco_packing.py" scans 8 | grep '^MuJoCo:'
 for picture in polyhedra.png mujoco.png; do test -s "$picture"; done
+
+# A clump of the grain: LIGGGHTS and Yade drop it on a wall.
+"$program" clump -q "$here/../../meshes/sand_7228.ply" -k 20 --size 0.05 -o clump.multisphere -o clump.py \
+  --report clump.json
+liggghts -in "$here/clump_test.in" -log clump_liggghts.log > clump_liggghts.out 2>&1 || {
+  tail -n 20 clump_liggghts.out >&2
+  exit 1
+}
+"$python" - clump_liggghts.out << END
+import re, sys
+rows = [line.split() for line in open(sys.argv[1]) if re.match(r" *20000 ", line)]
+assert rows and int(rows[0][1]) == 20 and float(rows[0][3]) > -0.02, rows
+print("LIGGGHTS: clump of %s spheres, centres at %.3f m or above" % (rows[0][1], float(rows[0][3])))
+END
+yade -n -x "$here/clump_yade_test.py" > clump_yade.log 2>&1 || {
+  tail -n 30 clump_yade.log >&2
+  exit 1
+}
+grep '^Yade: clump' clump_yade.log
 echo "The engines take the grain."

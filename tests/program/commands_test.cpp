@@ -175,6 +175,7 @@ TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
   EXPECT_EQ(run("extract pieces.nrrd grains -q").exit_code, 3);
   for (const auto& [command, may_be_three] :
        std::vector<std::pair<std::string, bool>>{{"batch", true},
+                                                 {"clump", true},
                                                  {"collect", true},
                                                  {"extract", true},
                                                  {"remesh", false},

@@ -321,6 +321,22 @@ def test_create_knows_the_two_exponents_of_a_superellipsoid():
         assert volume(made.vertices, made.faces) == pytest.approx(exact(polar, azimuthal), rel=1e-3)
 
 
+def test_clump_gives_spheres_and_their_errors():
+    made = wscvt.create("ellipsoid", nodes=2000, semi_axes=(3, 2, 1))
+    clump = wscvt.clump(made.vertices, made.faces, 12)
+    assert clump["spheres"].shape == (12, 4) and clump["sphere_count"] == 12
+    inside = wscvt.clump(made.vertices, made.faces, spheres=12, inside=True)
+    radii = inside["spheres"][:, 3]
+    depths = -wscvt.signed_distances(inside["spheres"][:, :3], made.vertices, made.faces)
+    assert (depths >= radii).all()
+    assert clump["rms_percent"] < inside["rms_percent"] < 20
+    assert clump["options"]["spheres"] == 12
+    with pytest.raises(wscvt.Error):
+        wscvt.clump(made.vertices, made.faces, 0)
+    with pytest.raises(TypeError):
+        wscvt.clump(made.vertices, made.faces, radius=1)
+
+
 def test_describe_takes_its_ball_its_cut_off_and_a_progress():
     made = wscvt.create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=2000)
     told = []

@@ -23,7 +23,7 @@ import numpy
 from . import _wscvt
 from ._wscvt import Error, Remesh, __version__, options
 
-__all__ = ["Error", "Remesh", "batch", "carry_attributes", "convex", "create", "describe",
+__all__ = ["Error", "Remesh", "batch", "carry_attributes", "clump", "convex", "create", "describe",
            "distance_grid", "extract", "grow", "options", "read_attributes", "read_mesh", "read_table",
            "remesh", "sample", "signed_distances", "templates", "write_mesh"]
 
@@ -173,6 +173,25 @@ def extract(labels, voxel_size=1.0, **options):
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3
     return _wscvt.extract(labels, voxel_size, **options)
+
+
+def clump(vertices, faces=None, spheres=20, **options):
+    """Fits overlapping spheres to a grain, for engines that take clumps.
+
+    clump("scan.ply", spheres=50), clump(mesh), clump(vertices, faces)
+
+    spheres: their number, 1 to 1000.
+    max_error: allowed rms distance in % of the equivalent radius, in place of a number; then
+        max_spheres is the largest number.
+    smallest_radius: of a sphere, in % of the equivalent radius.
+    inside: no sphere reaches out of the scan.
+    remesh_nodes: nodes of a remesh whose error of first contact stands beside the clump's; 0: none.
+    threads, progress: as for remesh.
+
+    The dictionary is the JSON report of "wscvt clump". Its "spheres" are an array (k, 4) of x, y, z
+    and radius. Raises Error, and TypeError for an option that there is not.
+    """
+    return _wscvt.clump(*_arrays(vertices, faces), spheres, **options)
 
 
 def describe(vertices, faces=None, reference=None, **options):

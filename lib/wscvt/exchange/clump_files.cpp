@@ -96,13 +96,13 @@ std::string yade_script(const FramedClump& clump) {
          "# Coordinates are the grain's principal axes about its centroid; mass and moments are "
          "the\n"
          "# grain's at unit density.\n"
-         "from yade import O, Matrix3, Quaternion, Vector3, clumpTemplate, utils\n\n"
+         "from yade import O, Matrix3, Quaternion, Vector3, utils\n\n"
          "volume = " +
          format_exact(clump.mass.volume) + "\nmoments = (" + numbers(moments(clump), ", ") +
          ")\nspheres = [\n" + spheres +
          "]\n\n"
          "# For O.bodies.replaceByClumps, which takes mass and inertia from the spheres.\n"
-         "template = clumpTemplate(relRadii=[r for c, r in spheres], relPositions=[c for c, r in "
+         "template = utils.clumpTemplate(relRadii=[r for c, r in spheres], relPositions=[c for c, r in "
          "spheres])\n\n\n"
          "def add(position=(0, 0, 0), orientation=None, material=-1, density=2650.0):\n"
          "    \"\"\"Adds a clump with the grain's mass and moments; its number, and those of its "

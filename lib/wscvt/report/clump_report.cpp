@@ -2,6 +2,7 @@
 #include "wscvt/report/clump_report.h"
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -47,8 +48,6 @@ Json json_of(const SphereMass& mass) {
 }
 
 Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
-  OptionMembers options;
-  for_each_clump_option(clump.options, options);
   const ContactError none = {std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::quiet_NaN()};
   Json stages = Json::array();
@@ -67,7 +66,7 @@ Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
           {"made_by", made_by()},
           {"source", told(origin.source)},
           {"date", told(origin.date)},
-          {"options", std::move(options.members)},
+          {"options", wscvt::json_of(clump.options)},
           {"input",
            {{"vertices", clump.input.vertices},
             {"faces", clump.input.faces},
@@ -136,6 +135,12 @@ std::vector<NamedMass> masses(const ClumpResult& clump) {
 
 }  // namespace
 
+Json json_of(const ClumpOptions& options) {
+  OptionMembers members;
+  for_each_clump_option(options, members);
+  return std::move(members.members);
+}
+
 std::vector<std::string> clump_lines(const ClumpResult& clump) {
   std::vector<std::string> lines = {
       "Scan        " + std::to_string(clump.input.vertices) + " vertices, " +
@@ -202,6 +207,13 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
   page.add_heading("Log");
   page.add_lines(clump_lines(clump));
   return page.text();
+}
+
+bool is_clump_table(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  return std::getline(stream, line) && line.rfind("grain,status,error", 0) == 0 &&
+         line.find(",first_contact.clump.mean_percent,") != std::string::npos;
 }
 
 void check_clump_report(const std::string& path) {

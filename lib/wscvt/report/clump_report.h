@@ -25,6 +25,10 @@ std::string clump_csv(const ClumpResult& clump, const ReportOrigin& origin = {})
 std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
                        const Execution& execution);
 
+/// Whether a file begins as a table of clumps does, with a row per grain. False if it cannot be
+/// read.
+bool is_clump_table(const std::string& path);
+
 /// As check_remesh_report.
 void check_clump_report(const std::string& path);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/clump/clump_options.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
@@ -30,6 +31,7 @@ Json json_of(const MassProperties& mass);
 
 /// Every option under the name and with the value that one types for the program.
 Json json_of(const RemeshOptions& options);
+Json json_of(const ClumpOptions& options);
 
 /// The value of each descriptor under its key.
 Json json_of(const std::vector<DescriptorValue>& values);

@@ -97,22 +97,34 @@ const std::string& writable(const std::string& path) {
 
 }  // namespace
 
-std::string sample_header(bool with_seconds) {
+std::string sample_header(const std::string& report, bool with_seconds) {
   std::vector<std::string> names = {"grain", "status", "error", "seconds"};
   if (!with_seconds) names.pop_back();
-  return before(names, halves(report_csv(RemeshResult())).first);
+  return before(names, halves(report).first);
 }
 
-std::string sample_row(const std::string& grain, const RemeshResult& result, Seconds seconds) {
-  return before(first_fields(grain, done, "", seconds),
-                halves(report_csv(result, {grain, ""})).second);
+std::string sample_row(const std::string& grain, const std::string& report, Seconds seconds) {
+  return before(first_fields(grain, done, "", seconds), halves(report).second);
 }
 
-std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds) {
-  const std::string header = halves(report_csv(RemeshResult())).first;
+std::string failed_row(const std::string& grain, const std::string& error,
+                       const std::string& report, Seconds seconds) {
+  const std::string header = halves(report).first;
   const auto columns = std::count(header.begin(), header.end(), ',');
   return before(first_fields(grain, failed, error, seconds),
                 std::string(static_cast<std::size_t>(columns), ',') + "\r\n");
+}
+
+std::string sample_header(bool with_seconds) {
+  return sample_header(report_csv(RemeshResult()), with_seconds);
+}
+
+std::string sample_row(const std::string& grain, const RemeshResult& result, Seconds seconds) {
+  return sample_row(grain, report_csv(result, {grain, ""}), seconds);
+}
+
+std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds) {
+  return failed_row(grain, error, report_csv(RemeshResult()), seconds);
 }
 
 SampleTable::SampleTable(const std::string& path, const std::string& header,

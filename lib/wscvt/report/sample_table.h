@@ -27,6 +27,13 @@ std::string sample_row(const std::string& grain, const RemeshResult& result, Sec
 /// The record of a grain that was not.
 std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds);
 
+/// The same of another report than a remesh's, by its CSV: a header and a row. Of the first and the
+/// last only the header counts.
+std::string sample_header(const std::string& report, bool with_seconds);
+std::string sample_row(const std::string& grain, const std::string& report, Seconds seconds);
+std::string failed_row(const std::string& grain, const std::string& error,
+                       const std::string& report, Seconds seconds);
+
 /// Such a table, or one of shapes (shape_table.h), as a file that grows. A program that is killed
 /// leaves whole rows and at most a part of one, which the next one to open it takes off.
 class SampleTable {

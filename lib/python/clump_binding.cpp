@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/pybind11.h>
+
+#include <utility>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "work.h"
+#include "wscvt/clump/clump.h"
+#include "wscvt/report/clump_report.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::array_t<double> array_of(const std::vector<Sphere>& spheres) {
+  py::array_t<double> array({static_cast<py::ssize_t>(spheres.size()), py::ssize_t{4}});
+  auto rows = array.mutable_unchecked<2>();
+  for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
+    const Sphere& sphere = spheres[static_cast<std::size_t>(k)];
+    for (py::ssize_t axis = 0; axis < 3; ++axis) rows(k, axis) = sphere.centre[axis];
+    rows(k, 3) = sphere.radius;
+  }
+  return array;
+}
+
+py::object clump(const Points& vertices, const py::object& faces, int spheres, double max_error,
+                 int max_spheres, double smallest_radius, bool inside, int remesh_nodes,
+                 int threads, const py::object& progress) {
+  ClumpOptions options;
+  options.sphere_count = spheres;
+  options.max_error_percent = max_error;
+  options.most_spheres = max_spheres;
+  options.smallest_radius_percent = smallest_radius;
+  options.inside = inside;
+  options.compared_nodes = remesh_nodes;
+  IndexedMesh scan = mesh_of(vertices, faces);
+  const ClumpResult result = work_on(threads, progress, [&](const Execution& execution) {
+    return make_clump(std::move(scan), options, execution);
+  });
+  py::object report = parsed(clump_json(result));
+  report["spheres"] = array_of(result.spheres);
+  return report;
+}
+
+}  // namespace
+
+void bind_clump(py::module_& module) {
+  const ClumpOptions usual;
+  module.def(
+      "clump", &clump, py::arg("vertices"), py::arg("faces"),
+      py::arg("spheres") = usual.sphere_count, py::kw_only(),
+      py::arg("max_error") = usual.max_error_percent, py::arg("max_spheres") = usual.most_spheres,
+      py::arg("smallest_radius") = usual.smallest_radius_percent, py::arg("inside") = usual.inside,
+      py::arg("remesh_nodes") = usual.compared_nodes, py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
+      "Fits overlapping spheres to a grain. Returns the dictionary of the JSON report, with "
+      "spheres as an array (k, 4) of x, y, z and radius. max_error and smallest_radius are in % "
+      "of the equivalent radius. Arrays as for remesh; lengths in the unit of the mesh.");
+}
+
+}  // namespace wscvt::python

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/exchange/clump_files.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/file_folder.h"
+#include "support/test_shapes.h"
+
+namespace wscvt {
+namespace {
+
+/// A clump whose grain is no sphere, turned and off the origin.
+const ClumpResult& made_clump() {
+  static const ClumpResult clump = [] {
+    ClumpOptions options;
+    options.sphere_count = 3;
+    const IndexedMesh scan =
+        test::moved(test::transformed(test::lumpy(3), test::random_rotation(3), Vector3::Zero()),
+                    2.0, {5.0, 6.0, -7.0});
+    return make_clump(scan, options, Execution(1));
+  }();
+  return clump;
+}
+
+std::string content_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+class ClumpFiles : public test::FileFolder {
+ protected:
+  std::string written(const std::string& name, const FrameOptions& frame = {}) const {
+    write_clump(path(name), made_clump(), frame);
+    return content_of(path(name));
+  }
+};
+
+/// The numbers of a text.
+std::vector<double> numbers_of(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == '\n'; }, ' ');
+  std::istringstream stream(text);
+  std::vector<double> numbers;
+  for (double number = 0.0; stream >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+TEST_F(ClumpFiles, TableReadsBackToTheSameBits) {
+  written("clump.csv");
+  ASSERT_TRUE(is_clump_file(path("clump.csv")));
+  const std::vector<Sphere> read = read_clump(path("clump.csv"));
+  ASSERT_EQ(read.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(read[k].centre, made_clump().spheres[k].centre);
+    EXPECT_EQ(read[k].radius, made_clump().spheres[k].radius);
+  }
+}
+
+TEST_F(ClumpFiles, FrameAndSizeAreThoseOfTheGrain) {
+  FrameOptions frame;
+  frame.frame = Frame::Centred;
+  frame.size = 10.0;
+  written("clump.csv", frame);
+  const double scale = 5.0 / made_clump().equivalent_radius;
+  const std::vector<Sphere> read = read_clump(path("clump.csv"));
+  const Sphere& first = made_clump().spheres[2];
+  EXPECT_LT((read[2].centre - scale * (first.centre - made_clump().original.centroid)).norm(),
+            1e-9);
+  EXPECT_NEAR(read[2].radius, scale * first.radius, 1e-12);
+}
+
+TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
+  const SimulationFrame frame =
+      simulation_frame(made_clump().original, {Frame::Principal, 1.0, 0.0});
+  const Sphere& last = made_clump().spheres[2];
+  const Vector3 centre = frame.point(last.centre);
+  const Vector3 moments = mass_properties(made_clump().original).principal_moments;
+
+  // As data/clumps/triangular_flat.csv of DEM-Engine: header, rows, comments.
+  const std::string chrono = written("clump.chrono.csv");
+  EXPECT_EQ(chrono.substr(0, 8), "x,y,z,r\n");
+  const std::vector<Sphere> read = read_clump(path("clump.chrono.csv"));
+  EXPECT_LT((read[2].centre - centre).norm(), 1e-12);
+  EXPECT_NE(chrono.find("# volume = "), std::string::npos);
+
+  const std::vector<double> liggghts = numbers_of(written("clump.multisphere"));
+  ASSERT_EQ(liggghts.size(), 12U);
+  EXPECT_NEAR(liggghts[8], centre.x(), 1e-12);
+  EXPECT_EQ(liggghts[11], last.radius);
+  const std::string fix = content_of(path("clump.multisphere.in"));
+  EXPECT_NE(fix.find("nspheres 3 "), std::string::npos) << fix;
+  EXPECT_NE(fix.find("file clump.multisphere "), std::string::npos) << fix;
+
+  written("clump.mclump");
+  const std::vector<double> mercury =
+      numbers_of(content_of(path("clump.mclump/clump/clump.txt")));
+  ASSERT_EQ(mercury.size(), 12U);
+  EXPECT_NEAR(mercury[9], centre.y(), 1e-12);
+  const std::vector<double> tensor =
+      numbers_of(content_of(path("clump.mclump/inertia/toi.txt")));
+  ASSERT_EQ(tensor.size(), 9U);
+  EXPECT_EQ(tensor[8], moments[2]);
+  EXPECT_EQ(numbers_of(content_of(path("clump.mclump/inertia/pd.txt"))),
+            (std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
+
+  const std::string pfc = written("clump.p3dat");
+  const std::size_t pebbles = pfc.find("pebbles 3 ...\n");
+  ASSERT_NE(pebbles, std::string::npos) << pfc;
+  // The radius first, as PFC's "pebbles" takes it.
+  EXPECT_EQ(numbers_of(pfc.substr(pebbles + 14, 40)).front(), made_clump().spheres[0].radius);
+
+  const std::string yade = written("clump.py");
+  EXPECT_NE(yade.find("clumpTemplate(relRadii"), std::string::npos);
+}
+
+TEST_F(ClumpFiles, WrongNamesAndContentsAreRefused) {
+  EXPECT_ERROR(write_clump(path("clump.stl"), made_clump(), {}), InvalidInput);
+  EXPECT_TRUE(is_clump_name("a.CHRONO.CSV"));
+  EXPECT_FALSE(is_clump_name(".csv"));
+  EXPECT_FALSE(is_clump_file(file("other.csv", "x,y,z\n1,2,3\n")));
+  EXPECT_ERROR(read_clump(path("none.csv")), InputOutput);
+  EXPECT_ERROR(read_clump(file("empty.csv", "x,y,z,r\n")), InvalidInput);
+  for (const char* row : {"1,2,3", "1,2,3,0", "1,2,3,-1", "1,2,nan,1", "1,2,3,4,5", "1,2,x,1"}) {
+    const std::string name = file("bad.csv", std::string("x,y,z,r\n0,0,0,1\n") + row + "\n");
+    const std::string sentence = test::refusal(ErrorCode::InvalidInput, [&] { read_clump(name); });
+    EXPECT_NE(sentence.find("Line 3"), std::string::npos) << row << ": " << sentence;
+  }
+}
+
+}  // namespace
+}  // namespace wscvt

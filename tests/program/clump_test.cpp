@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program that makes clumps, of one grain and of a sample.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "program_run.h"
+#include "support/test_shapes.h"
+#include "wscvt/scan/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+class ClumpProgram : public test::ProgramRun {
+ protected:
+  void write_sample() {
+    std::filesystem::create_directory(folder_ / "scans");
+    write_mesh(test::lumpy(3), path("scans/a.ply"));
+    write_mesh(test::moved(test::sphere(3), 2.0, {1, 2, 3}), path("scans/b.ply"));
+    std::ofstream(folder_ / "scans/torn.ply") << "ply\n";
+  }
+};
+
+TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
+  write_mesh(test::lumpy(3), path("scan.ply"));
+  const Outcome outcome =
+      run("clump scan.ply -k 4 -o c.csv -o c.mclump --report r.html --report r.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("first contact"), std::string::npos);
+  EXPECT_TRUE(exists("c.mclump/inertia/toi.txt"));
+  EXPECT_NE(content("r.html").find("Distance of clump to scan"), std::string::npos);
+  EXPECT_NE(content("r.json").find("\"scatter_percent\""), std::string::npos);
+  const Outcome compared = run("compare c.csv scan.ply");
+  EXPECT_EQ(compared.exit_code, 0) << compared.errors;
+  EXPECT_NE(compared.output.find("root mean square, from the reference"), std::string::npos);
+}
+
+TEST_F(ClumpProgram, ASampleGoesOnAndIsParted) {
+  write_sample();
+  ASSERT_EQ(run("clump scans -k 2 -o out -q").exit_code, 3);
+  const std::string table = content("out/grains.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
+  EXPECT_TRUE(exists("out/a.csv"));
+  EXPECT_NE(table.find("torn.ply,failed,"), std::string::npos) << table;
+  // Cut within its second row, as by a kill.
+  const std::size_t second = table.find("scans/b.ply");
+  std::ofstream(folder_ / "out/grains.csv", std::ios::binary) << table.substr(0, second + 20);
+  std::filesystem::remove(folder_ / "out/b.csv");
+  std::filesystem::remove(folder_ / "out/a.csv");
+  ASSERT_EQ(run("clump scans -k 2 -o out -q -t 1").exit_code, 3);
+  EXPECT_EQ(content("out/grains.csv"), table);
+  EXPECT_TRUE(exists("out/b.csv"));
+  EXPECT_FALSE(exists("out/a.csv"));  // it was done
+  EXPECT_EQ(run("clump scans -k 3 -o out -q").exit_code, 2);
+  ASSERT_LE(run("clump scans -k 2 -o parts -q --shard 1/2").exit_code, 3);
+  ASSERT_LE(run("clump scans -k 2 -o parts -q --shard 2/2").exit_code, 3);
+  ASSERT_EQ(run("collect parts/grains-1-of-2.csv parts/grains-2-of-2.csv -o all.csv").exit_code, 0);
+  EXPECT_EQ(content("all.csv"), table);
+}
+
+TEST_F(ClumpProgram, WrongCallsAreRefused) {
+  write_sample();
+  expect_refused("clump",
+                 {{"scans/a.ply -o clump.stl", 2, "ends in .csv"},
+                  {"scans/a.ply -o c.csv -k 0", 2, "1 to 1000"},
+                  {"scans/a.ply", 2, "--output"},
+                  {"scans -o clump.csv", 2, "one folder with -o"},
+                  {"scans -o out --report r.html", 2, "leave out --report"},
+                  {"scans -o out --format stl", 2, "ends in .csv"},
+                  {"scans/torn.ply -o c.csv", 1, "torn.ply"},
+                  {"scans/a.ply -o c.csv --size 1 --scale 2", 2, "give one of them"}},
+                 {"clump.stl", "c.csv", "out"});
+}
+
+}  // namespace
+}  // namespace wscvt
