@@ -18,6 +18,7 @@
 #include "remesh_report.h"
 #include "shown_words.h"
 #include "wscvt/base/error.h"
+#include "wscvt/measures/carried_attributes.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
@@ -57,7 +58,21 @@ void add_file_line(std::vector<LogLine>& log, const std::string& title, const st
 }
 
 LayerContent content_of(const RemeshResult& result, const ResultSettings& settings) {
-  return {result.mesh, quality_values(result, settings.quality), settings.colour_by_quality};
+  return {result.mesh, quality_values(result, settings.quality), settings.colour_by_quality, {}};
+}
+
+/// The content with what the scan carries. Its quality takes the place of radial distances, which
+/// are the default.
+LayerContent content_of(const RemeshResult& result, const RemeshSettings& settings,
+                        const IndexedMesh& scan, const MeshAttributes& attributes,
+                        const Execution& execution) {
+  LayerContent content = content_of(result, settings.result);
+  content.attributes = carried_attributes(scan, attributes, result.mesh, execution);
+  const MeshAttribute* quality = attribute_named(content.attributes.of_vertices, "quality");
+  if (quality != nullptr && settings.result.quality == VertexQuality::RadialDistance) {
+    content.quality = quality->values;
+  }
+  return content;
 }
 
 /// Writes the report of today about a layer; nothing for an empty name.
@@ -158,7 +173,13 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   settings.options.measures.written = as_layer(layers);
   const Eigen::Matrix4d transform = layers.transform(scan.number);
   const Execution execution(0, progress);
-  const RemeshResult result = remesh(layers.mesh(scan.number), settings.options, execution);
+  IndexedMesh mesh = layers.mesh(scan.number);
+  const MeshAttributes attributes =
+      settings.keep_attributes ? layers.attributes(scan.number) : MeshAttributes();
+  const IndexedMesh read = attributes.empty() ? IndexedMesh() : mesh;
+  const RemeshResult result = remesh(std::move(mesh), settings.options, execution);
+  const LayerContent content =
+      content_of(result, settings, read, attributes, execution.part(1.0, 1.0));
   // Files first: when they cannot be written the document stays as it was.
   save_report(report, scan.label, result);
   if (!settings.coefficients_file.empty()) {
@@ -167,7 +188,6 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
 
   const std::string label =
       remesh_label(scan.label, nodes_name(result.options), result.mesh.points.size());
-  const LayerContent content = content_of(result, settings.result);
   if (settings.new_layer) {
     const int added = layers.add(label, content, transform);
     // The scan may have been deleted while the filter ran.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 
 namespace wscvt::filter {
 
@@ -20,8 +21,11 @@ struct Layer {
 /// What a layer is to hold.
 struct LayerContent {
   IndexedMesh mesh;
-  std::vector<double> quality;  ///< one a point
+  std::vector<double> quality;  ///< one a point; the attributes' own is not used
   bool coloured = false;        ///< from red (lowest quality) to blue
+  /// "red", "green", "blue", "alpha" and "quality" of vertices and faces, as far as there are any.
+  /// `coloured` takes the place of the vertices' colour.
+  MeshAttributes attributes;
 };
 
 /// The layers of a document. Only the host folders know what a host calls them; everything else
@@ -43,6 +47,9 @@ class Layers {
   /// A layer's mesh as it is stored, its transform not applied. Throws Error(InvalidInput) for a
   /// number that is not in the list, as everything below.
   virtual IndexedMesh mesh(int number) const = 0;
+
+  /// Colour and quality of a layer's vertices and faces, as far as it has them; see LayerContent.
+  virtual MeshAttributes attributes(int number) const = 0;
 
   /// The mesh with the coordinates that a layer would hold of it.
   virtual IndexedMesh as_held(IndexedMesh mesh) const = 0;

@@ -3,6 +3,9 @@
 
 #include <vcg/complex/allocate.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,6 +15,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 
 namespace wscvt::filter {
 
@@ -73,6 +77,46 @@ void assign(VcgMesh& target, const IndexedMesh& source, const std::vector<double
     for (int k = 0; k < 3; ++k) {
       const auto v = static_cast<std::size_t>(source.triangles[f][static_cast<std::size_t>(k)]);
       target.face[f].V(k) = &target.vert[v];
+    }
+  }
+}
+
+/// The parts of a colour, in VCG's order.
+constexpr std::array<const char*, 4> colour_names{"red", "green", "blue", "alpha"};
+
+/// Colour and quality of vertices or faces, without the deleted ones, if they have them.
+template <class Elements>
+std::vector<MeshAttribute> attributes_of(const Elements& elements, bool has_colour,
+                                         bool has_quality) {
+  std::vector<MeshAttribute> attributes;
+  const auto add = [&](const char* name, ScalarType type, const auto& value_of) {
+    MeshAttribute attribute{name, type, {}};
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      if (!elements[i].IsD())
+        attribute.values.push_back(static_cast<double>(value_of(elements[i])));
+    }
+    attributes.push_back(std::move(attribute));
+  };
+  for (int k = 0; has_colour && k < 4; ++k) {
+    add(colour_names[static_cast<std::size_t>(k)], ScalarType::Uint8,
+        [k](const auto& element) { return element.cC()[k]; });
+  }
+  if (has_quality) {
+    add("quality", ScalarType::Float64, [](const auto& element) { return element.cQ(); });
+  }
+  return attributes;
+}
+
+/// Sets the colours of vertices or faces, which must be enabled, from attributes that have one
+/// value each. Leaves parts of the colour without an attribute as they are.
+template <class Elements>
+void set_colours(Elements& elements, const std::vector<MeshAttribute>& attributes) {
+  for (int k = 0; k < 4; ++k) {
+    const MeshAttribute* part =
+        attribute_named(attributes, colour_names[static_cast<std::size_t>(k)]);
+    for (std::size_t i = 0; part != nullptr && i < elements.size(); ++i) {
+      const double value = std::clamp(part->values[i], 0.0, 255.0);
+      elements[i].C()[k] = static_cast<unsigned char>(std::lround(value));
     }
   }
 }

@@ -34,13 +34,14 @@ int needed_parts(const Filter& filter) {
   return Model::MM_FACENUMBER;
 }
 
-/// What a filter changes, as the host's mask: a new or changed mesh with its quality and, when
-/// asked for, its colour.
+/// What a filter changes, as the host's mask: a new or changed mesh with its quality and its
+/// colour, and those of its faces if the scan has them.
 template <class Model>
 int changed_parts(const Filter& filter) {
   if (!filter.makes_layers) return Model::MM_NONE;
   return Model::MM_VERTCOORD | Model::MM_VERTNORMAL | Model::MM_VERTNUMBER | Model::MM_VERTQUALITY |
-         Model::MM_VERTCOLOR | Model::MM_FACEVERT | Model::MM_FACENORMAL | Model::MM_FACENUMBER;
+         Model::MM_VERTCOLOR | Model::MM_FACEVERT | Model::MM_FACENORMAL | Model::MM_FACENUMBER |
+         Model::MM_FACECOLOR | Model::MM_FACEQUALITY;
 }
 
 }  // namespace wscvt::filter

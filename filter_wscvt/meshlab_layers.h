@@ -42,6 +42,14 @@ class MeshlabLayers final : public Layers {
 
   IndexedMesh mesh(int number) const override { return to_indexed_mesh(model(number).cm); }
 
+  MeshAttributes attributes(int number) const override {
+    const Model& layer = model(number);
+    return {attributes_of(layer.cm.vert, layer.hasDataMask(Model::MM_VERTCOLOR),
+                          layer.hasDataMask(Model::MM_VERTQUALITY)),
+            attributes_of(layer.cm.face, layer.hasDataMask(Model::MM_FACECOLOR),
+                          layer.hasDataMask(Model::MM_FACEQUALITY))};
+  }
+
   IndexedMesh as_held(IndexedMesh mesh) const override {
     for (Vector3& p : mesh.points) {
       for (double& coordinate : p) {
@@ -143,7 +151,27 @@ class MeshlabLayers final : public Layers {
                                  std::nextafter(red, std::numeric_limits<Scalar>::max()));
       vcg::tri::UpdateColor<Mesh>::PerVertexQualityRamp(model.cm, red, blue);
     }
+    set_attributes(model, content);
     Api::update_box_and_normals(model);
+  }
+
+  static void set_attributes(Model& model, const LayerContent& content) {
+    const MeshAttributes& attributes = content.attributes;
+    const auto enable = [&](const std::vector<MeshAttribute>& all, const char* name, int part) {
+      if (attribute_named(all, name) != nullptr) model.updateDataMask(part);
+    };
+    if (!content.coloured) {
+      enable(attributes.of_vertices, "red", Model::MM_VERTCOLOR);
+      set_colours(model.cm.vert, attributes.of_vertices);
+    }
+    enable(attributes.of_faces, "red", Model::MM_FACECOLOR);
+    set_colours(model.cm.face, attributes.of_faces);
+    enable(attributes.of_faces, "quality", Model::MM_FACEQUALITY);
+    if (const MeshAttribute* quality = attribute_named(attributes.of_faces, "quality")) {
+      for (std::size_t f = 0; f < model.cm.face.size(); ++f) {
+        model.cm.face[f].Q() = static_cast<Scalar>(quality->values[f]);
+      }
+    }
   }
 
   Document& document_;

@@ -68,6 +68,9 @@ ParameterList remesh_parameters() {
       table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
                       "What each vertex of the result holds as its quality."),
       colour_by_quality_parameter(),
+      flag_parameter("KeepColors", true, "Keep colors and labels",
+                     "The result takes color and quality from the nearest point of the scan. "
+                     "A quality of the scan takes the place of the radial distance."),
       report_file_parameter(),
       output_file_parameter(
           "CoefficientsFile", {".json", ".sh"}, "Coefficients file",
@@ -106,6 +109,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   settings.result.colour_by_quality = checked.flag("ColorByQuality");
   settings.result.report_file = checked.text("ReportFile");
   check_remesh_report_file(settings.result.report_file);
+  settings.keep_attributes = checked.flag("KeepColors");
   settings.coefficients_file = checked.text("CoefficientsFile");
   options.measures.coefficients = !settings.coefficients_file.empty();
   check_output_file(settings.coefficients_file, {".json", ".sh"}, "CoefficientsFile");

@@ -21,6 +21,7 @@ ParameterList remesh_parameters();
 struct RemeshSettings {
   RemeshOptions options;
   bool new_layer = true;
+  bool keep_attributes = true;  ///< colour and quality of the scan
   ResultSettings result;
   std::string coefficients_file;  ///< to be written; empty: none
 };

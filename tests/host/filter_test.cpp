@@ -347,15 +347,16 @@ QString listed_parameters(const QString& menu_text) {
 }
 
 TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
-  const QStringList remesh{"NodeCount RichInt 1000",    "ErrorTarget RichFloat 0",
-                           "TargetMeasure RichEnum 4",  "Method RichEnum 0",
-                           "Weighting RichEnum 1",      "CurvatureAlpha RichFloat 1",
-                           "Placement RichEnum 4",      "EdgeRatio RichFloat 1.105",
-                           "HarmonicDegree RichInt 20", "FoldLimit RichFloat 5",
-                           "MendLimit RichFloat 5",     "Points RichBool false",
-                           "NewLayer RichBool true",    "Distances RichBool false",
-                           "Quality RichEnum 0",        "ColorByQuality RichBool false",
-                           "ReportFile OutputFile",     "CoefficientsFile OutputFile"};
+  const QStringList remesh{"NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",
+                           "TargetMeasure RichEnum 4",   "Method RichEnum 0",
+                           "Weighting RichEnum 1",       "CurvatureAlpha RichFloat 1",
+                           "Placement RichEnum 4",       "EdgeRatio RichFloat 1.105",
+                           "HarmonicDegree RichInt 20",  "FoldLimit RichFloat 5",
+                           "MendLimit RichFloat 5",      "Points RichBool false",
+                           "NewLayer RichBool true",     "Distances RichBool false",
+                           "Quality RichEnum 0",         "ColorByQuality RichBool false",
+                           "KeepColors RichBool true",   "ReportFile OutputFile",
+                           "CoefficientsFile OutputFile"};
   EXPECT_EQ(listed_parameters(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
   const QStringList create{"Surface RichEnum 0",         "SemiAxisX RichFloat 1",
                            "SemiAxisY RichFloat 1",      "SemiAxisZ RichFloat 1",
@@ -367,7 +368,7 @@ TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
                            "Quality RichEnum 0",         "ColorByQuality RichBool false",
                            "ReportFile OutputFile"};
   EXPECT_EQ(listed_parameters(creation_menu_text).toStdString(), create.join("\n").toStdString());
-  EXPECT_LE(remesh.size(), 18);
+  EXPECT_LE(remesh.size(), 19);
   EXPECT_LE(create.size(), 18);
   const QStringList describe{"ReferenceLayer RichString", "RoundnessBall RichFloat 0.2",
                              "RoughnessCutoff RichFloat 0.33", "ReportFile OutputFile"};
@@ -515,6 +516,7 @@ TEST(Filter, ReplacesTheScanWhenAsked) {
   RichParameterList parameters = loaded.parameters(document);
   parameters.setValue("NodeCount", IntValue(250));
   parameters.setValue("NewLayer", BoolValue(false));
+  parameters.setValue("KeepColors", BoolValue(false));
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
 
   ASSERT_EQ(layers_of(document).size(), 1);
@@ -620,6 +622,55 @@ TEST(Filter, ColorsFromRedToBlueWhenAsked) {
   EXPECT_TRUE(lowest->cC() == vcg::Color4b(vcg::Color4b::Red));
   EXPECT_TRUE(highest->cC() == vcg::Color4b(vcg::Color4b::Blue));
   EXPECT_TRUE(result.cm.mesh_attr.empty()) << "an attribute that only the coloring needed";
+}
+
+TEST(Filter, KeepsTheScansColorsAndQualityUnlessToldOtherwise) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  scan.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY |
+                      MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY);
+  // Numbers that are linear in the place, so that every node knows what it has to hold.
+  const auto red = [](const auto& p) { return 100.0 + 40.0 * p[0] + 20.0 * p[1]; };
+  const auto value = [](const auto& p) { return 3.0 * p[2] - p[0]; };
+  for (auto& v : scan.cm.vert) {
+    v.C() = vcg::Color4b(static_cast<unsigned char>(std::lround(red(v.P()))), 7, 9, 255);
+    v.Q() = static_cast<float>(value(v.P()));
+  }
+  for (auto& f : scan.cm.face) {
+    const bool right = (f.P(0) + f.P(1) + f.P(2))[0] > 0.0F;
+    f.C() = right ? vcg::Color4b(10, 20, 30, 255) : vcg::Color4b(40, 50, 60, 255);
+    f.Q() = right ? 5.0F : 2.0F;
+  }
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(300));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  MeshModel& result = *document.mm();
+  for (const int part :
+       {MeshModel::MM_VERTCOLOR, MeshModel::MM_FACECOLOR, MeshModel::MM_FACEQUALITY}) {
+    EXPECT_TRUE(result.hasDataMask(part));
+  }
+  // A node's nearest point of the scan is within the misfit, some hundredths.
+  for (const auto& v : result.cm.vert) {
+    EXPECT_NEAR(v.cC()[0], red(v.cP()), 4.0);
+    EXPECT_EQ(v.cC()[2], 9);
+    EXPECT_NEAR(v.cQ(), value(v.cP()), 0.2);
+  }
+  for (const auto& f : result.cm.face) {
+    const float x = (f.cP(0) + f.cP(1) + f.cP(2))[0] / 3.0F;
+    if (std::abs(x) < 0.1F) continue;
+    EXPECT_EQ(f.cQ(), x > 0.0F ? 5.0F : 2.0F);
+    EXPECT_EQ(f.cC()[1], x > 0.0F ? 20 : 50);
+  }
+
+  document.setCurrentMesh(static_cast<int>(scan.id()));
+  parameters.setValue("KeepColors", BoolValue(false));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  const MeshModel& plain = *document.mm();
+  EXPECT_FALSE(plain.hasDataMask(MeshModel::MM_VERTCOLOR));
+  EXPECT_FALSE(plain.hasDataMask(MeshModel::MM_FACECOLOR));
+  // The radial distance.
+  for (const auto& v : plain.cm.vert) EXPECT_NEAR(v.cQ(), v.cP().Norm(), 0.1);
 }
 
 TEST(Filter, LogBeginsEmptyAndHoldsTheTableAndTheTime) {
@@ -1342,7 +1393,7 @@ TEST(FilterParameters, EachReachesItsOwnOption) {
       {"HarmonicDegree", 7.0},  {"MendLimit", 12.5},    {"Points", 1.0},
       {"NewLayer", 0.0},        {"Distances", 1.0},     {"Quality", 1.0},
       {"ColorByQuality", 1.0},  {"ReportFile", report}, {"CoefficientsFile", coefficients},
-      {"CurvatureAlpha", -1.5}, {"EdgeRatio", 1.3}};
+      {"CurvatureAlpha", -1.5}, {"EdgeRatio", 1.3},     {"KeepColors", 0.0}};
   const filter::RemeshSettings all = filter::read_remesh_settings(values);
   EXPECT_EQ(all.options.node_count, 321);
   EXPECT_EQ(all.options.target.percent, 1.25);
@@ -1352,7 +1403,7 @@ TEST(FilterParameters, EachReachesItsOwnOption) {
   EXPECT_EQ(all.options.max_repaired_area_percent, 12.5);
   EXPECT_TRUE(all.options.points && all.options.measures.distances);
   EXPECT_TRUE(all.options.measures.node_curvatures && all.options.measures.coefficients);
-  EXPECT_FALSE(all.new_layer);
+  EXPECT_FALSE(all.new_layer || all.keep_attributes);
   EXPECT_EQ(all.result.quality, filter::VertexQuality::Curvature);
   EXPECT_TRUE(all.result.colour_by_quality);
   EXPECT_EQ(all.result.report_file, report);
