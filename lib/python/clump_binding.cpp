@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 namespace {
 
-py::array_t<double> array_of(const std::vector<Sphere>& spheres) {
+py::array_t<double> array_of_spheres(const std::vector<Sphere>& spheres) {
   py::array_t<double> array({static_cast<py::ssize_t>(spheres.size()), py::ssize_t{4}});
   auto rows = array.mutable_unchecked<2>();
   for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
@@ -41,7 +41,7 @@ py::object clump(const Points& vertices, const py::object& faces, int spheres, d
     return make_clump(std::move(scan), options, execution);
   });
   py::object report = parsed(clump_json(result));
-  report["spheres"] = array_of(result.spheres);
+  report["spheres"] = array_of_spheres(result.spheres);
   return report;
 }
 

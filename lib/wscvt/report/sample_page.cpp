@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t most_grains = 10000;
 constexpr std::size_t most_thumbnails = 100;
 /// Drawn twice as wide and high, and halved.
-constexpr int drawn_pixels = 144;
+constexpr int thumbnail_pixels = 144;
 
 constexpr const char* page_style =
     "<style>select, input { font: inherit; } input { width: 5em; } .thumbs { display: grid; "
@@ -97,7 +97,7 @@ std::string thumbnail(const std::string& file, const Execution& execution) {
     if (error.code() == ErrorCode::Cancelled) throw;
     return "";
   }
-  const MeshView view = view_of({&mesh}, drawn_pixels);
+  const MeshView view = view_of({&mesh}, thumbnail_pixels);
   const std::string element =
       image_element(halved(draw(mesh, look_at(mesh, view), view, false, {})), "");
   const std::size_t begin = element.find("data:");

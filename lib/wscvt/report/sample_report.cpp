@@ -33,7 +33,7 @@ bool is_main(const std::string& name) {
          std::end(main_columns);
 }
 
-std::string number(double value) { return format_number(value, 4); }
+std::string short_number(double value) { return format_number(value, 4); }
 
 /// Visits a sample's sizes: the name, the statistic by mass and by number.
 template <class Visitor>
@@ -61,15 +61,15 @@ void for_each_estimate(const ColumnEstimates& c, const Visitor& visit) {
 std::vector<std::string> wrapped(const std::string& text) {
   constexpr std::size_t most = 80;
   std::vector<std::string> lines;
-  std::string left = text;
-  while (left.size() > most) {
-    std::size_t space = left.rfind(' ', most);
-    if (space == std::string::npos || space == 0) space = left.find(' ', 1);
+  std::string remaining = text;
+  while (remaining.size() > most) {
+    std::size_t space = remaining.rfind(' ', most);
+    if (space == std::string::npos || space == 0) space = remaining.find(' ', 1);
     if (space == std::string::npos) break;
-    lines.push_back(left.substr(0, space));
-    left.erase(0, space + 1);
+    lines.push_back(remaining.substr(0, space));
+    remaining.erase(0, space + 1);
   }
-  lines.push_back(left);
+  lines.push_back(remaining);
   return lines;
 }
 
@@ -88,20 +88,22 @@ void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
   for (const std::string& note : one.sample.notes) append(lines, wrapped(note));
   append(lines, wrapped("Size: " + one.sample.size_name +
                         (one.sample.size_unit.empty() ? "" : ", " + one.sample.size_unit)));
-  lines.push_back("Mass of all grains: " + number(one.statistics.mass));
+  lines.push_back("Mass of all grains: " + short_number(one.statistics.mass));
   std::vector<std::vector<std::string>> rows = {
       {"", "by mass", "95 % from", "to", "by number", "95 % from", "to"}};
   for_each_size(one.statistics, [&](const char* name, const Estimate& mass, const Estimate& count) {
-    rows.push_back({name, number(mass.value), number(mass.lower), number(mass.upper),
-                    number(count.value), number(count.lower), number(count.upper)});
+    rows.push_back({name, short_number(mass.value), short_number(mass.lower),
+                    short_number(mass.upper), short_number(count.value), short_number(count.lower),
+                    short_number(count.upper)});
   });
   append(lines, aligned_lines(rows));
   rows = {{"by number", "mean", "95 % from", "to", "median", "by mass"}};
   for (const ColumnStatistics& column : one.statistics.columns) {
     if (!is_main(column.column.name) || column.count == 0) continue;
     const Estimate& mean = column.by_number.mean;
-    rows.push_back({column.column.name, number(mean.value), number(mean.lower), number(mean.upper),
-                    number(column.by_number.median.value), number(column.by_mass.mean.value)});
+    rows.push_back({column.column.name, short_number(mean.value), short_number(mean.lower),
+                    short_number(mean.upper), short_number(column.by_number.median.value),
+                    short_number(column.by_mass.mean.value)});
   }
   if (rows.size() > 1) append(lines, aligned_lines(rows));
 }
@@ -112,8 +114,8 @@ std::vector<std::vector<std::string>> comparison_rows(const SampleReport& report
   for (const ColumnComparison& row : report.comparison) {
     if (!all && row.column.name != "size" && !is_main(row.column.name)) continue;
     const SampleDistance& d = row.by_number;
-    rows.push_back({row.column.name, number(d.kolmogorov), number(d.kolmogorov_p),
-                    number(d.wasserstein / row.deviation), number(d.wasserstein_p)});
+    rows.push_back({row.column.name, short_number(d.kolmogorov), short_number(d.kolmogorov_p),
+                    short_number(d.wasserstein / row.deviation), short_number(d.wasserstein_p)});
   }
   return rows;
 }
@@ -125,17 +127,17 @@ std::vector<std::vector<std::string>> level_rows(const DetailLevels& levels, boo
   const std::size_t first = levels.nodes.size() - shown;
   std::vector<std::vector<std::string>> rows = {{"90 % of errors, %"}};
   for (std::size_t k = first; k < levels.nodes.size(); ++k) {
-    rows[0].push_back("N " + number(levels.nodes[k]));
+    rows[0].push_back("N " + short_number(levels.nodes[k]));
   }
-  rows[0].push_back("N for " + number(levels.mark_percent) + " %");
+  rows[0].push_back("N for " + short_number(levels.mark_percent) + " %");
   for (const DescriptorLevels& row : levels.rows) {
     if (row.levels.back().count == 0) continue;
     if (!all && row.name != "rms_distance" && !is_main(row.name)) continue;
     std::vector<std::string> cells = {row.name};
     for (std::size_t k = first; k < row.levels.size(); ++k) {
-      cells.push_back(number(row.levels[k].percent_90));
+      cells.push_back(short_number(row.levels[k].percent_90));
     }
-    cells.push_back(number(row.nodes_needed));
+    cells.push_back(short_number(row.nodes_needed));
     rows.push_back(std::move(cells));
   }
   return rows;

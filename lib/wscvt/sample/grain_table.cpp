@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 /// Nothing for a text.
-std::optional<double> number_of(std::string_view field) {
+std::optional<double> field_number(std::string_view field) {
   std::string_view text = trimmed(field);
   if (text.empty() || text == "NA") return missing;
   if (text.front() == '+') text.remove_prefix(1);
@@ -124,7 +124,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
       numbers_.push_back(missing);
       continue;
     }
-    const std::optional<double> number = number_of(fields[k]);
+    const std::optional<double> number = field_number(fields[k]);
     if (!number && roles_[k] == Role::Number) {
       fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
            "\", and numbers above it. Write a number, or leave the field empty.");
