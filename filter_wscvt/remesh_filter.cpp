@@ -26,11 +26,11 @@ ParameterList remesh_parameters() {
       node_count_parameter(),
       option_parameter(
           "ErrorTarget", defaults.target.percent, error_target_option, "Allowed error (%)",
-          "Above 0: searches the smallest number of nodes with at most this error, from the number "
-          "of nodes given up to " +
+          "Above 0: searches the smallest number of nodes with at most this error, from the one "
+          "given "
+          "up to " +
               typed_text(defaults.target.largest_node_count) +
-              ", or that number if it is larger. The log has the error of each number tried. Takes "
-              "about ten times as long."),
+              ". The log has the error of each number tried. Takes ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error measure",
                       "Which error is allowed, each in % of the scan's value."),
       method_parameter(Method::OnScan),
@@ -46,8 +46,7 @@ ParameterList remesh_parameters() {
           "FoldLimit", published.max_overhang_percent, max_overhang_option,
           "Max. overhang (% of solid angle)",
           "As published only. The filter stops if overhangs cover more of the sphere than this. An "
-          "overhang is surface that a ray from the centroid hits after its first hit. Below the "
-          "limit only the outermost surface is kept."),
+          "overhang is surface that a ray from the centroid hits after its first hit."),
       option_parameter(
           "MendLimit", defaults.max_repaired_area_percent, mended_area_limit_option,
           "Max. repaired area (%)",
@@ -74,10 +73,8 @@ ParameterList remesh_parameters() {
       report_file_parameter(),
       output_file_parameter(
           "CoefficientsFile", {".json", ".sh"}, "Coefficients file",
-          "A .json file, or .sh for SHTOOLS, for the coefficients of an SH series, or nothing. "
-          "The filter that creates grains reads it. They are of the radius or, with overhangs, "
-          "of x, y and z (.json), about the volume centroid. A name without a folder lands "
-          "beside the scan."),
+          "For the coefficients of the SH series, or nothing: .json, or .sh for SHTOOLS (no "
+          "overhangs). The filter that creates grains reads it."),
   };
 }
 

@@ -25,8 +25,6 @@ TEST(Distribution, QuantilesLieBetweenTheMiddlesOfTheWeights) {
   EXPECT_NEAR(one.quantile(7.5 / 16.0), 5.5, 1e-15);
   EXPECT_EQ(one.quantile(0.0), 3.0);
   EXPECT_EQ(one.quantile(0.9), 7.0);
-  EXPECT_NEAR(one.share_below(4.0), 3.0 / 8.0, 1e-15);
-  EXPECT_EQ(one.share_below(2.9), 0.0);
 }
 
 TEST(Distribution, OfEqualWeightsIsTheOneByNumber) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "support/expect_error.h"
+#include "wscvt/sample/nonnegative_minimum.h"
 #include "wscvt/sample/random_stream.h"
 
 namespace wscvt {
@@ -140,15 +141,6 @@ TEST(Templates, RefuseWhatTheyCannotChooseFrom) {
   EXPECT_ERROR(choose(3), InvalidInput);
   sample.descriptors.col(1).setConstant(0.7);
   EXPECT_ERROR(choose(3), InvalidInput);
-}
-
-TEST(WassersteinDistance, IsTheAreaBetweenTheFunctions) {
-  EXPECT_DOUBLE_EQ(wasserstein_distance({0, 1}, {1, 1}, {1, 0}, {5, 5}), 0.0);
-  EXPECT_DOUBLE_EQ(wasserstein_distance({2}, {1}, {5}, {1}), 3.0);
-  EXPECT_DOUBLE_EQ(wasserstein_distance({0, 4}, {3, 1}, {0}, {1}), 1.0);
-  EXPECT_DOUBLE_EQ(wasserstein_distance({0, 4}, {1, 1}, {1, 5}, {1, 1}), 1.0);
-  EXPECT_ERROR(wasserstein_distance({}, {}, {1}, {1}), InvalidInput);
-  EXPECT_ERROR(wasserstein_distance({1, 2}, {1}, {1}, {1}), InvalidInput);
 }
 
 // The conditions of Karush, Kuhn and Tucker, which only the minimum meets.

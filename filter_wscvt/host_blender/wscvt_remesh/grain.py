@@ -101,7 +101,10 @@ def properties(report):
 
 
 def percent(value):
-    return "exact" if abs(value) < 1e-9 else f"{value:+.2f} %"
+    if abs(value) < 1e-9:
+        return "exact"
+    text = f"{value:+.2f} %"
+    return text.lstrip("+-") if abs(value) < 0.005 else text
 
 
 def rows(values):
@@ -109,7 +112,7 @@ def rows(values):
     found = [
         ("Nodes", str(values["wscvt_nodes"]), ""),
         ("RMS dist.", f"{values['wscvt_rms_distance_percent']:.2f} % of radius", ""),
-        ("Least angle", f"{values['wscvt_smallest_angle']:.1f}\N{DEGREE SIGN}", ""),
+        ("Min. angle", f"{values['wscvt_smallest_angle']:.1f}\N{DEGREE SIGN}", ""),
     ]
     labels = {"volume": "Volume", "area": "Area", "sphericity_wadell": "Sphericity",
               "aspect_ratio_inertia": "S/L", "axis_s_inertia": "Axis S",

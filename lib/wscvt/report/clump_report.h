@@ -13,7 +13,7 @@ namespace wscvt {
 /// The result as lines of plain text for a log.
 std::vector<std::string> clump_lines(const ClumpResult& clump);
 
-/// The same as a JSON document, with the spheres; as report_json. Shares of the equivalent radius
+/// The same as a JSON document, with the spheres; as report_json. Fractions of the equivalent radius
 /// are in %.
 std::string clump_json(const ClumpResult& clump, const ReportOrigin& origin = {});
 

@@ -95,7 +95,8 @@ function ticks(low, high, logarithmic) {
         if (v >= low * 0.999 && v <= high * 1.001) list.push(v);
       }
     }
-    return list;
+    if (list.length > 1) return list;
+    list.length = 0;  // less than a decade: even steps
   }
   const rough = (high - low) / 6;
   const power = 10 ** Math.floor(Math.log10(rough));

@@ -55,41 +55,34 @@ double Distribution::deviation() const {
   return std::sqrt(sum / (total - squares / total));
 }
 
-double Distribution::quantile(double share) const {
+double Distribution::quantile(double fraction) const {
   if (values_.empty()) return no_number;
-  const auto above = std::lower_bound(middles_.begin(), middles_.end(), share);
+  const auto above = std::lower_bound(middles_.begin(), middles_.end(), fraction);
   if (above == middles_.begin()) return values_.front();
   if (above == middles_.end()) return values_.back();
   const auto k = static_cast<std::size_t>(above - middles_.begin());
-  const double part = (share - middles_[k - 1]) / (middles_[k] - middles_[k - 1]);
+  const double part = (fraction - middles_[k - 1]) / (middles_[k] - middles_[k - 1]);
   return values_[k - 1] + part * (values_[k] - values_[k - 1]);
 }
 
-double Distribution::share_below(double value) const {
-  const auto end = std::upper_bound(values_.begin(), values_.end(), value);
-  const auto count = end - values_.begin();
-  const double total = std::accumulate(weights_.begin(), weights_.end(), 0.0);
-  return std::accumulate(weights_.begin(), weights_.begin() + count, 0.0) / total;
-}
-
 void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
-                        double total, const std::vector<double>& shares, double* quantiles) {
+                        double total, const std::vector<double>& fractions, double* quantiles) {
   double below = 0.0;
   double last_middle = 0.0;
   double last_value = no_number;
   std::size_t next = 0;
-  for (std::size_t k = 0; k < values.size() && next < shares.size(); ++k) {
+  for (std::size_t k = 0; k < values.size() && next < fractions.size(); ++k) {
     if (!(weights[k] > 0.0)) continue;
     const double middle = below + 0.5 * weights[k];
-    for (; next < shares.size() && shares[next] * total <= middle; ++next) {
-      const double part = (shares[next] * total - last_middle) / (middle - last_middle);
+    for (; next < fractions.size() && fractions[next] * total <= middle; ++next) {
+      const double part = (fractions[next] * total - last_middle) / (middle - last_middle);
       quantiles[next] = below > 0.0 ? last_value + part * (values[k] - last_value) : values[k];
     }
     below += weights[k];
     last_middle = middle;
     last_value = values[k];
   }
-  for (; next < shares.size(); ++next) quantiles[next] = last_value;
+  for (; next < fractions.size(); ++next) quantiles[next] = last_value;
 }
 
 }  // namespace wscvt

@@ -32,13 +32,10 @@ class Distribution {
   /// weights it divides by n - 1. NaN for fewer than two values.
   double deviation() const;
 
-  /// The value below which a share of the weight lies, 0 to 1. The weight of a grain counts half
+  /// The value below which a fraction of the weight lies, 0 to 1. The weight of a grain counts half
   /// below its own value (Hazen 1914), and between neighbours the line is straight; beyond the
   /// middle of the first and of the last grain it is their value. NaN for no value.
-  double quantile(double share) const;
-
-  /// Share of the weight at or below a value, a step at each grain.
-  double share_below(double value) const;
+  double quantile(double fraction) const;
 
  private:
   std::vector<double> values_;
@@ -48,9 +45,9 @@ class Distribution {
 };
 
 /// Several quantiles of sorted values with weights, zeros among them, as Distribution::quantile has
-/// them; `shares` ascend, `total` is the sum of the weights. For repetitions, which change the
+/// them; `fractions` ascend, `total` is the sum of the weights. For repetitions, which change the
 /// weights only.
 void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
-                        double total, const std::vector<double>& shares, double* quantiles);
+                        double total, const std::vector<double>& fractions, double* quantiles);
 
 }  // namespace wscvt

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/nonnegative_minimum.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
-
-#include "wscvt/sample/templates.h"
 
 namespace wscvt {
 

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/sample/nonnegative_minimum.h"
 #include "wscvt/sample/random_stream.h"
+#include "wscvt/sample/sample_comparison.h"
 
 namespace wscvt {
 
@@ -219,18 +221,18 @@ Choice exchanged(const StepFunctions& steps, const TemplateOptions& options,
   return best;
 }
 
-std::vector<double> column(const Eigen::MatrixXd& matrix, Index j) {
-  return {matrix.col(j).data(), matrix.col(j).data() + matrix.rows()};
-}
-
 std::vector<double> distances(const Eigen::MatrixXd& standard, const std::vector<double>& sample,
                               const std::vector<std::size_t>& grains,
                               const std::vector<double>& weights) {
+  const Eigen::Map<const Eigen::VectorXd> sample_weights(sample.data(), at(sample.size()));
+  const Eigen::Map<const Eigen::VectorXd> chosen_weights(weights.data(), at(weights.size()));
+  Eigen::VectorXd chosen(at(grains.size()));
   std::vector<double> found;
   for (Index j = 0; j < standard.cols(); ++j) {
-    std::vector<double> chosen;
-    for (const std::size_t grain : grains) chosen.push_back(standard(at(grain), j));
-    found.push_back(wasserstein_distance(chosen, weights, column(standard, j), sample));
+    for (std::size_t k = 0; k < grains.size(); ++k) chosen[at(k)] = standard(at(grains[k]), j);
+    found.push_back(distance_between(Distribution(chosen, chosen_weights),
+                                     Distribution(standard.col(j), sample_weights))
+                        .wasserstein);
   }
   return found;
 }
@@ -335,25 +337,6 @@ TemplateDistances random_distances(const Eigen::MatrixXd& standard,
 }
 
 }  // namespace
-
-double wasserstein_distance(const std::vector<double>& a, const std::vector<double>& weights_of_a,
-                            const std::vector<double>& b, const std::vector<double>& weights_of_b) {
-  if (a.empty() || b.empty() || a.size() != weights_of_a.size() ||
-      b.size() != weights_of_b.size()) {
-    refuse("A sample is empty or has not as many weights as values; give one weight per value.");
-  }
-  std::vector<std::pair<double, double>> jumps;  // of the difference of the two functions
-  const double sum_a = sum_of(weights_of_a), sum_b = sum_of(weights_of_b);
-  for (std::size_t k = 0; k < a.size(); ++k) jumps.emplace_back(a[k], weights_of_a[k] / sum_a);
-  for (std::size_t k = 0; k < b.size(); ++k) jumps.emplace_back(b[k], -weights_of_b[k] / sum_b);
-  std::sort(jumps.begin(), jumps.end());
-  double distance = 0.0, difference = 0.0;
-  for (std::size_t k = 0; k + 1 < jumps.size(); ++k) {
-    difference += jumps[k].second;
-    distance += std::abs(difference) * (jumps[k + 1].first - jumps[k].first);
-  }
-  return distance;
-}
 
 SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
                                  const std::vector<double>& masses, const TemplateOptions& options,

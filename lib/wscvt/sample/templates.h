@@ -53,16 +53,4 @@ SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
                                  const std::vector<double>& masses, const TemplateOptions& options,
                                  const Execution& execution);
 
-/// The distance between two weighted samples of a number (Wasserstein, order 1), in its unit.
-/// Weights are scaled to sum 1. Throws Error(InvalidInput) if there are not as many weights as
-/// values, or none.
-double wasserstein_distance(const std::vector<double>& a, const std::vector<double>& weights_of_a,
-                            const std::vector<double>& b, const std::vector<double>& weights_of_b);
-
-/// The minimum of w^T G w - 2 b^T w over w >= 0 (Lawson and Hanson 1974, "Solving Least Squares
-/// Problems", ch. 23), G symmetric and positive semi-definite. `start`: which of the variables are
-/// likely above 0; may be empty.
-Eigen::VectorXd nonnegative_minimum(const Eigen::MatrixXd& g, const Eigen::VectorXd& b,
-                                    std::vector<bool> start = {});
-
 }  // namespace wscvt
