@@ -86,8 +86,8 @@ float grey_value(Label code);
 bool is_volume(const std::string& path);
 
 /// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The format
-/// follows from the ending; lib/doc/files.md has the table of what is read of each. What was chosen of
-/// it, and a voxel size in place of the file's, is in `choice`.
+/// follows from the ending; lib/doc/files.md has the table of what is read of each. What was chosen
+/// of it, and a voxel size in place of the file's, is in `choice`.
 ///
 /// Throws Error: InputOutput when the file cannot be read, is cut short, of a form that is not
 /// known, or holds more than one volume of which none was chosen; InvalidInput for sizes that are

@@ -102,7 +102,8 @@ std::string yade_script(const FramedClump& clump) {
          ")\nspheres = [\n" + spheres +
          "]\n\n"
          "# For O.bodies.replaceByClumps, which takes mass and inertia from the spheres.\n"
-         "template = utils.clumpTemplate(relRadii=[r for c, r in spheres], relPositions=[c for c, r in "
+         "template = utils.clumpTemplate(relRadii=[r for c, r in spheres], relPositions=[c for c, "
+         "r in "
          "spheres])\n\n\n"
          "def add(position=(0, 0, 0), orientation=None, material=-1, density=2650.0):\n"
          "    \"\"\"Adds a clump with the grain's mass and moments; its number, and those of its "

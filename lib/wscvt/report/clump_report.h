@@ -13,8 +13,8 @@ namespace wscvt {
 /// The result as lines of plain text for a log.
 std::vector<std::string> clump_lines(const ClumpResult& clump);
 
-/// The same as a JSON document, with the spheres; as report_json. Fractions of the equivalent radius
-/// are in %.
+/// The same as a JSON document, with the spheres; as report_json. Fractions of the equivalent
+/// radius are in %.
 std::string clump_json(const ClumpResult& clump, const ReportOrigin& origin = {});
 
 /// The same as CSV, a header and a row; as report_csv.

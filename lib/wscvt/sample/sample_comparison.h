@@ -12,8 +12,9 @@ namespace wscvt {
 
 /// A distance between two samples in one descriptor.
 struct SampleDistance {
-  double kolmogorov = 0.0;   ///< largest difference of the two fractions below a value, 0 to 1
-  double wasserstein = 0.0;  ///< area between the two distribution functions, in the descriptor's unit
+  double kolmogorov = 0.0;  ///< largest difference of the two fractions below a value, 0 to 1
+  double wasserstein =
+      0.0;  ///< area between the two distribution functions, in the descriptor's unit
   /// Fraction of random partings of all grains that are at least as far apart (permutation test):
   /// small where the samples differ by more than chance. NaN without repetitions.
   double kolmogorov_p = 0.0;
