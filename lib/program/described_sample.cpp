@@ -106,6 +106,25 @@ std::size_t column_of(const GrainTable& table, const std::string& key) {
   return found ? *found : table.index_of(key);
 }
 
+/// The scan of a grain that a batch names by its path, since its descriptors are the scan's; else
+/// the file that the table names.
+fs::path file_of(const GrainTable& table, std::size_t grain, const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::path& scan : {fs::path(table.grains[grain]), folder / table.grains[grain]}) {
+    if (fs::is_regular_file(scan, ignored)) return scan;
+  }
+  return folder / (table.files.empty() ? table.grains[grain] : table.files[grain]);
+}
+
+/// The table of shapes that the inputs are, or that their only folder, a batch's, holds.
+std::string table_among(const std::vector<std::string>& inputs) {
+  if (inputs.size() != 1) return "";
+  if (ending_of(inputs.front()) == ".csv") return inputs.front();
+  const fs::path table = fs::path(inputs.front()) / "shape.csv";
+  std::error_code ignored;
+  return fs::is_regular_file(table, ignored) ? table.string() : "";
+}
+
 DescribedSample sample_of_table(const std::string& path, const std::vector<std::string>& keys) {
   const GrainTable table = read_grain_table(path);
   std::vector<std::size_t> columns = {column_of(table, "volume")};
@@ -127,8 +146,7 @@ DescribedSample sample_of_table(const std::string& path, const std::vector<std::
       ++sample.left_out;
       continue;
     }
-    const std::string& file = table.files.empty() ? table.grains[grain] : table.files[grain];
-    add(sample, (folder / file).string(), values, rows);
+    add(sample, file_of(table, grain, folder).string(), values, rows);
   }
   fill(sample, rows, keys.size());
   return sample;
@@ -152,9 +170,8 @@ IndexedMesh grain_mesh(const std::string& file, const Execution& execution) {
 
 DescribedSample described_sample(const std::vector<std::string>& inputs,
                                  const std::vector<std::string>& keys, int threads, bool quiet) {
-  if (inputs.size() == 1 && ending_of(inputs.front()) == ".csv") {
-    return sample_of_table(inputs.front(), keys);
-  }
+  const std::string table = table_among(inputs);
+  if (!table.empty()) return sample_of_table(table, keys);
   const std::vector<std::string> files = shape_files(inputs);
   const bool quick = are_quick(keys);
   std::vector<std::vector<double>> measures(files.size());

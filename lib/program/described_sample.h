@@ -22,8 +22,9 @@ struct DescribedSample {
 const std::vector<std::string>& usual_template_descriptors();
 
 /// Measures the grains of the inputs, as shape_files finds them, or reads them from the inputs'
-/// only table (.csv), whose columns may be named "scan.volume" or "volume". `keys` are those of
-/// list_descriptors. Throws wscvt::Error.
+/// only table (.csv), or from shape.csv in their only folder. Its columns may be named
+/// "scan.volume" or "volume". A grain's mesh is the scan that a batch's table names, or the table's
+/// file if there is no scan there. `keys` are those of list_descriptors. Throws wscvt::Error.
 DescribedSample described_sample(const std::vector<std::string>& inputs,
                                  const std::vector<std::string>& keys, int threads, bool quiet);
 

@@ -203,8 +203,9 @@ CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments) {
                 true});
   app.add_option("sample", arguments.inputs,
                  "Grains: closed meshes or SH coefficients (.dat, .sh, .json); files, folders, "
-                 "patterns in quotes, or @FILE with one of these per line; or one table of shapes "
-                 "(.csv) with the columns \"volume\" and \"file\"")
+                 "patterns in quotes, or @FILE with one of these per line; or the folder of a "
+                 "batch, or one "
+                 "table of shapes (.csv) with the columns \"volume\" and \"file\"")
       ->type_name("SAMPLE")
       ->required();
   app.add_option("-o,--output", arguments.folder, "Folder for all that is made")

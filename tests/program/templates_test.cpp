@@ -71,6 +71,19 @@ TEST_F(Templates, ReadsATableOfShapes) {
       << content("out/templates.csv");
 }
 
+// The templates of a batch are remeshes of its scans, not of its remeshes, which have 50 nodes.
+TEST_F(Templates, OfABatchsFolderAreMadeOfItsScans) {
+  write_scans(4);
+  ASSERT_EQ(run("batch scans -o batch -n 50 -q").exit_code, 0);
+  ASSERT_EQ(run("templates batch -k 2 -n 300 -o of_batch -q").exit_code, 0);
+  const Outcome outcome = run("templates scans -k 2 -n 300 -o of_scans -q");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const char* file : {"template-01.ply", "template-02.ply"}) {
+    EXPECT_EQ(content(std::string("of_batch/") + file), content(std::string("of_scans/") + file))
+        << file;
+  }
+}
+
 TEST_F(Templates, RefusesWrongCalls) {
   write_scans(3);
   expect_refused("templates",

@@ -288,10 +288,11 @@ std::vector<double> absolute_weights(const StepFunctions& steps, int which,
 Eigen::MatrixXd standardised(const Eigen::MatrixXd& descriptors, const std::vector<double>& masses,
                              const TemplateOptions& options) {
   require_in_range(options.count, template_count_option);
-  if (descriptors.rows() < options.count || descriptors.cols() == 0) {
-    refuse("The sample has " + std::to_string(descriptors.rows()) + " grains and " +
-           std::to_string(descriptors.cols()) + " descriptors; " + std::to_string(options.count) +
-           " templates need as many grains and a descriptor.");
+  if (descriptors.cols() == 0) refuse("No descriptor is given to choose templates by; give one.");
+  if (descriptors.rows() < options.count) {
+    refuse("The sample has " + std::to_string(descriptors.rows()) + " grains, fewer than the " +
+           std::to_string(options.count) +
+           " templates. Choose fewer templates, or give more grains.");
   }
   if (masses.size() != static_cast<std::size_t>(descriptors.rows())) {
     refuse("There are " + std::to_string(masses.size()) + " masses for " +
