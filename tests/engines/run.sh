@@ -78,7 +78,11 @@ cp "$here/../../meshes/sand_5658.ply" "$here/../../meshes/angular_6000.ply" scan
 WSCVT=$program yade -n -x "$examples/yade_polyhedra.py" scans 6 > polyhedra.log 2>&1
 grep '^Yade polyhedra:' polyhedra.log
 WSCVT=$program "$python" "$examples/mujoco_packing.py" scans 8 | grep '^MuJoCo:'
-for picture in polyhedra.png mujoco.png; do test -s "$picture"; done
+WSCVT=$program yade -n -x "$examples/yade_clumps.py" scans 8 > yade_clumps.log 2>&1
+grep '^Yade clumps: 8 grains, .* 0\.00.. m/s at most' yade_clumps.log
+WSCVT=$program "$python" "$examples/liggghts_clumps.py" scans 8 |
+  grep '^LIGGGHTS clumps: 8 grains, 0\.00.. m/s at most'
+for picture in polyhedra.png mujoco.png yade_clumps.png liggghts_clumps.png; do test -s "$picture"; done
 
 # A clump of the grain: LIGGGHTS and Yade drop it on a wall.
 "$program" clump -q "$here/../../meshes/sand_7228.ply" -k 20 --size 0.05 -o clump.multisphere -o clump.py \

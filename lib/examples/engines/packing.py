@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the examples beside this file share: scans of a folder, calls of wscvt, the places that grains
 are dropped from, and a picture of the packing."""
-import json
 import math
 import os
 import pathlib
@@ -44,6 +43,19 @@ def read_obj(path):
         elif words and words[0] == "f":
             faces.append([int(w) - 1 for w in words[1:4]])
     return vertices, faces
+
+
+def sphere_mesh(spheres):
+    """Vertices and triangles of spheres (x, y, z, radius)."""
+    import numpy as np
+
+    polar, turn = np.meshgrid(np.linspace(0, np.pi, 5), np.linspace(0, 2 * np.pi, 9), indexing="ij")
+    ball = np.stack([np.sin(polar) * np.cos(turn), np.sin(polar) * np.sin(turn), np.cos(polar)], -1)
+    ball = ball.reshape(-1, 3)
+    corners = [9 * i + j for i in range(4) for j in range(8)]
+    faces = np.array([face for a in corners for face in ([a, a + 9, a + 10], [a, a + 10, a + 1])])
+    return (np.concatenate([np.asarray(sphere[:3]) + sphere[3] * ball for sphere in spheres]),
+            np.concatenate([faces + k * len(ball) for k in range(len(spheres))]))
 
 
 def turned(vertices, place, turn):
