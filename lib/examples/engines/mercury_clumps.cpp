@@ -18,13 +18,13 @@ std::vector<double> numbers(const std::string& path, double factor = 1.0) {
 }
 
 class Packing : public Mercury3Dclump {
-  std::ifstream scene;
-  double density = 0.0;
+  std::ifstream scene_;
+  double density_ = 0.0;
 
  public:
-  explicit Packing(const char* path) : scene(path) {
+  explicit Packing(const char* path) : scene_(path) {
     double width = 0.0, height = 0.0, seconds = 0.0;
-    if (!(scene >> width >> height >> seconds >> density)) logger(ERROR, "% is no scene", path);
+    if (!(scene_ >> width >> height >> seconds >> density_)) logger(ERROR, "% is no scene", path);
     setDomain(Vec3D(-width / 2, -width / 2, 0), Vec3D(width / 2, width / 2, height));
     setTimeMax(seconds);
     setName("mercury_clumps");
@@ -32,7 +32,7 @@ class Packing : public Mercury3Dclump {
     setTimeStep(1e-5);
     setSaveCount(10000);
     auto* species = speciesHandler.copyAndAddObject(LinearViscoelasticFrictionSpecies());
-    species->setDensity(density);
+    species->setDensity(density_);
     species->setStiffness(1e5);
     species->setDissipation(10.0);
     species->setSlidingFrictionCoefficient(0.5);
@@ -41,10 +41,10 @@ class Packing : public Mercury3Dclump {
 
   void setupInitialConditions() override {
     std::string folder;
-    for (double x, y, z, r[9]; scene >> folder >> x >> y >> z;) {
-      for (double& value : r) scene >> value;
+    for (double x, y, z, r[9]; scene_ >> folder >> x >> y >> z;) {
+      for (double& value : r) scene_ >> value;
       const auto spheres = numbers(folder + "/clump/clump.txt");
-      const auto m = numbers(folder + "/inertia/toi.txt", density);
+      const auto m = numbers(folder + "/inertia/toi.txt", density_);
       ClumpParticle grain;
       grain.setSpecies(speciesHandler.getObject(0));
       grain.setClump();
@@ -55,7 +55,7 @@ class Packing : public Mercury3Dclump {
       }
       grain.setInitInertia({m.at(0), 0, 0, m.at(4), 0, m.at(8)});
       grain.setPrincipalDirections({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]});
-      grain.setClumpMass(numbers(folder + "/inertia/mass.txt", density).front());
+      grain.setClumpMass(numbers(folder + "/inertia/mass.txt", density_).front());
       particleHandler.copyAndAddObject(grain);
     }
     InfiniteWall wall;
