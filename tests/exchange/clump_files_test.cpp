@@ -100,13 +100,13 @@ TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
   EXPECT_NE(fix.find("file clump.multisphere "), std::string::npos) << fix;
 
   written("clump.mclump");
-  const std::vector<double> mercury = numbers_of(content_of(path("clump.mclump/clump/clump.txt")));
+  const std::vector<double> mercury = numbers_of(content_of(path("clump.mclump/Clump/Clump.txt")));
   ASSERT_EQ(mercury.size(), 12U);
   EXPECT_NEAR(mercury[9], centre.y(), 1e-12);
-  const std::vector<double> tensor = numbers_of(content_of(path("clump.mclump/inertia/toi.txt")));
+  const std::vector<double> tensor = numbers_of(content_of(path("clump.mclump/Inertia/TOI.txt")));
   ASSERT_EQ(tensor.size(), 9U);
   EXPECT_EQ(tensor[8], moments[2]);
-  EXPECT_EQ(numbers_of(content_of(path("clump.mclump/inertia/pd.txt"))),
+  EXPECT_EQ(numbers_of(content_of(path("clump.mclump/Inertia/PD.txt"))),
             (std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
 
   const std::string pfc = written("clump.p3dat");

@@ -28,7 +28,7 @@ TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
       run("clump scan.ply -k 4 -o c.csv -o c.mclump --report r.html --report r.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("first contact"), std::string::npos);
-  EXPECT_TRUE(exists("c.mclump/inertia/toi.txt"));
+  EXPECT_TRUE(exists("c.mclump/Inertia/TOI.txt"));
   EXPECT_NE(content("r.html").find("Distance of clump to scan"), std::string::npos);
   EXPECT_NE(content("r.json").find("\"scatter_percent\""), std::string::npos);
   const Outcome compared = run("compare c.csv scan.ply");

@@ -43,8 +43,8 @@ class Packing : public Mercury3Dclump {
     std::string folder;
     for (double x, y, z, r[9]; scene_ >> folder >> x >> y >> z;) {
       for (double& value : r) scene_ >> value;
-      const auto spheres = numbers(folder + "/clump/clump.txt");
-      const auto m = numbers(folder + "/inertia/toi.txt", density_);
+      const auto spheres = numbers(folder + "/Clump/Clump.txt");
+      const auto m = numbers(folder + "/Inertia/TOI.txt", density_);
       ClumpParticle grain;
       grain.setSpecies(speciesHandler.getObject(0));
       grain.setClump();
@@ -55,7 +55,7 @@ class Packing : public Mercury3Dclump {
       }
       grain.setInitInertia({m.at(0), 0, 0, m.at(4), 0, m.at(8)});
       grain.setPrincipalDirections({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]});
-      grain.setClumpMass(numbers(folder + "/inertia/mass.txt", density_).front());
+      grain.setClumpMass(numbers(folder + "/Inertia/Mass.txt", density_).front());
       particleHandler.copyAndAddObject(grain);
     }
     InfiniteWall wall;

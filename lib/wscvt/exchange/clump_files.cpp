@@ -145,20 +145,21 @@ std::string pfc_command(const FramedClump& clump, const std::string& path) {
          numbers(moments(clump), " ") + " 0 0 0\n";
 }
 
-/// As the reader of MercuryDPM's Clump driver takes a clump.
+/// As the reader of MercuryDPM's Clump driver takes a clump; readers before 2024 look for these
+/// names in small letters.
 void write_mercury(const std::string& path, const FramedClump& clump) {
   const std::filesystem::path folder(path);
   std::error_code error;
-  for (const char* part : {"clump", "inertia"}) {
+  for (const char* part : {"Clump", "Inertia"}) {
     std::filesystem::create_directories(folder / part, error);  // writing tells
   }
   const std::vector<double> m = moments(clump);
-  write_file((folder / "clump/clump.txt").string(), rows_of(clump.spheres, ","));
-  write_file((folder / "inertia/mass.txt").string(), format_exact(clump.mass.volume) + "\n");
-  write_file((folder / "inertia/toi.txt").string(), numbers({m[0], 0, 0}, ",") + "\n" +
+  write_file((folder / "Clump/Clump.txt").string(), rows_of(clump.spheres, ","));
+  write_file((folder / "Inertia/Mass.txt").string(), format_exact(clump.mass.volume) + "\n");
+  write_file((folder / "Inertia/TOI.txt").string(), numbers({m[0], 0, 0}, ",") + "\n" +
                                                         numbers({0, m[1], 0}, ",") + "\n" +
                                                         numbers({0, 0, m[2]}, ",") + "\n");
-  write_file((folder / "inertia/pd.txt").string(), "1,0,0\n0,1,0\n0,0,1\n");
+  write_file((folder / "Inertia/PD.txt").string(), "1,0,0\n0,1,0\n0,0,1\n");
 }
 
 bool ends_with(const std::string& path, const std::string& ending) {
@@ -199,8 +200,8 @@ std::vector<std::string> files_of_clump(const std::string& path) {
   const std::string ending = clump_ending(path);
   if (ending == ".multisphere") return {path, path + ".in"};
   if (ending == ".mclump") {
-    return {path + "/clump/clump.txt", path + "/inertia/mass.txt", path + "/inertia/toi.txt",
-            path + "/inertia/pd.txt"};
+    return {path + "/Clump/Clump.txt", path + "/Inertia/Mass.txt", path + "/Inertia/TOI.txt",
+            path + "/Inertia/PD.txt"};
   }
   return {path};
 }
