@@ -90,6 +90,17 @@ TEST(Clump, OfAPlateARodAndARingComesNear) {
   EXPECT_LT(error_of(test::torus(2.0, 0.5, 60), 16), 4.0);
 }
 
+// Spheres that fill the hollow, which nothing on the surface forbids, give 49 % more volume and an
+// intersection over union of .52; measured here: -1.9 % and .74.
+TEST(Clump, OfACupLeavesTheHollowEmpty) {
+  const auto cup = [](const Vector3& p) {
+    return std::max(p.norm() - 1.0, 0.7 - (p - Vector3(0.0, 0.1, 0.45)).norm());
+  };
+  const ClumpResult clump = clump_of(test::scan_of(cup, 1.2, 0.08), 25);
+  EXPECT_NEAR(clump.united.error.volume_percent, 0.0, 8.0);
+  EXPECT_GT(clump.intersection_over_union, 0.7);
+}
+
 TEST(Clump, BetterWithMoreSpheres) {
   const IndexedMesh scan = test::lumpy(4);
   double before = 1e9;
