@@ -208,6 +208,15 @@ TEST(Clump, TellsTheMassOfUnionAndSum) {
   for (const Sphere& sphere : clump.spheres) sum += 4.0 / 3.0 * pi * std::pow(sphere.radius, 3);
   EXPECT_NEAR(clump.summed.mass.volume, sum, 1e-12);
   EXPECT_NEAR(clump.summed.error.volume_percent, 100.0 * (sum / clump.original.volume - 1.0), 1e-9);
+  // Steiner: the trace of a ball's tensor about its own centre is 1.2 V r^2, and moving it adds 2 V
+  // d^2.
+  double trace = 0.0;
+  for (const Sphere& sphere : clump.spheres) {
+    const double square = sphere.radius * sphere.radius;
+    trace += 4.0 / 3.0 * pi * square * sphere.radius *
+             (1.2 * square + 2.0 * (sphere.centre - clump.summed.mass.centroid).squaredNorm());
+  }
+  EXPECT_NEAR(clump.summed.mass.inertia_tensor.trace(), trace, 1e-12 * trace);
   EXPECT_GT(clump.summed.error.volume_percent, 10.0);
   EXPECT_GT(clump.summed.error.inertia_percent, 1.0);
 }
