@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "grain_run.h"
 #include "shape_files.h"
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
@@ -175,27 +174,10 @@ DescribedSample described_sample(const std::vector<std::string>& inputs,
   const std::vector<std::string> files = shape_files(inputs);
   const bool quick = are_quick(keys);
   std::vector<std::vector<double>> measures(files.size());
-  GrainRun all;
-  all.count = files.size();
-  all.threads = threads;
-  all.quiet = quiet;
-  all.when_stopped = "Nothing was written.";
-  all.name = [&](std::size_t k) { return files[k]; };
-  all.work = [&](std::size_t k, const Execution& execution) {
-    return row_or_failure(
-        [&]() -> GrainRow {
-          measures[k] = measured(files[k], keys, quick, execution);
-          return {};
-        },
-        [](const std::string& sentence) -> GrainRow {
-          return {"", sentence};
-        });
-  };
-  all.take = [](std::size_t, const GrainRow&) {};
-  const GrainRunEnd end = run_grains(all);
-  if (end.was_cancelled) throw Error(ErrorCode::Cancelled, "Cancelled while reading the sample.");
   DescribedSample sample;
-  sample.left_out = end.failed;
+  sample.left_out = read_each(files, threads, quiet, [&](std::size_t k, const Execution& one) {
+    measures[k] = measured(files[k], keys, quick, one);
+  });
   std::vector<std::vector<double>> rows;
   for (std::size_t k = 0; k < files.size(); ++k) {
     if (!measures[k].empty()) add(sample, files[k], measures[k], rows);

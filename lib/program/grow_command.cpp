@@ -25,6 +25,7 @@
 #include "wscvt/sample/grain_grower.h"
 #include "wscvt/sample/grown_mesh.h"
 #include "wscvt/sample/nearest_grain.h"
+#include "wscvt/sample/sample_comparison.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
@@ -163,7 +164,7 @@ std::vector<std::string> summary_lines(const Growing& growing, std::size_t left_
   const GrownNumbers sample = numbers_of_sample(growing, execution);
   const GrownNumbers& made = growing.numbers;
   const auto distance = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return format_number(distribution_distance(a, b), 2);
+    return format_number(distance_between(Distribution(a), Distribution(b)).kolmogorov, 2);
   };
   std::vector<double> nearest = growing.distances;
   std::sort(nearest.begin(), nearest.end());

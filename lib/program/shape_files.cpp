@@ -87,9 +87,8 @@ std::vector<std::string> shape_files(const std::vector<std::string>& inputs) {
   return files;
 }
 
-SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrids& grids,
-                         int threads, bool quiet) {
-  std::vector<std::optional<SampleGrain>> read(files.size());
+std::size_t read_each(const std::vector<std::string>& files, int threads, bool quiet,
+                      const std::function<void(std::size_t file, const Execution&)>& read) {
   GrainRun all;
   all.count = files.size();
   all.threads = threads;
@@ -99,7 +98,7 @@ SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrid
   all.work = [&](std::size_t k, const Execution& execution) {
     return row_or_failure(
         [&]() -> GrainRow {
-          read[k] = read_shape(files[k], grids, execution);
+          read(k, execution);
           return {};
         },
         [](const std::string& sentence) -> GrainRow {
@@ -109,8 +108,16 @@ SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrid
   all.take = [](std::size_t, const GrainRow&) {};
   const GrainRunEnd end = run_grains(all);
   if (end.was_cancelled) throw Error(ErrorCode::Cancelled, "Cancelled while reading the sample.");
+  return end.failed;
+}
+
+SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrids& grids,
+                         int threads, bool quiet) {
+  std::vector<std::optional<SampleGrain>> read(files.size());
   SampleShapes shapes;
-  shapes.left_out = end.failed;
+  shapes.left_out = read_each(files, threads, quiet, [&](std::size_t k, const Execution& one) {
+    read[k] = read_shape(files[k], grids, one);
+  });
   for (std::size_t k = 0; k < files.size(); ++k) {
     if (!read[k]) continue;
     shapes.grains.push_back(std::move(*read[k]));

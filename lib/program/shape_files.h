@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/sample/sample_grain.h"
 #include "wscvt/surface/harmonic_surface.h"
 
@@ -19,6 +21,12 @@ bool is_coefficient_file(const std::string& path);
 
 /// Reads such a file. Throws wscvt::Error, NotStarShaped for the coefficients of a harmonic map.
 HarmonicSurface read_coefficients(const std::string& path);
+
+/// Calls `read` for the number of each file, on several threads at once and with a line on a
+/// terminal unless quiet. A file that it refuses is told on the standard error and counted in the
+/// result. Throws wscvt::Error, also Cancelled, for what is not about one file.
+std::size_t read_each(const std::vector<std::string>& files, int threads, bool quiet,
+                      const std::function<void(std::size_t file, const Execution&)>& read);
 
 /// The grains of a sample that have a radius in each direction.
 struct SampleShapes {

@@ -36,7 +36,7 @@ set(of_the_project wscvt/base/convex_hull.h wscvt/base/file_name.h wscvt/base/ma
   wscvt/report/sample_report.h wscvt/report/sample_summary.h wscvt/report/sample_table.h
   wscvt/report/shape_table.h wscvt/sample/given_sizes.h wscvt/sample/grain_grower.h
   wscvt/sample/grain_sample.h wscvt/sample/grain_table.h wscvt/sample/grow_options.h
-  wscvt/sample/grown_mesh.h wscvt/sample/nearest_grain.h wscvt/sample/sample_grain.h
+  wscvt/sample/grown_mesh.h wscvt/sample/nearest_grain.h wscvt/sample/sample_comparison.h wscvt/sample/sample_grain.h
   wscvt/sample/templates.h wscvt/scan/bodies.h wscvt/scan/mesh_check.h
   wscvt/sphere/sphere_triangulation.h wscvt/surface/shtools_io.h)
 file(GLOB_RECURSE shells ${source_dir}/lib/program/*.h ${source_dir}/lib/program/*.cpp

@@ -53,13 +53,5 @@ TEST(GrownMeshes, AreMeasured) {
   EXPECT_NEAR(box.flatness, 2.0 / 3.0, 1e-9);
 }
 
-TEST(DistributionDistance, IsTheLargestDifferenceOfTheFunctions) {
-  EXPECT_DOUBLE_EQ(distribution_distance({3, 1, 2}, {2, 1, 3}), 0.0);
-  EXPECT_DOUBLE_EQ(distribution_distance({1, 2}, {3, 4, 5}), 1.0);
-  EXPECT_DOUBLE_EQ(distribution_distance({1, 2, 3, 4}, {2.5, 3.5}), 0.5);
-  EXPECT_DOUBLE_EQ(distribution_distance({1, 1, 1, 2}, {1, 2, 2, 2}), 0.5);
-  EXPECT_ERROR(distribution_distance({}, {1}), InvalidInput);
-}
-
 }  // namespace
 }  // namespace wscvt

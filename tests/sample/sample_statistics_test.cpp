@@ -191,6 +191,13 @@ TEST(SampleComparison, DistancesOfKnownSamples) {
   EXPECT_NEAR(
       distance_between(uniform_one, Distribution(uniform(300, 5).array() + 0.7)).wasserstein, 0.7,
       1e-12);
+  const auto kolmogorov = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return distance_between(Distribution(a), Distribution(b)).kolmogorov;
+  };
+  EXPECT_NEAR(kolmogorov({3, 1, 2}, {2, 1, 3}), 0.0, 1e-15);
+  EXPECT_NEAR(kolmogorov({1, 2}, {3, 4, 5}), 1.0, 1e-15);
+  EXPECT_NEAR(kolmogorov({1, 2, 3, 4}, {2.5, 3.5}), 0.5, 1e-15);
+  EXPECT_NEAR(kolmogorov({1, 1, 1, 2}, {1, 2, 2, 2}), 0.5, 1e-15);
   const SampleDistance none = distance_between(uniform_one, uniform_one);
   EXPECT_NEAR(none.kolmogorov, 0.0, 1e-12);
   EXPECT_NEAR(none.wasserstein, 0.0, 1e-12);

@@ -86,15 +86,8 @@ double number_of(const std::string& field) {
   return value;
 }
 
-Distribution distribution_of(const std::vector<double>& values) {
-  return Distribution(
-      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-}
-
-double mean_of(const std::vector<double>& values) { return distribution_of(values).mean(); }
-double deviation_of(const std::vector<double>& values) {
-  return distribution_of(values).deviation();
-}
+double mean_of(const std::vector<double>& values) { return Distribution(values).mean(); }
+double deviation_of(const std::vector<double>& values) { return Distribution(values).deviation(); }
 
 double first_of(const std::vector<double>& values) { return quantile(values, 0.0); }
 double last_of(const std::vector<double>& values) { return quantile(values, 1.0); }

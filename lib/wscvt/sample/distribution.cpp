@@ -17,6 +17,11 @@ constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 Distribution::Distribution(const Eigen::VectorXd& values)
     : Distribution(values, Eigen::VectorXd::Ones(values.size())) {}
 
+Distribution::Distribution(const std::vector<double>& values)
+    : Distribution(
+          Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))
+              .eval()) {}
+
 Distribution::Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (std::isfinite(values[k]) && std::isfinite(weights[k]) && weights[k] > 0.0) {

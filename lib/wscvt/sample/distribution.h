@@ -16,6 +16,7 @@ class Distribution {
   Distribution() = default;
   /// `values` and `weights` have a row per grain; NaN: missing. Without `weights` all are 1.
   explicit Distribution(const Eigen::VectorXd& values);
+  explicit Distribution(const std::vector<double>& values);
   Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd& weights);
 
   std::size_t size() const { return values_.size(); }

@@ -79,21 +79,4 @@ GrownShape grown_shape(const IndexedMesh& mesh, const Execution& execution) {
   return grown;
 }
 
-double distribution_distance(std::vector<double> a, std::vector<double> b) {
-  if (a.empty() || b.empty()) refuse("A sample is empty; give two with grains.");
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
-  double largest = 0.0;
-  std::size_t i = 0, k = 0;
-  while (i < a.size() && k < b.size()) {
-    const double value = std::min(a[i], b[k]);
-    while (i < a.size() && a[i] <= value) ++i;
-    while (k < b.size() && b[k] <= value) ++k;
-    const double difference = static_cast<double>(i) / static_cast<double>(a.size()) -
-                              static_cast<double>(k) / static_cast<double>(b.size());
-    largest = std::max(largest, std::abs(difference));
-  }
-  return largest;
-}
-
 }  // namespace wscvt

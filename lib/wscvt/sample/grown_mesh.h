@@ -38,8 +38,4 @@ struct GrownShape {
 /// Throws as describe_shape.
 GrownShape grown_shape(const IndexedMesh& mesh, const Execution& execution);
 
-/// Largest distance of the distribution functions of two samples (Kolmogorov and Smirnov), in
-/// [0, 1]. Throws Error(InvalidInput) if one is empty.
-double distribution_distance(std::vector<double> a, std::vector<double> b);
-
 }  // namespace wscvt

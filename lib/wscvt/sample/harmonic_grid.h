@@ -42,7 +42,8 @@ struct RadialMoments {
 };
 RadialMoments radial_moments(const HarmonicGrid& grid, const std::vector<double>& radii);
 
-/// The degree's share of a series: the root of the sum of its squares, one number a degree.
+/// The amplitude of each degree of a series: the root of the sum of the squares of its
+/// coefficients, in their unit.
 std::vector<double> degree_amplitudes(const std::vector<double>& coefficients);
 
 /// The series of f(s u), s a mirror image: signs of 1 or -1 for x, y and z.

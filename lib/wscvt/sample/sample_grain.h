@@ -26,7 +26,7 @@ struct SampleGrain {
 };
 
 /// The grids on which the grains of a sample of one degree are read and grown. The white grains
-/// have `degree` + 4: stretching moves waves to higher degrees.
+/// have 1.6 times the degree, rounded: stretching moves waves to higher degrees.
 class SampleGrids {
  public:
   /// Throws Error(InvalidInput) for a degree not in [4, 56].
