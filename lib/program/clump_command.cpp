@@ -61,12 +61,12 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
                      "one of these a line")
       ->type_name("INPUT")
       ->required();
-  app.add_option(
-         "-o,--output", arguments.outputs,
-         "Write the clump to this file, by its ending: .csv (x,y,z,r), .multisphere "
-         "(LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for "
-         "MercuryDPM), .p3dat (PFC). May be given more than once. For several scans: the folder "
-         "of their clumps and of the table grains.csv")
+  app.add_option("-o,--output", arguments.outputs,
+                 "Write the clump to this file, by its ending: .csv (x,y,z,r), .multisphere "
+                 "(LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for "
+                 "MercuryDPM), .p3dat (PFC), .molecule (LAMMPS). May be given more than once. For "
+                 "several scans: the folder "
+                 "of their clumps and of the table grains.csv")
       ->type_name("FILE")
       ->required()
       ->allow_extra_args(false);
@@ -89,6 +89,9 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
       ->group(finer_settings);
   add_number(app, "--" + std::string(size_option.key), arguments.frame.size, size_option);
   add_number(app, "--" + std::string(scale_option.key), arguments.frame.scale, scale_option)
+      ->group(finer_settings);
+  add_number(app, "--" + std::string(clump_density_option.key), arguments.density,
+             clump_density_option)
       ->group(finer_settings);
   add_common_arguments(app, arguments.common);
   for (const char* name : {"--threads", "--overwrite", "--quiet"}) {
@@ -116,6 +119,7 @@ std::string call_text(const ClumpArguments& arguments) {
                         {"frame", key_of(arguments.frame.frame)},
                         {"size", arguments.frame.size},
                         {"scale", arguments.frame.scale},
+                        {"density", arguments.density},
                         {"options", json_of(arguments.options)}});
 }
 
@@ -126,7 +130,7 @@ GrainRow clump_row(const ClumpArguments& arguments, const OutputFolder& folder, 
     GrainScan scan = grains.read(k, execution);
     ClumpResult clump = make_clump(std::move(scan.mesh), arguments.options, execution);
     clump.warnings.insert(clump.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
-    write_clump(folder.mesh(grain), clump, arguments.frame);
+    write_clump(folder.mesh(grain), clump, arguments.frame, arguments.density);
     return {sample_row(grain, clump_csv(clump, {grain, ""}), {}), "", {}};
   };
   return row_or_failure(make, [&](const std::string& error) -> GrainRow {
@@ -199,6 +203,7 @@ int run(const ClumpArguments& arguments) {
   checked([&] {
     check_clump_options(arguments.options);
     check_frame_options(arguments.frame);
+    require_in_range(arguments.density, clump_density_option);
   });
   if (is_sample(arguments.inputs)) return run_sample(arguments);
   const std::string& scan = arguments.inputs.front();
@@ -221,7 +226,7 @@ int run(const ClumpArguments& arguments) {
   clump.warnings.insert(clump.warnings.begin(), file.warnings.begin(), file.warnings.end());
   for (const std::string& output : arguments.outputs) {
     work.write(output, [&](const std::string& path, const Execution&) {
-      write_clump(path, clump, arguments.frame);
+      write_clump(path, clump, arguments.frame, arguments.density);
     });
   }
   for (const std::string& report : common.reports) {

@@ -20,6 +20,7 @@ struct ClumpArguments {
   Shard shard;                       ///< of a sample
   ClumpOptions options;
   FrameOptions frame;
+  double density = 1.0;  ///< of .molecule
   CommonArguments common;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -119,8 +120,83 @@ TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
   EXPECT_NE(yade.find("clumpTemplate(relRadii"), std::string::npos);
 }
 
+/// The rows of a section of a LAMMPS molecule: number, then values.
+std::vector<double> section_of(const std::string& molecule, const std::string& name) {
+  const std::size_t at = molecule.find("\n" + name + "\n\n");
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + name.size() + 3;
+  return numbers_of(molecule.substr(begin, molecule.find("\n\n", begin) - begin));
+}
+
+// A box, turned and off the origin: mass and moments by their closed forms, at a density.
+TEST_F(ClumpFiles, MoleculeHasMassAndMomentsOfTheTurnedBox) {
+  const Vector3 edges(3.0, 2.0, 0.5);
+  ClumpOptions options;
+  options.sphere_count = 4;
+  const ClumpResult clump =
+      make_clump(test::moved(test::transformed(test::box(edges.x(), edges.y(), edges.z()),
+                                               test::random_rotation(7), Vector3::Zero()),
+                             1.0, {4.0, -9.0, 2.0}),
+                 options, Execution(1));
+  FrameOptions frame;
+  frame.scale = 2.0;
+  const double density = 2650.0;
+  write_clump(path("box.molecule"), clump, frame, density);
+  const std::string text = content_of(path("box.molecule"));
+
+  const double mass = density * 8.0 * edges.prod();
+  const Vector3 squares = 4.0 * edges.array().square();
+  const std::vector<double> head = numbers_of(text.substr(text.find("\n\n") + 2));
+  ASSERT_FALSE(head.empty());
+  EXPECT_EQ(head.front(), 4.0);
+  std::istringstream lines(text);
+  std::string line;
+  std::vector<double> masses, centre, inertia;
+  while (std::getline(lines, line) && line != "Coords") {
+    if (line.find(" mass") != std::string::npos && line.front() != '#') masses = numbers_of(line);
+    if (line.find(" com") != std::string::npos) centre = numbers_of(line);
+    if (line.find(" inertia") != std::string::npos) inertia = numbers_of(line);
+  }
+  ASSERT_EQ(masses.size(), 1U) << text;
+  // Relative: sums over twelve triangles, of numbers ten times the box.
+  EXPECT_NEAR(masses[0] / mass, 1.0, 1e-12);
+  EXPECT_EQ(centre, (std::vector<double>{0, 0, 0}));
+  ASSERT_EQ(inertia.size(), 6U);
+  for (int k = 0; k < 3; ++k) {
+    const double moment = mass / 12.0 * (squares.sum() - squares[k]);
+    EXPECT_NEAR(inertia[k] / moment, 1.0, 1e-10);
+    EXPECT_EQ(inertia[k + 3], 0.0);
+  }
+
+  const SimulationFrame to = simulation_frame(clump.original, {Frame::Principal, 2.0, 0.0});
+  const std::vector<double> places = section_of(text, "Coords");
+  const std::vector<double> types = section_of(text, "Types");
+  const std::vector<double> diameters = section_of(text, "Diameters");
+  const std::vector<double> parts = section_of(text, "Masses");
+  ASSERT_EQ(places.size(), 16U);
+  ASSERT_EQ(types.size(), 8U);
+  ASSERT_EQ(diameters.size(), 8U);
+  ASSERT_EQ(parts.size(), 8U);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Sphere& sphere = clump.spheres[k];
+    EXPECT_EQ(places[4 * k], k + 1.0);
+    EXPECT_LT(
+        (Vector3(places[4 * k + 1], places[4 * k + 2], places[4 * k + 3]) - to.point(sphere.centre))
+            .norm(),
+        1e-12);
+    EXPECT_EQ(types[2 * k + 1], 1.0);
+    EXPECT_NEAR(diameters[2 * k + 1], 4.0 * sphere.radius, 1e-12);
+    EXPECT_NEAR(parts[2 * k + 1] / parts[1], std::pow(sphere.radius / clump.spheres[0].radius, 3),
+                1e-12);
+    sum += parts[2 * k + 1];
+  }
+  EXPECT_NEAR(sum / mass, 1.0, 1e-12);
+}
+
 TEST_F(ClumpFiles, WrongNamesAndContentsAreRefused) {
   EXPECT_ERROR(write_clump(path("clump.stl"), made_clump(), {}), InvalidInput);
+  EXPECT_ERROR(write_clump(path("clump.molecule"), made_clump(), {}, 0.0), InvalidInput);
   EXPECT_TRUE(is_clump_name("a.CHRONO.CSV"));
   EXPECT_FALSE(is_clump_name(".csv"));
   EXPECT_FALSE(is_clump_file(file("other.csv", "x,y,z\n1,2,3\n")));

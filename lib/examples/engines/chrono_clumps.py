@@ -9,28 +9,31 @@ an NVIDIA card and the Python module DEME. Not run for this project, because Deb
 calls were compared with the engine's public Python examples.
 """
 import csv
-import sys
+
+from packing import arguments, drops, of_each, picture, sphere_mesh, turned, wscvt
+
+folder, count = arguments(__doc__, 20)
+diameter, width, density, seconds = 0.02, 0.08, 2650, 2.0
 
 import DEME
-from packing import drops, picture, scans, sphere_mesh, turned, wscvt
-
-folder, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
-diameter, width, density, seconds = 0.02, 0.08, 2650, 2.0
 
 engine = DEME.DEMSolver()
 engine.SetVerbosity("INFO")
 stone = engine.LoadMaterial({"E": 1e7, "nu": 0.3, "CoR": 0.2, "mu": 0.5, "Crr": 0.0})
 
-templates, shapes = [], []
-for k, scan in enumerate(scans(folder)):
+
+def template(k, scan):
     name = "clump_%d.chrono.csv" % k
     wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", name)
     lines = open(name).read().splitlines()
     # Volume and moments at unit density are comments below the spheres.
     volume, *moments = (float(v) for line in lines if line.startswith(("# volume", "# Ixx"))
                         for v in line.partition("=")[2].split(","))
-    templates.append(engine.LoadClumpType(density * volume, [density * m for m in moments], name, stone))
-    shapes.append([[float(v) for v in row] for row in csv.reader(lines[1:]) if not row[0].startswith("#")])
+    return (engine.LoadClumpType(density * volume, [density * m for m in moments], name, stone),
+            [[float(v) for v in row] for row in csv.reader(lines[1:]) if not row[0].startswith("#")])
+
+
+templates, shapes = zip(*of_each(folder, template))
 
 # A world about the origin, tall enough for all grains, with planes as the box.
 places, turns = zip(*drops(count, diameter, width))

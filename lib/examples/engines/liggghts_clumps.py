@@ -10,18 +10,16 @@ LIGGGHTS runs, and liggghts_clumps.png.
 import collections
 import pathlib
 import subprocess
-import sys
 
-from packing import picture, scans, sphere_mesh, wscvt
+from packing import arguments, of_each, picture, sphere_mesh, wscvt
 
-folder, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
+folder, count = arguments(__doc__, 20)
 diameter, width, steps = 0.02, 0.08, 60000
 # LIGGGHTS wants another prime above 10,000 as the seed of each template.
 primes = (n for n in range(10007, 10 ** 6, 2) if all(n % d for d in range(3, int(n ** 0.5) + 1, 2)))
 
-templates, mixture = "", ""
-files = scans(folder)
-for k, scan in enumerate(files):
+
+def template(k, scan):
     name = "clump_%d.multisphere" % k
     wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", name)
     # Each file has a template named clump, of type 1.
@@ -29,8 +27,11 @@ for k, scan in enumerate(files):
     for old, new in (("fix clump all", "fix clump_%d all" % k), (" 15485863 ", " %d " % next(primes)),
                      (" type 1 mass", " type %d mass" % (k + 1))):
         text = text.replace(old, new)
-    templates += text
-    mixture += " clump_%d %.9g" % (k, 1 / len(files))
+    return text
+
+
+templates = of_each(folder, template)
+mixture = "".join(" clump_%d %.9g" % (k, 1 / len(templates)) for k in range(len(templates)))
 
 pathlib.Path("liggghts_clumps.in").write_text("""atom_style granular
 atom_modify map array
@@ -64,10 +65,9 @@ fix clumps all multisphere
 thermo 5000
 dump last all custom {steps} liggghts_clumps.dump id_multisphere x y z radius vx vy vz
 run {steps}
-""".format(low=-width / 2, high=width / 2, top=diameter * (3 + 0.15 * count), templates=templates,
-           mixture=mixture, number=len(files), count=count, steps=steps))
-with open("liggghts_clumps.out", "w") as output:
-    subprocess.run(["liggghts", "-in", "liggghts_clumps.in"], check=True, stdout=output)
+""".format(low=-width / 2, high=width / 2, top=diameter * (3 + 0.15 * count), templates="".join(templates),
+           mixture=mixture, number=len(templates), count=count, steps=steps))
+subprocess.run(["liggghts", "-in", "liggghts_clumps.in"], check=True, stdout=open("liggghts_clumps.out", "w"))
 
 clumps, speed = collections.defaultdict(list), 0.0
 for line in open("liggghts_clumps.dump").read().rpartition("ITEM: ATOMS")[2].splitlines()[1:]:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lets clumps fall into a box in MercuryDPM and prints the spheres: number of the grain, x, y, z,
-// radius. mercury_clumps.py says how to compile it, and writes the scene: width of the box, height
-// above all grains, seconds, density; per grain the folder of its clump, its place, its matrix.
+// Lets clumps fall into a box in MercuryDPM. Prints each grain's speed and spheres: number, x, y,
+// z, radius. mercury_clumps.py says how to compile it, and writes the scene: width, height,
+// seconds, density; per grain the folder of its clump, its place, its matrix.
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -17,34 +17,34 @@ std::vector<double> numbers(const std::string& path, double factor = 1.0) {
   return values;
 }
 
-class Packing : public Mercury3Dclump {
-  std::ifstream scene_;
-  double density_ = 0.0;
+struct Packing : Mercury3Dclump {
+  std::ifstream scene;
+  double density = 0.0;
 
- public:
-  explicit Packing(const char* path) : scene_(path) {
+  explicit Packing(const char* path) : scene(path) {
     double width = 0.0, height = 0.0, seconds = 0.0;
-    if (!(scene_ >> width >> height >> seconds >> density_)) logger(ERROR, "% is no scene", path);
+    if (!(scene >> width >> height >> seconds >> density)) logger(ERROR, "% is no scene", path);
     setDomain(Vec3D(-width / 2, -width / 2, 0), Vec3D(width / 2, width / 2, height));
     setTimeMax(seconds);
+    setTimeStep(1e-5);
     setName("mercury_clumps");
     setGravity(Vec3D(0, 0, -9.81));
-    setTimeStep(1e-5);
     setSaveCount(10000);
     auto* species = speciesHandler.copyAndAddObject(LinearViscoelasticFrictionSpecies());
-    species->setDensity(density_);
+    species->setDensity(density);
     species->setStiffness(1e5);
-    species->setDissipation(10.0);
+    species->setDissipation(20.0);
     species->setSlidingFrictionCoefficient(0.5);
     species->setSlidingStiffness(3e4);
+    species->setSlidingDissipation(6.0);
   }
 
   void setupInitialConditions() override {
     std::string folder;
-    for (double x, y, z, r[9]; scene_ >> folder >> x >> y >> z;) {
-      for (double& value : r) scene_ >> value;
+    for (double x, y, z, r[9]; scene >> folder >> x >> y >> z;) {
+      for (double& value : r) scene >> value;
       const auto spheres = numbers(folder + "/Clump/Clump.txt");
-      const auto m = numbers(folder + "/Inertia/TOI.txt", density_);
+      const auto m = numbers(folder + "/Inertia/TOI.txt", density);
       ClumpParticle grain;
       grain.setSpecies(speciesHandler.getObject(0));
       grain.setClump();
@@ -55,11 +55,10 @@ class Packing : public Mercury3Dclump {
       }
       grain.setInitInertia({m.at(0), 0, 0, m.at(4), 0, m.at(8)});
       grain.setPrincipalDirections({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]});
-      grain.setClumpMass(numbers(folder + "/Inertia/Mass.txt", density_).front());
+      grain.setClumpMass(numbers(folder + "/Inertia/Mass.txt", density).front());
       particleHandler.copyAndAddObject(grain);
     }
-    InfiniteWall wall;
-    wall.setSpecies(speciesHandler.getObject(0));
+    InfiniteWall wall(speciesHandler.getObject(0));
     const std::vector<Vec3D> normals = {{0, 0, -1}, {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
     for (const Vec3D& out : normals) {
       wall.set(out, out.X + out.Y > 0 ? getMax() : getMin());
@@ -72,6 +71,7 @@ int main(int argc, char** argv) {
   Packing packing(argc == 2 ? argv[1] : "mercury_scene.txt");
   packing.solve();
   for (BaseParticle* sphere : packing.particleHandler) {
+    if (sphere->isClump()) std::printf("speed %.9g\n", sphere->getVelocity().getLength());
     if (!sphere->isPebble()) continue;
     const Vec3D at = sphere->getPosition();
     std::printf("grain %u %.9g %.9g %.9g %.9g\n", sphere->getClump()->getId(), at.X, at.Y, at.Z,

@@ -7,23 +7,26 @@ and moments of inertia.
 COUNT grains, 20 by default, of 20 mm equivalent diameter fall into a box. Writes mercury_scene.txt and
 mercury_clumps.png. MERCURY is mercury_clumps.cpp compiled with MercuryDPM: put a copy of it into a new folder
 of Drivers/Clump beside a copy of Drivers/Clump/Single/CMakeLists.txt, name the folder in
-Drivers/Clump/CMakeLists.txt, and build the target mercury_clumps. Not run for this project, because
-Debian has no MercuryDPM: its calls were compared with the engine's public clump drivers.
+Drivers/Clump/CMakeLists.txt, and build the target mercury_clumps. No test runs this, because
+Debian has no MercuryDPM; README.md tells with which version it was run by hand.
 """
 import collections
 import os
 import subprocess
-import sys
 
-from packing import drops, picture, scans, sphere_mesh, turned, wscvt
+from packing import arguments, drops, of_each, picture, sphere_mesh, turned, wscvt
 
-folder, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
+folder, count = arguments(__doc__, 20)
 diameter, width, density, seconds = 0.02, 0.08, 2650, 1.5
 
-clumps = []
-for k, scan in enumerate(scans(folder)):
-    clumps.append("clump_%d.mclump" % k)
-    wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", clumps[-1])
+
+def clump(k, scan):
+    name = "clump_%d.mclump" % k
+    wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", name)
+    return name
+
+
+clumps = of_each(folder, clump)
 
 grains = list(drops(count, diameter, width))
 with open("mercury_scene.txt", "w") as scene:
@@ -36,11 +39,13 @@ with open("mercury_scene.txt", "w") as scene:
 text = subprocess.run([os.environ.get("MERCURY", "./mercury_clumps"), "mercury_scene.txt"], check=True,
                       capture_output=True, text=True).stdout
 
-packed = collections.defaultdict(list)
-for line in text.splitlines():
-    if line.startswith("grain "):
-        number, *sphere = line.split()[1:]
-        packed[number].append([float(v) for v in sphere])
+packed, speed = collections.defaultdict(list), 0.0
+for word, *numbers in map(str.split, filter(None, text.splitlines())):
+    if word == "grain":
+        packed[numbers[0]].append([float(v) for v in numbers[1:]])
+    elif word == "speed":
+        speed = max(speed, float(numbers[0]))
 picture("mercury_clumps.png", [sphere_mesh(spheres) for spheres in packed.values()], width)
 highest = max(sum(s[2] for s in spheres) / len(spheres) for spheres in packed.values())
-print("MercuryDPM clumps: %d grains, highest centre at %.1f diameters" % (len(packed), highest / diameter))
+print("MercuryDPM clumps: %d grains, %.4f m/s at most, highest centre at %.1f diameters" %
+      (len(packed), speed, highest / diameter))

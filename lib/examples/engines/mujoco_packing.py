@@ -8,12 +8,11 @@ MuJoCo's Python module, or else compiles mujoco_settle.cpp against MuJoCo's C li
 """
 import pathlib
 import subprocess
-import sys
 import xml.etree.ElementTree as xml
 
-from packing import drops, picture, read_obj, scans, turned, wscvt
+from packing import arguments, drops, of_each, picture, read_obj, turned, wscvt
 
-folder, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
+folder, count = arguments(__doc__, 20)
 diameter, width, seconds = 0.02, 0.08, 2.0
 
 scene = xml.fromstring("""
@@ -31,19 +30,21 @@ for axis in ("1 0", "-1 0", "0 1", "0 -1"):
     xml.SubElement(world, "geom", type="plane", size="1 1 0.1", zaxis="%d %d 0" % (x, y),
                    pos="%g %g 0" % (-x * width / 2, -y * width / 2))
 
-grains, shapes = [], []
-for scan in scans(folder):
-    files = [scan.stem + "_parts" + ending for ending in (".xml", ".obj")]
+
+def grain_of(k, scan):
+    files = ["parts_%d%s" % (k, ending) for ending in (".xml", ".obj")]
     wscvt("convex", scan, "-k", 4, "-n", 300, "--faces", 60, "-o", files[0], "-o", files[1], "--density", 2650,
           "--frame", "principal", "--size", diameter)
     grain = xml.parse(files[0]).getroot()
     for mesh in grain.find("asset"):
-        mesh.set("name", scan.stem + "_" + mesh.get("name"))
+        mesh.set("name", "%d_%s" % (k, mesh.get("name")))
         assets.append(mesh)
     for geom in grain.iter("geom"):
-        geom.set("mesh", scan.stem + "_" + geom.get("mesh"))
-    grains.append(grain.find("worldbody/body"))
-    shapes.append(read_obj(files[1]))
+        geom.set("mesh", "%d_%s" % (k, geom.get("mesh")))
+    return grain.find("worldbody/body"), read_obj(files[1])
+
+
+grains, shapes = zip(*of_each(folder, grain_of))
 for k, (place, turn) in enumerate(drops(count, diameter, width)):
     body = xml.fromstring(xml.tostring(grains[k % len(grains)]))
     body.set("name", "grain_%d" % k)

@@ -1,22 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the examples beside this file share: scans of a folder, calls of wscvt, the places that grains
-are dropped from, and a picture of the packing."""
+"""What the examples beside this file share: their arguments, scans of a folder, calls of wscvt, the places
+that grains are dropped from, and a picture of the packing."""
 import math
 import os
 import pathlib
 import random
 import subprocess
+import sys
 
 WSCVT = os.environ.get("WSCVT", "wscvt")
+ENDINGS = (".ply", ".stl", ".obj", ".off", ".vtp")
 
 
-def scans(folder):
-    """The meshes of a folder, in the order of their names."""
-    return sorted(p for p in pathlib.Path(folder).iterdir() if p.suffix in (".ply", ".stl", ".obj"))
+def arguments(usage, count):
+    """The folder of scans and the number of grains that a script was called with; or its usage, and the
+    end. The count is the number without a second argument."""
+    words = sys.argv[1:]
+    if 1 <= len(words) <= 2 and pathlib.Path(words[0]).is_dir() and (words[1:] or ["1"])[0].isdigit():
+        folder, count = pathlib.Path(words[0]), int((words + [count])[1])
+        if folder.resolve() == pathlib.Path.cwd():
+            leave("Run this in another folder than that of the scans, because it writes meshes.")
+        if count > 0:
+            return folder, count
+    leave(usage.strip() + "\n\nSCANS is a folder that holds meshes (%s)." % " ".join(ENDINGS))
+
+
+def leave(sentence):
+    """Ends the script with exit code 2, in Yade as well, which keeps sys.exit from its caller."""
+    print(sentence, file=sys.stderr, flush=True)
+    os._exit(2)
 
 
 def wscvt(*words):
     subprocess.run([WSCVT, *map(str, words), "-q"], check=True)
+
+
+def of_each(folder, make):
+    """make(number, scan) for each mesh of a folder, in the order of their names. A scan that wscvt refuses
+    is left out, with a line."""
+    made = []
+    for scan in sorted(p for p in folder.iterdir() if p.suffix.lower() in ENDINGS):
+        try:
+            made.append(make(len(made), scan))
+        except subprocess.CalledProcessError:
+            print("Left out: %s" % scan, file=sys.stderr)
+    if not made:
+        leave("%s holds no scan that wscvt takes." % folder)
+    return made
 
 
 def drops(count, diameter, width, seed=1):

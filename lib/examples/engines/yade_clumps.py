@@ -11,20 +11,22 @@ import os
 import sys
 
 sys.path[:0] = [os.path.dirname(os.path.abspath(sys.argv[0])), os.getcwd()]
-from packing import drops, picture, scans, sphere_mesh, wscvt
+from packing import arguments, drops, of_each, picture, sphere_mesh, wscvt
 from yade import (Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom,
                   Ig2_Wall_Sphere_ScGeom, InsertionSortCollider, InteractionLoop,
                   Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O,
                   Quaternion, utils)
 
-folder, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 20
+folder, count = arguments(__doc__, 20)
 diameter, width, density = 0.02, 0.08, 2650
 
-clumps = []
-for k, scan in enumerate(scans(folder)):
-    wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", "clump_%d.py" % k)
-    clumps.append(importlib.import_module("clump_%d" % k))
 
+def clump(k, scan):
+    wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", "clump_%d.py" % k)
+    return importlib.import_module("clump_%d" % k)
+
+
+clumps = of_each(folder, clump)
 material = FrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=density)
 O.materials.append(material)
 for axis, place in ((2, 0), (0, -width / 2), (0, width / 2), (1, -width / 2), (1, width / 2)):

@@ -13,7 +13,7 @@ import sys
 
 here = pathlib.Path(os.path.abspath(sys.argv[0])).parent
 sys.path[:0] = [str(here), str(here / "../../../tests/engines")]
-from packing import drops, picture, read_obj, scans, turned, wscvt
+from packing import arguments, drops, of_each, picture, read_obj, turned, wscvt
 from yade import (Bo1_LevelSet_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_LevelSet_LevelSet_ScGeom,
                   Ig2_Wall_LevelSet_ScGeom, InsertionSortCollider, InteractionLoop,
                   Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, MatchMaker,
@@ -21,18 +21,19 @@ from yade import (Bo1_LevelSet_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2
 from yade_contacts import GrainContacts
 from yade_grain import Grain
 
-folder, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 8
+folder, count = arguments(__doc__, 8)
 diameter, width, stiffness, friction = 0.02, 0.08, 1e4, 0.5
 
-grains, meshes = [], []
-for scan in scans(folder):
-    name = scan.stem
+
+def level_set(k, scan):
+    name = "grain_%d" % k
     wscvt("remesh", scan, name + ".obj", "-n", 100, "--frame", "principal", "--size", diameter,
           "--node-table", name + ".csv", "--sdf", name + ".npy", "--sdf-spacing", diameter / 20,
           "--sdf-surface", "remesh")
-    grains.append(Grain(name + ".csv", name + ".npy"))
-    meshes.append(read_obj(name + ".obj"))
+    return Grain(name + ".csv", name + ".npy"), read_obj(name + ".obj")
 
+
+grains, meshes = zip(*of_each(folder, level_set))
 wall, stone = (FrictMat(young=1e8, poisson=0.3, frictionAngle=0.46, density=2650, label=name)
                for name in ("wall", "stone"))
 for material in (wall, stone):
@@ -44,7 +45,6 @@ for k, (place, turn) in enumerate(drops(count, diameter, width)):
     w, x, y, z = turn
     bodies.append(grains[k % len(grains)].body(Vector3(*place), Quaternion(w, x, y, z), material=stone))
     O.bodies.append(bodies[-1])
-
 
 contacts = GrainContacts(grains[0], stiffness, 0.5 * stiffness, friction)
 

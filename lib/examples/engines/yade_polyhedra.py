@@ -10,21 +10,23 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-from packing import drops, picture, read_obj, scans, turned, wscvt
+from packing import arguments, drops, of_each, picture, read_obj, turned, wscvt
 from yade import (Bo1_Polyhedra_Aabb, Bo1_Wall_Aabb, ForceResetter, Ig2_Polyhedra_Polyhedra_PolyhedraGeom,
                   Ig2_Wall_Polyhedra_PolyhedraGeom, InsertionSortCollider, InteractionLoop,
                   Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys, Law2_PolyhedraGeom_PolyhedraPhys_Volumetric,
                   NewtonIntegrator, O, PolyhedraMat, Quaternion, Vector3, polyhedra_utils, utils)
 
-folder, count = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 12
+folder, count = arguments(__doc__, 12)
 diameter, width = 0.02, 0.08
 
-hulls = []
-for scan in scans(folder):
-    hull = scan.stem + "_hull.obj"
-    wscvt("convex", scan, "-k", 1, "--faces", 60, "-o", hull, "--frame", "principal", "--size", diameter)
-    hulls.append(read_obj(hull))
 
+def hull(k, scan):
+    name = "hull_%d.obj" % k
+    wscvt("convex", scan, "-k", 1, "--faces", 60, "-o", name, "--frame", "principal", "--size", diameter)
+    return read_obj(name)
+
+
+hulls = of_each(folder, hull)
 material = PolyhedraMat(density=2650, young=1e7, poisson=0.2, frictionAngle=0.6)
 O.materials.append(material)
 for axis, place, sense in ((2, 0, 1), (0, -width / 2, 1), (0, width / 2, -1), (1, -width / 2, 1),
@@ -57,8 +59,7 @@ while O.iter < 30000:
 drawn = []
 for body in grains:
     q, p = body.state.ori, body.state.pos
-    faces = [list(f) for f in zip(*[iter(body.shape.GetSurfaceTriangulation())] * 3)] \
-        if hasattr(body.shape, "GetSurfaceTriangulation") else hulls[0][1]
+    faces = list(zip(*[iter(body.shape.GetSurfaceTriangulation())] * 3))
     drawn.append((turned([tuple(v) for v in body.shape.v], p, (q[3], q[0], q[1], q[2])), faces))
 picture("polyhedra.png", drawn, width)
 print("Yade polyhedra: %d grains, %d steps, %.4f m/s at most, highest centre at %.1f diameters" %

@@ -145,6 +145,31 @@ std::string pfc_command(const FramedClump& clump, const std::string& path) {
          numbers(moments(clump), " ") + " 0 0 0\n";
 }
 
+/// LAMMPS adds up the masses of atoms for the energies that it prints, and takes the body's mass
+/// and moments from the head of the file.
+std::string lammps_molecule(const FramedClump& clump, double density) {
+  const std::vector<Sphere>& spheres = clump.spheres;
+  double cubes = 0.0;
+  for (const Sphere& sphere : spheres) cubes += std::pow(sphere.radius, 3);
+  const double mass = density * clump.mass.volume;
+  std::string coordinates, types, diameters, masses;
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    const Vector3& c = spheres[k].centre;
+    const std::string number = std::to_string(k + 1) + " ";
+    coordinates += number + numbers({c.x(), c.y(), c.z()}, " ") + "\n";
+    types += number + "1\n";
+    diameters += number + format_exact(2.0 * spheres[k].radius) + "\n";
+    masses += number + format_exact(mass * std::pow(spheres[k].radius, 3) / cubes) + "\n";
+  }
+  std::vector<double> tensor = moments(clump);
+  for (double& moment : tensor) moment *= density;
+  return "# made by " + made_by_text() + "; mass and moments are the grain's, density " +
+         format_exact(density) + "\n\n" + std::to_string(spheres.size()) + " atoms\n" +
+         format_exact(mass) + " mass\n0 0 0 com\n" + numbers(tensor, " ") +
+         " 0 0 0 inertia\n\nCoords\n\n" + coordinates + "\nTypes\n\n" + types + "\nDiameters\n\n" +
+         diameters + "\nMasses\n\n" + masses;
+}
+
 /// As the reader of MercuryDPM's Clump driver takes a clump; readers before 2024 look for these
 /// names in small letters.
 void write_mercury(const std::string& path, const FramedClump& clump) {
@@ -181,8 +206,8 @@ std::string clump_ending(const std::string& path) {
 }  // namespace
 
 const std::vector<std::string>& clump_endings() {
-  static const std::vector<std::string> endings = {".csv",        ".multisphere", ".py",
-                                                   ".chrono.csv", ".mclump",      ".p3dat"};
+  static const std::vector<std::string> endings = {
+      ".csv", ".multisphere", ".py", ".chrono.csv", ".mclump", ".p3dat", ".molecule"};
   return endings;
 }
 
@@ -193,7 +218,7 @@ void check_clump_path(const std::string& path) {
   refuse("\"" + path +
          "\" is to hold a clump, but its ending names no format. Give a name that ends in .csv, "
          ".multisphere (LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump "
-         "(MercuryDPM) or .p3dat (PFC).");
+         "(MercuryDPM), .p3dat (PFC) or .molecule (LAMMPS).");
 }
 
 std::vector<std::string> files_of_clump(const std::string& path) {
@@ -206,8 +231,10 @@ std::vector<std::string> files_of_clump(const std::string& path) {
   return {path};
 }
 
-void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame) {
+void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
+                 double density) {
   check_clump_path(path);
+  require_in_range(density, clump_density_option);
   const std::string ending = clump_ending(path);
   FrameOptions used = frame;
   if (ending != ".csv") used.frame = Frame::Principal;
@@ -223,6 +250,8 @@ void write_clump(const std::string& path, const ClumpResult& clump, const FrameO
     write_file(path, chrono_table(framed));
   } else if (ending == ".mclump") {
     write_mercury(path, framed);
+  } else if (ending == ".molecule") {
+    write_file(path, lammps_molecule(framed, density));
   } else {
     write_file(path, pfc_command(framed, path));
   }

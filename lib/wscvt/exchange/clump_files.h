@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "wscvt/base/option.h"
 #include "wscvt/clump/clump.h"
 #include "wscvt/exchange/simulation_options.h"
 
@@ -16,8 +18,20 @@ namespace wscvt {
 //   .chrono.csv   Chrono DEM-Engine: x,y,z,r, then mass and moments as comments
 //   .mclump       MercuryDPM: a folder as its tool MClump leaves it
 //   .p3dat        PFC: the command "clump template create"
+//   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
 // All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
-// is diagonal, and hold the grain's mass properties at unit density.
+// is diagonal, and hold the grain's mass properties: at unit density, but .molecule at a density
+// that is given, because LAMMPS cannot change it.
+
+/// Density of the grain in a .molecule file.
+inline constexpr NumberOption<double> clump_density_option = {
+    "density",
+    "density",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::Neither,
+    "mass of a unit of volume in .molecule; for the other formats the engine's "
+    "script gives it"};
 
 /// The endings, as above.
 const std::vector<std::string>& clump_endings();
@@ -31,8 +45,10 @@ void check_clump_path(const std::string& path);
 /// The files that one path makes, itself among them.
 std::vector<std::string> files_of_clump(const std::string& path);
 
-/// Writes the clump. Throws Error: InvalidInput for another ending, InputOutput.
-void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame);
+/// Writes the clump. Throws Error: InvalidInput for another ending or a density out of range,
+/// InputOutput.
+void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
+                 double density = 1.0);
 
 /// Whether a file is a table of spheres: its first line is x,y,z,r. False where it cannot be read.
 bool is_clump_file(const std::string& path);
