@@ -79,8 +79,9 @@ for step in "$@"; do
       tests/install_packages.sh chromium poppler-utils
       tests/page_in_browser.sh build/release/lib/wscvt build/page ;;
     engines)
-      # After release. Yade, LIGGGHTS, Gmsh and VTK are 1 GB, so a step of its own.
-      tests/install_packages.sh yade liggghts gmsh python3-vtk9 python3-numpy libmujoco-dev python3-matplotlib
+      # After release. Yade, LIGGGHTS, LAMMPS, Gmsh and VTK are 1 GB, so a step of its own.
+      tests/install_packages.sh yade liggghts lammps gmsh python3-vtk9 python3-numpy libmujoco-dev \
+        libbullet-dev python3-matplotlib
       tests/engines/run.sh build/release/lib/wscvt build/engines ;;
     package)
       # After release. A step of its own, because it installs and removes packages of the system.

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Loads a grain into the engines that Debian has: Yade (level sets), LIGGGHTS (surface mesh), Gmsh
-# (tetrahedra) and VTK, whose readers are ParaView's.
+# (tetrahedra) and VTK, whose readers are ParaView's; and runs the examples of lib/examples/engines.
 #   tests/engines/run.sh PROGRAM FOLDER
 # PROGRAM is wscvt. The files are left in FOLDER. Run by tests/run_all.sh engines, because of the
 # packages' size.
@@ -9,10 +9,10 @@ set -eu
 program=$(realpath "${1:?usage: run.sh PROGRAM FOLDER}")
 folder=$(realpath -m "${2:?usage: run.sh PROGRAM FOLDER}")
 here=$(realpath "$(dirname "$0")")
-for command in yade liggghts gmsh; do
+for command in yade liggghts gmsh lmp; do
   command -v "$command" > /dev/null || {
-    echo "$command is not installed; run: apt-get install --no-install-recommends yade liggghts" \
-      "gmsh python3-vtk9 python3-numpy" >&2
+    echo "$command is not installed; run: apt-get install --no-install-recommends yade liggghts gmsh" \
+      "lammps libmujoco-dev libbullet-dev python3-vtk9 python3-numpy python3-matplotlib" >&2
     exit 1
   }
 done
@@ -71,18 +71,45 @@ done
   exit 1
 }
 "$python" "$here/liggghts_packing_test.py" templates/packing.in templates/liggghts.out 20
-# The examples, from scans to a packing.
+
+# The examples, from scans to a packing at rest. One of the scans is broken, and names have spaces.
 examples=$here/../../lib/examples/engines
-mkdir -p scans
-cp "$here/../../meshes/sand_5658.ply" "$here/../../meshes/angular_6000.ply" scans
-WSCVT=$program yade -n -x "$examples/yade_polyhedra.py" scans 6 > polyhedra.log 2>&1
-grep '^Yade polyhedra:' polyhedra.log
-WSCVT=$program "$python" "$examples/mujoco_packing.py" scans 8 | grep '^MuJoCo:'
-WSCVT=$program yade -n -x "$examples/yade_clumps.py" scans 8 > yade_clumps.log 2>&1
-grep '^Yade clumps: 8 grains, .* 0\.00.. m/s at most' yade_clumps.log
-WSCVT=$program "$python" "$examples/liggghts_clumps.py" scans 8 |
-  grep '^LIGGGHTS clumps: 8 grains, 0\.00.. m/s at most'
-for picture in polyhedra.png mujoco.png yade_clumps.png liggghts_clumps.png; do test -s "$picture"; done
+mkdir -p "my scans"
+cp "$here/../../meshes/sand_5658.ply" "$here/../../meshes/angular_6000.ply" "my scans"
+head -c 20000 "$here/../../meshes/sand_5658.ply" > "my scans/broken scan.ply"
+example() {  # its script, its heading, grains
+  case $1 in yade*) run="yade -n -x" ;; *) run=$python ;; esac
+  usage=$($run "$examples/$1.py" 2>&1) && exit 1
+  echo "$usage" | grep -q "$1.py SCANS"
+  rm -f "$1.png"
+  WSCVT=$program $run "$examples/$1.py" "my scans" "$3" > "$1.log" 2>&1 || {
+    tail -n 30 "$1.log" >&2
+    exit 1
+  }
+  grep -q '^Left out: my scans/broken scan.ply' "$1.log"
+  grep "^$2: $3 grains.* 0\.00.. m/s at most" "$1.log"
+  test -s "$1.png"
+}
+example yade_polyhedra "Yade polyhedra" 6
+example yade_level_set "Yade level sets" 8
+example yade_clumps "Yade clumps" 8
+example liggghts_clumps "LIGGGHTS clumps" 8
+example lammps_clumps "LAMMPS clumps" 8
+example mujoco_packing MuJoCo 8
+example bullet_packing Bullet 8
+# LAMMPS moves grains with the mass and moments of the file, and not of the spheres.
+"$python" << END
+def head(path, word):
+    line, = [line for line in open(path) if line.endswith(" %s\n" % word)]
+    return [float(v) for v in line.split()[:-1] if float(v) != 0]
+files = [head("clump_%d.molecule" % k, "mass") + sorted(head("clump_%d.molecule" % k, "inertia")) for k in (0, 1)]
+grains = [line.split() for line in open("lammps_grains.dump").read().rpartition("ITEM: ENTRIES")[2].splitlines()[1:]]
+assert len(grains) == 8
+for grain in grains:
+    moved = [float(grain[1])] + sorted(float(v) for v in grain[8:11])
+    # The dump has six digits.
+    assert any(all(abs(a / b - 1) < 1e-5 for a, b in zip(moved, file)) for file in files), (moved, files)
+END
 
 # A clump of the grain: LIGGGHTS and Yade drop it on a wall.
 "$program" clump -q "$here/../../meshes/sand_7228.ply" -k 20 --size 0.05 -o clump.multisphere -o clump.py \

@@ -4,7 +4,7 @@
     WSCVT=wscvt python3 bullet_packing.py SCANS [COUNT]
 
 COUNT grains, 20 by default, of 0.2 m equivalent diameter fall into a box: Bullet's contact margins are
-made for such sizes. Writes bullet.png. Takes PyBullet, or else compiles bullet_settle.cpp against Bullet's
+made for such sizes. Writes bullet_packing.png. Takes PyBullet, or else compiles bullet_settle.cpp against Bullet's
 C++ library.
 """
 import pathlib
@@ -69,7 +69,7 @@ try:
     settled, fastest = by_python(pybullet)
 except ImportError:
     settled, fastest = by_library()
-picture("bullet.png", [(turned(shapes[k % len(shapes)][0], row[:3], row[3:]), shapes[k % len(shapes)][1])
+picture("bullet_packing.png", [(turned(shapes[k % len(shapes)][0], row[:3], row[3:]), shapes[k % len(shapes)][1])
                        for k, row in enumerate(settled)], width)
 print("Bullet: %d grains of convex parts, %.4f m/s at most, highest centre at %.1f diameters" %
       (count, fastest, max(row[2] for row in settled) / diameter))

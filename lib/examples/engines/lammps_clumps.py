@@ -49,15 +49,15 @@ fix clumps all rigid/small molecule mol grains gravity gravity reinit no
 region source block {inner_left} {inner_right} {inner_left} {inner_right} {low} {high} units box
 fix source all deposit {count} 0 2000 4767548 region source mol grains molfrac {fractions} &
   rigid clumps near {near} attempt 1000 vz -0.5 -0.5
+fix air all viscous 0.002
 timestep 2e-5
-thermo 10000
 compute grains all rigid/local clumps mass x y z vx vy vz inertiax inertiay inertiaz
 dump grains all local {steps} lammps_grains.dump index c_grains[*]
 dump spheres all custom {steps} lammps_clumps.dump mol x y z radius
 run {steps}
 """.format(left=-width / 2, right=width / 2, below=-diameter, top=low + 4 * diameter, low=low,
            high=low + 3 * diameter, inner_left=diameter - width / 2, inner_right=width / 2 - diameter,
-           near=1.6 * diameter, molecules=" ".join(molecules), count=count, steps=2000 * count + 40000,
+           near=1.6 * diameter, molecules=" ".join(molecules), count=count, steps=2000 * count + 60000,
            fractions=" ".join(["%.9g" % (1 / len(molecules))] * len(molecules)),
            contact="hertz/material 1e7 0.2 0.3 tangential mindlin NULL 0.5 0.5 damping tsuji"))
 with open("lammps_clumps.out", "w") as output:

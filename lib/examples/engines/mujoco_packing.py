@@ -3,7 +3,7 @@
 
     WSCVT=wscvt python3 mujoco_packing.py SCANS [COUNT]
 
-COUNT grains, 20 by default, of 20 mm equivalent diameter fall into a box. Writes mujoco.png. Takes
+COUNT grains, 20 by default, of 20 mm equivalent diameter fall into a box. Writes mujoco_packing.png. Takes
 MuJoCo's Python module, or else compiles mujoco_settle.cpp against MuJoCo's C library.
 """
 import pathlib
@@ -60,14 +60,14 @@ try:
     while data.time < seconds:
         mujoco.mj_step(model, data)
     rows = data.qpos.reshape(-1, 7).tolist()
+    speed = abs(data.qvel.reshape(-1, 6)[:, :3]).max()
 except ImportError:
     source = pathlib.Path(__file__).with_name("mujoco_settle.cpp")
     subprocess.run(["g++", "-O1", source, "-o", "./mujoco_settle", "-lmujoco"], check=True)
     text = subprocess.run(["./mujoco_settle", "mujoco_scene.xml", str(seconds)], check=True,
                           capture_output=True, text=True).stdout
-    print(text.splitlines()[0])
-    rows = [[float(v) for v in line.split()] for line in text.splitlines()[1:]]
-picture("mujoco.png", [(turned(shapes[k % len(shapes)][0], row[:3], row[3:]), shapes[k % len(shapes)][1])
+    *rows, (speed,) = [[float(v) for v in line.split()] for line in text.splitlines()]
+picture("mujoco_packing.png", [(turned(shapes[k % len(shapes)][0], row[:3], row[3:]), shapes[k % len(shapes)][1])
                        for k, row in enumerate(rows)], width)
-print("MuJoCo: %d grains of convex parts, highest centre at %.1f diameters" %
-      (count, max(row[2] for row in rows) / diameter))
+print("MuJoCo: %d grains of convex parts, %.4f m/s at most, highest centre at %.1f diameters" %
+      (count, speed, max(row[2] for row in rows) / diameter))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lets the free bodies of a MuJoCo scene fall until they rest, and prints the place (x, y, z) and
-// the turn (w, x, y, z) of each, in the order of the file. For mujoco_packing.py, where MuJoCo's
-// Python is not.
+// Lets the free bodies of a MuJoCo scene fall, and prints the place (x, y, z) and the turn
+// (w, x, y, z) of each, in the order of the file, and last the largest speed along an axis. For
+// mujoco_packing.py, where MuJoCo's Python is not.
 //   mujoco_settle SCENE.xml SECONDS
 #include <mujoco/mujoco.h>
 
@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   for (int k = 0; k < model->nv; ++k) {
     if (k % 6 < 3) speed = std::fmax(speed, std::fabs(data->qvel[k]));
   }
-  std::printf("# %g m/s at most\n", speed);
   for (int k = 0; k < model->nq; ++k) std::printf("%.9g%c", data->qpos[k], k % 7 == 6 ? '\n' : ' ');
+  std::printf("%.9g\n", speed);
   return 0;
 }

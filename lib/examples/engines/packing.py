@@ -32,7 +32,10 @@ def leave(sentence):
 
 
 def wscvt(*words):
-    subprocess.run([WSCVT, *map(str, words), "-q"], check=True)
+    try:
+        subprocess.run([WSCVT, *map(str, words), "-q"], check=True)
+    except OSError:
+        leave("\"%s\" does not run. Set the variable WSCVT to the path of wscvt." % WSCVT)
 
 
 def of_each(folder, make):

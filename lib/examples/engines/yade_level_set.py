@@ -4,7 +4,7 @@ distances and 100 nodes.
 
     WSCVT=wscvt yade -n -x yade_level_set.py SCANS [COUNT]
 
-COUNT grains, 8 by default, of 20 mm equivalent diameter fall into a box. Writes level_set.png. The grain
+COUNT grains, 8 by default, of 20 mm equivalent diameter fall into a box. Writes yade_level_set.png. The grain
 and its contact law are those of ../../../tests/engines.
 """
 import os
@@ -72,7 +72,7 @@ drawn = []
 for k, body in enumerate(bodies):
     q, (vertices, faces) = body.state.ori, meshes[k % len(meshes)]
     drawn.append((turned(vertices, body.state.pos, (q[3], q[0], q[1], q[2])), faces))
-picture("level_set.png", drawn, width)
+picture("yade_level_set.png", drawn, width)
 print("Yade level sets: %d grains, %d steps, %.4f m/s at most, highest centre at %.1f diameters" %
       (count, O.iter, max(body.state.vel.norm() for body in bodies),
        max(body.state.pos[2] for body in bodies) / diameter))

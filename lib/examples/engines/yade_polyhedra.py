@@ -3,7 +3,7 @@
 
     WSCVT=wscvt yade -n -x yade_polyhedra.py SCANS [COUNT]
 
-COUNT grains, 12 by default, of 20 mm equivalent diameter fall into a box. Writes polyhedra.png.
+COUNT grains, 12 by default, of 20 mm equivalent diameter fall into a box. Writes yade_polyhedra.png.
 Yade's polyhedra are convex, and each contact intersects two of them: 60 faces are a good number.
 """
 import os
@@ -14,7 +14,7 @@ from packing import arguments, drops, of_each, picture, read_obj, turned, wscvt
 from yade import (Bo1_Polyhedra_Aabb, Bo1_Wall_Aabb, ForceResetter, Ig2_Polyhedra_Polyhedra_PolyhedraGeom,
                   Ig2_Wall_Polyhedra_PolyhedraGeom, InsertionSortCollider, InteractionLoop,
                   Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys, Law2_PolyhedraGeom_PolyhedraPhys_Volumetric,
-                  NewtonIntegrator, O, PolyhedraMat, Quaternion, Vector3, polyhedra_utils, utils)
+                  NewtonIntegrator, O, PolyhedraMat, Quaternion, Vector3, log, polyhedra_utils, utils)
 
 folder, count = arguments(__doc__, 12)
 diameter, width = 0.02, 0.08
@@ -27,6 +27,8 @@ def hull(k, scan):
 
 
 hulls = of_each(folder, hull)
+# Where two grains come near each other, Yade warns in each step of a case that it takes rightly.
+log.setLevel("Polyhedra_support.cpp", log.ERROR)
 material = PolyhedraMat(density=2650, young=1e7, poisson=0.2, frictionAngle=0.6)
 O.materials.append(material)
 for axis, place, sense in ((2, 0, 1), (0, -width / 2, 1), (0, width / 2, -1), (1, -width / 2, 1),
@@ -61,7 +63,7 @@ for body in grains:
     q, p = body.state.ori, body.state.pos
     faces = list(zip(*[iter(body.shape.GetSurfaceTriangulation())] * 3))
     drawn.append((turned([tuple(v) for v in body.shape.v], p, (q[3], q[0], q[1], q[2])), faces))
-picture("polyhedra.png", drawn, width)
+picture("yade_polyhedra.png", drawn, width)
 print("Yade polyhedra: %d grains, %d steps, %.4f m/s at most, highest centre at %.1f diameters" %
       (count, O.iter, speed, max(body.state.pos[2] for body in grains) / diameter))
 sys.stdout.flush()
