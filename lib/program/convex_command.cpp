@@ -82,7 +82,7 @@ int run(const ConvexArguments& arguments) {
   PartsReport report;
   report.warnings = std::move(file.warnings);
   report.warnings.insert(report.warnings.end(), result.warnings.begin(), result.warnings.end());
-  report.parts = convex_parts(result.mesh, result.repaired_scan.points, arguments.options,
+  report.parts = convex_parts(result.mesh, result.repaired_scan, arguments.options,
                               work.execution().part(0.3, 0.9));
   report.measures =
       measure_parts(report.parts, result.repaired_scan, work.execution().part(0.9, 1.0));

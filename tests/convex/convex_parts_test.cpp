@@ -11,7 +11,6 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/convex/body_cut.h"
 #include "wscvt/convex/convex_body.h"
 #include "wscvt/convex/signed_grid.h"
 #include "wscvt/measures/distances.h"
@@ -98,7 +97,7 @@ TEST(ConvexParts, OfTwoBoxesAreTwoBoxesInAnyPose) {
 
 TEST(ConvexParts, OneIsTheHullOfTheScan) {
   const IndexedMesh scan = test::lumpy(3);
-  const ConvexParts parts = convex_parts(test::lumpy(2), scan.points, at_most(1, 100000));
+  const ConvexParts parts = convex_parts(test::lumpy(2), scan, at_most(1, 100000));
   ASSERT_EQ(parts.size(), 1U);
   const IndexedMesh hull = convex_hull(scan.points);
   EXPECT_EQ(parts[0].triangles.size(), hull.triangles.size());
@@ -110,7 +109,7 @@ TEST(ConvexParts, HaveAtMostSoManyFacesAndTheFewerTheMoreSticksOut) {
   const IndexedMesh scan = test::lumpy(3);
   double before = 0.0;
   for (const int faces : {400, 100, 40, 10, 4}) {
-    const ConvexParts parts = convex_parts(scan, scan.points, at_most(1, faces));
+    const ConvexParts parts = convex_parts(scan, scan, at_most(1, faces));
     EXPECT_LE(parts[0].triangles.size(), static_cast<std::size_t>(faces));
     EXPECT_GE(parts[0].triangles.size() + 2, static_cast<std::size_t>(faces));
     const double outside = farthest_outside(parts, scan);
@@ -155,7 +154,7 @@ TEST(ConvexParts, CoverTheBodyAndComeNearerTheMoreTheyAre) {
   const IndexedMesh body = ring();
   double before = 2.0;
   for (const int count : {1, 3}) {
-    const ConvexParts parts = convex_parts(body, body.points, at_most(count, 10000));
+    const ConvexParts parts = convex_parts(body, body, at_most(count, 10000));
     EXPECT_LE(parts.size(), static_cast<std::size_t>(count));
     EXPECT_LT(farthest_outside(parts, body), 1e-9);
     for (const IndexedMesh& part : parts) {
@@ -170,10 +169,31 @@ TEST(ConvexParts, CoverTheBodyAndComeNearerTheMoreTheyAre) {
   EXPECT_LT(before, 0.6);
 }
 
+TEST(ConvexParts, HoldTheScanThatIsFinerThanTheMesh) {
+  const IndexedMesh scan = test::lumpy(4);
+  const ConvexParts parts = convex_parts(test::lumpy(2), scan, at_most(5, 100000));
+  EXPECT_GE(parts.size(), 2U);
+  EXPECT_LT(farthest_outside(parts, scan), 1e-9);
+  // The parts are hulls of pieces of the scan: none reaches beyond its hull.
+  const ConvexBody hull = convex_body(scan.points);
+  for (const IndexedMesh& part : parts) {
+    for (const Vector3& p : part.points) EXPECT_LT(hull.excess(p), 1e-9);
+  }
+}
+
+TEST(ConvexParts, ShareNextToNothingAndAConvexGrainIsNotJoinedAcross) {
+  // A ball that is convex within the tolerance in each half, but not as a whole.
+  const IndexedMesh body = test::lumpy(3);
+  for (const int count : {2, 6}) {
+    const PartsMeasures measures = measure_parts(convex_parts(body, body, at_most(count)), body);
+    EXPECT_LT(measures.shared_volume, 0.01 * measures.grain_volume);
+  }
+}
+
 TEST(ConvexParts, AreTheSameOnAnyNumberOfThreadsAndOfAConvexBodyOne) {
   const IndexedMesh body = ring();
-  const ConvexParts one = convex_parts(body, body.points, at_most(2), Execution(1));
-  const ConvexParts three = convex_parts(body, body.points, at_most(2), Execution(3));
+  const ConvexParts one = convex_parts(body, body, at_most(2), Execution(1));
+  const ConvexParts three = convex_parts(body, body, at_most(2), Execution(3));
   ASSERT_EQ(one.size(), three.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
     EXPECT_EQ(one[k].points, three[k].points);
@@ -199,20 +219,6 @@ TEST(ConvexParts, RefuseOptionsOutOfRangeAndFlatBodies) {
   for (Vector3& p : flat.points) p.z() = 0.0;
   EXPECT_ERROR(convex_parts(flat, {}, at_most(1)), InvalidInput);
   EXPECT_ERROR(measure_parts({}, body), InvalidInput);
-}
-
-TEST(BodyCut, GivesClosedPiecesWithTheWholeVolume) {
-  // A U: two legs on one side of a plane.
-  const IndexedMesh ring = test::torus(1.0, 0.3, 20);
-  const ExactSolid whole(ring);
-  const std::vector<ExactSolid> halves = whole.cut({Vector3(0.6, 0.8, 0.0), 0.1});
-  ASSERT_EQ(halves.size(), 2U);
-  const std::vector<ExactSolid> slices = halves[0].cut({Vector3(0.6, 0.8, 0.0), -0.4});
-  EXPECT_EQ(slices.size(), 3U) << "two legs and the bow";
-  double volume = volume_of(halves[1].mesh());
-  for (const ExactSolid& slice : slices) volume += volume_of(slice.mesh());
-  EXPECT_NEAR(volume, volume_of(ring), 1e-9);
-  EXPECT_TRUE(whole.cut({Vector3::UnitX(), 5.0}).empty());
 }
 
 TEST(SignedGrid, IsNearTheDistanceWithItsSign) {

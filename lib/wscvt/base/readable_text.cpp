@@ -61,6 +61,29 @@ std::string readable(std::string_view text, std::string_view kept) {
   return result;
 }
 
+std::string html_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : readable(text, "\t\n")) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
 std::string csv_field(std::string_view text) {
   std::string field = readable(text, "\t\n\r");
   constexpr std::string_view begins_formula = "=+-@\t\r";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/convex/convex_parts.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -11,6 +11,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/convex/convex_body.h"
 #include "wscvt/convex/cut_choice.h"
+#include "wscvt/convex/cut_tree.h"
 #include "wscvt/convex/signed_grid.h"
 #include "wscvt/measures/descriptors.h"
 
@@ -24,70 +25,32 @@ void check_options(const ConvexOptions& options) {
 
 namespace {
 
-/// Pieces that one part stands for.
-struct Group {
-  ConvexBody body;      ///< the hull of all of them
-  double volume = 0.0;  ///< of the pieces
-};
-
-std::vector<ConvexPiece> cut_into_pieces(const IndexedMesh& mesh, std::size_t count,
-                                         double tolerance, const Eigen::Matrix3d& axes,
-                                         const SignedGrid& grid, const Execution& execution) {
-  constexpr std::size_t most_tries = 5;
-  std::vector<ConvexPiece> pieces;
-  pieces.push_back(convex_piece(ExactSolid(mesh), grid));
-  while (pieces.size() < count) {
-    execution.report(static_cast<double>(pieces.size()) / static_cast<double>(count),
-                     "Cutting into convex parts");
-    const auto worst = std::max_element(
-        pieces.begin(), pieces.end(),
-        [](const ConvexPiece& a, const ConvexPiece& b) { return a.distance < b.distance; });
-    if (!(worst->distance > tolerance)) break;
-    const std::vector<CutPlane> planes = best_cuts(*worst, axes, grid, execution);
-    std::vector<ExactSolid> cut;
-    for (std::size_t k = 0; k < std::min(most_tries, planes.size()) && cut.empty(); ++k) {
-      cut = worst->solid.cut(planes[k]);
-    }
-    if (cut.empty()) {
-      // It stays as it is, and is not tried again.
-      worst->distance = 0.0;
-      continue;
-    }
-    *worst = convex_piece(std::move(cut.front()), grid);
-    for (std::size_t k = 1; k < cut.size(); ++k) {
-      pieces.push_back(convex_piece(std::move(cut[k]), grid));
-    }
-  }
-  return pieces;
-}
-
 /// Joins groups two by two.
 class Joining {
  public:
-  Joining(std::vector<Group> groups, const SignedGrid& grid, const Execution& execution)
-      : groups_(std::move(groups)), grid_(grid), execution_(execution) {
+  Joining(std::vector<PieceGroup> groups, const HullCost& cost, const Execution& execution)
+      : groups_(std::move(groups)), cost_(cost), execution_(execution) {
     for (std::size_t a = 0; a < groups_.size(); ++a) {
-      for (std::size_t b = a + 1; b < groups_.size(); ++b) pairs_.push_back({a, b, 0.0, 0.0});
+      boxes_.push_back(box_of(groups_[a]));
+      for (std::size_t b = 0; b < a; ++b) add_pair(b, a);
     }
     measure(0);
   }
 
-  /// Until there are no more than `count`, and no pair that can be joined within the tolerance.
-  std::vector<Group> run(std::size_t count, double tolerance) {
+  /// Until there are no more than `count`, and no pair that is convex within the tolerance.
+  std::vector<PieceGroup> run(std::size_t count) {
     std::size_t left = groups_.size();
-    while (left > 1) {
+    for (; !pairs_.empty(); --left) {
+      const bool is_forced = left > count;
       const auto best =
-          std::min_element(pairs_.begin(), pairs_.end(),
-                           [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
-      const auto free =
-          std::min_element(pairs_.begin(), pairs_.end(),
-                           [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
-      if (left <= count && !(free->distance <= tolerance)) break;
-      join(left <= count ? *free : *best);
-      --left;
+          std::min_element(pairs_.begin(), pairs_.end(), [&](const Pair& a, const Pair& b) {
+            return is_forced || a.is_convex == b.is_convex ? a.cost < b.cost : a.is_convex;
+          });
+      if (!is_forced && !best->is_convex) break;
+      join(*best);
     }
-    std::vector<Group> result;
-    for (Group& group : groups_) {
+    std::vector<PieceGroup> result;
+    for (PieceGroup& group : groups_) {
       if (!group.body.empty()) result.push_back(std::move(group));
     }
     return result;
@@ -95,11 +58,24 @@ class Joining {
 
  private:
   struct Pair {
-    std::size_t first;
-    std::size_t second;
-    double cost;
-    double distance;
+    std::size_t first = 0;
+    std::size_t second = 0;
+    double cost = 0.0;  ///< of the common hull, beyond the costs of the two
+    bool is_convex = false;
   };
+
+  static Eigen::AlignedBox3d box_of(const PieceGroup& group) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3& p : group.body.hull.points) box.extend(p);
+    return box;
+  }
+
+  /// Unless the two can't touch.
+  void add_pair(std::size_t first, std::size_t second) {
+    const double margin = 1e-6 * boxes_[first].diagonal().norm();
+    if (boxes_[first].exteriorDistance(boxes_[second]) > margin) return;
+    pairs_.push_back({first, second, 0.0, false});
+  }
 
   ConvexBody common_hull(const Pair& pair) const {
     std::vector<Vector3> points = groups_[pair.first].body.hull.points;
@@ -109,99 +85,107 @@ class Joining {
   }
 
   void measure(std::size_t first_pair) {
+    // A hull may also hold too much within the grain, where other parts are.
+    constexpr double most_excess = 0.02;
+    execution_.report(0.0, "Joining convex parts");
     execution_.parallel_for(pairs_.size() - first_pair, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = first_pair + begin; k < first_pair + end; ++k) {
         Pair& pair = pairs_[k];
+        const PieceGroup& one = groups_[pair.first];
+        const PieceGroup& two = groups_[pair.second];
         const ConvexBody hull = common_hull(pair);
-        pair.distance = hull_distance(hull.hull, grid_);
-        pair.cost = hull_cost(
-            pair.distance, hull.volume - groups_[pair.first].volume - groups_[pair.second].volume);
+        const double volume = one.volume + two.volume;
+        pair.cost = cost_(hull, volume) - one.cost - two.cost;
+        pair.is_convex = hull.volume - volume <= most_excess * volume &&
+                         cost_.distance(hull) <= cost_.tolerance();
       }
     });
   }
 
   void join(Pair pair) {
-    groups_[pair.first] = {common_hull(pair),
-                           groups_[pair.first].volume + groups_[pair.second].volume};
-    groups_[pair.second] = Group();
+    PieceGroup& one = groups_[pair.first];
+    PieceGroup& two = groups_[pair.second];
+    one.body = common_hull(pair);
+    one.volume += two.volume;
+    one.cost += two.cost + pair.cost;
+    one.pieces.insert(one.pieces.end(), two.pieces.begin(), two.pieces.end());
+    two = PieceGroup();
+    boxes_[pair.first] = box_of(one);
     // Pairs of either of the two go; those of the new one come.
-    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
-                                [&](const Pair& other) {
-                                  for (const std::size_t gone : {pair.first, pair.second}) {
-                                    if (other.first == gone || other.second == gone) return true;
-                                  }
-                                  return false;
-                                }),
-                 pairs_.end());
+    const auto is_gone = [&](const Pair& other) {
+      for (const std::size_t gone : {pair.first, pair.second}) {
+        if (other.first == gone || other.second == gone) return true;
+      }
+      return false;
+    };
+    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), is_gone), pairs_.end());
     const std::size_t kept = pairs_.size();
     for (std::size_t other = 0; other < groups_.size(); ++other) {
       if (other == pair.first || groups_[other].body.empty()) continue;
-      pairs_.push_back({std::min(other, pair.first), std::max(other, pair.first), 0.0, 0.0});
+      add_pair(std::min(other, pair.first), std::max(other, pair.first));
     }
     measure(kept);
   }
 
-  std::vector<Group> groups_;
+  std::vector<PieceGroup> groups_;
+  std::vector<Eigen::AlignedBox3d> boxes_;
   std::vector<Pair> pairs_;
-  const SignedGrid& grid_;
+  const HullCost& cost_;
   const Execution& execution_;
 };
 
-/// Lets each point outside of all parts join the part that it is least outside of.
-void take_in(const std::vector<Vector3>& points, std::vector<Group>& groups) {
-  std::vector<std::vector<Vector3>> taken(groups.size());
-  for (const Vector3& p : points) {
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t g = 0; g < groups.size() && least > 0.0; ++g) {
-      const double excess = groups[g].body.excess(p);
-      if (!(excess < least)) continue;
-      least = excess;
-      nearest = g;
-    }
-    if (least > 0.0 && std::isfinite(least)) taken[nearest].push_back(p);
+std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& scan,
+                                  const ConvexOptions& options, const Execution& execution) {
+  // A sixtieth of a grain is some per cent of its radius: the size of the distances.
+  constexpr int cells = 60;
+  constexpr std::size_t pieces_a_part = 2;
+  const ShapeDescriptors shape = describe_shape(mesh, execution.part(0.0, 0.0));
+  const double radius = std::cbrt(3.0 * shape.volume / (4.0 * pi));
+  const auto count = static_cast<std::size_t>(options.parts);
+  execution.report(0.0, "Cutting into convex parts");
+  const SignedGrid grid(mesh, cells, execution.part(0.0, 0.1));
+  const HullCost cost(grid, 0.01 * options.tolerance * radius);
+  CutTree tree(mesh, shape.principal_axes.toRotationMatrix(), cost);
+  tree.cut(pieces_a_part * count, execution.part(0.1, 0.5));
+  std::vector<PieceGroup> groups =
+      Joining(tree.groups(), cost, execution.part(0.5, 0.55)).run(count);
+  tree.move_planes(groups, execution.part(0.55, 0.7));
+  // The planes moved: other pieces may go together now.
+  std::vector<PieceGroup> again =
+      Joining(tree.groups(), cost, execution.part(0.7, 0.75)).run(count);
+  if (total_cost(again) < total_cost(groups)) {
+    groups = std::move(again);
+    tree.move_planes(groups, execution.part(0.75, 0.85));
   }
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (taken[g].empty()) continue;
-    std::vector<Vector3>& all = taken[g];
-    const std::vector<Vector3>& own = groups[g].body.hull.points;
-    all.insert(all.end(), own.begin(), own.end());
-    groups[g].body = convex_body(all);
+  std::vector<ConvexBody> bodies;
+  if (scan.triangles.empty()) {
+    for (PieceGroup& group : groups) bodies.push_back(std::move(group.body));
+    return bodies;
   }
+  for (const std::vector<Vector3>& points :
+       tree.points_of_groups(scan, groups, execution.part(0.85, 0.9))) {
+    ConvexBody body = convex_body(points);
+    if (!body.empty()) bodies.push_back(std::move(body));
+  }
+  return bodies;
 }
 
 }  // namespace
 
-ConvexParts convex_parts(const IndexedMesh& mesh, const std::vector<Vector3>& scan,
+ConvexParts convex_parts(const IndexedMesh& mesh, const IndexedMesh& scan,
                          const ConvexOptions& options, const Execution& execution) {
   check_options(options);
-  std::vector<Group> groups;
+  std::vector<ConvexBody> bodies;
   if (options.parts == 1) {
-    groups.push_back({convex_body(scan.empty() ? mesh.points : scan), 0.0});
-    if (groups.front().body.empty()) refuse("The grain is flat; give a closed mesh with a volume.");
+    bodies.push_back(convex_body(scan.points.empty() ? mesh.points : scan.points));
+    if (bodies.front().empty()) refuse("The grain is flat; give a closed mesh with a volume.");
   } else {
-    // A sixtieth of a grain is some per cent of its radius: the size of the distances.
-    constexpr int cells = 60;
-    constexpr std::size_t pieces_a_part = 3;
-    const ShapeDescriptors shape = describe_shape(mesh, execution.part(0.0, 0.0));
-    const double radius = std::cbrt(3.0 * shape.volume / (4.0 * pi));
-    const double tolerance = 0.01 * options.tolerance * radius;
-    execution.report(0.0, "Cutting into convex parts");
-    const SignedGrid grid(mesh, cells, execution.part(0.0, 0.1));
-    const auto count = static_cast<std::size_t>(options.parts);
-    const std::vector<ConvexPiece> pieces =
-        cut_into_pieces(mesh, pieces_a_part * count, tolerance,
-                        shape.principal_axes.toRotationMatrix(), grid, execution.part(0.1, 0.8));
-    for (const ConvexPiece& piece : pieces) {
-      if (!piece.body.empty()) groups.push_back({piece.body, piece.volume});
-    }
-    groups = Joining(std::move(groups), grid, execution.part(0.8, 0.9)).run(count, tolerance);
-    take_in(scan, groups);
+    bodies = bodies_of(mesh, scan, options, execution);
   }
   ConvexParts parts;
-  for (const Group& group : groups) {
+  for (const ConvexBody& body : bodies) {
     execution.report(0.9, "Making hulls");
-    parts.push_back(with_fewer_faces(group.body, options.faces).hull);
+    parts.push_back(with_fewer_faces(body, options.faces).hull);
   }
   return parts;
 }

@@ -11,31 +11,44 @@
 
 namespace wscvt {
 
-/// A piece of a grain, and its hull.
+/// The hull of a piece of a grain.
 struct ConvexPiece {
-  ExactSolid solid;
-  ConvexBody body;        ///< its hull
-  double volume = 0.0;    ///< of the piece
+  ConvexBody body;
   double distance = 0.0;  ///< from the hull to the grain, see hull_distance
+  double cost = 0.0;      ///< see hull_cost
 };
 
-/// A piece of a mesh. `grid` is about the whole grain.
-ConvexPiece convex_piece(ExactSolid solid, const SignedGrid& grid);
+/// What a convex hull costs that stands for pieces of a grain: its volume beyond that of the
+/// pieces, times the square root of its largest distance from the grain. Volume alone leaves deep
+/// narrow dents, distance alone shallow wide ones (tests/study/convex.md).
+class HullCost {
+ public:
+  /// `grid` is about the whole grain, and must outlive this. Distances below `tolerance` (length)
+  /// count as much.
+  HullCost(const SignedGrid& grid, double tolerance);
 
-/// The largest distance from a hull to the surface of the grain, of places outside the grain;
-/// length. Taken at points of the hull's faces two of the grid's spacings apart.
-double hull_distance(const IndexedMesh& hull, const SignedGrid& grid);
+  /// Of a hull, for pieces of this volume; length^3.5. Not for an empty body.
+  double operator()(const ConvexBody& body, double volume) const;
 
-/// What convex hulls cost that stand for pieces of a grain: the largest distance from the hulls to
-/// the grain, and the radius of the ball of the volume that they hold too much, weighted as Wei et
-/// al. (2022), "Approximate convex decomposition for 3D meshes with collision-aware concavity and
-/// tree search", ACM Trans. Graph. 41 (4), weigh them. `excess_volume` may be negative by rounding.
-double hull_cost(double distance, double excess_volume);
+  /// The largest distance from a hull to the surface of the grain, of places outside the grain;
+  /// length. Taken at points of the hull's faces two of the grid's spacings apart.
+  double distance(const ConvexBody& body) const;
+
+  double tolerance() const { return tolerance_; }
+
+  /// Points nearer to a plane lie in it; length.
+  double on_plane() const { return 1e-9 * grid_.spacing(); }
+
+ private:
+  const SignedGrid& grid_;
+  double tolerance_;
+};
 
 /// The planes to cut a piece with, the best first: of slices along the grain's axes, of planes
 /// through the deepest dents and along reflex edges those whose two sides have hulls of the least
 /// cost. `axes` has the axes as columns. The same on any number of threads.
-std::vector<CutPlane> best_cuts(const ConvexPiece& piece, const Eigen::Matrix3d& axes,
-                                const SignedGrid& grid, const Execution& execution);
+std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
+                                const Eigen::Matrix3d& axes, const HullCost& cost,
+                                const Execution& execution);
 
 }  // namespace wscvt

@@ -7,6 +7,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -42,27 +43,6 @@ std::string obj_text(const ConvexParts& parts) {
   return text;
 }
 
-/// Text between the quotes of an attribute.
-std::string xml_text(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string stem_of(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 std::string part_name(const std::string& path, std::size_t number) {
@@ -72,7 +52,7 @@ std::string part_name(const std::string& path, std::size_t number) {
 std::string urdf_text(const std::string& path, std::size_t parts, const MassProperties& mass,
                       double density) {
   const Eigen::Matrix3d inertia = density * mass.inertia_tensor;
-  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + xml_text(stem_of(path)) +
+  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + html_escaped(stem_of(path)) +
                      "\">\n  <link name=\"grain\">\n    <inertial>\n      <origin xyz=\"" +
                      text_of(mass.centroid) + "\"/>\n      <mass value=\"" +
                      text_of(density * mass.volume) + "\"/>\n      <inertia ixx=\"" +
@@ -83,7 +63,7 @@ std::string urdf_text(const std::string& path, std::size_t parts, const MassProp
   for (const std::string kind : {"visual", "collision"}) {
     for (std::size_t k = 1; k <= parts; ++k) {
       text += "    <" + kind + ">\n      <geometry>\n        <mesh filename=\"" +
-              xml_text(part_name(path, k)) + "\"/>\n      </geometry>\n    </" + kind + ">\n";
+              html_escaped(part_name(path, k)) + "\"/>\n      </geometry>\n    </" + kind + ">\n";
     }
   }
   return text + "  </link>\n</robot>\n";
@@ -91,7 +71,7 @@ std::string urdf_text(const std::string& path, std::size_t parts, const MassProp
 
 std::string mjcf_text(const std::string& path, const ConvexParts& parts, const MassProperties& mass,
                       double density) {
-  const std::string name = xml_text(stem_of(path));
+  const std::string name = html_escaped(stem_of(path));
   const Eigen::Matrix3d inertia = density * mass.inertia_tensor;
   std::string text = "<mujoco model=\"" + name + "\">\n  <asset>\n";
   for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -79,9 +79,9 @@ double shared_volume(const Union& parts, const Execution& execution) {
   return shared * spacing * spacing * spacing;
 }
 
-/// Points of the parts' surface that lie in no other part, spread evenly by area, and the corners.
-std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all, double length) {
+std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
   constexpr std::size_t samples = 20000;
+  const double beyond = 1e-6 * (all.box().high - all.box().low).norm();
   const IndexedMesh mesh = joined(parts);
   std::vector<Vector3> points;
   for (const MeshPlace& place : area_uniform_places(mesh, samples)) {
@@ -90,12 +90,16 @@ std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all, do
         doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).normalized();
     const Vector3 point = point_at(mesh, place);
     // Beyond a face that two parts share lies the other one.
-    if (all.count(point + 1e-6 * length * normal) == 0) points.push_back(point);
+    if (all.count(point + beyond * normal) == 0) points.push_back(point);
   }
   return points;
 }
 
 }  // namespace
+
+std::vector<Vector3> outer_points(const ConvexParts& parts) {
+  return outer_points(parts, Union(parts));
+}
 
 PartsMeasures measure_parts(const ConvexParts& parts, const IndexedMesh& grain,
                             const Execution& execution) {
@@ -112,8 +116,7 @@ PartsMeasures measure_parts(const ConvexParts& parts, const IndexedMesh& grain,
   measures.parts_volume -= measures.shared_volume;
 
   const MeshDistance to_grain(grain, execution);
-  const double length = std::cbrt(measures.grain_volume);
-  const std::vector<Vector3> points = outer_points(parts, all, length);
+  const std::vector<Vector3> points = outer_points(parts, all);
   double squares = 0.0;
   for (const double d : to_grain.distances(points, execution)) {
     squares += d * d;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/report/html_document.h"
 #include "wscvt/report/picture.h"
 
 namespace wscvt {

@@ -43,29 +43,6 @@ std::string with_unit(const std::string& label, const std::string& unit) {
 
 }  // namespace
 
-std::string html_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : readable(text, "\t\n")) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 HtmlDocument::HtmlDocument(const std::string& title) : title_(html_escaped(title)) {
   body_ = "<h1>" + title_ + "</h1>\n";
 }

@@ -8,9 +8,6 @@
 
 namespace wscvt {
 
-/// Text with the signs that HTML and SVG read as their own written out.
-std::string html_escaped(const std::string& text);
-
 /// A figure of a document and what is to be seen in it.
 struct Figure {
   std::string content;  ///< HTML or SVG

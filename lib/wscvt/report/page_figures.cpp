@@ -93,7 +93,7 @@ void add_triangle_histograms(std::vector<Figure>& figures,
 }  // namespace
 
 PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownMesh& shown,
-                         const Execution& execution) {
+                         const Execution& execution, const std::vector<Vector3>& samples) {
   PageFigures figures;
   execution.report(0.0, page_stage);
   // Both are to be seen whole: a few nodes that enclose the same volume stand far out of the scan.
@@ -118,8 +118,9 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   if (!reference) return figures;
 
   const MeshDistance surface(reference->mesh, execution);
-  const std::vector<double> distances =
-      signed_distances(surface, area_uniform_samples(shown.mesh, distance_samples), execution);
+  const std::vector<double> distances = signed_distances(
+      surface, samples.empty() ? area_uniform_samples(shown.mesh, distance_samples) : samples,
+      execution);
   const double usual = usual_distance(distances);
   const auto colour_of = [&](const std::vector<Vector3>& points) {
     std::vector<Colour> colours;

@@ -26,8 +26,10 @@ struct PageFigures {
   std::vector<Figure> distributions;
 };
 
-/// Throws Error(InvalidInput) for a mesh without faces, Error(Cancelled).
+/// The scale of the distances and their histogram are those of `samples`, points of the surface of
+/// `shown`; if there are none, of 20,000 points all over it. Throws Error(InvalidInput) for a mesh
+/// without faces, Error(Cancelled).
 PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownMesh& shown,
-                         const Execution& execution);
+                         const Execution& execution, const std::vector<Vector3>& samples = {});
 
 }  // namespace wscvt

@@ -76,8 +76,9 @@ std::string parts_json(const PartsReport& report, const ReportOrigin& origin) {
 std::string parts_html(const PartsReport& report, const ReportOrigin& origin,
                        const Execution& execution) {
   const IndexedMesh shown = joined(report.parts);
-  const PageFigures figures =
-      page_figures(ShownMesh{report.grain, "grain"}, {shown, "parts"}, execution);
+  // Faces that parts turn to each other lie deep in the grain: they would take all of the scale.
+  const PageFigures figures = page_figures(ShownMesh{report.grain, "grain"}, {shown, "parts"},
+                                           execution, outer_points(report.parts));
   const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
   HtmlDocument page(std::to_string(report.parts.size()) + " convex parts" +
                     (name.empty() ? "" : " of " + name));
