@@ -8,11 +8,13 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/next_prime.h"
 
 namespace wscvt {
 namespace {
@@ -98,7 +100,8 @@ TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
   EXPECT_EQ(liggghts[11], last.radius);
   const std::string fix = content_of(path("clump.multisphere.in"));
   EXPECT_NE(fix.find("nspheres 3 "), std::string::npos) << fix;
-  EXPECT_NE(fix.find("file clump.multisphere "), std::string::npos) << fix;
+  EXPECT_NE(fix.find("file \"clump.multisphere\" "), std::string::npos) << fix;
+  EXPECT_NE(fix.find("fix clump_clump all"), std::string::npos) << fix;
 
   written("clump.mclump");
   const std::vector<double> mercury = numbers_of(content_of(path("clump.mclump/Clump/Clump.txt")));
@@ -192,6 +195,29 @@ TEST_F(ClumpFiles, MoleculeHasMassAndMomentsOfTheTurnedBox) {
     sum += parts[2 * k + 1];
   }
   EXPECT_NEAR(sum / mass, 1.0, 1e-12);
+}
+
+// LIGGGHTS refuses two templates with the same name, seed or type in one input.
+TEST_F(ClumpFiles, TemplatesOfLiggghtsDifferByTheirNames) {
+  const auto words = [&](const std::string& name) {
+    written(name + ".multisphere");
+    const std::string fix = content_of(path(name + ".multisphere.in"));
+    std::istringstream stream(fix.substr(fix.find("\nfix ")));
+    std::string word, id, seed;
+    stream >> word >> id >> word >> word >> seed;
+    EXPECT_NE(fix.find(" type ${clump_type} "), std::string::npos) << fix;
+    EXPECT_NE(fix.find("\nvariable clump_type equal ${clump_type}+1\n"), std::string::npos) << fix;
+    return std::make_pair(id, std::stoi(seed));
+  };
+  const auto [first, first_seed] = words("a grain-1");
+  const auto [second, second_seed] = words("a grain-2");
+  EXPECT_EQ(first, "clump_a_grain_1");
+  EXPECT_EQ(second, "clump_a_grain_2");
+  EXPECT_NE(first_seed, second_seed);
+  for (const int seed : {first_seed, second_seed}) {
+    EXPECT_GT(seed, 10000);
+    EXPECT_EQ(next_prime(seed - 1), seed);
+  }
 }
 
 TEST_F(ClumpFiles, WrongNamesAndContentsAreRefused) {

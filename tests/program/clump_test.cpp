@@ -24,11 +24,13 @@ class ClumpProgram : public test::ProgramRun {
 
 TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
   write_mesh(test::lumpy(3), path("scan.ply"));
-  const Outcome outcome =
-      run("clump scan.ply -k 4 -o c.csv -o c.mclump --report r.html --report r.json");
+  const Outcome outcome = run(
+      "clump scan.ply -k 4 -o c.csv -o c.mclump -o c.molecule --density 3 --report r.html --report "
+      "r.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("first contact"), std::string::npos);
   EXPECT_TRUE(exists("c.mclump/Inertia/TOI.txt"));
+  EXPECT_NE(content("c.molecule").find("density 3\n"), std::string::npos);
   EXPECT_NE(content("r.html").find("Distance of clump to scan"), std::string::npos);
   EXPECT_NE(content("r.json").find("\"scatter_percent\""), std::string::npos);
   const Outcome compared = run("compare c.csv scan.ply");
@@ -57,6 +59,9 @@ TEST_F(ClumpProgram, ASampleGoesOnAndIsParted) {
   ASSERT_LE(run("clump scans -k 2 -o parts -q --shard 2/2").exit_code, 3);
   ASSERT_EQ(run("collect parts/grains-1-of-2.csv parts/grains-2-of-2.csv -o all.csv").exit_code, 0);
   EXPECT_EQ(content("all.csv"), table);
+  EXPECT_EQ(run("clump scans -k 2 -o molecules -q --format molecule --density 3").exit_code, 3);
+  EXPECT_NE(content("molecules/b.molecule").find("density 3\n"), std::string::npos);
+  EXPECT_EQ(run("clump scans -k 2 -o molecules -q --format molecule").exit_code, 2);
 }
 
 TEST_F(ClumpProgram, WrongCallsAreRefused) {

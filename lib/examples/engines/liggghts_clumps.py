@@ -15,23 +15,15 @@ from packing import arguments, of_each, picture, sphere_mesh, wscvt
 
 folder, count = arguments(__doc__, 20)
 diameter, width, steps = 0.02, 0.08, 60000
-# LIGGGHTS wants another prime above 10,000 as the seed of each template.
-primes = (n for n in range(10007, 10 ** 6, 2) if all(n % d for d in range(3, int(n ** 0.5) + 1, 2)))
 
 
 def template(k, scan):
-    name = "clump_%d.multisphere" % k
-    wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", name)
-    # Each file has a template named clump, of type 1.
-    text = pathlib.Path(name + ".in").read_text()
-    for old, new in (("fix clump all", "fix clump_%d all" % k), (" 15485863 ", " %d " % next(primes)),
-                     (" type 1 mass", " type %d mass" % (k + 1))):
-        text = text.replace(old, new)
-    return text
+    wscvt("clump", scan, "-k", 20, "--size", diameter, "-o", "grain_%d.multisphere" % k)
+    return "include grain_%d.multisphere.in\n" % k
 
 
 templates = of_each(folder, template)
-mixture = "".join(" clump_%d %.9g" % (k, 1 / len(templates)) for k in range(len(templates)))
+mixture = "".join(" clump_grain_%d %.9g" % (k, 1 / len(templates)) for k in range(len(templates)))
 
 pathlib.Path("liggghts_clumps.in").write_text("""atom_style granular
 atom_modify map array
@@ -57,6 +49,7 @@ fix right all wall/gran model hertz tangential history primitive type 1 xplane {
 fix front all wall/gran model hertz tangential history primitive type 1 yplane {low}
 fix back all wall/gran model hertz tangential history primitive type 1 yplane {high}
 variable density equal 2650
+variable clump_type equal 1
 {templates}
 fix mixture all particledistribution/discrete 32452867 {number}{mixture}
 fix source all insert/pack seed 32452843 distributiontemplate mixture insert_every once &

@@ -5,11 +5,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/next_prime.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/version.h"
@@ -61,10 +63,30 @@ std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
+/// The name of a fix in LIGGGHTS, which takes letters, digits and underscores.
+std::string liggghts_name(const std::string& path) {
+  std::string name = "clump_" + name_of(path);
+  name.resize(name.size() - std::string(".multisphere").size());
+  for (char& c : name) {
+    const bool is_kept = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    if (!is_kept) c = '_';
+  }
+  return name;
+}
+
+/// A prime above 10,000 that differs between names: LIGGGHTS refuses two templates with one seed.
+int liggghts_seed(const std::string& name) {
+  std::uint32_t hash = 2166136261U;  // FNV-1a
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return next_prime(10000 + static_cast<int>(hash % 1000000000U));
+}
+
 std::string liggghts_fix(const FramedClump& clump, const std::string& path) {
+  const std::string name = liggghts_name(path);
   return "# Made by " + made_by_text() +
          ". Mass and tensor of inertia are the grain's, at unit density times\n"
-         "# the variable density. Include this file after: variable density equal 2500\n"
+         "# the variable density. Each such file counts clump_type up. Before the first write:\n"
+         "#   variable density equal 2500\n#   variable clump_type equal 1\n"
          "variable clump_mass equal ${density}*" +
          format_exact(clump.mass.volume) + "\n" +
          [&] {
@@ -77,11 +99,12 @@ std::string liggghts_fix(const FramedClump& clump, const std::string& path) {
            }
            return lines;
          }() +
-         "fix clump all particletemplate/multisphere 15485863 atom_type 1 density constant "
-         "${density} nspheres " +
-         std::to_string(clump.spheres.size()) + " ntry 100000 spheres file " + name_of(path) +
-         " scale 1.0 type 1 mass ${clump_mass} inertia_tensor ${clump_xx} 0 0 ${clump_yy} 0 "
-         "${clump_zz} use_density\n";
+         "fix " + name + " all particletemplate/multisphere " +
+         std::to_string(liggghts_seed(name)) +
+         " atom_type 1 density constant ${density} nspheres " +
+         std::to_string(clump.spheres.size()) + " ntry 100000 spheres file \"" + name_of(path) +
+         "\" scale 1.0 type ${clump_type} mass ${clump_mass} inertia_tensor ${clump_xx} 0 0 "
+         "${clump_yy} 0 ${clump_zz} use_density\nvariable clump_type equal ${clump_type}+1\n";
 }
 
 std::string yade_script(const FramedClump& clump) {

@@ -13,7 +13,7 @@ namespace wscvt {
 
 // Files of a clump. The ending of the name says which:
 //   .csv          x,y,z,r with a header, in the frame of the options; read back by read_clump
-//   .multisphere  LIGGGHTS: lines "x y z r"; beside it NAME.in with the fix that takes the file
+//   .multisphere  LIGGGHTS: lines "x y z r"; beside it NAME.multisphere.in with the fix clump_NAME
 //   .py           Yade: a script with the template, and a function that adds a clump
 //   .chrono.csv   Chrono DEM-Engine: x,y,z,r, then mass and moments as comments
 //   .mclump       MercuryDPM: a folder as its tool MClump leaves it

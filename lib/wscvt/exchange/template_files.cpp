@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/next_prime.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -59,17 +60,6 @@ thermo_style custom step atoms ke v_lowest
 thermo 5000
 run 100000
 )";
-
-/// LIGGGHTS wants another prime above 10,000 as the seed of each template.
-int next_prime(int above) {
-  for (int number = above + 1;; ++number) {
-    bool is_prime = true;
-    for (int factor = 2; factor * factor <= number && is_prime; ++factor) {
-      is_prime = number % factor != 0;
-    }
-    if (is_prime) return number;
-  }
-}
 
 /// Grains in the order of their diameters, with the mass up to each. The first grain's own mass
 /// counts from its diameter on.
@@ -155,7 +145,7 @@ std::string liggghts_template_input(const std::vector<ClumpTemplate>& templates,
     if (!(one.weight_by_mass > 0.0)) continue;
     for (const double diameter : diameters) {
       const std::string name = "t" + std::to_string(++count);
-      seed = next_prime(seed);
+      seed = next_prime(seed);  // LIGGGHTS wants another prime above 10,000 for each template
       input += "fix " + name + " all particletemplate/multisphere " + std::to_string(seed) +
                " atom_type 1 density " + "constant 2650 nspheres " + std::to_string(one.spheres) +
                " ntry 200000 spheres file " + one.file + " scale " + format_typed(diameter) +
