@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "convex/mesh_volume.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -19,10 +20,6 @@ namespace wscvt {
 namespace {
 
 constexpr double on_plane = 1e-12;
-
-double volume_of(const IndexedMesh& mesh) {
-  return mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), Execution(1)).volume();
-}
 
 double sum_of_volumes(const SolidCut& cut) {
   double sum = 0.0;

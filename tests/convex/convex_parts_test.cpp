@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "convex/mesh_volume.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/convex_hull.h"
@@ -17,10 +18,6 @@
 
 namespace wscvt {
 namespace {
-
-double volume_of(const IndexedMesh& mesh) {
-  return mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), Execution(1)).volume();
-}
 
 /// An L: the box 3 x 1 x 0.7 with the box 1 x 1.4 x 0.7 upon its left end, from the outline.
 IndexedMesh l_body() {
