@@ -11,6 +11,17 @@ void add_threads_argument(CLI::App& app, int& threads) {
   add_number(app, "-t,--threads", threads, threads_option);
 }
 
+void add_folder_argument(CLI::App& app, std::string& folder) {
+  app.add_option("-o,--output", folder, "Folder for all that is made")
+      ->type_name("OUT")
+      ->required();
+}
+
+void add_quiet_argument(CLI::App& app, bool& quiet) {
+  app.add_flag("-q,--quiet", quiet,
+               "No summary on the standard output, no progress; failures stay");
+}
+
 void add_format_argument(CLI::App& app, std::string& format) {
   app.add_option("--format", format,
                  "Ending of the meshes: " + mesh_extensions(MeshUse::Write) +

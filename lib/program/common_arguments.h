@@ -23,6 +23,12 @@ void add_common_arguments(CLI::App& app, CommonArguments& arguments);
 /// Adds the number of threads alone.
 void add_threads_argument(CLI::App& app, int& threads);
 
+/// Adds -o, the folder of a command that makes many files. It has to be given.
+void add_folder_argument(CLI::App& app, std::string& folder);
+
+/// Adds -q of a command that works on many grains.
+void add_quiet_argument(CLI::App& app, bool& quiet);
+
 /// Adds --format, the ending of many meshes.
 void add_format_argument(CLI::App& app, std::string& format);
 

@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "shape_files.h"
-#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/measures/form_axes.h"
 #include "wscvt/sample/grain_table.h"
+#include "wscvt/sample/quick_shape.h"
 #include "wscvt/scan/mesh_check.h"
 #include "wscvt/scan/mesh_io.h"
 #include "wscvt/sphere/sphere_triangulation.h"
@@ -35,14 +34,11 @@ double diameter_of(double volume) { return std::cbrt(6.0 / pi * volume); }
 /// What is measured in a moment; the others take all descriptors.
 std::vector<DescriptorValue> quick_descriptors(const IndexedMesh& mesh,
                                                const Execution& execution) {
-  const ShapeDescriptors shape = describe_shape(mesh, execution);
-  std::vector<DescriptorValue> rows = list_descriptors(shape);
-  const Vector3& axes = shape.inertia_semi_axes;
-  const FormRatios ratios = form_ratios({axes[0], axes[1], axes[2]});
-  rows.push_back({"zingg_elongation_inertia", "", "", ratios.zingg_elongation});
-  rows.push_back({"zingg_flatness_inertia", "", "", ratios.zingg_flatness});
-  const ShapeDescriptors hull = describe_shape(convex_hull(mesh.points, execution), execution);
-  rows.push_back({"convexity", "", "", shape.volume / hull.volume});
+  const QuickShape quick = quick_shape(mesh, execution);
+  std::vector<DescriptorValue> rows = list_descriptors(quick.shape);
+  rows.push_back({"zingg_elongation_inertia", "", "", quick.form.zingg_elongation});
+  rows.push_back({"zingg_flatness_inertia", "", "", quick.form.zingg_flatness});
+  rows.push_back({"convexity", "", "", quick.convexity});
   return rows;
 }
 
@@ -52,10 +48,25 @@ const DescriptorValue* find(const std::vector<DescriptorValue>& rows, const std:
   return row == rows.end() ? nullptr : &*row;
 }
 
-bool are_quick(const std::vector<std::string>& keys) {
-  const std::vector<DescriptorValue> rows = quick_descriptors(subdivided_sphere(2), Execution(1));
+bool hold_all(const std::vector<DescriptorValue>& rows, const std::vector<std::string>& keys) {
   return std::all_of(keys.begin(), keys.end(),
                      [&](const std::string& key) { return find(rows, key) != nullptr; });
+}
+
+/// Whether all descriptors are quick. Throws for one that there is not, before grains are read.
+bool are_quick(const std::vector<std::string>& keys) {
+  const IndexedMesh sphere = subdivided_sphere(2);
+  const Execution one_thread(1);
+  if (hold_all(quick_descriptors(sphere, one_thread), keys)) return true;
+  const std::vector<DescriptorValue> rows =
+      list_descriptors(describe_shape_in_detail(sphere, DetailedOptions(), one_thread));
+  for (const std::string& key : keys) {
+    if (find(rows, key) != nullptr) continue;
+    std::string names;
+    for (const DescriptorValue& known : rows) names += (names.empty() ? "" : ", ") + known.key;
+    refuse("There is no descriptor \"" + key + "\"; give some of: " + names + ".");
+  }
+  return false;
 }
 
 /// The diameter of a grain, then its descriptors.
@@ -68,11 +79,6 @@ std::vector<double> measured(const std::string& file, const std::vector<std::str
   std::vector<double> values = {diameter_of(find(rows, "volume")->value)};
   for (const std::string& key : keys) {
     const DescriptorValue* row = find(rows, key);
-    if (row == nullptr) {
-      std::string names;
-      for (const DescriptorValue& known : rows) names += (names.empty() ? "" : ", ") + known.key;
-      refuse("There is no descriptor \"" + key + "\"; give some of: " + names + ".");
-    }
     if (!std::isfinite(row->value)) {
       refuse("The grain has no " + key + "; leave out the descriptor or the grain.");
     }
@@ -96,6 +102,17 @@ void fill(DescribedSample& sample, const std::vector<std::vector<double>>& rows,
     for (std::size_t j = 0; j < columns; ++j) {
       sample.descriptors(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
     }
+  }
+}
+
+/// Throws for a descriptor that is the same for all grains, such as the convexity of ellipsoids.
+void check_choice(const DescribedSample& sample, const std::vector<std::string>& keys) {
+  for (std::size_t j = 0; j < keys.size() && sample.descriptors.rows() > 1; ++j) {
+    const auto column = sample.descriptors.col(static_cast<Eigen::Index>(j));
+    const double largest = column.cwiseAbs().maxCoeff();
+    if (column.maxCoeff() - column.minCoeff() > 1e-11 * largest) continue;
+    refuse("The descriptor \"" + keys[j] +
+           "\" is the same for all grains, so that it chooses none. Give others by --descriptors.");
   }
 }
 
@@ -148,6 +165,7 @@ DescribedSample sample_of_table(const std::string& path, const std::vector<std::
     add(sample, file_of(table, grain, folder).string(), values, rows);
   }
   fill(sample, rows, keys.size());
+  check_choice(sample, keys);
   return sample;
 }
 
@@ -161,7 +179,7 @@ const std::vector<std::string>& usual_template_descriptors() {
 
 IndexedMesh grain_mesh(const std::string& file, const Execution& execution) {
   if (is_coefficient_file(file)) {
-    return mesh_of_surface(read_coefficients(file), frequency, execution);
+    return mesh_of_surface(*read_coefficients(file), frequency, execution);
   }
   MeshFile read = read_mesh_file(file, execution);
   return check_mesh(std::move(read.mesh), MeshCheckOptions(), execution).mesh;
@@ -171,8 +189,8 @@ DescribedSample described_sample(const std::vector<std::string>& inputs,
                                  const std::vector<std::string>& keys, int threads, bool quiet) {
   const std::string table = table_among(inputs);
   if (!table.empty()) return sample_of_table(table, keys);
-  const std::vector<std::string> files = shape_files(inputs);
   const bool quick = are_quick(keys);
+  const std::vector<std::string> files = shape_files(inputs);
   std::vector<std::vector<double>> measures(files.size());
   DescribedSample sample;
   sample.left_out = read_each(files, threads, quiet, [&](std::size_t k, const Execution& one) {
@@ -183,6 +201,7 @@ DescribedSample described_sample(const std::vector<std::string>& inputs,
     if (!measures[k].empty()) add(sample, files[k], measures[k], rows);
   }
   fill(sample, rows, keys.size());
+  check_choice(sample, keys);
   return sample;
 }
 

@@ -13,6 +13,7 @@
 #include "common_arguments.h"
 #include "exit_code.h"
 #include "grain_run.h"
+#include "output_paths.h"
 #include "shape_files.h"
 #include "signals.h"
 #include "work.h"
@@ -25,7 +26,9 @@
 #include "wscvt/sample/grain_grower.h"
 #include "wscvt/sample/grown_mesh.h"
 #include "wscvt/sample/nearest_grain.h"
+#include "wscvt/sample/quick_shape.h"
 #include "wscvt/sample/sample_comparison.h"
+#include "wscvt/scan/folded_solid_angle.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
@@ -46,11 +49,15 @@ constexpr const char* table_heading[] = {"grain",
                                          "inertia_elongation",
                                          "inertia_flatness",
                                          "convexity",
+                                         "overhang [%]",
                                          "donors",
                                          "nearest_grain",
                                          "nearest_distance [%]",
                                          "collage [%]",
                                          "redraws"};
+
+/// Of the order of sizes; no grain's number reaches it.
+constexpr std::uint64_t size_key = std::uint64_t{1} << 61;
 
 /// One number of each grain, for the summary.
 struct GrownNumbers {
@@ -58,10 +65,10 @@ struct GrownNumbers {
 
   explicit GrownNumbers(std::size_t count)
       : sphericity(count), elongation(count), flatness(count), convexity(count) {}
-  void set(std::size_t k, const GrownShape& shape) {
-    sphericity[k] = shape.sphericity;
-    elongation[k] = shape.elongation;
-    flatness[k] = shape.flatness;
+  void set(std::size_t k, const QuickShape& shape) {
+    sphericity[k] = shape.shape.sphericity;
+    elongation[k] = shape.form.zingg_elongation;
+    flatness[k] = shape.form.zingg_flatness;
     convexity[k] = shape.convexity;
   }
 };
@@ -74,11 +81,11 @@ struct Growing {
   GrainSearch search;
   GrownMeshes meshes;
   std::optional<GivenSizes> sizes;
-  std::vector<std::size_t> size_order;  ///< which part of the curve each grain's size is from
   GrownNumbers numbers;
   std::vector<double> distances;  ///< to the nearest real grain
   std::vector<double> collages;
   std::vector<int> redraws;
+  std::vector<double> overhangs;
 };
 
 std::string name_of(const GrowArguments& arguments, std::size_t k) {
@@ -93,34 +100,45 @@ std::string file_of(const GrowArguments& arguments, std::size_t k) {
 
 std::string short_name(const std::string& file) { return fs::path(file).filename().string(); }
 
-/// Each of `count` parts of the curve once, in an order that the seed draws.
-std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  RandomStream random(seed, std::uint64_t{1} << 61);
-  for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random.below(k)]);
-  return order;
+/// Overhang fraction. A star-shaped grain has none.
+double overhang_of(const OffsetSeries& offset, const IndexedMesh& mesh, const QuickShape& quick,
+                   const Execution& execution) {
+  return has_offset(offset) ? folded_solid_angle(mesh, quick.shape.centroid, execution) : 0.0;
+}
+
+void write_coefficients(const std::string& path, const GrownGrain& grain) {
+  if (has_offset(grain.offset)) {
+    write_harmonic_map(path, harmonic_map_of(grain.radial, grain.offset, grain.radius));
+    return;
+  }
+  std::vector<double> coefficients = grain.radial;
+  for (double& coefficient : coefficients) coefficient *= grain.radius;
+  write_harmonics(path, HarmonicSurface(std::move(coefficients)));
 }
 
 GrainRow grown_row(Growing& growing, std::size_t k, const Execution& execution) {
   const GrowArguments& arguments = growing.arguments;
-  GrownGrain grain = growing.grower.grow(k);
+  GrownBody body = grow_body(growing.grower, growing.meshes, k);
+  GrownGrain& grain = body.grain;
   if (growing.sizes) {
-    const double fraction = (static_cast<double>(growing.size_order[k]) + 0.5) /
-                            static_cast<double>(growing.size_order.size());
-    grain.radius = 0.5 * growing.sizes->diameter(fraction);
+    // Each of as many parts of the curve as there are grains gives one size.
+    const auto count = static_cast<std::size_t>(arguments.grains);
+    const std::size_t part = drawn_place(k, count, arguments.options.seed, size_key);
+    const double fraction = (static_cast<double>(part) + 0.5) / static_cast<double>(count);
+    const double radius = 0.5 * growing.sizes->diameter(fraction);
+    for (Vector3& point : body.mesh.points) point *= radius / grain.radius;
+    grain.radius = radius;
   }
-  const IndexedMesh mesh = growing.meshes.mesh(grain.radial, grain.radius);
-  const GrownShape shape = grown_shape(mesh, execution);
+  const QuickShape shape = quick_shape(body.mesh, execution);
+  const double overhang = overhang_of(grain.offset, body.mesh, shape, execution);
   const NearestGrain nearest = growing.search.nearest(grain.radial);
   const std::string path = (fs::path(arguments.folder) / file_of(arguments, k)).string();
   if (arguments.coefficients) {
-    std::vector<double> coefficients = grain.radial;
-    for (double& coefficient : coefficients) coefficient *= grain.radius;
-    write_harmonics(path, HarmonicSurface(std::move(coefficients)));
+    write_coefficients(path, grain);
   } else {
-    write_mesh(mesh, path);
+    write_mesh(body.mesh, path);
   }
+  growing.overhangs[k] = overhang;
   growing.numbers.set(k, shape);
   growing.distances[k] = nearest.distance;
   growing.collages[k] = grain.collage;
@@ -130,22 +148,28 @@ GrainRow grown_row(Growing& growing, std::size_t k, const Execution& execution) 
     donors += (donors.empty() ? "" : ";") + short_name(growing.files[donor]);
   }
   const double cube = grain.radius * grain.radius * grain.radius;
-  return {
-      csv_record({name_of(arguments, k), file_of(arguments, k), format_exact(2.0 * grain.radius),
-                  format_exact(4.0 * pi / 3.0 * cube), format_exact(shape.sphericity),
-                  format_exact(shape.elongation), format_exact(shape.flatness),
-                  format_exact(shape.convexity), donors, short_name(growing.files[nearest.grain]),
-                  format_exact(100.0 * nearest.distance), format_exact(100.0 * grain.collage),
-                  std::to_string(grain.redraws)}),
-      ""};
+  return {csv_record(
+              {name_of(arguments, k), file_of(arguments, k), format_exact(2.0 * grain.radius),
+               format_exact(4.0 * pi / 3.0 * cube), format_exact(shape.shape.sphericity),
+               format_exact(shape.form.zingg_elongation), format_exact(shape.form.zingg_flatness),
+               format_exact(shape.convexity), format_exact(100.0 * overhang), donors,
+               short_name(growing.files[nearest.grain]), format_exact(100.0 * nearest.distance),
+               format_exact(100.0 * grain.collage), std::to_string(grain.redraws)}),
+          ""};
 }
 
-GrownNumbers numbers_of_sample(const Growing& growing, const Execution& execution) {
+GrownNumbers numbers_of_sample(const Growing& growing, std::vector<double>& overhangs,
+                               const Execution& execution) {
   const std::vector<SampleGrain>& sample = growing.grower.sample();
   GrownNumbers numbers(sample.size());
+  overhangs.resize(sample.size());
   execution.parallel_for(sample.size(), 8, [&](std::size_t begin, std::size_t end) {
+    const Execution one_thread(1);
     for (std::size_t k = begin; k < end; ++k) {
-      numbers.set(k, grown_shape(growing.meshes.mesh(sample[k].radial, 1.0), Execution(1)));
+      const IndexedMesh mesh = growing.meshes.mesh(sample[k].radial, 1.0, sample[k].radial_offset);
+      const QuickShape shape = quick_shape(mesh, one_thread);
+      numbers.set(k, shape);
+      overhangs[k] = overhang_of(sample[k].radial_offset, mesh, shape, one_thread);
     }
   });
   return numbers;
@@ -161,7 +185,8 @@ std::vector<std::string> summary_lines(const Growing& growing, std::size_t left_
                                        const Execution& execution) {
   const std::size_t real = growing.grower.sample().size();
   const std::size_t grown = growing.distances.size();
-  const GrownNumbers sample = numbers_of_sample(growing, execution);
+  std::vector<double> overhangs;
+  const GrownNumbers sample = numbers_of_sample(growing, overhangs, execution);
   const GrownNumbers& made = growing.numbers;
   const auto distance = [](const std::vector<double>& a, const std::vector<double>& b) {
     return format_number(distance_between(Distribution(a), Distribution(b)).kolmogorov, 2);
@@ -175,12 +200,13 @@ std::vector<std::string> summary_lines(const Growing& growing, std::size_t left_
   const double by_chance =
       1.36 * std::sqrt(1.0 / static_cast<double>(real) + 1.0 / static_cast<double>(grown));
   std::vector<std::string> lines = {
-      std::to_string(grown) + " virtual grains of " + std::to_string(real) + " real ones (" +
-          std::to_string(left_out) + " left out), " +
+      std::to_string(grown) + (grown == 1 ? " virtual grain of " : " virtual grains of ") +
+          std::to_string(real) + " real ones (" + std::to_string(left_out) + " left out), " +
           std::to_string(growing.arguments.options.donors) + " donors each, degree " +
           std::to_string(growing.arguments.degree) + ", seed " +
           std::to_string(growing.arguments.options.seed) + ".",
-      "Redrawn because they were not star-shaped: " + std::to_string(redrawn) + " grains.",
+      "Drawn again, because they were not star-shaped or intersected themselves: " +
+          std::to_string(redrawn) + ".",
       "Kolmogorov-Smirnov distance to the sample (" + format_number(by_chance, 2) +
           " by chance in 1 of 20 samples):"};
   for (const std::string& line :
@@ -194,6 +220,10 @@ std::vector<std::string> summary_lines(const Growing& growing, std::size_t left_
                   percent(nearest[grown / 2]) + ", smallest " + percent(nearest.front()) + ".");
   lines.push_back("Usual distance between real grains: " +
                   percent(growing.search.usual_distance(execution)) + ".");
+  if (mean(overhangs) > 0.0) {
+    lines.push_back("Overhang fraction, mean: " + percent(mean(growing.overhangs)) +
+                    ", in the sample " + percent(mean(overhangs)) + ".");
+  }
   lines.push_back("Collage, caps of 40 degrees that follow one donor: " +
                   percent(mean(growing.collages)) + ".");
   return lines;
@@ -223,9 +253,7 @@ CLI::App& add_command(CLI::App& program, GrowArguments& arguments) {
          "patterns in quotes, or @FILE with one of these per line")
       ->type_name("SAMPLE")
       ->required();
-  app.add_option("-o,--output", arguments.folder, "Folder for all that is made")
-      ->type_name("OUT")
-      ->required();
+  add_folder_argument(app, arguments.folder);
   add_number(app, "-n,--grains", arguments.grains, grown_count_option);
   add_number(app, "--nodes", arguments.nodes, grown_nodes_option);
   add_format_argument(app, arguments.format);
@@ -238,8 +266,7 @@ CLI::App& add_command(CLI::App& program, GrowArguments& arguments) {
   add_number(app, "--degree", arguments.degree, sample_degree_option);
   add_number(app, "--seed", arguments.options.seed, sample_seed_option);
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet,
-               "No summary on the standard output, no progress; failures stay");
+  add_quiet_argument(app, arguments.quiet);
   return app;
 }
 
@@ -249,8 +276,7 @@ int run(const GrowArguments& arguments) {
   const std::vector<std::string> files = checked([&] { return shape_files(arguments.inputs); });
   std::optional<GivenSizes> sizes;
   if (!arguments.sizes.empty()) sizes = checked([&] { return read_given_sizes(arguments.sizes); });
-  std::error_code ignored;
-  fs::create_directories(arguments.folder, ignored);
+  const MadeFolder folder(arguments.folder);
   const std::string table = (fs::path(arguments.folder) / "grown.csv").string();
   check_writable(table);
 
@@ -265,11 +291,11 @@ int run(const GrowArguments& arguments) {
                   std::move(search),
                   GrownMeshes(arguments.nodes, execution),
                   std::move(sizes),
-                  drawn_order(count, arguments.options.seed),
                   GrownNumbers(count),
                   std::vector<double>(count),
                   std::vector<double>(count),
-                  std::vector<int>(count)};
+                  std::vector<int>(count),
+                  std::vector<double>(count)};
   std::string rows = csv_record({std::begin(table_heading), std::end(table_heading)});
   GrainRun all;
   all.count = count;

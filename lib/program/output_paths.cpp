@@ -6,6 +6,8 @@
 
 namespace wscvt::program {
 
+namespace fs = std::filesystem;
+
 void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                         bool overwrite) {
   const auto refuse = [](const std::string& sentence) {
@@ -26,6 +28,20 @@ void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<
     }
     wscvt::check_writable(output.path);
   }
+}
+
+MadeFolder::MadeFolder(const std::string& path) {
+  std::error_code ignored;
+  for (fs::path folder = path; !folder.empty() && !fs::exists(folder, ignored);
+       folder = folder.parent_path()) {
+    made_.push_back(folder);
+  }
+  fs::create_directories(path, ignored);
+}
+
+MadeFolder::~MadeFolder() {
+  std::error_code ignored;  // such as: it is not empty
+  for (const fs::path& folder : made_) fs::remove(folder, ignored);
 }
 
 std::vector<NamedFile> named_reports(const std::vector<std::string>& reports) {

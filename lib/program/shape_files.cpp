@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int map_frequency = 24;  ///< of the mesh of a harmonic map: 5,762 points
+
 std::vector<std::string> files_ending(const std::string& folder,
                                       const std::vector<std::string>& endings) {
   std::vector<std::string> files;
@@ -45,7 +47,12 @@ bool holds_meshes(const std::string& folder) {
 
 SampleGrain read_shape(const std::string& file, const SampleGrids& grids,
                        const Execution& execution) {
-  if (is_coefficient_file(file)) return sample_grain(read_coefficients(file), grids, execution);
+  if (is_coefficient_file(file)) {
+    const std::unique_ptr<const SphereSurface> surface = read_coefficients(file);
+    const auto* radial = dynamic_cast<const HarmonicSurface*>(surface.get());
+    if (radial != nullptr) return sample_grain(*radial, grids, execution);
+    return sample_grain(mesh_of_surface(*surface, map_frequency, execution), grids, execution);
+  }
   MeshFile read = read_mesh_file(file, execution);
   const CheckedMesh checked = check_mesh(std::move(read.mesh), MeshCheckOptions(), execution);
   return sample_grain(checked.mesh, grids, execution);
@@ -53,15 +60,14 @@ SampleGrain read_shape(const std::string& file, const SampleGrids& grids,
 
 }  // namespace
 
-HarmonicSurface read_coefficients(const std::string& path) {
-  if (ending_of(path) == ".dat") return read_complex_harmonics(path);
-  if (ending_of(path) == ".sh") return read_shtools(path);
-  if (read_harmonic_kind(path) == HarmonicKind::Map) {
-    throw Error(ErrorCode::NotStarShaped,
-                "The coefficients are those of a harmonic map, so that the grain has no radius in "
-                "each direction; leave it out of the sample.");
-  }
-  return read_harmonics(path);
+std::unique_ptr<const SphereSurface> read_coefficients(const std::string& path) {
+  const auto radial = [](HarmonicSurface surface) {
+    return std::make_unique<const HarmonicSurface>(std::move(surface));
+  };
+  if (ending_of(path) == ".dat") return radial(read_complex_harmonics(path));
+  if (ending_of(path) == ".sh") return radial(read_shtools(path));
+  if (read_harmonic_kind(path) == HarmonicKind::Radial) return radial(read_harmonics(path));
+  return std::make_unique<const HarmonicMap>(read_harmonic_map(path));
 }
 
 bool is_coefficient_file(const std::string& path) {

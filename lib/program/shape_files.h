@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ std::vector<std::string> shape_files(const std::vector<std::string>& inputs);
 /// Whether the file holds SH coefficients, by its ending.
 bool is_coefficient_file(const std::string& path);
 
-/// Reads such a file. Throws wscvt::Error, NotStarShaped for the coefficients of a harmonic map.
-HarmonicSurface read_coefficients(const std::string& path);
+/// Reads such a file: a HarmonicSurface, or of a harmonic map a HarmonicMap. Throws wscvt::Error.
+std::unique_ptr<const SphereSurface> read_coefficients(const std::string& path);
 
 /// Calls `read` for the number of each file, on several threads at once and with a line on a
 /// terminal unless quiet. A file that it refuses is told on the standard error and counted in the
@@ -28,7 +29,7 @@ HarmonicSurface read_coefficients(const std::string& path);
 std::size_t read_each(const std::vector<std::string>& files, int threads, bool quiet,
                       const std::function<void(std::size_t file, const Execution&)>& read);
 
-/// The grains of a sample that have a radius in each direction.
+/// The grains of a sample that could be read.
 struct SampleShapes {
   std::vector<SampleGrain> grains;
   std::vector<std::string> files;  ///< one per grain

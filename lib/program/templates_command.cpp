@@ -13,6 +13,7 @@
 #include "described_sample.h"
 #include "exit_code.h"
 #include "grain_run.h"
+#include "output_paths.h"
 #include "signals.h"
 #include "work.h"
 #include "wrong_call.h"
@@ -208,9 +209,7 @@ CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments) {
                  "table of shapes (.csv) with the columns \"volume\" and \"file\"")
       ->type_name("SAMPLE")
       ->required();
-  app.add_option("-o,--output", arguments.folder, "Folder for all that is made")
-      ->type_name("OUT")
-      ->required();
+  add_folder_argument(app, arguments.folder);
   add_number(app, "-k,--count", arguments.options.count, template_count_option);
   add_number(app, "-n,--nodes", arguments.nodes, template_nodes_option);
   app.add_option("--descriptors", arguments.descriptors,
@@ -222,8 +221,7 @@ CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments) {
   add_format_argument(app, arguments.format);
   add_number(app, "--seed", arguments.options.seed, sample_seed_option);
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet,
-               "No summary on the standard output, no progress; failures stay");
+  add_quiet_argument(app, arguments.quiet);
   return app;
 }
 
@@ -232,8 +230,7 @@ int run(const TemplatesArguments& given) {
   if (arguments.descriptors.empty()) arguments.descriptors = usual_template_descriptors();
   checked([&] { check_format(arguments.format); });
   if (!arguments.quiet) check_writable("/dev/stdout");
-  std::error_code ignored;
-  fs::create_directories(arguments.folder, ignored);
+  const MadeFolder folder(arguments.folder);
   check_writable(in_folder(arguments, "templates.csv"));
   const DescribedSample sample =
       described_sample(arguments.inputs, arguments.descriptors, arguments.threads, arguments.quiet);

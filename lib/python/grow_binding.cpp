@@ -76,13 +76,6 @@ std::vector<SampleGrain> sample_of_grains(std::vector<RealGrain>& grains, const 
   return sample;
 }
 
-/// A grown grain with its mesh.
-struct GrownBody {
-  GrownGrain grain;
-  IndexedMesh mesh;
-  NearestGrain nearest;
-};
-
 py::list grow(const py::list& grains, std::size_t n, int nodes, int donors, int degree,
               std::uint64_t seed, int threads, const py::object& progress) {
   std::vector<RealGrain> real;
@@ -90,31 +83,30 @@ py::list grow(const py::list& grains, std::size_t n, int nodes, int donors, int 
   GrowOptions options;
   options.donors = donors;
   options.seed = seed;
-  const std::vector<GrownBody> bodies = work_on(threads, progress, [&](const Execution& execution) {
+  using Grown = std::pair<GrownBody, NearestGrain>;
+  const std::vector<Grown> bodies = work_on(threads, progress, [&](const Execution& execution) {
     const SampleGrids grids(degree);
     std::vector<SampleGrain> sample = sample_of_grains(real, grids, execution.part(0.0, 0.2));
     const GrainSearch search(sample);
     const GrainGrower grower(std::move(sample), grids, options);
     const GrownMeshes meshes(nodes, execution);
-    std::vector<GrownBody> grown(n);
+    std::vector<Grown> grown(n);
     constexpr std::size_t block = 64;
     for (std::size_t first = 0; first < n; first += block) {
       execution.report(0.2 + 0.8 * static_cast<double>(first) / static_cast<double>(n), "Growing");
       execution.parallel_for(std::min(block, n - first), 1, [&](std::size_t begin, std::size_t) {
-        GrownBody& body = grown[first + begin];
-        body.grain = grower.grow(first + begin);
-        body.mesh = meshes.mesh(body.grain.radial, body.grain.radius);
-        body.nearest = search.nearest(body.grain.radial);
+        auto& [body, nearest] = grown[first + begin];
+        body = grow_body(grower, meshes, first + begin);
+        nearest = search.nearest(body.grain.radial);
       });
     }
     return grown;
   });
   py::list list;
-  for (const GrownBody& body : bodies) {
+  for (const auto& [body, nearest] : bodies) {
     list.append(py::make_tuple(array_of(body.mesh.points), array_of(body.mesh.triangles),
-                               2.0 * body.grain.radius, body.grain.donors.front(),
-                               body.nearest.grain, body.nearest.distance, body.grain.collage,
-                               body.grain.redraws));
+                               2.0 * body.grain.radius, body.grain.donors.front(), nearest.grain,
+                               nearest.distance, body.grain.collage, body.grain.redraws));
   }
   return list;
 }

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "grains/bent_grain.h"
 #include "program_run.h"
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
@@ -62,6 +64,38 @@ TEST_F(Grow, ReadsScansAndLeavesOutWhatHasNoRadius) {
   EXPECT_EQ(read_harmonics(path("out/grown-00003.json")).degree(), 6);
 }
 
+// A C has overhangs, which the star-shaped grains beside it have not.
+TEST_F(Grow, TakesScansThatRaysDoNotSeeWhole) {
+  write_sample(6);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 stretch(1.0 + 0.1 * k, 1.0, 1.1 - 0.1 * k);
+    const IndexedMesh scan = test::bent_grain_mesh(test::bent_grain("C-shape"), 900);
+    write_mesh(test::scaled(scan, stretch), path("c" + std::to_string(k) + ".ply"));
+  }
+  const std::string call = "grow real 'c*.ply' -n 9 --nodes 150 --degree 12";
+  const Outcome outcome = run(call + " -o out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("Overhang fraction, mean: "), std::string::npos) << outcome.output;
+  EXPECT_EQ(run(call + " -o series --coefficients -q").exit_code, 0);
+  std::size_t bent = 0;
+  for (int k = 1; k <= 9; ++k) {
+    const std::string name = "grown-0000" + std::to_string(k);
+    const IndexedMesh mesh = read_mesh(path("out/" + name + ".ply"));
+    EXPECT_EQ(mesh.points.size(), 150U);
+    EXPECT_TRUE(self_intersections(mesh).empty()) << name;
+    if (read_harmonic_kind(path("series/" + name + ".json")) == HarmonicKind::Radial) continue;
+    ++bent;
+    const HarmonicMap map = read_harmonic_map(path("series/" + name + ".json"));
+    EXPECT_NEAR(
+        body_integrals(map, 40, Execution(1)).volume / describe_shape(mesh, Execution(1)).volume,
+        1.0, 0.15);
+  }
+  EXPECT_GE(bent, 3U);
+  // The series of a grain with overhangs is a grain of a sample itself.
+  EXPECT_EQ(run("grow series -n 2 --nodes 150 --degree 8 -o again -q").exit_code, 0);
+  EXPECT_EQ(run("templates series -k 3 -n 50 -o chosen -q").exit_code, 0);
+}
+
 TEST_F(Grow, FollowsAGivenSizeCurve) {
   write_sample(8);
   std::ofstream(path("sizes.csv")) << "2,0\n4,100\n";
@@ -87,8 +121,9 @@ TEST_F(Grow, RefusesWrongCalls) {
                   {"real -o out --degree 3", 2, "degree"},
                   {"real -o out --format xyz", 2, "format"},
                   {"none.ply -o out", 1, "none.ply"},
+                  {"real -o deep/down/out --degree 6", 1, "7 usable grains"},
                   {"real", 2, "output"}},
-                 {"out/grown.csv"});
+                 {"out", "deep"});
 }
 
 }  // namespace

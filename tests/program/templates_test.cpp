@@ -86,13 +86,15 @@ TEST_F(Templates, OfABatchsFolderAreMadeOfItsScans) {
 
 TEST_F(Templates, RefusesWrongCalls) {
   write_scans(3);
+  std::ofstream(path("same.csv")) << "file,volume,convexity\na.ply,1,0.9\nb.ply,2,0.9\n";
   expect_refused("templates",
                  {{"scans -k 4 -o out", 1, "3 grains"},
                   {"scans -k 0 -o out", 2, "templates"},
                   {"scans -k 2 -o out --descriptors volume,nonsense", 1, "nonsense"},
                   {"scans -k 2 -o out --format xyz", 2, "format"},
+                  {"same.csv -k 1 -o out --descriptors convexity", 1, "\"convexity\" is the same"},
                   {"none.csv -k 2 -o out", 1, "none.csv"}},
-                 {"out/templates.csv"});
+                 {"out"});
 }
 
 }  // namespace

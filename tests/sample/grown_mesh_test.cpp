@@ -7,6 +7,7 @@
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/mesh_quality.h"
+#include "wscvt/sample/quick_shape.h"
 
 namespace wscvt {
 namespace {
@@ -42,15 +43,15 @@ TEST(GrownMeshes, HaveNoThinTrianglesOnLongGrains) {
 TEST(GrownMeshes, AreMeasured) {
   std::vector<double> radial(harmonic_count(4), 0.0);
   radial[0] = std::sqrt(4.0 * pi);
-  const GrownShape ball =
-      grown_shape(GrownMeshes(2000, Execution(1)).mesh(radial, 3.0), Execution(1));
-  EXPECT_NEAR(ball.sphericity, 1.0, 0.01);
-  EXPECT_NEAR(ball.elongation, 1.0, 0.01);
-  EXPECT_NEAR(ball.flatness, 1.0, 0.01);
+  const QuickShape ball =
+      quick_shape(GrownMeshes(2000, Execution(1)).mesh(radial, 3.0), Execution(1));
+  EXPECT_NEAR(ball.shape.sphericity, 1.0, 0.01);
+  EXPECT_NEAR(ball.form.zingg_elongation, 1.0, 0.01);
+  EXPECT_NEAR(ball.form.zingg_flatness, 1.0, 0.01);
   EXPECT_NEAR(ball.convexity, 1.0, 1e-9);
-  const GrownShape box = grown_shape(test::box(6.0, 3.0, 2.0), Execution(1));
-  EXPECT_NEAR(box.elongation, 0.5, 1e-9);
-  EXPECT_NEAR(box.flatness, 2.0 / 3.0, 1e-9);
+  const QuickShape box = quick_shape(test::box(6.0, 3.0, 2.0), Execution(1));
+  EXPECT_NEAR(box.form.zingg_elongation, 0.5, 1e-9);
+  EXPECT_NEAR(box.form.zingg_flatness, 2.0 / 3.0, 1e-9);
 }
 
 }  // namespace

@@ -38,6 +38,26 @@ TEST(GrainSearch, MeasuresTheRootMeanSquareOfRadii) {
   EXPECT_NEAR(nearest.distance, 0.05 / std::sqrt(4.0 * pi), 1e-9);
 }
 
+// Whatever it leaves out of the comparison.
+TEST(GrainSearch, FindsTheNearestOfAll) {
+  const SampleGrids grids(6);
+  const std::vector<SampleGrain> sample = test::random_sample(40, grids, 6);
+  const GrainSearch search(sample);
+  for (const SampleGrain& grain : test::random_sample(10, grids, 7)) {
+    double least = 1e9;
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < sample.size(); ++k) {
+      const double distance = GrainSearch({sample[k]}).nearest(grain.radial).distance;
+      if (distance < least) {
+        least = distance;
+        nearest = k;
+      }
+    }
+    EXPECT_EQ(search.nearest(grain.radial).grain, nearest);
+    EXPECT_NEAR(search.nearest(grain.radial).distance, least, 1e-12);
+  }
+}
+
 TEST(GrainSearch, KnowsWhatIsUsual) {
   const SampleGrids grids(6);
   std::vector<SampleGrain> sample = test::random_sample(1, grids, 5);

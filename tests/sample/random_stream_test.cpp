@@ -58,5 +58,23 @@ TEST(RandomStream, HasTheMomentsOfItsDistributions) {
   for (const int hits : below) EXPECT_NEAR(hits, count / 3.0, 4.0 * 94.3);
 }
 
+TEST(RandomStream, DrawsEachPlaceOnce) {
+  for (const std::size_t count : {1U, 2U, 3U, 8U, 17U, 64U, 65U, 1000U}) {
+    std::set<std::size_t> places, others;
+    std::size_t same = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t place = drawn_place(k, count, 5, 9);
+      EXPECT_LT(place, count);
+      places.insert(place);
+      if (drawn_place(k, count, 6, 9) == place) ++same;
+      others.insert(drawn_place(k, count, 5, 10));
+    }
+    EXPECT_EQ(places.size(), count);
+    EXPECT_EQ(others.size(), count);
+    // Of a random order one place stays, six or more once in 1,600 times.
+    EXPECT_TRUE(count <= 8 || same <= 5) << count;
+  }
+}
+
 }  // namespace
 }  // namespace wscvt

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tables of virtual_grains.md: wscvt grow and wscvt templates on a population of real grains.
 
-    tests/study/virtual_grains.py PROGRAM FOLDER [--seed 1] [--grown 1000]
+    tests/study/virtual_grains.py PROGRAM FOLDER [--seed 1] [--grown 1000] [--splits 4]
 
 FOLDER holds SH coefficients (*.dat, `n m Re Im`). Half of the grains, drawn by the seed, are the
 sample; the others are kept to judge by. Two published generators are repeated here from the same
 sample, a Gaussian of principal components with 95 % of the variance and a Nataf transform of all
-coefficients. Needs python3-numpy, python3-scipy and python3-sklearn; ten minutes of processor time.
+coefficients. With --splits the table is that of `wscvt grow` alone, for the seeds 1, 2, ... and their
+medians. Needs python3-numpy, python3-scipy and python3-sklearn; ten minutes of processor time.
 """
 import argparse
 import csv
@@ -243,18 +244,54 @@ def templates(arguments, files, folder):
                                              "random_by_mass"))), flush=True)
 
 
+def halves(files, rng):
+    """The sample and the grains to judge by; a random half each."""
+    order = rng.permutation(len(files))
+    return [[files[k] for k in part] for part in (order[:len(files) // 2], order[len(files) // 2:])]
+
+
+def distances_of(made, real):
+    return numpy.array([ks_2samp(made[:, k], real[:, k]).statistic for k in range(4)])
+
+
+def cells_of(*groups):
+    return " | ".join(" ".join("%.3f" % d for d in group) for group in groups)
+
+
+def splits(arguments, files):
+    rows = {file: described(c) for file, c in ((file, standing(read(file))) for file in files)
+            if c is not None}
+    rows = {file: row for file, row in rows.items() if row is not None}
+    print("| split | floor | to unseen grains | to the sample | AUC |\n|---|---|---|---|---|")
+    table = []
+    for seed in range(1, arguments.splits + 1):
+        arguments.seed = seed
+        fit, judge = halves(files, numpy.random.default_rng(seed))
+        sample, unseen = (numpy.array([rows[file] for file in half if file in rows])
+                          for half in (fit, judge))
+        with tempfile.TemporaryDirectory() as folder:
+            made = table_of(grow(arguments, fit, folder, 3)[0])
+        table.append([distances_of(sample, unseen), distances_of(made, unseen),
+                      distances_of(made, sample)])
+        print("| %d | %s | %s |" % (seed, cells_of(*table[-1]), " / ".join(
+            "%.2f" % a for a in separability(made, unseen))), flush=True)
+    print("| median | %s | |" % cells_of(*numpy.median(table, axis=0)))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--grown", type=int, default=1000)
+    parser.add_argument("--splits", type=int, default=0)
     arguments = parser.parse_args()
     rng = numpy.random.default_rng(arguments.seed)
     files = sorted(arguments.folder.rglob("*.dat"))
-    order = rng.permutation(len(files))
-    fit = [files[k] for k in order[:len(files) // 2]]
-    judge = [files[k] for k in order[len(files) // 2:]]
+    if arguments.splits:
+        splits(arguments, files)
+        return
+    fit, judge = halves(files, rng)
     sample, unseen = ([c for c in (standing(read(file)) for file in half) if c is not None]
                       for half in (fit, judge))
     real = table_of(unseen)

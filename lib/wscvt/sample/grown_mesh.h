@@ -5,7 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/sample/sample_grain.h"
+#include "wscvt/sample/grain_grower.h"
 
 namespace wscvt {
 
@@ -19,23 +19,24 @@ class GrownMeshes {
 
   /// A closed, outward mesh of exactly the nodes, in the principal frame about the origin, of
   /// exactly the volume of the sphere of `radius`; length. The triangles are intrinsic Delaunay on
-  /// it. May be called from several threads.
-  IndexedMesh mesh(const std::vector<double>& radial, double radius) const;
+  /// it. With few nodes, a grain with an offset may intersect itself. May be called from several
+  /// threads.
+  IndexedMesh mesh(const std::vector<double>& radial, double radius,
+                   const OffsetSeries& offset = {}) const;
 
  private:
   std::vector<Vector3> directions_;
   std::vector<Triangle> triangles_;
 };
 
-/// Descriptors that grown grains are compared with real ones by; none has a unit.
-struct GrownShape {
-  double sphericity = 0.0;  ///< Wadell's
-  double elongation = 0.0;  ///< I/L of the inertia ellipsoid
-  double flatness = 0.0;    ///< S/I of the inertia ellipsoid
-  double convexity = 0.0;   ///< volume over that of the convex hull
+/// A virtual grain with its mesh.
+struct GrownBody {
+  GrownGrain grain;
+  IndexedMesh mesh;
 };
 
-/// Throws as describe_shape.
-GrownShape grown_shape(const IndexedMesh& mesh, const Execution& execution);
+/// Grain number `index` of the grower: the first whose mesh does not intersect itself. Throws as
+/// GrainGrower::grow.
+GrownBody grow_body(const GrainGrower& grower, const GrownMeshes& meshes, std::size_t index);
 
 }  // namespace wscvt

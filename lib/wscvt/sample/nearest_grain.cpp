@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::size_t most_grains_of_usual = 400;
 
+Eigen::VectorXd amplitudes_of(const std::vector<double>& radial) {
+  const std::vector<double> amplitudes = degree_amplitudes(radial);
+  return Eigen::Map<const Eigen::VectorXd>(amplitudes.data(),
+                                           static_cast<Eigen::Index>(amplitudes.size()));
+}
+
 bool is_odd(unsigned bits) { return ((bits ^ bits >> 1U ^ bits >> 2U) & 1U) != 0; }
 
 }  // namespace
@@ -37,6 +43,11 @@ GrainSearch::GrainSearch(const std::vector<SampleGrain>& sample) {
     sorted_.col(static_cast<Eigen::Index>(k)) = in_classes(sample[k].radial);
   }
   squares_ = sorted_.colwise().squaredNorm();
+  amplitudes_.resize(static_cast<Eigen::Index>(degree_amplitudes(sample.front().radial).size()),
+                     sorted_.cols());
+  for (std::size_t k = 0; k < sample.size(); ++k) {
+    amplitudes_.col(static_cast<Eigen::Index>(k)) = amplitudes_of(sample[k].radial);
+  }
 }
 
 Eigen::VectorXd GrainSearch::in_classes(const std::vector<double>& radial) const {
@@ -56,8 +67,7 @@ NearestGrain GrainSearch::nearest(const std::vector<double>& radial, std::size_t
   const double square = grain.squaredNorm();
   NearestGrain found;
   double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index k = 0; k < sorted_.cols(); ++k) {
-    if (static_cast<std::size_t>(k) == left_out) continue;
+  const auto look_at = [&](Eigen::Index k) {
     std::array<double, 8> products{};
     for (std::size_t c = 0; c < 8; ++c) {
       const Eigen::Index length = classes_[c + 1] - classes_[c];
@@ -73,6 +83,17 @@ NearestGrain GrainSearch::nearest(const std::vector<double>& radial, std::size_t
         found.grain = static_cast<std::size_t>(k);
       }
     }
+  };
+  // No mirror image is nearer than the amplitudes of the degrees are, which are soon compared.
+  Eigen::VectorXd bounds =
+      (amplitudes_.colwise() - amplitudes_of(radial)).colwise().squaredNorm().transpose();
+  if (left_out < static_cast<std::size_t>(bounds.size())) {
+    bounds[static_cast<Eigen::Index>(left_out)] = std::numeric_limits<double>::infinity();
+  }
+  Eigen::Index likely = 0;
+  if (std::isfinite(bounds.minCoeff(&likely))) look_at(likely);
+  for (Eigen::Index k = 0; k < bounds.size(); ++k) {
+    if (bounds[k] < least && k != likely) look_at(k);
   }
   found.distance = std::isfinite(least) ? std::sqrt(std::max(0.0, least) / (4.0 * pi)) : 0.0;
   return found;

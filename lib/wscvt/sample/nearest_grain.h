@@ -43,6 +43,7 @@ class GrainSearch {
   std::array<Eigen::Index, 9> classes_{};  ///< where the mirror classes begin among them
   Eigen::MatrixXd sorted_;                 ///< a column per grain
   Eigen::VectorXd squares_;
+  Eigen::MatrixXd amplitudes_;  ///< of the degrees, a column per grain
 };
 
 }  // namespace wscvt

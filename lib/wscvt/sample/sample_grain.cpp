@@ -11,8 +11,12 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/sample/grow_options.h"
+#include "wscvt/sample/quick_shape.h"
 #include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/scan/handles.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
@@ -32,6 +36,8 @@ int checked_degree(int degree) {
 int rows_of(int degree) { return 3 * (degree + 1) / 2 + 1; }
 /// Of the mesh of a series: 16,002 points.
 constexpr int mesh_frequency = 40;
+/// Of the mesh on which candidates are measured: 1,002 points.
+constexpr int measuring_frequency = 10;
 
 int fine_rows_of(int degree) { return std::max(96, 4 * (degree + 1)); }
 
@@ -72,7 +78,8 @@ SampleGrids::SampleGrids(int degree)
     : radial_(checked_degree(degree), rows_of(degree)),
       white_(white_degree_of(degree), rows_of(white_degree_of(degree))),
       fine_radial_(degree, fine_rows_of(degree)),
-      fine_white_(white_degree_of(degree), fine_rows_of(degree)) {}
+      fine_white_(white_degree_of(degree), fine_rows_of(degree)),
+      sphere_(subdivided_sphere(measuring_frequency)) {}
 
 std::optional<std::vector<double>> radii_in_frame(const LogRadii& surface, const Vector3& centre,
                                                   const Eigen::Matrix3d& axes,
@@ -153,11 +160,79 @@ std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
   return grain;
 }
 
+/// The series of r(u) and o(u) of a surface that is given in the directions of the grid.
+void set_series(const HarmonicGrid& grid, const std::vector<Vector3>& points, bool of_logarithm,
+                std::vector<double>& radial, OffsetSeries& offset) {
+  RadiiAndOffsets parts = split_points(points, grid.directions());
+  radial =
+      grid.coefficients(of_logarithm ? logarithms(std::move(parts.radii)) : std::move(parts.radii));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    offset[axis] = grid.coefficients(std::move(parts.offsets[axis]));
+  }
+}
+
+/// Of a closed, connected mesh.
+std::size_t genus_of(const IndexedMesh& mesh) {
+  return (mesh.triangles.size() / 2 + 2 - mesh.points.size()) / 2;
+}
+
+IndexedMesh without_handles(const IndexedMesh& mesh, const Execution& execution) {
+  const std::size_t handles = genus_of(mesh);
+  if (handles > most_handles_cut) {
+    refuse("The grain has overhangs and " + std::to_string(handles) +
+           " handles: it is porous. Close its pores first, or leave it out of the sample.");
+  }
+  const HandleFreeMesh cut = remove_handles(mesh, HandleOptions(), execution);
+  if (cut.report.kept > 0) {
+    refuse("The grain has overhangs and a handle with a loop of " +
+           format_number(cut.report.next.length) +
+           ", too long to be cut. Leave it out of the sample.");
+  }
+  return cut.mesh;
+}
+
+/// A grain that rays cannot see whole; `standing` at the size of radius 1.
+void read_with_offsets(SampleGrain& grain, const IndexedMesh& standing, const Vector3& semi_axes,
+                       const SampleGrids& grids, const Execution& execution) {
+  IndexedMesh white = standing;
+  for (Vector3& point : white.points) point = point.cwiseQuotient(semi_axes);
+  const MappedSurface surface = spread_over_directions(white, execution);
+  const HarmonicGrid& fine_white = grids.fine_white();
+  set_series(fine_white, surface.positions(fine_white.directions(), execution), true, grain.white,
+             grain.white_offset);
+  // The directions of the grain itself are those of the white one, stretched as the grain is.
+  std::vector<Vector3> directions = grids.fine_radial().directions();
+  for (Vector3& direction : directions) direction = direction.cwiseQuotient(semi_axes).normalized();
+  std::vector<Vector3> points = surface.positions(directions, execution);
+  for (Vector3& point : points) point = point.cwiseProduct(semi_axes);
+  set_series(grids.fine_radial(), points, false, grain.radial, grain.radial_offset);
+}
+
+}  // namespace
+
+namespace {
+
+SampleGrain measured(SampleGrain grain, const SampleGrids& grids) {
+  const IndexedMesh mesh{surface_points(grain.radial, grain.radial_offset, grids.sphere().points),
+                         grids.sphere().triangles};
+  if (has_offset(grain.radial_offset) && !self_intersections(mesh).empty()) {
+    refuse("The series of degree " + std::to_string(grids.degree()) +
+           " of the grain intersects itself, because walls of the grain are thin. Give a higher "
+           "--degree, or leave the grain out of the sample.");
+  }
+  const QuickShape quick = quick_shape(mesh, Execution(1));
+  grain.sphericity = quick.shape.sphericity;
+  grain.convexity = quick.convexity;
+  return grain;
+}
+
 }  // namespace
 
 SampleGrain sample_grain(const HarmonicSurface& surface, const SampleGrids& grids,
                          const Execution& execution) {
-  if (std::optional<SampleGrain> grain = star_shaped_grain(surface, grids)) return *grain;
+  if (std::optional<SampleGrain> grain = star_shaped_grain(surface, grids)) {
+    return measured(std::move(*grain), grids);
+  }
   // About its centroid it has overhangs: then its mesh is read, as a scan.
   return sample_grain(mesh_of_surface(surface, mesh_frequency, execution), grids, execution);
 }
@@ -166,11 +241,9 @@ SampleGrain sample_grain(const IndexedMesh& mesh, const SampleGrids& grids,
                          const Execution& execution) {
   const ShapeDescriptors shape = describe_shape(mesh, execution);
   const double fold = folded_solid_angle(mesh, shape.centroid, execution);
-  if (100.0 * fold > usual_fold_limit_percent) {
-    throw Error(ErrorCode::NotStarShaped, "The overhang fraction of the grain is " +
-                                              format_percent(fold) + ", above the limit of " +
-                                              format_percent(0.01 * usual_fold_limit_percent) +
-                                              "; leave it out of the sample.");
+  const bool has_overhangs = 100.0 * fold > usual_fold_limit_percent;
+  if (has_overhangs && genus_of(mesh) > 0) {
+    return sample_grain(without_handles(mesh, execution), grids, execution);
   }
   SampleGrain grain;
   grain.radius = equivalent_radius(shape.volume);
@@ -179,6 +252,10 @@ SampleGrain sample_grain(const IndexedMesh& mesh, const SampleGrids& grids,
   const Eigen::Matrix3d turn = shape.principal_axes.toRotationMatrix().transpose();
   IndexedMesh standing = mesh;
   for (Vector3& point : standing.points) point = turn * (point - shape.centroid) / grain.radius;
+  if (has_overhangs) {
+    read_with_offsets(grain, standing, semi_axes, grids, execution);
+    return measured(std::move(grain), grids);
+  }
   const auto read = [&](const HarmonicGrid& grid) {
     const MeshSurface rays(standing, Vector3::Zero(), 1.0, fold, execution);
     return rays.radii(grid.directions(), execution);
@@ -186,7 +263,7 @@ SampleGrain sample_grain(const IndexedMesh& mesh, const SampleGrids& grids,
   grain.radial = grids.fine_radial().coefficients(read(grids.fine_radial()));
   for (Vector3& point : standing.points) point = point.cwiseQuotient(semi_axes);
   grain.white = grids.fine_white().coefficients(logarithms(read(grids.fine_white())));
-  return grain;
+  return measured(std::move(grain), grids);
 }
 
 }  // namespace wscvt

@@ -8,6 +8,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sample/harmonic_grid.h"
+#include "wscvt/sample/offset_surface.h"
 #include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
@@ -23,6 +24,12 @@ struct SampleGrain {
   /// The white grain is the grain stretched along its principal axes to the inertia of a sphere of
   /// radius 1, so that it has no form. The series is that of the logarithm of its radius.
   std::vector<double> white;
+  /// Of a grain with more overhangs than usual_fold_limit_percent: the surface is r(u) u + o(u) in
+  /// either frame, u spread over the scan. Empty for other grains.
+  OffsetSeries radial_offset;
+  OffsetSeries white_offset;
+  double sphericity = 0.0;  ///< Wadell's, of the series on SampleGrids::sphere; no unit
+  double convexity = 0.0;   ///< likewise; volume over that of the convex hull
 };
 
 /// The grids on which the grains of a sample of one degree are read and grown. The white grains
@@ -39,23 +46,26 @@ class SampleGrids {
     return fine_radial_;
   }                                                               ///< of scans, four rows a degree
   const HarmonicGrid& fine_white() const { return fine_white_; }  ///< likewise
+  const IndexedMesh& sphere() const { return sphere_; }           ///< that grains are measured on
 
  private:
   HarmonicGrid radial_;
   HarmonicGrid white_;
   HarmonicGrid fine_radial_;
   HarmonicGrid fine_white_;
+  IndexedMesh sphere_;
 };
 
 /// A grain given by the SH series of its radius. About its centroid it may have overhangs, as a
-/// mesh. Throws Error: InvalidInput if the series is not positive everywhere, NotStarShaped and
-/// Cancelled as of a mesh.
+/// mesh. Throws Error(InvalidInput) if the series is not positive everywhere, and as of a mesh.
 SampleGrain sample_grain(const HarmonicSurface& surface, const SampleGrids& grids,
                          const Execution& execution);
 
-/// A grain given by a closed, outward mesh, as checked by check_mesh. Of overhangs the outermost
-/// layer is read. Throws Error: InvalidInput if the mesh encloses no volume, NotStarShaped if the
-/// overhangs exceed usual_fold_limit_percent, Cancelled.
+/// A grain given by a closed, outward mesh, as checked by check_mesh. The outermost layer of small
+/// overhangs is read. If they exceed usual_fold_limit_percent, the mesh is spread over the sphere
+/// and has offsets; small handles are cut as HandleOptions has them. Throws Error: InvalidInput if
+/// the mesh encloses no volume, or if it has overhangs and a larger handle or walls too thin for
+/// the degree, and as spread_over_directions; Cancelled.
 SampleGrain sample_grain(const IndexedMesh& mesh, const SampleGrids& grids,
                          const Execution& execution);
 

@@ -221,18 +221,28 @@ Choice exchanged(const StepFunctions& steps, const TemplateOptions& options,
   return best;
 }
 
-std::vector<double> distances(const Eigen::MatrixXd& standard, const std::vector<double>& sample,
+/// The distributions of the descriptors in the sample. They are sorted once, since a sample may
+/// have 100,000 grains.
+std::vector<Distribution> sample_distributions(const Eigen::MatrixXd& standard,
+                                               const std::vector<double>& shares) {
+  const Eigen::Map<const Eigen::VectorXd> weights(shares.data(), at(shares.size()));
+  std::vector<Distribution> sample;
+  for (Index j = 0; j < standard.cols(); ++j) sample.emplace_back(standard.col(j), weights);
+  return sample;
+}
+
+std::vector<double> distances(const Eigen::MatrixXd& standard,
+                              const std::vector<Distribution>& sample,
                               const std::vector<std::size_t>& grains,
                               const std::vector<double>& weights) {
-  const Eigen::Map<const Eigen::VectorXd> sample_weights(sample.data(), at(sample.size()));
   const Eigen::Map<const Eigen::VectorXd> chosen_weights(weights.data(), at(weights.size()));
   Eigen::VectorXd chosen(at(grains.size()));
   std::vector<double> found;
   for (Index j = 0; j < standard.cols(); ++j) {
     for (std::size_t k = 0; k < grains.size(); ++k) chosen[at(k)] = standard(at(grains[k]), j);
-    found.push_back(distance_between(Distribution(chosen, chosen_weights),
-                                     Distribution(standard.col(j), sample_weights))
-                        .wasserstein);
+    found.push_back(
+        distance_between(Distribution(chosen, chosen_weights), sample[static_cast<std::size_t>(j)])
+            .wasserstein);
   }
   return found;
 }
@@ -251,7 +261,8 @@ double sum_of(const std::vector<double>& values) {
 /// functions are apart there. The best of all rounds.
 std::vector<double> absolute_weights(const StepFunctions& steps, int which,
                                      const Eigen::MatrixXd& standard,
-                                     const std::vector<double>& sample, const Choice& choice) {
+                                     const std::vector<Distribution>& sample,
+                                     const Choice& choice) {
   std::vector<double> best = scaled_to_one(choice.weights[which]);
   double least = sum_of(distances(standard, sample, choice.grains, best));
   std::vector<double> now = best;
@@ -316,8 +327,8 @@ Eigen::MatrixXd standardised(const Eigen::MatrixXd& descriptors, const std::vect
 }
 
 TemplateDistances random_distances(const Eigen::MatrixXd& standard,
-                                   const std::vector<double>& equal,
-                                   const std::vector<double>& masses,
+                                   const std::vector<Distribution>& by_number,
+                                   const std::vector<Distribution>& by_mass,
                                    const TemplateOptions& options) {
   const auto descriptors = static_cast<std::size_t>(standard.cols());
   TemplateDistances mean{std::vector<double>(descriptors, 0.0),
@@ -325,10 +336,10 @@ TemplateDistances random_distances(const Eigen::MatrixXd& standard,
   const std::vector<double> weights(static_cast<std::size_t>(options.count), 1.0);
   for (int choice = 0; choice < random_choices; ++choice) {
     RandomStream random(options.seed, 1, static_cast<std::uint64_t>(choice));
-    const std::vector<std::size_t> grains =
-        random_grains(equal.size(), static_cast<std::size_t>(options.count), random);
-    const std::vector<double> number = distances(standard, equal, grains, weights);
-    const std::vector<double> mass = distances(standard, masses, grains, weights);
+    const std::vector<std::size_t> grains = random_grains(
+        static_cast<std::size_t>(standard.rows()), static_cast<std::size_t>(options.count), random);
+    const std::vector<double> number = distances(standard, by_number, grains, weights);
+    const std::vector<double> mass = distances(standard, by_mass, grains, weights);
     for (std::size_t j = 0; j < descriptors; ++j) {
       mean.by_number[j] += number[j] / random_choices;
       mean.by_mass[j] += mass[j] / random_choices;
@@ -345,7 +356,10 @@ SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
   const Eigen::MatrixXd standard = standardised(descriptors, masses, options);
   const std::vector<double> equal(masses.size(), 1.0 / static_cast<double>(masses.size()));
   std::vector<double> mass_shares = masses;
-  for (double& mass : mass_shares) mass /= sum_of(masses);
+  const double whole = sum_of(masses);
+  for (double& mass : mass_shares) mass /= whole;
+  const std::vector<Distribution> sample_by_number = sample_distributions(standard, equal);
+  const std::vector<Distribution> sample_by_mass = sample_distributions(standard, mass_shares);
   SampleTemplates templates;
   if (masses.size() == static_cast<std::size_t>(options.count)) {
     templates.grains.resize(masses.size());
@@ -355,8 +369,9 @@ SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
   } else {
     const StepFunctions steps(standard, mass_shares);
     const Choice choice = exchanged(steps, options, execution);
-    const std::vector<double> number = absolute_weights(steps, 0, standard, equal, choice);
-    const std::vector<double> mass = absolute_weights(steps, 1, standard, mass_shares, choice);
+    const std::vector<double> number =
+        absolute_weights(steps, 0, standard, sample_by_number, choice);
+    const std::vector<double> mass = absolute_weights(steps, 1, standard, sample_by_mass, choice);
     std::vector<std::size_t> order(choice.grains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
@@ -367,9 +382,9 @@ SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
       templates.by_mass.push_back(mass[k]);
     }
   }
-  templates.reached = {distances(standard, equal, templates.grains, templates.by_number),
-                       distances(standard, mass_shares, templates.grains, templates.by_mass)};
-  templates.random = random_distances(standard, equal, mass_shares, options);
+  templates.reached = {distances(standard, sample_by_number, templates.grains, templates.by_number),
+                       distances(standard, sample_by_mass, templates.grains, templates.by_mass)};
+  templates.random = random_distances(standard, sample_by_number, sample_by_mass, options);
   templates.stands_for.resize(masses.size());
   for (std::size_t i = 0; i < masses.size(); ++i) {
     double least = std::numeric_limits<double>::infinity();
