@@ -47,8 +47,8 @@ bool loop_holds(const std::vector<Vector3>& points, const std::vector<SolidEdge>
     const Vector3& a = points[i];
     const Vector3& b = points[j];
     if ((a[axes[1]] > p[axes[1]]) == (b[axes[1]] > p[axes[1]])) continue;
-    const double share = (p[axes[1]] - a[axes[1]]) / (b[axes[1]] - a[axes[1]]);
-    if (p[axes[0]] < a[axes[0]] + share * (b[axes[0]] - a[axes[0]])) inside = !inside;
+    const double fraction = (p[axes[1]] - a[axes[1]]) / (b[axes[1]] - a[axes[1]]);
+    if (p[axes[0]] < a[axes[0]] + fraction * (b[axes[0]] - a[axes[0]])) inside = !inside;
   }
   return inside;
 }
@@ -206,8 +206,8 @@ SolidCut CutSolid::cut(const CutPlane& plane, double on_plane) const {
     const auto [found, is_new] =
         crossings.try_emplace(edge_key(a, b), static_cast<std::int32_t>(points.size()));
     if (is_new) {
-      const double share = std::clamp(heights[a] / (heights[a] - heights[b]), 0.0, 1.0);
-      const Vector3 point = points[a] + share * (points[b] - points[a]);
+      const double fraction = std::clamp(heights[a] / (heights[a] - heights[b]), 0.0, 1.0);
+      const Vector3 point = points[a] + fraction * (points[b] - points[a]);
       points.push_back(point);
     }
     return found->second;
