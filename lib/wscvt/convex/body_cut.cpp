@@ -133,7 +133,8 @@ CutSolid::CutSolid(const IndexedMesh& mesh) : points_(mesh.points) {
   for (const auto& [a, b] : edges_) {
     const auto back = sides.find(edge_key(b, a));
     if (back == sides.end() || back->second != 1) {
-      refuse("The mesh is not closed, or more than two triangles share an edge; repair it first.");
+      refuse(
+          "The mesh is not closed, or an edge has more than two triangles; repair the mesh first.");
     }
   }
   volume_ = mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), Execution(1)).volume();
