@@ -128,7 +128,7 @@ TEST(CutTree, MovedPlanesCostLessAndTheirPiecesFillTheGrain) {
   const SignedGrid grid(body, 40, Execution(2));
   const HullCost cost(grid, 0.01);
   CutTree tree(body, Eigen::Matrix3d::Identity(), cost);
-  tree.cut(5, Execution(2));
+  tree.cut(5, 1.0, Execution(2));
   std::vector<PieceGroup> groups = tree.groups();
   ASSERT_GE(groups.size(), 5U);
   const double before = total_cost(groups);
@@ -139,12 +139,15 @@ TEST(CutTree, MovedPlanesCostLessAndTheirPiecesFillTheGrain) {
   EXPECT_NEAR(volume, volume_of(body), 1e-10);
   // What the groups say of themselves is what their pieces are.
   EXPECT_NEAR(total_cost(tree.groups()), total_cost(groups), 1e-9 * before);
-  std::size_t points = 0;
-  for (const auto& own : tree.points_of_groups(body, groups, Execution(1))) {
-    EXPECT_FALSE(own.empty());
-    points += own.size();
+  // Another mesh of the grain: its own hulls and volumes.
+  const IndexedMesh finer = test::transformed(test::torus(1.0, 0.35, 30), linear);
+  volume = 0.0;
+  for (const PieceGroup& group : tree.groups_of(finer, groups, Execution(1))) {
+    ASSERT_FALSE(group.body.empty());
+    EXPECT_GE(group.body.volume, group.volume);
+    volume += group.volume;
   }
-  EXPECT_GT(points, body.points.size());
+  EXPECT_NEAR(volume, volume_of(finer), 1e-10);
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ class Joining {
       : groups_(std::move(groups)), cost_(cost), execution_(execution) {
     for (std::size_t a = 0; a < groups_.size(); ++a) {
       boxes_.push_back(box_of(groups_[a]));
+      if (groups_[a].body.empty()) continue;
       for (std::size_t b = 0; b < a; ++b) add_pair(b, a);
     }
     measure(0);
@@ -143,12 +144,22 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
   const double radius = std::cbrt(3.0 * shape.volume / (4.0 * pi));
   const auto count = static_cast<std::size_t>(options.parts);
   execution.report(0.0, "Cutting into convex parts");
-  const SignedGrid grid(mesh, cells, execution.part(0.0, 0.1));
+  const SignedGrid grid(scan.triangles.empty() ? mesh : scan, cells, execution.part(0.0, 0.1));
   const HullCost cost(grid, 0.01 * options.tolerance * radius);
-  CutTree tree(mesh, shape.principal_axes.toRotationMatrix(), cost);
-  tree.cut(pieces_a_part * count, execution.part(0.1, 0.5));
+  const Eigen::Matrix3d axes = shape.principal_axes.toRotationMatrix();
+  CutTree tree(mesh, axes, cost);
+  tree.cut(pieces_a_part * count, 1.0, execution.part(0.1, 0.3));
   std::vector<PieceGroup> groups =
-      Joining(tree.groups(), cost, execution.part(0.5, 0.55)).run(count);
+      Joining(tree.groups(), cost, execution.part(0.3, 0.35)).run(count);
+  // Costs themselves are best for some grains, their squares for others.
+  CutTree even_tree(mesh, axes, cost);
+  even_tree.cut(pieces_a_part * count, 2.0, execution.part(0.35, 0.5));
+  std::vector<PieceGroup> even_groups =
+      Joining(even_tree.groups(), cost, execution.part(0.5, 0.55)).run(count);
+  if (total_cost(even_groups) < total_cost(groups)) {
+    std::swap(tree, even_tree);
+    std::swap(groups, even_groups);
+  }
   tree.move_planes(groups, execution.part(0.55, 0.7));
   // The planes moved: other pieces may go together now.
   std::vector<PieceGroup> again =
@@ -157,16 +168,11 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
     groups = std::move(again);
     tree.move_planes(groups, execution.part(0.75, 0.85));
   }
+  if (!scan.triangles.empty()) groups = tree.groups_of(scan, groups, execution.part(0.85, 0.9));
+  // Hulls of the scan may need fewer parts than those of the mesh, whose edges are rounder.
+  groups = Joining(std::move(groups), cost, execution.part(0.9, 0.95)).run(count);
   std::vector<ConvexBody> bodies;
-  if (scan.triangles.empty()) {
-    for (PieceGroup& group : groups) bodies.push_back(std::move(group.body));
-    return bodies;
-  }
-  for (const std::vector<Vector3>& points :
-       tree.points_of_groups(scan, groups, execution.part(0.85, 0.9))) {
-    ConvexBody body = convex_body(points);
-    if (!body.empty()) bodies.push_back(std::move(body));
-  }
+  for (PieceGroup& group : groups) bodies.push_back(std::move(group.body));
   return bodies;
 }
 
@@ -184,7 +190,7 @@ ConvexParts convex_parts(const IndexedMesh& mesh, const IndexedMesh& scan,
   }
   ConvexParts parts;
   for (const ConvexBody& body : bodies) {
-    execution.report(0.9, "Making hulls");
+    execution.report(0.95, "Making hulls");
     parts.push_back(with_fewer_faces(body, options.faces).hull);
   }
   return parts;

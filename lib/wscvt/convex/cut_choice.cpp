@@ -10,12 +10,13 @@
 
 namespace wscvt {
 
-HullCost::HullCost(const SignedGrid& grid, double tolerance) : grid_(grid), tolerance_(tolerance) {}
+HullCost::HullCost(const SignedGrid& grid, double tolerance)
+    : grid_(&grid), tolerance_(tolerance) {}
 
 double HullCost::distance(const ConvexBody& body) const {
   constexpr int most_steps = 16;
   const IndexedMesh& hull = body.hull;
-  const double step = 2.0 * grid_.spacing();
+  const double step = 2.0 * grid_->spacing();
   double most = 0.0;
   Vector3 farthest = hull.points.front();
   for (const auto& [a, b, c] : hull.triangles) {
@@ -28,14 +29,14 @@ double HullCost::distance(const ConvexBody& body) const {
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; i + j <= steps; ++j) {
         const Vector3 point = p + (i * u + j * v) / std::max(steps, 1);
-        const double distance = grid_.at(point);
+        const double distance = grid_->at(point);
         if (!(distance > most)) continue;
         most = distance;
         farthest = point;
       }
     }
   }
-  return grid_.distance_beyond(0.0, farthest);
+  return grid_->distance_beyond(0.0, farthest);
 }
 
 double HullCost::operator()(const ConvexBody& body, double volume) const {
@@ -45,10 +46,10 @@ double HullCost::operator()(const ConvexBody& body, double volume) const {
 
 namespace {
 
-/// What the hulls of a cut's pieces cost; without distances, their volume beyond the piece's.
-/// Infinite if the plane misses the piece.
+/// The powers of the costs of the hulls of a cut's pieces, added; without distances the costs are
+/// the volumes beyond the pieces'. Infinite if the plane misses the piece.
 double cut_cost(const CutSolid& solid, const CutPlane& plane, const HullCost& hull_cost,
-                bool with_distances) {
+                double power, bool with_distances) {
   const SolidCut cut = solid.cut(plane, hull_cost.on_plane());
   if (cut.above.empty() || cut.below.empty()) return std::numeric_limits<double>::infinity();
   double cost = 0.0;
@@ -56,7 +57,9 @@ double cut_cost(const CutSolid& solid, const CutPlane& plane, const HullCost& hu
     for (const CutSolid& piece : *side) {
       const ConvexBody body = convex_body(piece.points());
       if (body.empty()) continue;
-      cost += with_distances ? hull_cost(body, piece.volume()) : body.volume - piece.volume();
+      const double of_piece = with_distances ? hull_cost(body, piece.volume())
+                                             : std::max(0.0, body.volume - piece.volume());
+      cost += std::pow(of_piece, power);
     }
   }
   return cost;
@@ -164,7 +167,7 @@ std::vector<CutPlane> sorted_by(const std::vector<CutPlane>& planes, std::size_t
 }  // namespace
 
 std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
-                                const Eigen::Matrix3d& axes, const HullCost& cost,
+                                const Eigen::Matrix3d& axes, const HullCost& cost, double power,
                                 const Execution& execution) {
   std::vector<CutPlane> planes;
   add_edge_cuts(solid, body, planes);
@@ -172,10 +175,12 @@ std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
   add_dent_cuts(solid, body, axes, planes);
   // Those that leave the least volume too much, and of them those that come nearest.
   constexpr std::size_t measured = 24;
-  planes = sorted_by(planes, planes.size(), execution,
-                     [&](const CutPlane& plane) { return cut_cost(solid, plane, cost, false); });
-  return sorted_by(planes, measured, execution,
-                   [&](const CutPlane& plane) { return cut_cost(solid, plane, cost, true); });
+  planes = sorted_by(planes, planes.size(), execution, [&](const CutPlane& plane) {
+    return cut_cost(solid, plane, cost, power, false);
+  });
+  return sorted_by(planes, measured, execution, [&](const CutPlane& plane) {
+    return cut_cost(solid, plane, cost, power, true);
+  });
 }
 
 }  // namespace wscvt

@@ -37,18 +37,20 @@ class HullCost {
   double tolerance() const { return tolerance_; }
 
   /// Points nearer to a plane lie in it; length.
-  double on_plane() const { return 1e-9 * grid_.spacing(); }
+  double on_plane() const { return 1e-9 * grid_->spacing(); }
 
  private:
-  const SignedGrid& grid_;
+  const SignedGrid* grid_;
   double tolerance_;
 };
 
 /// The planes to cut a piece with, the best first: of slices along the grain's axes, of planes
-/// through the deepest dents and along reflex edges those whose two sides have hulls of the least
-/// cost. `axes` has the axes as columns. The same on any number of threads.
+/// through the deepest dents and along reflex edges those with the smallest sum of the costs of the
+/// hulls on both sides, each to the power `power`. With 1 a cut that gains nothing at once is not
+/// made, such as the first across a ring; above 1 even halves are better. `axes` has the axes as
+/// columns. The same on any number of threads.
 std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
-                                const Eigen::Matrix3d& axes, const HullCost& cost,
+                                const Eigen::Matrix3d& axes, const HullCost& cost, double power,
                                 const Execution& execution);
 
 }  // namespace wscvt

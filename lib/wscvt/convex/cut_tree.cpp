@@ -54,7 +54,7 @@ void CutTree::add_node(CutSolid solid) {
   nodes_.push_back({std::move(solid), std::move(body), CutPlane(), {}, {}});
 }
 
-void CutTree::cut(std::size_t count, const Execution& execution) {
+void CutTree::cut(std::size_t count, double power, const Execution& execution) {
   std::vector<double> costs;  // zero of nodes that are not to be cut
   for (std::size_t pieces = 1; pieces < count;) {
     execution.report(static_cast<double>(pieces) / static_cast<double>(count),
@@ -69,7 +69,7 @@ void CutTree::cut(std::size_t count, const Execution& execution) {
     *worst = 0.0;
     const auto n = static_cast<std::size_t>(worst - costs.begin());
     const std::vector<CutPlane> planes =
-        best_cuts(nodes_[n].solid, nodes_[n].body, axes_, cost_, execution);
+        best_cuts(nodes_[n].solid, nodes_[n].body, axes_, cost_, power, execution);
     if (planes.empty()) continue;
     nodes_[n].plane = planes.front();
     SolidCut cut = nodes_[n].solid.cut(planes.front(), cost_.on_plane());
@@ -81,7 +81,11 @@ void CutTree::cut(std::size_t count, const Execution& execution) {
       nodes_[n].below.push_back(nodes_.size());
       add_node(std::move(solid));
     }
-    pieces += nodes_[n].above.size() + nodes_[n].below.size() - 1;
+    // Crumbs of a rough surface, each some thousandths of a part, are no pieces to join parts of.
+    const double crumb = 0.01 * nodes_.front().solid.volume() / static_cast<double>(count);
+    pieces = 0;
+    for (const Node& node : nodes_)
+      pieces += node.is_piece() && node.solid.volume() > crumb ? 1 : 0;
   }
 }
 
@@ -207,16 +211,16 @@ void CutTree::move_planes(std::vector<PieceGroup>& groups, const Execution& exec
   }
 }
 
-void CutTree::collect_points(std::size_t node, const CutSolid& solid,
-                             const std::vector<std::size_t>& group_of,
-                             std::vector<std::vector<Vector3>>& points,
-                             const Execution& execution) const {
+void CutTree::collect(std::size_t node, const CutSolid& solid,
+                      const std::vector<std::size_t>& group_of, std::vector<PieceGroup>& groups,
+                      std::vector<std::vector<Vector3>>& points, const Execution& execution) const {
   execution.report(0.0, "Cutting the scan");
   const Node& old = nodes_[node];
   if (old.is_piece()) {
-    if (group_of[node] == no_group) return;
-    std::vector<Vector3>& own = points[group_of[node]];
-    own.insert(own.end(), solid.points().begin(), solid.points().end());
+    const std::size_t g = group_of[node];
+    if (g == no_group) return;
+    groups[g].volume += solid.volume();
+    points[g].insert(points[g].end(), solid.points().begin(), solid.points().end());
     return;
   }
   SolidCut cut = solid.cut(old.plane, cost_.on_plane());
@@ -236,7 +240,7 @@ void CutTree::collect_points(std::size_t node, const CutSolid& solid,
         least = most;
         nearest = child;
       }
-      collect_points(nearest, part, group_of, points, execution);
+      collect(nearest, part, group_of, groups, points, execution);
     }
   };
   // A plane that misses this mesh leaves all of it on one side.
@@ -249,12 +253,18 @@ void CutTree::collect_points(std::size_t node, const CutSolid& solid,
   go_on(old.below, cut.below);
 }
 
-std::vector<std::vector<Vector3>> CutTree::points_of_groups(const IndexedMesh& mesh,
-                                                            const std::vector<PieceGroup>& groups,
-                                                            const Execution& execution) const {
+std::vector<PieceGroup> CutTree::groups_of(const IndexedMesh& mesh,
+                                           const std::vector<PieceGroup>& groups,
+                                           const Execution& execution) const {
+  std::vector<PieceGroup> result(groups.size());
   std::vector<std::vector<Vector3>> points(groups.size());
-  collect_points(0, CutSolid(mesh), group_of_nodes(groups), points, execution);
-  return points;
+  collect(0, CutSolid(mesh), group_of_nodes(groups), result, points, execution);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    result[g].pieces = groups[g].pieces;
+    result[g].body = convex_body(points[g]);
+    if (!result[g].body.empty()) result[g].cost = cost_(result[g].body, result[g].volume);
+  }
+  return result;
 }
 
 }  // namespace wscvt

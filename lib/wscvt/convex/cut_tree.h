@@ -30,8 +30,9 @@ class CutTree {
   CutTree(const IndexedMesh& mesh, const Eigen::Matrix3d& axes, const HullCost& cost);
 
   /// Cuts the piece of the highest cost, again and again, until `count` pieces are there, or few
-  /// more. Pieces whose hull is within the tolerance of the grain are not cut.
-  void cut(std::size_t count, const Execution& execution);
+  /// more; crumbs are not counted. Pieces whose hull is within the tolerance of the grain are not
+  /// cut. `power`: see best_cuts.
+  void cut(std::size_t count, double power, const Execution& execution);
 
   /// One group per piece. Pieces in a plane are left out.
   std::vector<PieceGroup> groups() const;
@@ -39,11 +40,11 @@ class CutTree {
   /// Moves and turns the planes as long as the total cost of the groups decreases.
   void move_planes(std::vector<PieceGroup>& groups, const Execution& execution);
 
-  /// Cuts another mesh of the same grain, such as its scan, by the planes, and returns the points
-  /// of each group. Throws Error(InvalidInput) if the mesh is not closed.
-  std::vector<std::vector<Vector3>> points_of_groups(const IndexedMesh& mesh,
-                                                     const std::vector<PieceGroup>& groups,
-                                                     const Execution& execution) const;
+  /// Cuts another mesh of the same grain, such as its scan, by the planes, and returns the groups
+  /// with bodies and volumes of that mesh. A body may be empty. Throws Error(InvalidInput) if the
+  /// mesh is not closed.
+  std::vector<PieceGroup> groups_of(const IndexedMesh& mesh, const std::vector<PieceGroup>& groups,
+                                    const Execution& execution) const;
 
  private:
   struct Node {
@@ -64,13 +65,13 @@ class CutTree {
   bool move_plane(std::size_t node, double step, std::vector<PieceGroup>& groups,
                   const std::vector<std::size_t>& group_of, const Execution& execution);
   std::vector<std::size_t> group_of_nodes(const std::vector<PieceGroup>& groups) const;
-  void collect_points(std::size_t node, const CutSolid& solid,
-                      const std::vector<std::size_t>& group_of,
-                      std::vector<std::vector<Vector3>>& points, const Execution& execution) const;
+  void collect(std::size_t node, const CutSolid& solid, const std::vector<std::size_t>& group_of,
+               std::vector<PieceGroup>& groups, std::vector<std::vector<Vector3>>& points,
+               const Execution& execution) const;
 
   std::vector<Node> nodes_;
   Eigen::Matrix3d axes_;
-  const HullCost& cost_;
+  HullCost cost_;
 };
 
 }  // namespace wscvt
