@@ -12,6 +12,12 @@
 namespace wscvt {
 namespace {
 
+std::vector<Vector3> filtered(SurfaceLowPass& filter, const std::vector<Vector3>& points,
+                              const std::vector<Vector3>& values, double cutoff) {
+  filter.set_surface(points, cutoff, Execution(1));
+  return filter.filter(values, Execution(1));
+}
+
 /// p(h) for the eigenvalue `square` of the Laplacian.
 double passed(double square, double cutoff) {
   const double wave = cutoff / (2.0 * test::pi);
@@ -28,7 +34,7 @@ TEST(SurfaceLowPass, PassesHarmonicsOfASphereAsItsFormulaSays) {
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
   for (const double cutoff : {1.0, 6.0, 12.0}) {
     SCOPED_TRACE(cutoff);
-    const std::vector<Vector3> low = filter.filter(mesh.points, values, cutoff, Execution(1));
+    const std::vector<Vector3> low = filtered(filter, mesh.points, values, cutoff);
     Vector3 products = Vector3::Zero();
     Vector3 squares = Vector3::Zero();
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -49,7 +55,7 @@ TEST(SurfaceLowPass, KeepsConstantsAndTheMean) {
   std::vector<Vector3> values;
   for (const Vector3& p : mesh.points) values.emplace_back(7.0, p.z() > 0.0 ? 1.0 : 0.0, p.x());
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
-  const std::vector<Vector3> low = filter.filter(mesh.points, values, 1.0, Execution(1));
+  const std::vector<Vector3> low = filtered(filter, mesh.points, values, 1.0);
   double least = 1.0;
   double most = 0.0;
   for (const Vector3& v : low) {
@@ -69,8 +75,8 @@ TEST(SurfaceLowPass, FiltersInTheMetricOfThePointsThatItIsGiven) {
   for (const Vector3& p : mesh.points) values.emplace_back(p.x() * p.y(), 0.0, 0.0);
   const IndexedMesh half = test::moved(mesh, 0.5, Vector3::Zero());
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
-  const std::vector<Vector3> a = filter.filter(mesh.points, values, 2.0, Execution(1));
-  const std::vector<Vector3> b = filter.filter(half.points, values, 1.0, Execution(1));
+  const std::vector<Vector3> a = filtered(filter, mesh.points, values, 2.0);
+  const std::vector<Vector3> b = filtered(filter, half.points, values, 1.0);
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].x(), b[i].x(), 1e-12);
 }
 
@@ -86,7 +92,7 @@ TEST(SurfaceLowPass, StandsFacesWithoutArea) {
   mesh.triangles.push_back({middle, t[1], t[2]});
   mesh.triangles.push_back({middle, t[0], t[1]});
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
-  for (const Vector3& v : filter.filter(mesh.points, mesh.points, 1.0, Execution(1))) {
+  for (const Vector3& v : filtered(filter, mesh.points, mesh.points, 1.0)) {
     EXPECT_TRUE(v.allFinite());
     EXPECT_LT(v.norm(), 1.0);
   }
@@ -95,10 +101,11 @@ TEST(SurfaceLowPass, StandsFacesWithoutArea) {
 TEST(SurfaceLowPass, RefusesWhatDoesNotFit) {
   const IndexedMesh mesh = test::sphere(1);
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
-  EXPECT_ERROR(filter.filter(mesh.points, mesh.points, 0.0, Execution(1)), InvalidInput);
-  EXPECT_ERROR(filter.filter(mesh.points, mesh.points, std::nan(""), Execution(1)), InvalidInput);
-  EXPECT_ERROR(filter.filter(mesh.points, {}, 1.0, Execution(1)), InvalidInput);
-  EXPECT_ERROR(filter.filter({}, mesh.points, 1.0, Execution(1)), InvalidInput);
+  EXPECT_ERROR(filter.set_surface(mesh.points, 0.0, Execution(1)), InvalidInput);
+  EXPECT_ERROR(filter.set_surface(mesh.points, std::nan(""), Execution(1)), InvalidInput);
+  EXPECT_ERROR(filter.set_surface({}, 1.0, Execution(1)), InvalidInput);
+  filter.set_surface(mesh.points, 1.0, Execution(1));
+  EXPECT_ERROR(filter.filter({}, Execution(1)), InvalidInput);
 }
 
 }  // namespace

@@ -29,11 +29,10 @@ struct Heights {
   std::vector<double> z;           ///< at each vertex; length
 };
 
-/// Of `points` above their own low-pass, in the metric of `metric`.
-Heights heights_above(const std::vector<Vector3>& points, const std::vector<Vector3>& metric,
-                      const std::vector<Triangle>& triangles, double cutoff, SurfaceLowPass& filter,
-                      const Execution& execution) {
-  const std::vector<Vector3> low = filter.filter(metric, points, cutoff, execution);
+/// Of `points` above their own low-pass.
+Heights heights_above(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
+                      const SurfaceLowPass& filter, const Execution& execution) {
+  const std::vector<Vector3> low = filter.filter(points, execution);
   const std::vector<Vector3> normals = vertex_normals(low, triangles);
   Heights heights;
   heights.reference.reserve(points.size());
@@ -99,13 +98,16 @@ Roughness surface_roughness(const IndexedMesh& mesh, double cutoff, const Execut
                     format_number(least, 4) + " or more; give a larger cut-off or a denser mesh.");
   }
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
-  const Heights first = heights_above(mesh.points, mesh.points, mesh.triangles, cutoff, filter,
-                                      execution.part(0.0, 0.33));
-  const Heights second = heights_above(mesh.points, first.reference, mesh.triangles, cutoff, filter,
-                                       execution.part(0.33, 0.67));
+  filter.set_surface(mesh.points, cutoff, execution);
+  const Heights first =
+      heights_above(mesh.points, mesh.triangles, filter, execution.part(0.0, 0.33));
+  filter.set_surface(first.reference, cutoff, execution.part(0.33, 0.67));
+  const Heights second =
+      heights_above(mesh.points, mesh.triangles, filter, execution.part(0.33, 0.67));
   // What the filter takes off a surface without short waves is the form that leaks.
-  const Heights leaked = heights_above(second.reference, second.reference, mesh.triangles, cutoff,
-                                       filter, execution.part(0.67, 1.0));
+  filter.set_surface(second.reference, cutoff, execution.part(0.67, 1.0));
+  const Heights leaked =
+      heights_above(second.reference, mesh.triangles, filter, execution.part(0.67, 1.0));
 
   const HeightMoments moments = moments_of(second, mesh.triangles);
   Roughness result;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
+#include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
@@ -33,7 +35,7 @@ Operators operators(const std::vector<Triangle>& triangles, const std::vector<Ve
                     double t) {
   Operators result;
   result.areas = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points.size()));
-  result.entries.reserve(9 * triangles.size());
+  result.entries.reserve(6 * triangles.size());
   const auto add = [&](int row, int column, double value) {
     result.entries.emplace_back(std::max(row, column), std::min(row, column), value);
   };
@@ -46,16 +48,14 @@ Operators operators(const std::vector<Triangle>& triangles, const std::vector<Ve
     }
     const double area = std::max(doubled_area_normal(p[0], p[1], p[2]).norm(), thinnest * longest);
     if (!(area > 0.0)) continue;
+    std::array<double, 3> weights;  // of the edges across from the corners
     for (std::size_t k = 0; k < 3; ++k) {
-      const int i = face[following(k)];
-      const int j = face[preceding(k)];
-      const double half_cotangent =
-          0.5 * (p[following(k)] - p[k]).dot(p[preceding(k)] - p[k]) / area;
+      weights[k] = 0.5 * t / area * (p[following(k)] - p[k]).dot(p[preceding(k)] - p[k]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
       result.areas[face[k]] += area / 6.0;
-      add(face[k], face[k], area / 6.0);
-      add(i, i, t * half_cotangent);
-      add(j, j, t * half_cotangent);
-      add(i, j, -t * half_cotangent);
+      add(face[k], face[k], area / 6.0 + weights[following(k)] + weights[preceding(k)]);
+      add(face[following(k)], face[preceding(k)], -weights[k]);
     }
   }
   return result;
@@ -66,6 +66,35 @@ Eigen::SparseMatrix<double> matrix_of(const std::vector<Triplet>& entries, std::
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
+}
+
+/// Three functions; the fourth number is 0, so that two at a time are worked on.
+using Value = Eigen::Vector4d;
+
+/// Solves L L^T x = b in place, all functions at once: Eigen takes them one by one.
+void solve(const Eigen::SparseMatrix<double>& factor, std::vector<Value>& b) {
+  const int* const starts = factor.outerIndexPtr();
+  const int* const rows = factor.innerIndexPtr();
+  const double* const entries = factor.valuePtr();
+  const auto size = static_cast<std::ptrdiff_t>(b.size());
+  for (std::ptrdiff_t j = 0; j < size; ++j) {
+    const std::ptrdiff_t begin = starts[j];  // the diagonal
+    Value& here = b[static_cast<std::size_t>(j)];
+    here /= entries[begin];
+    const Value value = here;
+    for (std::ptrdiff_t k = begin + 1; k < starts[j + 1]; ++k) {
+      b[index(rows[k])] -= entries[k] * value;
+    }
+  }
+  for (std::ptrdiff_t j = size - 1; j >= 0; --j) {
+    const std::ptrdiff_t begin = starts[j];
+    Value& here = b[static_cast<std::size_t>(j)];
+    Value rest = here;
+    for (std::ptrdiff_t k = begin + 1; k < starts[j + 1]; ++k) {
+      rest -= entries[k] * b[index(rows[k])];
+    }
+    here = rest / entries[begin];
+  }
 }
 
 }  // namespace
@@ -86,41 +115,63 @@ SurfaceLowPass::SurfaceLowPass(const std::vector<Triangle>& triangles, std::size
   solver_.analyzePattern(matrix_of(entries, vertices));
 }
 
-std::vector<Vector3> SurfaceLowPass::filter(const std::vector<Vector3>& points,
-                                            const std::vector<Vector3>& values, double cutoff,
-                                            const Execution& execution) {
+void SurfaceLowPass::check_count(std::size_t count) const {
+  if (count == vertices_) return;
+  throw Error(ErrorCode::InvalidInput, "The surface filter was made for " +
+                                           std::to_string(vertices_) + " vertices, and got " +
+                                           std::to_string(count) +
+                                           " points or values; give one of each per vertex.");
+}
+
+void SurfaceLowPass::set_surface(const std::vector<Vector3>& points, double cutoff,
+                                 const Execution& execution) {
   if (!(cutoff > 0.0)) {
     throw Error(ErrorCode::InvalidInput, "The cut-off length of the surface filter is " +
                                              format_number(cutoff) + "; give a positive length.");
   }
-  if (points.size() != vertices_ || values.size() != vertices_) {
-    throw Error(ErrorCode::InvalidInput,
-                "The surface filter was made for " + std::to_string(vertices_) +
-                    " vertices, and got " + std::to_string(points.size()) + " points and " +
-                    std::to_string(values.size()) + " values; give one of each per vertex.");
-  }
+  check_count(points.size());
   execution.report(0.0, low_pass_stage);
   const double wave = cutoff / (2.0 * pi);
-  const Operators o = operators(triangles_, points, wave * wave);
-  solver_.factorize(matrix_of(o.entries, vertices_));
+  Operators o = operators(triangles_, points, wave * wave);
+  const SparseMatrix matrix = matrix_of(o.entries, vertices_);
+  o.entries = {};  // before the factor needs memory
+  solver_.factorize(matrix);
   if (solver_.info() != Eigen::Success) {
     throw Error(ErrorCode::NumericalFailure,
                 "The surface filter's equations have no solution; check the mesh for vertices "
                 "without faces.");
   }
+  areas_ = std::move(o.areas);
+}
+
+std::vector<Vector3> SurfaceLowPass::filter(const std::vector<Vector3>& values,
+                                            const Execution& execution) const {
+  check_count(values.size());
+  // In the order of elimination.
   const auto rows = static_cast<Eigen::Index>(vertices_);
-  Eigen::MatrixXd step(rows, 3);
-  for (Eigen::Index i = 0; i < rows; ++i) step.row(i) = values[static_cast<std::size_t>(i)];
+  const auto& order = solver_.permutationP().indices();
+  const SparseMatrix& factor = solver_.matrixL().nestedExpression();
+  std::vector<Value> step(vertices_);
+  std::vector<double> areas(vertices_);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const std::size_t row = index(order[i]);
+    step[row] << values[static_cast<std::size_t>(i)], 0.0;
+    areas[row] = areas_[i];
+  }
   // p(h) by Horner's rule would need h of each power anew; the powers one after another are it.
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, 3);
+  std::vector<Value> sum(vertices_, Value::Zero());
   constexpr std::array<double, 6> polynomial = {0.0, 0.0, 0.0, 10.0, -15.0, 6.0};
   for (std::size_t power = 1; power < polynomial.size(); ++power) {
     execution.report(static_cast<double>(power) / polynomial.size(), low_pass_stage);
-    step = solver_.solve(o.areas.asDiagonal() * step).eval();
-    if (polynomial[power] != 0.0) sum += polynomial[power] * step;
+    for (std::size_t i = 0; i < vertices_; ++i) step[i] *= areas[i];
+    solve(factor, step);
+    if (polynomial[power] == 0.0) continue;
+    for (std::size_t i = 0; i < vertices_; ++i) sum[i] += polynomial[power] * step[i];
   }
   std::vector<Vector3> result(vertices_);
-  for (Eigen::Index i = 0; i < rows; ++i) result[static_cast<std::size_t>(i)] = sum.row(i);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    result[static_cast<std::size_t>(i)] = sum[index(order[i])].head<3>();
+  }
   return result;
 }
 

@@ -25,20 +25,24 @@ class SurfaceLowPass {
   /// alone and is found once, here.
   SurfaceLowPass(const std::vector<Triangle>& triangles, std::size_t vertices);
 
-  /// The filtered values of three functions that are given at the vertices, on the surface of the
-  /// triangles between `points`; the two are often the same. `cutoff` > 0: a wave length, in the
-  /// unit of the points. Faces thinner than 1e-4 of the square of their longest edge count as that
-  /// large. Throws Error(InvalidInput) for a cut-off that is not positive and for numbers of points
-  /// or values that do not fit, Error(NumericalFailure) where the equations have no solution.
-  std::vector<Vector3> filter(const std::vector<Vector3>& points,
-                              const std::vector<Vector3>& values, double cutoff,
-                              const Execution& execution);
+  /// Takes the surface of the triangles between `points` for the next values. `cutoff` > 0: a wave
+  /// length, in the unit of the points. Faces thinner than 1e-4 of the square of their longest edge
+  /// count as that large. Throws Error(InvalidInput) for a cut-off that is not positive and for
+  /// another number of points, Error(NumericalFailure) where the equations have no solution.
+  void set_surface(const std::vector<Vector3>& points, double cutoff, const Execution& execution);
+
+  /// Returns the filtered values of three functions that are given at the vertices, on the surface
+  /// that was set last. Throws Error(InvalidInput) for another number of values.
+  std::vector<Vector3> filter(const std::vector<Vector3>& values, const Execution& execution) const;
 
  private:
   using SparseMatrix = Eigen::SparseMatrix<double>;
 
+  void check_count(std::size_t count) const;
+
   std::vector<Triangle> triangles_;
   std::size_t vertices_ = 0;
+  Eigen::VectorXd areas_;
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> solver_;
 };
 
