@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "wscvt/base/triangle_geometry.h"
 
@@ -176,11 +177,11 @@ std::size_t FaceBoxes::nearby_face(const Vector3& point) const {
 }
 
 double FaceBoxes::search(const Vector3& point, std::size_t& face) const {
-  double nearest = squared_distance(faces_[face], point);
+  double nearest = wscvt::squared_distance(faces_[face], point);
   // A start as far as the face is large is no better than what a walk down the tree comes to.
   if (nearest > (faces_[face][1] - faces_[face][0]).squaredNorm()) {
     face = nearby_face(point);
-    nearest = squared_distance(faces_[face], point);
+    nearest = wscvt::squared_distance(faces_[face], point);
   }
   for (std::size_t i = 0; i < nodes_.size();) {
     const Node& node = nodes_[i];
@@ -191,7 +192,7 @@ double FaceBoxes::search(const Vector3& point, std::size_t& face) const {
     ++i;
     if (node.faces < 0) continue;
     visit_faces(node, [&](std::size_t candidate) {
-      const double distance = squared_distance(faces_[candidate], point);
+      const double distance = wscvt::squared_distance(faces_[candidate], point);
       if (!(distance < nearest)) return;
       nearest = distance;
       face = candidate;
@@ -200,15 +201,71 @@ double FaceBoxes::search(const Vector3& point, std::size_t& face) const {
   return nearest;
 }
 
-Vector3 FaceBoxes::nearest_point(const Vector3& point) const {
-  std::size_t face = 0;
-  search(point, face);
+double FaceBoxes::squared_distance(const Vector3& point, std::size_t& face, double enough) const {
+  double nearest = wscvt::squared_distance(faces_[face], point);
+  // The nearer child first: of a point far inside many faces are nearly as far as the nearest.
+  struct Open {
+    std::size_t node;
+    double square;
+  };
+  std::array<Open, 64> open;  // a level of the tree adds one
+  std::size_t count = 0;
+  open[count++] = {0, nodes_[0].squared_distance(point)};
+  while (count > 0 && nearest > enough) {
+    const Open next = open[--count];
+    if (next.square >= nearest) continue;
+    const Node& node = nodes_[next.node];
+    if (node.faces >= 0) {
+      visit_faces(node, [&](std::size_t candidate) {
+        const double square = wscvt::squared_distance(faces_[candidate], point);
+        if (!(square < nearest)) return;
+        nearest = square;
+        face = candidate;
+      });
+      continue;
+    }
+    const std::size_t first = next.node + 1;
+    Open near = {first, nodes_[first].squared_distance(point)};
+    const auto second = static_cast<std::size_t>(nodes_[first].beyond);
+    Open far = {second, nodes_[second].squared_distance(point)};
+    if (far.square < near.square) std::swap(near, far);
+    if (far.square < nearest) open[count++] = far;
+    if (near.square < nearest) open[count++] = near;
+  }
+  return nearest;
+}
+
+Vector3 FaceBoxes::nearest_point_of(std::size_t face, const Vector3& point) const {
   return point + nearest_of(faces_[face], point);
 }
 
+std::vector<std::size_t> FaceBoxes::faces_within(const Vector3& point, double distance) const {
+  std::vector<std::size_t> faces;
+  const double square = distance * distance;
+  for (std::size_t i = 0; i < nodes_.size();) {
+    const Node& node = nodes_[i];
+    if (node.squared_distance(point) > square) {
+      i = static_cast<std::size_t>(node.beyond);
+      continue;
+    }
+    ++i;
+    if (node.faces < 0) continue;
+    visit_faces(node, [&](std::size_t face) {
+      if (wscvt::squared_distance(faces_[face], point) <= square) faces.push_back(face);
+    });
+  }
+  return faces;
+}
+
+Vector3 FaceBoxes::nearest_point(const Vector3& point) const {
+  std::size_t face = nearby_face(point);
+  squared_distance(point, face, 0.0);
+  return nearest_point_of(face, point);
+}
+
 double FaceBoxes::distance(const Vector3& point) const {
-  std::size_t face = 0;
-  return std::sqrt(search(point, face));
+  std::size_t face = nearby_face(point);
+  return std::sqrt(squared_distance(point, face, 0.0));
 }
 
 std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,

@@ -38,6 +38,17 @@ class FaceBoxes {
   std::vector<double> distances(const std::vector<Vector3>& points,
                                 const Execution& execution) const;
 
+  /// The square of `distance`, for points that each have a face near them from the search before:
+  /// `face` is where the search starts, counted in the order of this tree from 0, and becomes the
+  /// nearest. Where the square is at most `enough` the search may end with any face that near.
+  double squared_distance(const Vector3& point, std::size_t& face, double enough) const;
+
+  /// The point of a face, counted as above, that is nearest to `point`.
+  Vector3 nearest_point_of(std::size_t face, const Vector3& point) const;
+
+  /// All faces, counted as above, that are at most `distance` away.
+  std::vector<std::size_t> faces_within(const Vector3& point, double distance) const;
+
   /// The places of the mesh nearest to points; its triangles are counted as there.
   std::vector<MeshPlace> nearest_places(const std::vector<Vector3>& points,
                                         const Execution& execution) const;

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <queue>
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/measures/distances.h"
+#include "wscvt/measures/face_boxes.h"
 
 namespace wscvt {
 
@@ -21,36 +22,236 @@ constexpr double diagonal = 1.7320508075688773;
 struct Cell {
   Vector3 centre = Vector3::Zero();
   double half_edge = 0.0;
-  double depth = 0.0;  ///< of the centre: distance to the surface, negative outside
+  double depth = 0.0;    ///< of the centre: distance to the surface, negative outside
+  double bound = 0.0;    ///< no point of the cell is deeper inside
+  std::size_t face = 0;  ///< near the centre
 
-  /// No point of the cell is deeper inside, since depth changes no faster than the point moves.
-  double bound() const { return depth + diagonal * half_edge; }
-  bool operator<(const Cell& other) const { return bound() < other.bound(); }
+  bool operator<(const Cell& other) const { return bound < other.bound; }
 };
 
-/// Climbs away from the nearest surface point with shrinking steps.
-void climb(const MeshDistance& surface, InscribedSphere& sphere, double first_step) {
-  double step = first_step;
+/// What some points q of the surface say of the depth of all places x, with weights w that add to
+/// 1: the nearest q is not farther than their mean square, so depth^2 <= sum of w |x - q|^2 = |x -
+/// m|^2 + V, m their mean and V their variance. About the centre of a sphere that touches them on
+/// all sides m is the centre, and the bound grows with the square of the distance from there only.
+struct TouchingPoints {
+  Vector3 mean = Vector3::Zero();
+  double variance = 0.0;
+
+  /// No point of a cube is deeper.
+  double bound(const Vector3& centre, double half_edge) const {
+    const Vector3 farthest = (centre - mean).cwiseAbs() + Vector3::Constant(half_edge);
+    return std::sqrt(farthest.squaredNorm() + variance);
+  }
+};
+
+/// Of the points that a sphere nearly touches, weighted so that the bound near its centre is small:
+/// by Frank and Wolfe (1956), steps towards the one point that lessens it most.
+TouchingPoints touching_points(const FaceBoxes& boxes, const InscribedSphere& sphere) {
+  constexpr double nearly = 1.0 + 2e-3;
+  constexpr double balance = 20.0;  // of the mean against larger distances
+  constexpr int steps = 200;
+  constexpr std::size_t enough_points = 256;  // a ball is touched everywhere
+  std::vector<Vector3> points;
+  for (const std::size_t face : boxes.faces_within(sphere.centre, nearly * sphere.radius)) {
+    points.push_back(boxes.nearest_point_of(face, sphere.centre));
+  }
+  Vector3 mean = points.front() - sphere.centre;
+  double square = mean.squaredNorm();  // mean of the squares
+  for (int step = 0; step < steps; ++step) {
+    const auto slope = [&](const Vector3& p) {
+      return p.squaredNorm() + 2.0 * balance * mean.dot(p);
+    };
+    Vector3 best = mean;
+    double least = square + 2.0 * balance * mean.squaredNorm();
+    const double here = least;
+    for (std::size_t i = 0; i < points.size(); i += points.size() / enough_points + 1) {
+      const Vector3 p = points[i] - sphere.centre;
+      const double value = slope(p);
+      if (!(value < least)) continue;
+      least = value;
+      best = p;
+    }
+    const double curvature = 2.0 * balance * (best - mean).squaredNorm();
+    if (!(here - least > 1e-7 * sphere.radius * sphere.radius) || !(curvature > 0.0)) break;
+    const double part = std::min(1.0, (here - least) / curvature);
+    square += part * (best.squaredNorm() - square);
+    mean += part * (best - mean);
+  }
+  return {sphere.centre + mean, std::max(0.0, square - mean.squaredNorm())};
+}
+
+/// Finds nearest points of places that are near each other, from the few faces that can be nearest
+/// there.
+class NearbyFaces {
+ public:
+  NearbyFaces(const FaceBoxes& boxes, std::size_t face) : boxes_(boxes), face_(face) {}
+
+  /// The next places lie within a few `step` of `place`.
+  Vector3 nearest_point(const Vector3& place, double step) {
+    constexpr double steps = 4.0;
+    constexpr double far = 8.0;
+    constexpr double few = 0.01;  // slack for few faces, over the distance
+    const double moved = (place - about_).norm();
+    if (faces_.empty() || moved > slack_ || slack_ > far * steps * step) {
+      const double distance = std::sqrt(boxes_.squared_distance(place, face_, 0.0));
+      about_ = place;
+      slack_ = steps * step;
+      if (slack_ > few * distance) {
+        faces_.clear();
+        return boxes_.nearest_point_of(face_, place);
+      }
+      faces_ = boxes_.faces_within(place, (1.0 + 1e-12) * (distance + 2.0 * slack_));
+    }
+    Vector3 nearest = boxes_.nearest_point_of(faces_.front(), place);
+    for (const std::size_t face : faces_) {
+      const Vector3 point = boxes_.nearest_point_of(face, place);
+      if ((point - place).squaredNorm() < (nearest - place).squaredNorm()) nearest = point;
+    }
+    return nearest;
+  }
+
+ private:
+  const FaceBoxes& boxes_;
+  std::size_t face_;
+  Vector3 about_ = Vector3::Zero();
+  double slack_ = 0.0;  ///< the faces are those for places so near
+  std::vector<std::size_t> faces_;
+};
+
+/// Climbs away from the nearest surface point with shrinking steps. `face` is near the centre.
+void climb(const FaceBoxes& surface, std::size_t face, InscribedSphere& sphere, double first_step) {
+  NearbyFaces faces(surface, face);
+  double step = std::min(first_step, 0.5 * sphere.radius);
+  Vector3 touched = faces.nearest_point(sphere.centre, step);
   while (step > 1e-7 * sphere.radius) {
     for (int attempt = 0; attempt < 4; ++attempt) {
-      const Vector3 away = sphere.centre - surface.nearest_point(sphere.centre);
-      const Vector3 candidate =
-          sphere.centre + std::min(step, 0.5 * sphere.radius) * away.normalized();
+      const Vector3 away = sphere.centre - touched;
       // Within the sphere, so inside the body.
-      const double reached = surface.distance(candidate);
+      const Vector3 candidate = sphere.centre + step * away.normalized();
+      const Vector3 nearest = faces.nearest_point(candidate, step);
+      const double reached = (candidate - nearest).norm();
       if (reached <= sphere.radius) break;
       sphere.centre = candidate;
       sphere.radius = reached;
+      touched = nearest;
     }
     step *= 0.7;
   }
 }
 
+/// Branch and bound.
+class SphereSearch {
+ public:
+  explicit SphereSearch(const FaceBoxes& surface) : surface_(surface) {}
+
+  void begin(const Vector3& centre, double half_edge) {
+    Cell root;
+    root.centre = centre;
+    root.half_edge = half_edge;
+    root.bound = diagonal * 2.0 * half_edge;
+    measure(root, false, 0.0);
+    keep(root);
+  }
+
+  bool is_done() const {
+    return open_.empty() || open_.top().bound <= most() || evaluations_ >= maximum_evaluations;
+  }
+  double share_done() const {
+    return static_cast<double>(evaluations_) / static_cast<double>(maximum_evaluations);
+  }
+
+  /// Cuts the most promising cells in eight.
+  void refine(const Execution& execution) {
+    std::vector<Cell> children;
+    for (std::size_t k = 0; k < cells_at_once && !open_.empty(); ++k) {
+      const Cell parent = open_.top();
+      open_.pop();
+      if (is_settled(parent)) continue;
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vector3 sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
+                           (corner & 4) != 0 ? 1.0 : -1.0);
+        Cell child = parent;  // its depth and bound until they are measured
+        child.half_edge = 0.5 * parent.half_edge;
+        child.centre = parent.centre + child.half_edge * sign;
+        children.push_back(child);
+      }
+    }
+    const double enough = most();
+    execution.parallel_for(children.size(), 8, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) measure(children[i], true, enough);
+    });
+    evaluations_ += children.size();
+    for (const Cell& child : children) keep(child);
+  }
+
+  InscribedSphere result() const {
+    InscribedSphere sphere = best_;
+    sphere.upper_bound = std::max(best_.radius, settled_);
+    if (!open_.empty()) sphere.upper_bound = std::max(sphere.upper_bound, open_.top().bound);
+    return sphere;
+  }
+
+ private:
+  /// Cells that hold no deeper place are done with.
+  double most() const { return (1.0 + tolerance) * best_.radius; }
+
+  bool is_settled(const Cell& cell) {
+    if (cell.bound > most()) return false;
+    settled_ = std::max(settled_, cell.bound);
+    return true;
+  }
+
+  /// Finds depth and bound, as far as the bound is above `enough`.
+  void measure(Cell& cell, bool has_parent, double enough) const {
+    for (const TouchingPoints& points : touching_) {
+      cell.bound = std::min(cell.bound, points.bound(cell.centre, cell.half_edge));
+    }
+    if (has_parent && cell.bound <= enough) return;
+    // Nearer to its parent's centre than the surface is, it lies on the same side.
+    const double reach = diagonal * cell.half_edge;
+    const bool decided = has_parent && std::abs(cell.depth) > reach;
+    const bool inside = decided ? cell.depth > 0.0 : surface_.faces_met(cell.centre) % 2 == 1;
+    // Not so early that what is found could pass for the deepest place.
+    const double near = inside ? std::clamp(enough - reach, 0.0, best_.radius) : 0.0;
+    const double distance =
+        std::sqrt(surface_.squared_distance(cell.centre, cell.face, near * near));
+    cell.depth = inside ? distance : -distance;
+    // Depth changes no faster than the point moves.
+    cell.bound = std::min(cell.bound, cell.depth + reach);
+    if (!inside) return;
+    const TouchingPoints nearest{surface_.nearest_point_of(cell.face, cell.centre), 0.0};
+    cell.bound = std::min(cell.bound, nearest.bound(cell.centre, cell.half_edge));
+  }
+
+  void keep(const Cell& cell) {
+    if (cell.depth > best_.radius) {
+      best_.centre = cell.centre;
+      best_.radius = cell.depth;
+      climb(surface_, cell.face, best_, cell.half_edge);
+      touching_.push_back(touching_points(surface_, best_));
+    }
+    if (!is_settled(cell)) open_.push(cell);
+  }
+
+  const FaceBoxes& surface_;
+  InscribedSphere best_;
+  std::vector<TouchingPoints> touching_;
+  std::priority_queue<Cell> open_;
+  double settled_ = 0.0;  ///< the largest bound of what is done with
+  std::size_t evaluations_ = 1;
+};
+
 }  // namespace
 
 InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Execution& execution) {
-  execution.report(0.0, "Fitting the inscribed sphere");
-  const MeshDistance surface(mesh, execution);
+  constexpr const char* stage = "Fitting the inscribed sphere";
+  execution.report(0.0, stage);
+  const FaceBoxes surface(mesh, execution, "Measuring distances");
+  if (surface.empty()) {
+    throw Error(ErrorCode::InvalidInput,
+                "The mesh has no faces with an area, so no sphere fits into it; give a closed mesh "
+                "that encloses a volume.");
+  }
   Vector3 lower = mesh.points[mesh.triangles.front()[0]];
   Vector3 upper = lower;
   for (const Triangle& t : mesh.triangles) {
@@ -59,65 +260,19 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
       upper = upper.cwiseMax(mesh.points[v]);
     }
   }
-
-  InscribedSphere best;
-  std::priority_queue<Cell> open;
-  const auto keep = [&](const Cell& cell) {
-    if (cell.depth > best.radius) {
-      best.centre = cell.centre;
-      best.radius = cell.depth;
-      climb(surface, best, cell.half_edge);
-    }
-    if (cell.bound() > best.radius) open.push(cell);
-  };
-
-  Cell root;
-  root.centre = 0.5 * (lower + upper);
-  root.half_edge = 0.5 * (upper - lower).maxCoeff();
-  const double distance = surface.distance(root.centre);
-  root.depth = surface.contains(root.centre) ? distance : -distance;
-  keep(root);
-
-  std::size_t evaluations = 1;
-  std::vector<Cell> children;
-  while (!open.empty() && open.top().bound() > (1.0 + tolerance) * best.radius &&
-         evaluations < maximum_evaluations) {
-    children.clear();
-    for (std::size_t k = 0; k < cells_at_once && !open.empty(); ++k) {
-      const Cell parent = open.top();
-      open.pop();
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vector3 sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
-                           (corner & 4) != 0 ? 1.0 : -1.0);
-        Cell child;
-        child.half_edge = 0.5 * parent.half_edge;
-        child.centre = parent.centre + child.half_edge * sign;
-        child.depth = parent.depth;  // until it is measured
-        children.push_back(child);
-      }
-    }
-    execution.parallel_for(children.size(), 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        Cell& child = children[i];
-        // Nearer to its parent's centre than the surface is, it lies on the same side.
-        const double moved = diagonal * child.half_edge;
-        const bool decided = std::abs(child.depth) > moved;
-        const bool inside = decided ? child.depth > 0.0 : surface.contains(child.centre);
-        child.depth = (inside ? 1.0 : -1.0) * surface.distance(child.centre);
-      }
-    });
-    evaluations += children.size();
-    for (const Cell& child : children) keep(child);
-    execution.report(static_cast<double>(evaluations) / static_cast<double>(maximum_evaluations),
-                     "Fitting the inscribed sphere");
+  SphereSearch search(surface);
+  search.begin(0.5 * (lower + upper), 0.5 * (upper - lower).maxCoeff());
+  while (!search.is_done()) {
+    search.refine(execution);
+    execution.report(search.share_done(), stage);
   }
-  if (!(best.radius > 0.0)) {
+  const InscribedSphere sphere = search.result();
+  if (!(sphere.radius > 0.0)) {
     throw Error(ErrorCode::InvalidInput,
                 "No point was found inside the mesh, so no sphere fits into it; give a closed mesh "
                 "that encloses a volume.");
   }
-  best.upper_bound = open.empty() ? best.radius : std::max(best.radius, open.top().bound());
-  return best;
+  return sphere;
 }
 
 }  // namespace wscvt
