@@ -18,40 +18,152 @@ namespace {
 
 constexpr const char* box_stage = "Turning the bounding box";
 
-/// The smallest box about some points with one edge along a direction.
-class BoxAlong {
+/// Twice the first steps of the search by extreme points, and by all.
+constexpr double medium_angle = 0.04;
+constexpr double last_angle = 0.008;
+
+/// A box with one edge along a direction.
+struct Box {
+  double volume = 0.0;
+  std::array<Vector3, 3> axes;  ///< unit vectors along its edges
+};
+
+/// A direction, and two across it.
+struct Frame {
+  explicit Frame(const Vector3& direction)
+      : z(direction), x(direction.unitOrthogonal()), y(direction.cross(x)) {}
+
+  Vector2 flat(const Vector3& p) const { return {x.dot(p), y.dot(p)}; }
+  std::vector<Vector2> flat(const std::vector<Vector3>& points) const {
+    std::vector<Vector2> result;
+    result.reserve(points.size());
+    for (const Vector3& p : points) result.push_back(flat(p));
+    return result;
+  }
+
+  Vector3 z;
+  Vector3 x;
+  Vector3 y;
+};
+
+struct Range {
+  double lowest;
+  double highest;
+};
+
+Range range_along(const Vector3& direction, const std::vector<Vector3>& points) {
+  Range range = {direction.dot(points.front()), direction.dot(points.front())};
+  for (const Vector3& p : points) {
+    const double place = direction.dot(p);
+    range.lowest = std::min(range.lowest, place);
+    range.highest = std::max(range.highest, place);
+  }
+  return range;
+}
+
+/// The smallest box about points with one edge along `direction`. `hull_of` gives planar hulls.
+template <class HullOf>
+Box box_along(const Vector3& direction, const std::vector<Vector3>& points, const HullOf& hull_of) {
+  const Frame frame(direction);
+  std::vector<Vector2> flat = frame.flat(points);
+  const Range heights = range_along(direction, points);
+  const Rectangle rectangle = smallest_rectangle(hull_of(flat));
+  const Vector3 along = rectangle.side.x() * frame.x + rectangle.side.y() * frame.y;
+  return {(heights.highest - heights.lowest) * rectangle.area(),
+          {direction, along, direction.cross(along)}};
+}
+
+/// Boxes along directions of which each is near the one before, as those of a descent are: only
+/// points that lie at the rim of the body as seen along one of them matter, a tenth of all or less.
+class NearbyBoxes {
  public:
-  explicit BoxAlong(const std::vector<Vector3>& points) : points_(points) {}
-
-  struct Box {
-    double volume = 0.0;
-    std::array<Vector3, 3> axes;  ///< unit vectors along its edges
-  };
-
-  Box box(const Vector3& direction) const {
-    const Vector3 x = direction.unitOrthogonal();
-    const Vector3 y = direction.cross(x);
-    std::vector<Vector2> flat;
-    flat.reserve(points_.size());
-    double lowest = direction.dot(points_.front());
-    double highest = lowest;
-    for (const Vector3& p : points_) {
-      const double height = direction.dot(p);
-      lowest = std::min(lowest, height);
-      highest = std::max(highest, height);
-      flat.emplace_back(x.dot(p), y.dot(p));
+  /// Directions within `angle` of each other, radians, are near.
+  NearbyBoxes(const std::vector<Vector3>& points, double angle)
+      : points_(points), largest_angle_(angle) {
+    Vector3 low = points.front();
+    Vector3 high = points.front();
+    for (const Vector3& p : points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
-    const Rectangle rectangle = smallest_rectangle(planar_hull(flat));
-    const Vector3 along = rectangle.side.x() * x + rectangle.side.y() * y;
-    return {(highest - lowest) * rectangle.area(), {direction, along, direction.cross(along)}};
+    for (const Vector3& p : points) {
+      diameter_ = std::max(diameter_, (2.0 * p - low - high).norm());
+    }
+  }
+
+  Box box(const Vector3& direction) {
+    follow(direction);
+    constexpr std::size_t few = 150;
+    return box_along(direction, rim_, rim_.size() > few ? planar_hull : planar_hull_of_few);
   }
 
  private:
+  /// So many directions say how far they still spread.
+  static constexpr int watched = 16;
+
+  void follow(const Vector3& direction) {
+    const double turned = rim_.empty() ? largest_angle_ : (direction - middle_).norm();
+    if (rim_.empty() || turned > angle_) {
+      rim_ = rim_of(points_, direction, std::min(2.0 * turned, largest_angle_));
+    } else if (count_ < watched) {
+      ++count_;
+      spread_ = std::max(spread_, (direction - first_).norm());
+      return;
+    } else if (4.0 * spread_ < angle_ && turned + 2.0 * spread_ < angle_) {
+      rim_ = rim_of(rim_, direction, 2.0 * spread_);
+    }
+    first_ = direction;
+    count_ = 0;
+    spread_ = 0.0;
+  }
+
+  /// The points that are on the rim, or farthest ahead or behind, as seen along a direction within
+  /// `angle` of `middle`: a turn by it moves two points apart ahead by no more than the angle times
+  /// their distance, and apart across by the angle times how far one lies ahead of the other.
+  std::vector<Vector3> rim_of(const std::vector<Vector3>& points, const Vector3& middle,
+                              double angle) {
+    middle_ = middle;
+    angle_ = angle;
+    const Frame frame(middle);
+    std::vector<Vector2> flat = frame.flat(points);
+    const std::vector<Vector2> hull = planar_hull(flat);
+    const Range heights = range_along(middle, points);
+    const double ahead = angle * diameter_;
+    const double across = angle * (heights.highest - heights.lowest + 0.5 * ahead);
+    std::vector<Vector2> outward;
+    std::vector<double> reach;
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const Vector2 edge = hull[(k + 1) % hull.size()] - hull[k];
+      outward.push_back(Vector2(edge.y(), -edge.x()).normalized());
+      reach.push_back(outward.back().dot(hull[k]) - across);
+    }
+    std::vector<Vector3> rim;
+    for (const Vector3& p : points) {
+      const double height = middle.dot(p);
+      bool matters = height > heights.highest - ahead || height < heights.lowest + ahead;
+      const Vector2 place = frame.flat(p);
+      for (std::size_t k = 0; k < outward.size() && !matters; ++k) {
+        matters = outward[k].dot(place) >= reach[k];
+      }
+      if (matters) rim.push_back(p);
+    }
+    return rim;
+  }
+
   const std::vector<Vector3>& points_;
+  double largest_angle_;
+  double diameter_ = 0.0;
+  std::vector<Vector3> rim_;  ///< for directions within `angle_` of `middle_`
+  Vector3 middle_ = Vector3::Zero();
+  double angle_ = 0.0;
+  // The directions since the rim was looked at, how far they spread from the first.
+  Vector3 first_ = Vector3::Zero();
+  int count_ = 0;
+  double spread_ = 0.0;
 };
 
 /// From a box to one of its own edges as direction, while that makes it smaller.
-BoxAlong::Box settled(const BoxAlong& about, BoxAlong::Box box) {
+Box settled(NearbyBoxes& about, Box box) {
   const auto volume = [&about](const Vector3& direction) { return about.box(direction).volume; };
   for (bool smaller = true; smaller;) {
     smaller = false;
@@ -86,24 +198,18 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points, const Execution& 
       extreme_points(local, thinning_directions, box_stage, execution);
   const std::vector<Vector3> few =
       extreme_points(extremes, coarse_directions, box_stage, execution);
-  const BoxAlong about(local);
-  const auto volume_about = [](const std::vector<Vector3>& some) {
-    return [box = BoxAlong(some)](const Vector3& direction) { return box.box(direction).volume; };
-  };
+  NearbyBoxes medium(extremes, medium_angle);
+  NearbyBoxes about(local, last_angle);
   const DirectionMinimum smallest = smallest_over_directions(
-      volume_about(few), volume_about(extremes), volume_about(local), box_stage, execution);
-  const BoxAlong::Box box = settled(about, about.box(smallest.direction));
+      [&](const Vector3& direction) { return box_along(direction, few, planar_hull).volume; },
+      [&](const Vector3& direction) { return medium.box(direction).volume; },
+      [&](const Vector3& direction) { return about.box(direction).volume; }, box_stage, execution);
+  const Box box = settled(about, about.box(smallest.direction));
 
   std::array<double, 3> edges{};
   for (std::size_t k = 0; k < 3; ++k) {
-    double lowest = 0.0;  // the first point is the origin
-    double highest = 0.0;
-    for (const Vector3& p : local) {
-      const double place = box.axes[k].dot(p);
-      lowest = std::min(lowest, place);
-      highest = std::max(highest, place);
-    }
-    edges[k] = highest - lowest;
+    const Range range = range_along(box.axes[k], local);
+    edges[k] = range.highest - range.lowest;
   }
   std::sort(edges.begin(), edges.end());
   return {edges[0], edges[1], edges[2]};

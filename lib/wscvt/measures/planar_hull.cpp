@@ -18,28 +18,39 @@ void remove_inner_points(std::vector<Vector2>& points) {
   constexpr std::size_t corners = 8;
   constexpr std::size_t worthwhile = 24;
   if (points.size() < worthwhile) return;
-  static constexpr double directions[corners][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
-                                                    {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+  // Along x, the diagonal, y and the other diagonal, then against them.
   std::array<Vector2, corners> far;
   far.fill(points.front());
   std::array<double, corners> reach;
   reach.fill(-std::numeric_limits<double>::infinity());
   for (const Vector2& p : points) {
-    for (std::size_t k = 0; k < corners; ++k) {
-      const double place = directions[k][0] * p.x() + directions[k][1] * p.y();
-      if (!(place > reach[k])) continue;
-      reach[k] = place;
-      far[k] = p;
+    const std::array<double, 4> places = {p.x(), p.x() + p.y(), p.y(), p.y() - p.x()};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (places[k] > reach[k]) {
+        reach[k] = places[k];
+        far[k] = p;
+      }
+      if (-places[k] > reach[k + 4]) {
+        reach[k + 4] = -places[k];
+        far[k + 4] = p;
+      }
     }
   }
   // More than rounding of the cross products below.
   const double width = std::max(reach[0] + reach[4], reach[2] + reach[6]);
   const double margin = 1e-12 * width * width;
+  std::array<Vector2, corners> starts;
+  std::array<Vector2, corners> edges;
+  std::size_t sides = 0;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Vector2& next = far[(k + 1) % corners];
+    if (next == far[k]) continue;
+    starts[sides] = far[k];
+    edges[sides++] = next - far[k];
+  }
   const auto is_inner = [&](const Vector2& p) {
-    for (std::size_t k = 0; k < corners; ++k) {
-      const Vector2& next = far[(k + 1) % corners];
-      if (next == far[k]) continue;
-      if (!(cross(next - far[k], p - far[k]) > margin)) return false;
+    for (std::size_t k = 0; k < sides; ++k) {
+      if (!(cross(edges[k], p - starts[k]) > margin)) return false;
     }
     return true;
   };
@@ -50,6 +61,10 @@ void remove_inner_points(std::vector<Vector2>& points) {
 
 std::vector<Vector2> planar_hull(std::vector<Vector2>& points) {
   remove_inner_points(points);
+  return planar_hull_of_few(points);
+}
+
+std::vector<Vector2> planar_hull_of_few(std::vector<Vector2>& points) {
   std::sort(points.begin(), points.end(), [](const Vector2& a, const Vector2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });

@@ -13,6 +13,9 @@ using Vector2 = Eigen::Vector2d;
 /// on its sides are left out, up to rounding. Sorts `points`, and removes inner ones.
 std::vector<Vector2> planar_hull(std::vector<Vector2>& points);
 
+/// planar_hull for few points, or such of which most lie near the hull: none is removed.
+std::vector<Vector2> planar_hull_of_few(std::vector<Vector2>& points);
+
 /// A rectangle about points in a plane.
 struct Rectangle {
   Vector2 side = Vector2::UnitX();  ///< unit vector along `length`
