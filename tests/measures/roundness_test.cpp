@@ -153,7 +153,7 @@ TEST(Roundness, DoesNotDependOnScaleOrThreads) {
 }
 
 TEST(Roundness, OfADenseScanIsThatOfACoarserOne) {
-  // 40,000 vertices, of which 10,000 places are read.
+  // 40,000 vertices, of which 5,000 places are read.
   EXPECT_NEAR(cube_roundness(0.3, 0.028), 0.3, 0.02);
 }
 

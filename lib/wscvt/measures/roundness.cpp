@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -26,7 +25,7 @@ constexpr double edges_per_ball = 2.5;
 /// their own size widens the ball by a few per cent.
 constexpr double patch_share = 0.125;
 
-constexpr std::size_t most_places = 10000;
+constexpr std::size_t most_places = 5000;
 
 /// Curvature times inscribed radius above which a point is a corner: a sphere has none.
 constexpr double corner_curvature = 1.05;
@@ -51,24 +50,46 @@ double mean_edge(const IndexedMesh& mesh) {
   return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// `count` of the patches, or all: the beginning of a random permutation, since every so many-th
-/// may all lie in one row of a regular mesh.
-std::vector<BallCentre> places_of(const SurfacePatches& patches, std::size_t count) {
-  std::vector<std::int32_t> order(patches.patches.size());
-  std::iota(order.begin(), order.end(), 0);
-  const std::size_t kept = std::min(count, order.size());
-  if (kept < order.size()) {
-    std::mt19937 random(1U);
-    for (std::size_t i = 0; i < kept; ++i) {
-      std::swap(order[i], order[i + random() % (order.size() - i)]);
+/// Where curvature is read, and for how much of the area.
+struct Places {
+  std::vector<BallCentre> centres;
+  std::vector<double> areas;
+
+  void add(const SurfacePatches& patches, std::int32_t patch, double area) {
+    if (!centres.empty() && centres.back().patch == patch) {
+      areas.back() += area;
+      return;
     }
-    // In the mesh's order, in which neighbours are near in memory.
-    std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept));
+    centres.push_back({patches.patches[index(patch)].centre, patch});
+    areas.push_back(area);
   }
-  std::vector<BallCentre> places;
-  places.reserve(kept);
-  for (std::size_t i = 0; i < kept; ++i) {
-    places.push_back({patches.patches[index(order[i])].centre, order[i]});
+};
+
+/// All patches, or `count` places at most: one on each of so many parts of equal area that follow
+/// each other in the mesh, at random, since regular steps may all lie in one row of a regular mesh.
+Places places_of(const SurfacePatches& patches, std::size_t count) {
+  const auto all = static_cast<std::int32_t>(patches.patches.size());
+  Places places;
+  if (patches.patches.size() <= count) {
+    for (std::int32_t i = 0; i < all; ++i) places.add(patches, i, patches.patches[index(i)].area);
+    return places;
+  }
+  double area = 0.0;
+  for (const SurfacePatch& patch : patches.patches) area += patch.area;
+  const double part = area / static_cast<double>(count);
+  std::mt19937 random(1U);
+  const auto somewhere = [&] {
+    return part * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+  };
+  double before = 0.0;  // area of the patches before the next
+  double next = somewhere();
+  std::size_t taken = 0;
+  for (std::int32_t i = 0; i < all; ++i) {
+    before += patches.patches[index(i)].area;
+    while (taken < count && (next <= before || i + 1 == all)) {
+      places.add(patches, i, part);
+      next = static_cast<double>(++taken) * part + somewhere();
+    }
   }
   return places;
 }
@@ -78,19 +99,16 @@ struct Corners {
   double area_share = 0.0;
 };
 
-Corners corners_in(const SurfacePatches& patches, const std::vector<BallCentre>& places,
-                   double ball_radius, double inscribed_radius, const Execution& execution) {
-  const std::vector<PrincipalCurvatures> curvatures =
-      ball_curvatures(patches, places, ball_radius, execution);
+Corners corners_of(const std::vector<double>& areas,
+                   const std::vector<PrincipalCurvatures>& curvatures, double inscribed_radius) {
   double area = 0.0;
   double corner_area = 0.0;
   double turn = 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double of_patch = patches.patches[index(places[i].patch)].area;
-    area += of_patch;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    area += areas[i];
     if (!(curvatures[i].maximum * inscribed_radius > corner_curvature)) continue;
-    corner_area += of_patch;
-    turn += of_patch * curvatures[i].maximum;
+    corner_area += areas[i];
+    turn += areas[i] * curvatures[i].maximum;
   }
   Corners corners;
   corners.area_share = corner_area / area;
@@ -120,11 +138,11 @@ Roundness wadell_roundness(const IndexedMesh& mesh, double inscribed_radius, dou
     return result;
   }
   const SurfacePatches patches = surface_patches(mesh, patch_share * radius);
-  const std::vector<BallCentre> places = places_of(patches, most_places);
-  const Corners narrow =
-      corners_in(patches, places, radius, inscribed_radius, execution.part(0.0, 0.3));
-  const Corners wide =
-      corners_in(patches, places, wider * radius, inscribed_radius, execution.part(0.3, 1.0));
+  const Places places = places_of(patches, most_places);
+  const std::vector<std::vector<PrincipalCurvatures>> curvatures =
+      ball_curvatures(patches, places.centres, {radius, wider * radius}, execution);
+  const Corners narrow = corners_of(places.areas, curvatures[0], inscribed_radius);
+  const Corners wide = corners_of(places.areas, curvatures[1], inscribed_radius);
   // V grows by the same for each part of the radius.
   const double correction = (wide.value - narrow.value) / (wider - 1.0);
   const double most = largest_correction * radius / inscribed_radius * (1.0 - narrow.value);

@@ -3,8 +3,10 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 #include "wscvt/base/error.h"
@@ -22,60 +24,126 @@ constexpr std::size_t ball_block = 64;
 /// nothing is known of the curvature across it, and it comes out as 0.
 constexpr double ridge = 1e-9;
 
+/// Four numbers, so that two at a time are worked on.
+using Row = Eigen::Vector4d;
+
+/// Sums over the patches of a ball about a point: of weights, positions, normals and their
+/// products, in units of the ball, so that nothing underflows; turned to the tangent plane at the
+/// end, when the normal is known.
+struct BallSums {
+  /// For each coordinate of the positions, then of the normals: its weighted product with the
+  /// position, and its weighted sum.
+  std::array<Row, 6> products;
+  double weights = 0.0;
+  std::size_t counted = 0;
+
+  BallSums() { products.fill(Row::Zero()); }
+
+  void add(const SurfacePatch& patch, const Vector3& from_centre, double square, double inverse) {
+    const double inside = 1.0 - square * inverse * inverse;
+    if (!(inside > 0.0)) return;
+    const double weight = patch.area * inverse * inverse * inside * inside;
+    const Vector3 d = from_centre * inverse;
+    Row weighted;
+    weighted << weight * d, weight;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      products[k] += d[axis] * weighted;
+      products[k + 3] += patch.normal[axis] * weighted;
+    }
+    weights += weight;
+    ++counted;
+  }
+};
+
 /// Finds what hangs together in a ball; one of these per thread, because its marks are kept.
 class BallSearch {
  public:
   explicit BallSearch(const SurfacePatches& patches)
-      : patches_(patches), seen_in_(patches.patches.size(), 0) {}
+      : patches_(patches),
+        seen_in_(patches.patches.size(), 0),
+        found_(new Found[patches.patches.size()]) {}
 
-  /// The patches in the ball that can be reached from the first inside it; the first is always one.
-  const std::vector<std::int32_t>& find(const BallCentre& centre, double radius) {
+  /// Sums over the patches in each ball that can be reached from the first inside it; the first is
+  /// always one. `radii` ascend.
+  void sum(const BallCentre& centre, const std::vector<double>& radii,
+           std::vector<BallSums>& sums) {
     ++ball_;
-    found_.assign(1, centre.patch);
+    std::size_t count = 1;
+    found_[0] = found(centre.patch, centre.point);
     seen_in_[index(centre.patch)] = ball_;
-    for (std::size_t next = 0; next < found_.size(); ++next) {
-      const std::size_t patch = index(found_[next]);
-      for (const std::int32_t* n = patches_.neighbours.begin(patch);
-           n != patches_.neighbours.end(patch); ++n) {
-        if (seen_in_[index(*n)] == ball_) continue;
-        seen_in_[index(*n)] = ball_;
-        const Vector3 d = patches_.patches[index(*n)].centre - centre.point;
-        if (d.squaredNorm() < radius * radius) found_.push_back(*n);
+    beyond_.clear();
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+      const double square = radii[k] * radii[k];
+      const double inverse = 1.0 / radii[k];
+      // What the smaller ball has left out begins where it touches what hangs together.
+      std::size_t left = 0;
+      for (const Found& one : beyond_) {
+        if (one.square < square) {
+          found_[count++] = one;
+        } else {
+          beyond_[left++] = one;
+        }
       }
+      beyond_.resize(left);
+      for (; next < count; ++next) {
+        const std::size_t patch = index(found_[next].patch);
+        const std::int32_t* const end = patches_.neighbours.end(patch);
+        for (const std::int32_t* n = patches_.neighbours.begin(patch); n != end; ++n) {
+          if (seen_in_[index(*n)] == ball_) continue;
+          seen_in_[index(*n)] = ball_;
+          const Found one = found(*n, centre.point);
+          const bool inside = one.square < square;
+          if (inside) {
+            found_[count++] = one;
+          } else {
+            beyond_.push_back(one);
+          }
+        }
+      }
+      BallSums ball;  // not in place, so that it stays in registers
+      for (std::size_t i = 0; i < count; ++i) {
+        const Found& one = found_[i];
+        ball.add(patches_.patches[index(one.patch)], one.from_centre, one.square, inverse);
+      }
+      sums[k] = ball;
     }
-    return found_;
   }
 
  private:
+  struct Found {
+    Vector3 from_centre;
+    double square;
+    std::int32_t patch;
+  };
+
+  Found found(std::int32_t patch, const Vector3& centre) const {
+    const Vector3 d = patches_.patches[index(patch)].centre - centre;
+    return {d, d.squaredNorm(), patch};
+  }
+
   const SurfacePatches& patches_;
   std::vector<std::uint32_t> seen_in_;
   std::uint32_t ball_ = 0;
-  std::vector<std::int32_t> found_;
+  std::unique_ptr<Found[]> found_;  ///< not a vector, which would be filled for each block anew
+  std::vector<Found> beyond_;       ///< next to those found, but outside
 };
 
-PrincipalCurvatures fit_normals(const SurfacePatches& patches, const std::vector<std::int32_t>& in,
-                                const Vector3& point, double radius) {
-  // Sums of weights, positions, normals and their products, in units of the ball, so that nothing
-  // underflows; turned to the tangent plane at the end, when the normal is known.
-  double weights = 0.0;
-  Vector3 positions = Vector3::Zero();
-  Vector3 normals = Vector3::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();   // of positions
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // position times normal
-  std::size_t counted = 0;
-  for (const std::int32_t i : in) {
-    const SurfacePatch& patch = patches.patches[index(i)];
-    const Vector3 d = (patch.centre - point) / radius;
-    const double inside = 1.0 - d.squaredNorm();
-    if (!(inside > 0.0)) continue;
-    const double weight = patch.area / (radius * radius) * inside * inside;
-    const Vector3 weighted = weight * d;
-    weights += weight;
-    positions += weighted;
-    normals += weight * patch.normal;
-    squares.noalias() += weighted * d.transpose();
-    products.noalias() += weighted * patch.normal.transpose();
-    ++counted;
+PrincipalCurvatures fit_normals(const BallSums& sums, double radius) {
+  const double weights = sums.weights;
+  const std::size_t counted = sums.counted;
+  Vector3 positions;
+  Vector3 normals;
+  Eigen::Matrix3d squares;   // of positions
+  Eigen::Matrix3d products;  // position times normal
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Row& position = sums.products[static_cast<std::size_t>(k)];
+    const Row& normal = sums.products[static_cast<std::size_t>(k) + 3];
+    squares.col(k) = position.head<3>();
+    positions[k] = position[3];
+    products.col(k) = normal.head<3>();
+    normals[k] = normal[3];
   }
   if (counted < 3 || !(weights > 0.0) || !(normals.norm() > 0.0)) return {};
   const Vector3 n = normals.normalized();
@@ -97,6 +165,39 @@ PrincipalCurvatures fit_normals(const SurfacePatches& patches, const std::vector
   const double mean = 0.5 * (fitted[0] + fitted[2]) / radius;
   const double deviation = std::hypot(0.5 * (fitted[0] - fitted[2]), fitted[1]) / radius;
   return {mean + deviation, mean - deviation};
+}
+
+/// Finds the patches that share an edge with each.
+void link_patches(const HalfEdges& edges, SurfacePatches& patches) {
+  const std::size_t count = patches.patches.size();
+  const auto beyond = [&](std::size_t half_edge) {
+    const std::int32_t opposite = edges.opposite[half_edge];
+    return opposite < 0 ? -1 : patches.of_faces[face_of(opposite)];
+  };
+  Groups& neighbours = patches.neighbours;
+  neighbours =
+      counting_sort(edges.opposite.size(), count, [&](std::size_t half_edge, const auto& visit) {
+        const std::int32_t from = patches.of_faces[half_edge / 3];
+        const std::int32_t to = beyond(half_edge);
+        if (to >= 0 && to != from) visit(index(from));
+      });
+  for (std::int32_t& item : neighbours.items) item = beyond(index(item));
+  // Each once.
+  std::size_t kept = 0;
+  std::size_t begin = 0;
+  for (std::size_t patch = 0; patch < count; ++patch) {
+    const auto first = neighbours.items.begin() + static_cast<std::ptrdiff_t>(begin);
+    const std::size_t end = neighbours.starts[patch + 1];
+    const auto last = neighbours.items.begin() + static_cast<std::ptrdiff_t>(end);
+    std::sort(first, last);
+    const auto unique = std::unique(first, last);
+    std::copy(first, unique, neighbours.items.begin() + static_cast<std::ptrdiff_t>(kept));
+    neighbours.starts[patch] = kept;
+    kept += static_cast<std::size_t>(unique - first);
+    begin = end;
+  }
+  neighbours.starts[count] = kept;
+  neighbours.items.resize(kept);
 }
 
 }  // namespace
@@ -150,39 +251,37 @@ SurfacePatches surface_patches(const IndexedMesh& mesh, double radius) {
     made.normal = vector_area / area;
   }
 
-  // Pairs of patches that share an edge, each pair once in either order.
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  for (std::size_t half_edge = 0; half_edge < 3 * faces; ++half_edge) {
-    const std::int32_t opposite = edges.opposite[half_edge];
-    if (opposite < 0) continue;
-    const std::int32_t from = patches.of_faces[half_edge / 3];
-    const std::int32_t to = patches.of_faces[face_of(opposite)];
-    if (from != to) pairs.emplace_back(from, to);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  patches.neighbours =
-      counting_sort(pairs.size(), patches.patches.size(),
-                    [&](std::size_t i, const auto& visit) { visit(index(pairs[i].first)); });
-  for (std::int32_t& item : patches.neighbours.items) item = pairs[index(item)].second;
+  link_patches(edges, patches);
   return patches;
 }
 
 std::vector<PrincipalCurvatures> ball_curvatures(const SurfacePatches& patches,
                                                  const std::vector<BallCentre>& centres,
                                                  double radius, const Execution& execution) {
-  if (!(radius > 0.0)) {
+  return std::move(
+      ball_curvatures(patches, centres, std::vector<double>{radius}, execution).front());
+}
+
+std::vector<std::vector<PrincipalCurvatures>> ball_curvatures(
+    const SurfacePatches& patches, const std::vector<BallCentre>& centres,
+    const std::vector<double>& radii, const Execution& execution) {
+  for (const double radius : radii) {
+    if (radius > 0.0) continue;
     throw Error(ErrorCode::InvalidInput, "The radius of the balls that curvature is read in is " +
                                              format_number(radius) + "; give a positive radius.");
   }
-  std::vector<PrincipalCurvatures> result(centres.size());
+  std::vector<std::vector<PrincipalCurvatures>> result(
+      radii.size(), std::vector<PrincipalCurvatures>(centres.size()));
   // Blocks of blocks, so that the marks of a search are not made anew for a few balls.
   const std::size_t block = std::max(ball_block, centres.size() / 64 + 1);
   execution.parallel_for(centres.size(), block, [&](std::size_t begin, std::size_t end) {
     BallSearch search(patches);
+    std::vector<BallSums> sums(radii.size());
     for (std::size_t i = begin; i < end; ++i) {
-      const std::vector<std::int32_t>& in = search.find(centres[i], radius);
-      result[i] = fit_normals(patches, in, centres[i].point, radius);
+      search.sum(centres[i], radii, sums);
+      for (std::size_t k = 0; k < radii.size(); ++k) {
+        result[k][i] = fit_normals(sums[k], radii[k]);
+      }
     }
   });
   return result;

@@ -56,4 +56,10 @@ std::vector<PrincipalCurvatures> ball_curvatures(const SurfacePatches& patches,
                                                  const std::vector<BallCentre>& centres,
                                                  double radius, const Execution& execution);
 
+/// For balls of several ascending radii about the same points, in little more time than the largest
+/// take: a list of curvatures for each radius.
+std::vector<std::vector<PrincipalCurvatures>> ball_curvatures(
+    const SurfacePatches& patches, const std::vector<BallCentre>& centres,
+    const std::vector<double>& radii, const Execution& execution);
+
 }  // namespace wscvt
