@@ -26,6 +26,13 @@ double printed_sdq(const RadialSurface& surface, int rings, const Execution& exe
   };
   const auto count = static_cast<std::size_t>(rings);
   const double step = pi / rings;
+  std::vector<double> cosines(2 * count);
+  std::vector<double> sines(2 * count);
+  for (std::size_t k = 0; k < 2 * count; ++k) {
+    const double phi = (static_cast<double>(k) + 0.5) * step;
+    cosines[k] = std::cos(phi);
+    sines[k] = std::sin(phi);
+  }
   const Sums sums =
       execution.parallel_sum(count, 4, Sums(), [&](std::size_t begin, std::size_t end) {
         Sums part;
@@ -33,21 +40,19 @@ double printed_sdq(const RadialSurface& surface, int rings, const Execution& exe
         std::vector<RadialJet> jets(2 * count);
         for (std::size_t ring = begin; ring < end; ++ring) {
           const double theta = (static_cast<double>(ring) + 0.5) * step;
+          const double sine = std::sin(theta);
+          const double cosine = std::cos(theta);
           for (std::size_t k = 0; k < 2 * count; ++k) {
-            const double phi = (static_cast<double>(k) + 0.5) * step;
-            directions[k] = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                             std::cos(theta)};
+            directions[k] = {sine * cosines[k], sine * sines[k], cosine};
           }
           surface.evaluate(directions.data(), directions.size(), Derivatives::First, jets.data());
           for (std::size_t k = 0; k < 2 * count; ++k) {
-            const double phi = (static_cast<double>(k) + 0.5) * step;
-            const Vector3 south(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi),
-                                -std::sin(theta));
-            const Vector3 east(-std::sin(phi), std::cos(phi), 0.0);
+            const Vector3 south(cosine * cosines[k], cosine * sines[k], -sine);
+            const Vector3 east(-sines[k], cosines[k], 0.0);
             const double r_theta = jets[k].gradient.dot(south);
-            const double r_phi = std::sin(theta) * jets[k].gradient.dot(east);
+            const double r_phi = sine * jets[k].gradient.dot(east);
             part.slope += r_theta * r_theta + r_phi * r_phi;
-            part.area += std::sin(theta) * area_element(jets[k]);
+            part.area += sine * area_element(jets[k]);
           }
         }
         return part;
