@@ -67,21 +67,31 @@ void add_list(const std::string& list, std::vector<std::string>& files) {
   if (lines.bad()) refuse_to_read(list);
 }
 
+bool is_list(const std::string& input) { return !input.empty() && input.front() == '@'; }
+
+bool is_pattern(const std::string& input) {
+  std::error_code ignored;
+  return input.find_first_of("*?[") != std::string::npos && !fs::exists(input, ignored);
+}
+
 void add_input(const std::string& input, std::vector<std::string>& files) {
   std::error_code ignored;
   if (fs::is_directory(input, ignored) && !is_volume(input)) return add_folder(input, files);
-  if (input.find_first_of("*?[") != std::string::npos && !fs::exists(input, ignored)) {
-    return add_matches(input, files);
-  }
+  if (is_pattern(input)) return add_matches(input, files);
   files.push_back(input);
 }
 
 }  // namespace
 
+bool names_files(const std::string& input) {
+  std::error_code ignored;
+  return is_list(input) || is_pattern(input) || fs::is_directory(input, ignored);
+}
+
 std::vector<std::string> grain_files(const std::vector<std::string>& inputs) {
   std::vector<std::string> files;
   for (const std::string& input : inputs) {
-    if (!input.empty() && input.front() == '@') {
+    if (is_list(input)) {
       add_list(input.substr(1), files);
     } else {
       add_input(input, files);

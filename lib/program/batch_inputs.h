@@ -14,6 +14,9 @@ namespace wscvt::program {
 /// folders without meshes or slices, patterns that match nothing and lists that cannot be read.
 std::vector<std::string> grain_files(const std::vector<std::string>& inputs);
 
+/// Whether an input of a batch names files rather than being one: a folder, a pattern or a list.
+bool names_files(const std::string& input);
+
 /// A part of a sample: the `index`-th, from 1, of `count`.
 struct Shard {
   int index = 1;

@@ -6,6 +6,10 @@
 #include <filesystem>
 #include <numeric>
 #include <system_error>
+#include <utility>
+
+#include "batch_inputs.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 
@@ -53,12 +57,57 @@ std::string meant_word(const std::string& word, const std::vector<std::string>& 
               meant_word(word, commands));
 }
 
+/// Whether a word is an option of this name, short ("-o", "-oOUT") or long ("--output").
+bool is_option(const std::string& word, const std::string& brief, const std::string& name) {
+  return word.rfind("--", 0) == 0 ? word.substr(0, word.find('=')) == name
+                                  : word.rfind(brief, 0) == 0;
+}
+
+bool is_given(const std::vector<std::string>& words, const std::string& brief,
+              const std::string& name) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return is_option(word, brief, name); });
+}
+
+/// Throws CLI::ParseError for an output of several remeshes that is or would be a mesh.
+void check_batch_output(const std::string& output) {
+  std::error_code ignored;
+  const bool is_mesh = is_mesh_file(output) && !std::filesystem::is_directory(output, ignored);
+  if (!is_mesh && !std::filesystem::is_regular_file(output, ignored)) return;
+  refuse_call("Several scans need a folder for their remeshes, but \"" + output +
+              "\" is the name of a file. Put the name of a folder last, as in \"wscvt batch "
+              "SCANS... -o OUT\".");
+}
+
+/// The first `count` words are inputs, and perhaps the last of them the output; options follow.
+CallWords batch_call(std::vector<std::string> words, std::ptrdiff_t count) {
+  if (!is_given(words, "-o", "--output")) {
+    if (count < 2) {
+      refuse_call("The output is missing; \"wscvt batch " + words.front() +
+                  " -o OUT\" remeshes the scans in \"" + words.front() + "\".");
+    }
+    --count;
+    check_batch_output(words[static_cast<std::size_t>(count)]);
+    words.insert(words.begin() + count, "-o");
+  }
+  words.insert(words.begin(), "batch");
+  CallWords call{words, ""};
+  if (is_given(words, "-q", "--quiet")) return call;
+  // A shell may have put in the names of a thousand files.
+  if (count > 3) words.erase(words.begin() + 3, words.begin() + 1 + count);
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    call.notice += " " + words[k] + (count > 3 && k == 2 ? " ..." : "");
+  }
+  call.notice = "This is \"wscvt" + call.notice +
+                "\", a remesh of each scan. \"wscvt help batch\" lists its options.";
+  return call;
+}
+
 }  // namespace
 
-std::vector<std::string> call_words(std::vector<std::string> words,
-                                    const std::vector<std::string>& commands) {
+CallWords call_words(std::vector<std::string> words, const std::vector<std::string>& commands) {
   const std::string first = words.empty() ? "" : words.front();
-  if (std::find(commands.begin(), commands.end(), first) != commands.end()) return words;
+  if (std::find(commands.begin(), commands.end(), first) != commands.end()) return {words, ""};
   if (first == "help") {
     words.erase(words.begin());
     words.resize(std::min<std::size_t>(words.size(), 1));
@@ -66,31 +115,23 @@ std::vector<std::string> call_words(std::vector<std::string> words,
       refuse_unknown(words[0], commands);
     }
     words.emplace_back("--help");
-    return words;
+    return {words, ""};
   }
-  if (first == "-v") return {"--version"};
+  if (first == "-v") return {{"--version"}, ""};
   for (const char* own : {"--help", "-h", "--version", "--completion", "--man-pages"}) {
-    if (first.substr(0, first.find('=')) == own) return words;
+    if (first.substr(0, first.find('=')) == own) return {words, ""};
   }
-  std::error_code ignored;
-  if (std::filesystem::is_directory(first, ignored)) {
-    refuse_call("\"" + first + "\" is a folder; \"wscvt batch " + first +
-                " -o OUT\" remeshes the scans in it.");
-  }
+  const bool is_many = names_files(first);
   // A file has a point for its ending, or a slash.
-  if (first.find_first_of("-./") == std::string::npos) refuse_unknown(first, commands);
+  if (!is_many && first.find_first_of("-./") == std::string::npos) refuse_unknown(first, commands);
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const std::string& word) { return word.rfind('-', 0) == 0; });
-  const bool is_output_named = std::find_if(option, words.end(), [](const std::string& word) {
-                                 return word.rfind("-o", 0) == 0 || word.rfind("--output", 0) == 0;
-                               }) != words.end();
-  if (option - words.begin() > (is_output_named ? 1 : 2)) {
-    refuse_call(
-        "A remesh is of one scan, to one output; \"wscvt batch SCANS... -o OUT\" remeshes "
-        "several.");
+  const std::ptrdiff_t count = option - words.begin();
+  if (is_many || count > (is_given(words, "-o", "--output") ? 1 : 2)) {
+    return batch_call(std::move(words), count);
   }
   words.insert(words.begin(), "remesh");
-  return words;
+  return {words, ""};
 }
 
 std::string refusal_text(const CLI::App& program, const CLI::ParseError& error) {

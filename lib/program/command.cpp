@@ -13,14 +13,6 @@ std::string exit_code_text(bool some_may_fail) {
   return wrapped(text, 100);
 }
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& letter : lower) {
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  }
-  return lower;
-}
-
 CLI::App& add_command(CLI::App& program, const CommandText& text) {
   CLI::App& app = *program.add_subcommand(text.name, text.purpose);
   app.group("Commands");

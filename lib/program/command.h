@@ -9,6 +9,7 @@
 
 #include "help_text.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/lower_case.h"
 
 namespace wscvt::program {
 
@@ -27,9 +28,6 @@ std::string exit_code_text(bool some_may_fail);
 
 /// Adds a command to the program; its arguments are for the caller to add.
 CLI::App& add_command(CLI::App& program, const CommandText& text);
-
-/// The paper's WSCVT-D is the key wscvt-d.
-std::string lower_case(std::string_view text);
 
 /// Adds an argument whose text `read` takes; what that throws as wscvt::Error refuses the call.
 /// `names` as CLI11 takes them: "-n,--nodes". Of one given twice the later counts.

@@ -61,7 +61,9 @@ int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
   app.formatter(std::make_shared<program::HelpFormatter>());
   app.footer(
-      "\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\". The help of a command:\n"
+      "\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\", \"wscvt FOLDER OUT\" and \"wscvt "
+      "SCANS... "
+      "OUT\"\nare \"wscvt batch\". The help of a command:\n"
       "  wscvt help remesh\n"
       "  wscvt remesh --help-all\n" +
       program::exit_code_text(true));
@@ -96,10 +98,12 @@ int run(int argc, char** argv) {
   try {
     std::vector<std::string> names;
     for (const Command& command : commands) names.push_back(command.app->get_name());
-    std::vector<std::string> words =
-        program::call_words({argv + std::min(argc, 1), argv + argc}, names);
-    std::reverse(words.begin(), words.end());  // as CLI11 wants them
-    app.parse(words);
+    program::CallWords call = program::call_words({argv + std::min(argc, 1), argv + argc}, names);
+    std::reverse(call.words.begin(), call.words.end());  // as CLI11 wants them
+    app.parse(call.words);
+    if (!call.notice.empty()) {
+      std::fputs((wscvt::readable(call.notice) + "\n").c_str(), stderr);
+    }
   } catch (const CLI::ParseError& error) {
     std::ostringstream said;
     const int code = app.exit(error, std::cout, said);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command.h"
+#include "wscvt/base/lower_case.h"
 #include "wscvt/remesh/option_advice.h"
 
 namespace wscvt::program {

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/lower_case.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt::python {
 
@@ -35,6 +37,13 @@ IndexedMesh mesh_of_reference(const pybind11::object& reference);
 pybind11::array_t<double> array_of(const std::vector<Vector3>& points);
 pybind11::array_t<double> array_of(const std::vector<double>& values);
 pybind11::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles);
+
+/// The value of a name in letters of any size, as the program takes it: the paper's WSCVT-D is the
+/// key wscvt-d. Throws Error for any other text.
+template <class Enumeration>
+Enumeration value_of_name(const std::string& name) {
+  return from_key<Enumeration>(lower_case(name));
+}
 
 /// A sentence of the library, which names options as the program has them, with the names of
 /// arguments: "edge_ratio" for "--edge-ratio". Sentences that show a command stay as they are.

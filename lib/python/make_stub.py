@@ -15,7 +15,9 @@ choices = wscvt._wscvt._choices()
 
 def annotation(name, default):
     if name in choices:
-        return "Literal[" + ", ".join(f'"{choice}"' for choice in choices[name]) + "]"
+        # Any case is taken; the stub has the names as the module gives them and as the paper writes them.
+        names = choices[name] + [choice.upper() for choice in choices[name] if choice.startswith("wscvt-")]
+        return "Literal[" + ", ".join(f'"{choice}"' for choice in names) + "]"
     return type(default).__name__
 
 

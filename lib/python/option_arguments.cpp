@@ -60,7 +60,8 @@ class ReadOptions {
   void operator()(Enumeration& value) {
     read(EnumerationTable<Enumeration>::key, [&](const std::string& keyword,
                                                  const py::handle& object) {
-      const auto key = cast_option<std::string>(keyword, object, keys_of<Enumeration>().c_str());
+      const std::string key =
+          lower_case(cast_option<std::string>(keyword, object, keys_of<Enumeration>().c_str()));
       const std::string advice = advice_for_value(EnumerationTable<Enumeration>::key, key, method_);
       if (!advice.empty()) refuse("The option " + keyword + ": " + advice);
       value = from_key<Enumeration>(key);
@@ -152,7 +153,7 @@ void bind_options(py::module_& module) {
       [](const std::string& method) {
         OptionsToDict dict;
         RemeshOptions defaults;
-        if (from_key<Method>(method) == Method::AsPublished) {
+        if (value_of_name<Method>(method) == Method::AsPublished) {
           defaults.method = AsPublishedOptions();
         }
         for_each_option(defaults, dict);

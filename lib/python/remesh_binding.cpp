@@ -40,7 +40,7 @@ Remesh create(const std::string& kind, const std::array<double, 3>& semi_axes,
               const std::filesystem::path& coefficients_file, int coefficient_degree, int threads,
               const py::object& progress, const py::kwargs& given) {
   GrainSurface surface;
-  surface.kind = from_key<SurfaceKind>(kind);
+  surface.kind = value_of_name<SurfaceKind>(kind);
   surface.semi_axes = Vector3(semi_axes[0], semi_axes[1], semi_axes[2]);
   surface.polar_exponent = polar_exponent;
   surface.azimuthal_exponent = azimuthal_exponent;

@@ -45,7 +45,7 @@ void require_whole(const Remesh& one, const std::string& wanted) {
 
 SimulationOptions simulation_options(const std::string& frame, double scale, double size) {
   SimulationOptions options;
-  options.frame.frame = from_key<Frame>(frame);
+  options.frame.frame = value_of_name<Frame>(frame);
   options.frame.scale = scale;
   options.frame.size = size;
   check_simulation_options(options);
@@ -104,7 +104,7 @@ void write_grid_file(const Remesh& one, const std::filesystem::path& path, doubl
                      double size, int threads, const py::object& progress) {
   require_whole(one, "signed distances");
   SimulationOptions options = simulation_options(frame, scale, size);
-  options.surface = from_key<GridSurface>(surface);
+  options.surface = value_of_name<GridSurface>(surface);
   options.grid.spacing = spacing;
   check_simulation_options(options);
   if (options.surface == GridSurface::Scan && one.result.repaired_scan.points.empty()) {

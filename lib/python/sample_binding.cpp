@@ -60,8 +60,8 @@ py::object sample(std::vector<NamedTable> tables, const std::vector<std::string>
                   const std::string& size, const std::string& of, double density,
                   std::uint64_t seed, int repetitions, int threads, const py::object& progress) {
   SampleReport report;
-  report.options.size = from_key<SizeMeasure>(size);
-  report.options.of = from_key<SampledMesh>(of);
+  report.options.size = value_of_name<SizeMeasure>(size);
+  report.options.of = value_of_name<SampledMesh>(of);
   report.options.density = density;
   report.options.seed = seed;
   report.options.repetitions = repetitions;

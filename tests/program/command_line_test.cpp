@@ -309,6 +309,60 @@ TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
       << said;
 }
 
+TEST_F(CommandLine, SeveralScansAreABatch) {
+  std::filesystem::create_directory(folder_ / "scans");
+  const char* const names[] = {"scans/a.ply", "scans/b.ply", "scans/c.ply", "scans/d.ply"};
+  double longest = 1.0;
+  for (const char* name : names) {
+    ASSERT_EQ(run("create ellipsoid " + std::string(name) + " -n 90 --semi-axes 0.7 0.9 " +
+                  std::to_string(longest += 0.1))
+                  .exit_code,
+              0);
+  }
+  const std::string all = "scans/a.ply scans/b.ply scans/c.ply scans/d.ply ";
+  struct Call {
+    std::string words;
+    std::string as_batch;  // that the notice shows
+    std::size_t remeshes;
+  };
+  for (const Call& call :
+       {Call{"scans out.1 -n 40", "batch scans -o out.1 -n 40", 4},
+        Call{"scans -n 40 -oout.2", "batch scans -n 40 -oout.2", 4},
+        Call{"'scans/[ac].ply' out.3 -n 40", "batch scans/[ac].ply -o out.3 -n 40", 2},
+        Call{"scans/a.ply scans/d.ply out.4 -n 40", "batch scans/a.ply scans/d.ply -o out.4 -n 40",
+             2},
+        Call{"scans/a.ply scans/d.ply --output=out.5 -n 40",
+             "batch scans/a.ply scans/d.ply --output=out.5 -n 40", 2},
+        Call{all + "out.6 -n 40", "batch scans/a.ply scans/b.ply ... -o out.6 -n 40", 4}}) {
+    SCOPED_TRACE(call.words);
+    const Outcome outcome = run(call.words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("This is \"wscvt " + call.as_batch + "\""), std::string::npos)
+        << outcome.errors;
+    const std::string out = call.words.substr(call.words.find("out."), 5);
+    std::size_t remeshes = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder_ / out)) {
+      remeshes += file.path().extension() == ".ply" ? 1 : 0;
+    }
+    EXPECT_EQ(remeshes, call.remeshes);
+    EXPECT_EQ(read_mesh(path(out + "/a.ply")).points.size(), 40U);
+  }
+  EXPECT_EQ(run("scans out.1 -n 40 --quiet").errors, "");
+
+  // "wscvt *.ply" without an output would take the last scan for it.
+  const std::string scan = content("scans/d.ply");
+  for (const std::string& words :
+       std::vector<std::string>{all, "scans scans/d.ply", "scans new.ply", all + "new.ply"}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words;
+    EXPECT_NE(outcome.errors.find("is the name of a file. Put the name of a folder last"),
+              std::string::npos)
+        << outcome.errors;
+  }
+  EXPECT_EQ(content("scans/d.ply"), scan);
+  EXPECT_FALSE(exists("new.ply"));
+}
+
 TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
   const auto refusal = [&](const std::string& words) {
     const Outcome call = run(words);
@@ -320,10 +374,8 @@ TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
   EXPECT_EQ(refusal("simplify a.ply b.ply").find("Did you mean"), std::string::npos);
   EXPECT_NE(refusal("help remsh").find("Did you mean remesh?"), std::string::npos);
   std::filesystem::create_directory(folder_ / "scans.d");
-  EXPECT_NE(refusal("scans.d out").find("wscvt batch scans.d -o OUT"), std::string::npos);
-  EXPECT_NE(refusal("a.ply b.ply c.ply out -n 300").find("wscvt batch SCANS... -o OUT"),
-            std::string::npos);
-  EXPECT_NE(refusal("a.ply b.ply -o c.ply").find("wscvt batch SCANS... -o OUT"), std::string::npos);
+  EXPECT_NE(refusal("scans.d").find("wscvt batch scans.d -o OUT"), std::string::npos);
+  EXPECT_NE(refusal("scans.d -n 300").find("wscvt batch scans.d -o OUT"), std::string::npos);
   EXPECT_NE(refusal("a.ply b.ply --noeds=5").find("Did you mean --nodes?"), std::string::npos);
   EXPECT_NE(refusal("describe a.ply --nodes 5").find("wscvt describe has no option --nodes."),
             std::string::npos);

@@ -31,7 +31,7 @@ def check(scan: pathlib.Path) -> None:
     ours: npt.NDArray[np.float64] = vertices
     result: wscvt.Remesh = wscvt.remesh(ours, faces, nodes=500, edge_ratio=1.2, weighting="wscvt-d",
                                         progress=progress, keep_scan=False)
-    wscvt.remesh("scan.ply", 500)
+    wscvt.remesh("scan.ply", 500, weighting="WSCVT-C")
     wscvt.remesh(vertices, faces, 500)
     wscvt.remesh(scan, nodes=500)
     wscvt.remesh(TrimeshLike(), 500)

@@ -3,15 +3,12 @@
 
 #include <filesystem>
 
+#include "wscvt/base/lower_case.h"
+
 namespace wscvt {
 
 std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  // Not std::tolower, which asks the locale.
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending;
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 }  // namespace wscvt

@@ -18,9 +18,6 @@ std::string advice_for_option(std::string_view key, Method method);
 /// other method; empty for others.
 std::string advice_for_value(std::string_view key, std::string_view value, Method method);
 
-/// The keys of version 2 that version 3 has not.
-std::vector<std::string_view> replaced_options();
-
 /// The keys that version 2 had and version 3 has not.
 std::vector<std::string_view> replaced_options();
 

@@ -38,12 +38,4 @@ std::string shown(std::string_view field) {
 
 std::string in_quotes(std::string_view field) { return "\"" + shown(field) + "\""; }
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
-
 }  // namespace wscvt

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "wscvt/base/lower_case.h"
+
 namespace wscvt {
 
 // Fields of a line of text and the numbers they hold, the same in every locale.
@@ -58,8 +60,5 @@ std::string shown(std::string_view field);
 
 /// The same in quotes.
 std::string in_quotes(std::string_view field);
-
-/// Lower-case letters in place of ASCII capitals.
-std::string lower_case(std::string_view text);
 
 }  // namespace wscvt
