@@ -154,6 +154,9 @@ def main():
     for file in files:
         print(f"{file.stat().st_size / 1e6:8.1f} MB  {file.name}")
     print(f"Plugins for MeshLab {', '.join(sorted(plugins))}.")
+    if "@example.org" in value_in_cache(build, "WSCVT_MAINTAINER"):
+        print("The Debian packages name no maintainer who can be reached. Before you distribute them, configure "
+              "with -DWSCVT_MAINTAINER=\"Name <address>\".")
 
 
 if __name__ == "__main__":

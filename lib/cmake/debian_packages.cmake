@@ -4,8 +4,14 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME wscvt)
 set(CPACK_PACKAGE_VENDOR wscvt)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
-set(WSCVT_MAINTAINER "The wscvt authors <wscvt@example.org>" CACHE STRING
-  "Who answers for the Debian packages, with an address")
+# Debian's policy asks for a person and an address that works. The sources name none, so whoever makes
+# the packages does, as for Debian's own tools. No mail reaches example.org (RFC 2606).
+set(maintainer "The wscvt authors <wscvt@example.org>")
+if(NOT "$ENV{DEBFULLNAME}" STREQUAL "" AND NOT "$ENV{DEBEMAIL}" STREQUAL "")
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(WSCVT_MAINTAINER "${maintainer}" CACHE STRING
+  "Who answers for the Debian packages: Name <address>")
 set(CPACK_PACKAGE_CONTACT ${WSCVT_MAINTAINER})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
