@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and passes every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [windows] [debian12] [debian13] [sid]
 # Without arguments: install, release and hosts. tests/README.md says what each step does. The sanitized
 # build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
 # slower; those of Eigen and OpenMesh stay.
@@ -131,6 +131,11 @@ for step in "$@"; do
       fi
       configure_and_build release "-DMESHLAB_OTHER_SOURCE_DIRS=$others"
       ctest --preset release -j "$jobs" -R '^host_20' ;;
+    windows)
+      # After hosts; as root.
+      tests/install_packages.sh debootstrap
+      tests/windows.sh build/release trixie
+      tests/windows.sh build/release sid ;;
     debian12)
       tests/install_packages.sh debootstrap
       tests/debian_tree.sh bookworm ;;

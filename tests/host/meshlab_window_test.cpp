@@ -27,7 +27,7 @@ namespace {
 const QString remesh_menu_text = QString::fromStdString(filter::remesh_name());
 const QString everyday_title = QString::fromStdString(filter::everyday_name());
 const std::string host_version = WSCVT_MESHLAB_VERSION;
-constexpr double patience = 60.0;  // seconds for any one step
+constexpr double patience = 120.0;  // seconds for any one step
 
 const QSize small_screen(1366, 768);  // of an older laptop
 const QSize usual_screen(1280, 1000);
@@ -165,7 +165,9 @@ class Window {
 
   /// Types a number into the first field of the filter of few parameters.
   void set_node_count(const QString& filter, const QString& nodes) {
-    click(filter, 0.6, place(filter).height() - 148);
+    // Later versions have the text above it in a smaller space.
+    const int below_top = host_version == "2020.09" ? 148 : 126;
+    click(filter, 0.6, place(filter).height() - below_top);
     press("ctrl+a");
     type(nodes);
   }
