@@ -6,7 +6,7 @@ the grain's mass and moments of inertia.
 
 COUNT grains, 20 by default, of 20 mm equivalent diameter fall into a box. Writes chrono_clumps.png. Needs
 an NVIDIA card and the Python module DEME. Not run for this project, because Debian has no DEM-Engine: its
-calls were compared with the engine's public Python examples.
+calls were compared with the engine's public Python examples. chrono_smc_clumps.py needs no such card.
 """
 import csv
 
