@@ -63,7 +63,10 @@ bool are_quick(const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
     if (find(rows, key) != nullptr) continue;
     std::string names;
-    for (const DescriptorValue& known : rows) names += (names.empty() ? "" : ", ") + known.key;
+    for (const DescriptorValue& known : rows) {
+      if (!names.empty()) names += ", ";
+      names += known.key;
+    }
     refuse("There is no descriptor \"" + key + "\"; give some of: " + names + ".");
   }
   return false;

@@ -272,6 +272,7 @@ GrainGrower::Quilt GrainGrower::stitch(const std::vector<std::size_t>& donors,
   if (any_offset) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<std::vector<double>> parts;
+      parts.reserve(offsets.size());
       for (const OffsetSeries& offset : offsets) parts.push_back(offset[axis]);
       quilt.offset[axis] = grids_.white().coefficients(masks.joined(grids_.white(), parts));
     }
