@@ -83,6 +83,13 @@ TEST(GrainGrower, KeepsFormAndAmplitudesOfASampleThatHasOneOfEach) {
   }
 }
 
+TEST(GrainGrower, GrowsDifferentGrainsOfEqualOnes) {
+  const SampleGrids grids(degree);
+  const std::vector<SampleGrain> sample(8, test::random_sample(1, grids, 3).front());
+  const GrainGrower grower(sample, grids, grown_with(3, 4));
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_NE(grower.grow(k).radial, grower.grow(0).radial);
+}
+
 // Poses of the inputs do not matter: each grain stands in its principal frame before it is used.
 TEST(GrainGrower, GrowsTheSameOfTurnedInputs) {
   const SampleGrids grids(degree);

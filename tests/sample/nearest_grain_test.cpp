@@ -58,6 +58,20 @@ TEST(GrainSearch, FindsTheNearestOfAll) {
   }
 }
 
+// The first has the amplitudes of the grain that is looked for, but lies across it.
+TEST(GrainSearch, IsNotDeceivedByAmplitudes) {
+  std::vector<SampleGrain> sample(2);
+  std::vector<double> radial(harmonic_count(4), 0.0);
+  radial[0] = std::sqrt(4.0 * pi);
+  sample[0].radial = sample[1].radial = radial;
+  radial[harmonic_index(3, 0)] = 0.3;
+  sample[0].radial[harmonic_index(3, 2)] = 0.3;
+  sample[1].radial[harmonic_index(3, 0)] = 0.05;
+  const NearestGrain nearest = GrainSearch(sample).nearest(radial);
+  EXPECT_EQ(nearest.grain, 1U);
+  EXPECT_NEAR(nearest.distance, 0.25 / std::sqrt(4.0 * pi), 1e-9);
+}
+
 TEST(GrainSearch, KnowsWhatIsUsual) {
   const SampleGrids grids(6);
   std::vector<SampleGrain> sample = test::random_sample(1, grids, 5);
