@@ -67,7 +67,9 @@ bool are_quick(const std::vector<std::string>& keys) {
       if (!names.empty()) names += ", ";
       names += known.key;
     }
-    refuse("There is no descriptor \"" + key + "\"; give some of: " + names + ".");
+    std::string sentence = "There is no descriptor \"";
+    sentence.append(key).append("\"; give some of: ").append(names).append(".");
+    refuse(sentence);
   }
   return false;
 }
@@ -154,6 +156,7 @@ DescribedSample sample_of_table(const std::string& path, const std::vector<std::
   std::vector<std::vector<double>> rows;
   for (std::size_t grain = 0; grain < table.grains.size(); ++grain) {
     std::vector<double> values;
+    values.reserve(columns.size());
     for (const std::size_t column : columns) {
       values.push_back(
           table.values(static_cast<Eigen::Index>(grain), static_cast<Eigen::Index>(column)));
