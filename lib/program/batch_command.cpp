@@ -27,6 +27,7 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/clump/scan_contacts.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
@@ -52,7 +53,8 @@ std::string call_text(const BatchArguments& arguments) {
                         {"meshes", arguments.format},
                         {"seconds", arguments.seconds},
                         {"levels", arguments.levels},
-                        {"describe", key_of(arguments.described)},
+                        {"describe", key_of(arguments.shapes.described)},
+                        {"contacts", arguments.shapes.contacts},
                         {"volume", json_of(arguments.volume)},
                         {"options", wscvt::json_of(arguments.options)}});
 }
@@ -68,26 +70,36 @@ std::vector<RemeshResult> remeshes_of(const BatchArguments& arguments, IndexedMe
   return results;
 }
 
-/// The descriptors of a level. The scan's are measured with the first level, and kept in `shape`.
-/// What cannot be measured becomes a warning of the remesh, whose sentence is returned.
-std::string describe_level(const BatchArguments& arguments, RemeshResult& result, GrainShape& shape,
-                           const Execution& execution) {
-  const Described what = arguments.described;
-  const bool needs_scan = describes_scan(what) && !shape.scan;
+/// What was measured of a grain's scan with its first level.
+struct MeasuredScan {
+  std::optional<DetailedDescriptors> shape;
+  std::optional<ScanContacts> contacts;
+};
+
+/// The measures of a level. What cannot be measured becomes a warning of the remesh; the sentence
+/// is put in `error`.
+GrainShape measure_level(const ShapeMeasures& measures, RemeshResult& result, MeasuredScan& scan,
+                         std::string& error, const Execution& execution) {
+  const Described what = measures.described;
+  const bool needs_scan = describes_scan(what) && !scan.shape;
   const Described now = needs_scan               ? what
                         : describes_remesh(what) ? Described::Remesh
                                                  : Described::None;
+  GrainShape shape;
   try {
-    GrainShape measured = describe_result(result, now, execution);
-    if (needs_scan) shape.scan = std::move(measured.scan);
-    shape.remesh = std::move(measured.remesh);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::Cancelled) throw;
-    result.warnings.push_back("The descriptors could not be measured: " +
-                              std::string(error.what()));
-    return error.what();
+    shape = describe_result(result, now, execution);
+    if (needs_scan) scan.shape = std::move(shape.scan);
+    shape.scan = scan.shape;
+    if (measures.contacts) {
+      if (!scan.contacts) scan.contacts.emplace(result.repaired_scan, result.original, execution);
+      shape.contacts = scan.contacts->error_of(result.mesh, execution);
+    }
+  } catch (const Error& failure) {
+    if (failure.code() == ErrorCode::Cancelled) throw;
+    error = failure.what();
+    result.warnings.push_back("The descriptors could not be measured: " + error);
   }
-  return "";
+  return shape;
 }
 
 /// Puts the records of a grain in a row.
@@ -103,7 +115,7 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
                       BatchGrains& grains, std::size_t k, const Execution& execution) {
   const std::string& grain = grains.names()[k];
   const Clock::time_point start = Clock::now();
-  const bool describes = arguments.described != Described::None;
+  const bool describes = arguments.shapes.described != Described::None;
   const auto seconds = [&]() -> Seconds {
     if (!arguments.seconds) return {};
     return seconds_since(start);
@@ -111,7 +123,8 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
   const auto make = [&]() -> GrainRow {
     GrainScan scan = grains.read(k, execution);
     RemeshOptions options = arguments.options;
-    options.measures.repaired_scan = describes_scan(arguments.described);
+    options.measures.repaired_scan =
+        describes_scan(arguments.shapes.described) || arguments.shapes.contacts;
     options.measures.written = [path =
                                     output.levels().front().mesh(grain)](const RemeshResult& made) {
       return as_written(made.mesh, path);
@@ -122,13 +135,14 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
     std::vector<RemeshResult> results =
         remeshes_of(arguments, std::move(scan.mesh), options, execution);
     std::vector<std::string> records;
-    GrainShape shape;
+    MeasuredScan measured;
     for (std::size_t level = 0; level < results.size(); ++level) {
       RemeshResult& result = results[level];
       const OutputFolder& folder = output.levels()[level];
       result.warnings.insert(result.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
-      const std::string error =
-          describes ? describe_level(arguments, result, shape, execution) : "";
+      std::string error;
+      GrainShape shape;
+      if (describes) shape = measure_level(arguments.shapes, result, measured, error, execution);
       const MeshAttributes attributes =
           carries ? carried_attributes(read, scan.attributes, result.mesh, execution)
                   : MeshAttributes();
@@ -136,7 +150,7 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
       records.push_back(sample_row(grain, result, seconds()));
       if (!describes) continue;
       records.push_back(error.empty() ? shape_row(grain, folder.mesh_name(grain), result, shape)
-                                      : failed_shape_row(grain, error, arguments.described));
+                                      : failed_shape_row(grain, error, arguments.shapes));
     }
     return row_of(std::move(records), "");
   };
@@ -144,7 +158,7 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
     std::vector<std::string> records;
     for (std::size_t level = 0; level < output.levels().size(); ++level) {
       records.push_back(failed_row(grain, error, seconds()));
-      if (describes) records.push_back(failed_shape_row(grain, error, arguments.described));
+      if (describes) records.push_back(failed_shape_row(grain, error, arguments.shapes));
     }
     return row_of(std::move(records), error);
   });
@@ -183,7 +197,10 @@ void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
   add_format_argument(app, arguments.format);
   app.add_flag("--seconds", arguments.seconds,
                "A column of the table for how long each grain took; it differs from run to run");
-  add_choice(app, "--describe", arguments.described);
+  add_choice(app, "--describe", arguments.shapes.described);
+  app.add_flag("--contacts", arguments.shapes.contacts,
+               "Columns of shape.csv for the error of first contact of two remeshes against two "
+               "scans, over random pairs of poses");
   add_remesh_arguments(app, arguments.options);
   CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
   nodes->description(nodes->get_description() +
@@ -232,6 +249,11 @@ int run(const BatchArguments& arguments) {
     if (!arguments.levels.empty() &&
         (arguments.options.target.percent > 0.0 || arguments.options.measures.suggestions)) {
       refuse("Several numbers of nodes allow no error target and no suggestions. Leave these out.");
+    }
+    if (arguments.shapes.contacts && arguments.shapes.described == Described::None) {
+      refuse(
+          "--contacts adds columns to shape.csv, which --describe none leaves out. Choose "
+          "--describe remesh, or leave out --contacts.");
     }
     check_format(arguments.format);
     check_volume_options(arguments.volume);

@@ -25,7 +25,7 @@ struct BatchArguments {
   bool quiet = false;
   RemeshOptions options;    ///< without advice, which is for a person at one grain
   std::vector<int> levels;  ///< numbers of nodes if there are several, ascending; else empty
-  Described described = Described::Both;  ///< in the table of shapes
+  ShapeMeasures shapes;     ///< of the table of shapes
   VolumeOptions volume;                   ///< of inputs that are volumes
 };
 

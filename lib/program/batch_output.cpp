@@ -72,8 +72,8 @@ std::size_t BatchOutput::open_tables(const std::vector<std::string>& grains,
   };
   for (const OutputFolder& level : levels_) {
     open(level.table(), sample_header(arguments.seconds));
-    if (arguments.described != Described::None) {
-      open(level.shapes(), shape_header(arguments.described));
+    if (arguments.shapes.described != Described::None) {
+      open(level.shapes(), shape_header(arguments.shapes));
     }
   }
   for (const auto& table : tables_) table->keep(rows);

@@ -15,6 +15,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/report/report.h"
 #include "wscvt/report/sample_report.h"
+#include "wscvt/sample/sample_files.h"
 
 namespace wscvt::program {
 
@@ -28,28 +29,6 @@ constexpr NumberOption<int> seed_option = {
     0,          2147483647,
     Ends::Both, "of the random draws behind intervals and p; the same seed gives the same bytes"};
 
-/// The tables of shapes that a path stands for: itself, or those of a batch's folder. A batch with
-/// several numbers of nodes has one in each of its folders.
-std::vector<std::string> tables_of(const std::string& path) {
-  if (!fs::is_directory(path)) return {path};
-  const std::string whole = (fs::path(path) / "shape.csv").string();
-  if (fs::exists(whole)) return {whole};
-  std::vector<std::string> tables;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    const fs::path table = entry.path() / "shape.csv";
-    if (entry.path().filename().string().front() == 'n' && fs::exists(table)) {
-      tables.push_back(table.string());
-    }
-  }
-  std::sort(tables.begin(), tables.end());
-  if (tables.empty()) {
-    refuse(
-        "The folder \"" + path + "\" has no shape.csv. Call wscvt batch without --describe none" +
-        "; join the tables of parts by wscvt collect \"" + path + "\"/shape-*.csv -o shape.csv.");
-  }
-  return tables;
-}
-
 /// A sample that was read.
 struct ReadSample {
   std::vector<GrainTable> tables;  ///< one, or one per number of nodes
@@ -58,27 +37,12 @@ struct ReadSample {
 
 ReadSample read_sample(const std::string& path, const Execution& execution) {
   ReadSample sample;
-  sample.files = tables_of(path);
+  sample.files = sample_files(path);
   for (const std::string& file : sample.files) {
     execution.report(0.0, "Reading \"" + file + "\"");
     sample.tables.push_back(read_grain_table(file));
   }
   return sample;
-}
-
-/// The table with the most nodes: of several its remeshes are the closest to the scans.
-std::size_t finest(const ReadSample& sample) {
-  std::size_t best = 0;
-  double most = -1.0;
-  for (std::size_t k = 0; k < sample.tables.size(); ++k) {
-    const auto nodes = sample.tables[k].find("nodes");
-    if (!nodes) continue;
-    const double count = sample.tables[k].values(0, static_cast<Eigen::Index>(*nodes));
-    if (!(count > most)) continue;
-    most = count;
-    best = k;
-  }
-  return best;
 }
 
 std::string name_of(const std::string& path) {
@@ -150,14 +114,15 @@ int run(const SampleArguments& arguments) {
   report.options = arguments.options;
   for (const std::string& path : arguments.samples) {
     const ReadSample read = read_sample(path, execution);
-    const std::size_t shown = finest(read);
+    const std::size_t shown = finest_table(read.tables);
     ReportedSample one;
     one.name = name_of(path);
     one.folder = folder_of(read.files[shown]);
     one.sample = sample_of(read.tables[shown], arguments.options);
     one.statistics = measure_sample(one.sample, arguments.options, execution);
     if (report.samples.empty() && read.tables.size() > 1) {
-      report.levels = measure_levels(read.tables, arguments.mark_percent);
+      DetailLevels levels = measure_levels(read.tables, arguments.mark_percent);
+      if (!levels.rows.empty()) report.levels = std::move(levels);
     }
     report.samples.push_back(std::move(one));
   }

@@ -33,18 +33,26 @@ TEST_F(Sample, IsOfABatchsFolderOrATable) {
     write_mesh(test::transformed(test::sphere(2), axes.asDiagonal()),
                path("scans/" + std::to_string(k) + ".ply"));
   }
-  ASSERT_EQ(run("batch scans -o out -q -n 40,30").exit_code, 0);
+  ASSERT_EQ(run("batch scans -o out -q -n 40,30 --contacts").exit_code, 0);
   const Outcome outcome = run("sample out --report page.html --report all.json --mark 20");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   EXPECT_EQ(outcome.output.rfind("out: 3 grains\n", 0), 0U) << outcome.output;
   EXPECT_NE(outcome.output.find("N for 20 %"), std::string::npos);
+  EXPECT_NE(outcome.output.find("contact_error_mean"), std::string::npos);
   const Document all = Document::parse(content("all.json"));
   // The second largest axis of the ellipsoids: 1.8, 1.6, 1.4.
   const Document& size = all.at("samples").at(0).at("size").at("by_number");
   EXPECT_NEAR(size.at("D50").at("value").get<double>(), 1.6, 0.03);
   EXPECT_EQ(all.at("levels").at("descriptors").at("rms_distance").at("errors").size(), 2U);
+  // Fewer nodes have larger contact errors. The three ellipsoids are of one kind.
+  const Document& contact =
+      all.at("levels").at("descriptors").at("contact_error_scatter").at("errors");
+  EXPECT_GT(contact.at(0).at("median_percent"), contact.at(1).at("median_percent"));
   EXPECT_NE(content("page.html").find("\"0\":\"data:image/png"), std::string::npos);
+  EXPECT_EQ(run("sample out -q --report all.csv").exit_code, 0);
+  EXPECT_NE(content("all.csv").find("\r\nout,contact_error_mean,%,number,error_percent_90_n40,"),
+            std::string::npos);
   // A level is a sample of its own.
   EXPECT_EQ(run("sample out/n30 -q --report one.csv --of remesh").exit_code, 0);
   EXPECT_EQ(run("sample out/n30/shape.csv -q --report two.csv --of remesh -t 1").exit_code, 0);

@@ -21,12 +21,13 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
     GrainShape shape;
     if (scans) shape.scan.emplace().convexity = 0.25;
     if (remeshes) shape.remesh.emplace().convexity = 0.75;
+    if (remeshes) shape.contacts = ContactError{-0.5, 1.5};
     RemeshResult result;
     result.mesh.points.resize(7);
     result.rms_distance = 0.125;
-    const auto records =
-        test::csv_records(shape_header(what) + shape_row("a, b.ply", "a, b.stl", result, shape) +
-                          failed_shape_row("c.ply", "It is broken.", what));
+    const auto records = test::csv_records(
+        shape_header({what, remeshes}) + shape_row("a, b.ply", "a, b.stl", result, shape) +
+        failed_shape_row("c.ply", "It is broken.", {what, remeshes}));
     ASSERT_EQ(records.size(), 3U);
     const auto& names = records[0];
     EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
@@ -36,6 +37,8 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
     const std::map<std::string, std::string> expected = {{"file", "a, b.stl"},
                                                          {"nodes", "7"},
                                                          {"rms_distance [length]", "0.125"},
+                                                         {"contact_error_mean [%]", "-0.5"},
+                                                         {"contact_error_scatter [%]", "1.5"},
                                                          {"scan.convexity", "0.25"},
                                                          {"remesh.convexity", "0.75"}};
     for (std::size_t k = 0; k < names.size(); ++k) {
@@ -43,8 +46,10 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
       if (known == expected.end()) continue;
       EXPECT_EQ(records[1][k], known->second) << names[k];
     }
-    EXPECT_EQ(shape_header(what).find(",scan.") != std::string::npos, scans);
-    EXPECT_EQ(shape_header(what).find(",remesh.") != std::string::npos, remeshes);
+    EXPECT_EQ(shape_header({what, remeshes}).find(",scan.") != std::string::npos, scans);
+    EXPECT_EQ(shape_header({what, remeshes}).find(",contact_error_") != std::string::npos,
+              remeshes);
+    EXPECT_EQ(shape_header({what, remeshes}).find(",remesh.") != std::string::npos, remeshes);
   }
 }
 

@@ -58,11 +58,52 @@ TEST(DetailLevels, TellMedianAnd90PercentAndTheNodesNeeded) {
   EXPECT_TRUE(std::isnan(measure_levels({table_with(100.0)}, 0.1).rows[3].nodes_needed));
 }
 
+/// The table with two columns more.
+GrainTable with_contacts(GrainTable table, double mean, double scatter) {
+  table.columns.push_back({"contact_error_mean", "%"});
+  table.columns.push_back({"contact_error_scatter", "%"});
+  table.values.conservativeResize(Eigen::NoChange, table.values.cols() + 2);
+  const Eigen::Index last = table.values.cols() - 1;
+  for (Eigen::Index k = 0; k < table.values.rows(); ++k) {
+    const double part = 0.1 * static_cast<double>(k);
+    table.values(k, last - 1) = mean * part;
+    table.values(k, last) = scatter * part;
+  }
+  return table;
+}
+
+TEST(DetailLevels, ContactErrorsCountByTheirSize) {
+  const DetailLevels levels = measure_levels(
+      {with_contacts(table_with(100.0), -3.0, 5.0), with_contacts(table_with(400.0), -0.75, 1.25)},
+      1.5);
+  ASSERT_EQ(levels.rows[1].name, "contact_error_mean");
+  ASSERT_EQ(levels.rows[2].name, "contact_error_scatter");
+  EXPECT_NEAR(levels.rows[1].levels[0].median, 1.5, 1e-12);
+  EXPECT_NEAR(levels.rows[1].levels[0].percent_90, 3.0 * 0.94, 1e-12);
+  EXPECT_NEAR(levels.rows[2].levels[1].percent_90, 1.25 * 0.94, 1e-12);
+  // Errors fall as 1 / N.
+  EXPECT_EQ(levels.rows[1].nodes_needed, std::ceil(100.0 * 3.0 * 0.94 / 1.5));
+  // With one table without them there is nothing to compare.
+  const DetailLevels some =
+      measure_levels({with_contacts(table_with(100.0), -3.0, 5.0), table_with(400.0)}, 1.5);
+  EXPECT_EQ(some.rows.size(), levels.rows.size() - 2);
+}
+
+TEST(DetailLevels, LeavesOutErrorsWithoutColumns) {
+  GrainTable scans = table_with(100.0);
+  for (GrainColumn& column : scans.columns) {
+    if (column.name.rfind("remesh.", 0) == 0) column.name = "else." + column.name;
+  }
+  const DetailLevels levels = measure_levels({scans}, 1.0);
+  ASSERT_EQ(levels.rows.size(), 1U);
+  EXPECT_EQ(levels.rows[0].name, "rms_distance");
+}
+
 TEST(DetailLevels, RefusesTablesThatAreNone) {
   EXPECT_THROW(measure_levels({table_with(100.0), table_with(100.0)}, 1.0), Error);
-  GrainTable scans = table_with(100.0);
-  scans.columns.resize(10);
-  EXPECT_THROW(measure_levels({scans}, 1.0), Error);
+  GrainTable without = table_with(100.0);
+  without.columns[0].name = "N";
+  EXPECT_THROW(measure_levels({without}, 1.0), Error);
   EXPECT_THROW(measure_levels({table_with(100.0)}, 0.0), Error);
 }
 

@@ -9,6 +9,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/clump/sphere_mesh.h"
+#include "wscvt/clump/unit_frame.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/repaired_scan.h"
@@ -17,20 +18,6 @@
 namespace wscvt {
 
 namespace {
-
-/// From the scan's coordinates to principal axes about the centroid, in equivalent radii.
-struct UnitFrame {
-  Vector3 centroid;
-  Eigen::Matrix3d axes;  ///< columns: the principal axes
-  double radius;
-
-  Vector3 to_unit(const Vector3& p) const { return axes.transpose() * (p - centroid) / radius; }
-  Vector3 to_scan(const Vector3& p) const { return centroid + radius * (axes * p); }
-  IndexedMesh to_unit(IndexedMesh mesh) const {
-    for (Vector3& p : mesh.points) p = to_unit(p);
-    return mesh;
-  }
-};
 
 MassError mass_error(const MassProperties& mass, const ShapeDescriptors& grain, double radius) {
   ShapeDescriptors value;
@@ -211,9 +198,7 @@ ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Exec
   result.equivalent_radius = std::cbrt(0.75 * result.original.volume / pi);
   if (!repaired.precision_warning.empty()) result.warnings.push_back(repaired.precision_warning);
 
-  const UnitFrame frame = {result.original.centroid,
-                           result.original.principal_axes.toRotationMatrix(),
-                           result.equivalent_radius};
+  const UnitFrame frame(result.original);
   const IndexedMesh unit = frame.to_unit(result.repaired_scan);
   FittedSpheres fitted = fit_spheres(unit, options, execution.part(0.15, 0.8));
   measure(unit, fitted.spheres, frame, result, execution.part(0.8, 1.0));

@@ -405,7 +405,7 @@ choice("distributions-choice", "Weight of a grain", weightings, shownWeighting, 
   distributions.forEach(redraw => redraw());
 });
 if (data.levels) {
-  let shownLevel = "rms_distance";
+  let shownLevel = data.levels.rows[0].name;
   const caption = "Line: 90 % of the grains have a smaller error. Dashed: median. Red: mark.";
   const redraw = figure("levels", "levels", caption, () => errors(shownLevel));
   choice("levels-choice", "Error of", data.levels.rows.map(row => [row.name, row.name]), shownLevel,

@@ -33,6 +33,11 @@ bool is_main(const std::string& name) {
          std::end(main_columns);
 }
 
+/// Errors of the remesh itself, not of a descriptor.
+bool is_distance_or_contact(const std::string& name) {
+  return name == "rms_distance" || name.rfind("contact_error_", 0) == 0;
+}
+
 std::string short_number(double value) { return format_number(value, 4); }
 
 /// Visits a sample's sizes: the name, the statistic by mass and by number.
@@ -132,7 +137,7 @@ std::vector<std::vector<std::string>> level_rows(const DetailLevels& levels, boo
   rows[0].push_back("N for " + short_number(levels.mark_percent) + " %");
   for (const DescriptorLevels& row : levels.rows) {
     if (row.levels.back().count == 0) continue;
-    if (!all && row.name != "rms_distance" && !is_main(row.name)) continue;
+    if (!all && !is_main(row.name) && !is_distance_or_contact(row.name)) continue;
     std::vector<std::string> cells = {row.name};
     for (std::size_t k = first; k < row.levels.size(); ++k) {
       cells.push_back(short_number(row.levels[k].percent_90));
@@ -204,6 +209,22 @@ Json json_of(const DetailLevels& levels) {
   return {{"mark_percent", levels.mark_percent}, {"descriptors", rows}};
 }
 
+/// Rows of a sample's CSV for the errors at each number of nodes.
+void append_levels(const std::string& sample, const DetailLevels& levels, std::string& text) {
+  for (const DescriptorLevels& row : levels.rows) {
+    const auto add = [&](const std::string& unit, const std::string& statistic, double value) {
+      text +=
+          csv_record({sample, row.name, unit, "number", statistic, format_exact(value), "", ""});
+    };
+    for (std::size_t k = 0; k < row.levels.size(); ++k) {
+      const std::string nodes = "_n" + format_number(levels.nodes[k], 9);
+      add("%", "error_median" + nodes, row.levels[k].median);
+      add("%", "error_percent_90" + nodes, row.levels[k].percent_90);
+    }
+    add("", "nodes_needed", row.nodes_needed);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> sample_lines(const SampleReport& report) {
@@ -266,6 +287,7 @@ std::string sample_csv(const SampleReport& report) {
       add({column.column.name, ""}, "number", "size_correlation", column.size_correlation);
     }
   }
+  if (report.levels) append_levels(report.samples.front().name, *report.levels, text);
   return text;
 }
 

@@ -36,7 +36,8 @@ std::vector<std::string> sample_lines(const SampleReport& report);
 std::string sample_json(const SampleReport& report);
 
 /// All statistics as CSV after RFC 4180, a row per statistic: sample, descriptor, unit, weighting,
-/// statistic, value, lower, upper.
+/// statistic, value, lower, upper. The errors at each number of nodes stand last, as the statistics
+/// error_median_n100, error_percent_90_n100 and nodes_needed.
 std::string sample_csv(const SampleReport& report);
 
 /// A page for reading and printing (HTML), one file that refers to no other: size curve, diagrams

@@ -57,6 +57,10 @@ void append_mesh(const std::string& mesh, const DetailedDescriptors& descriptors
 std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& shape) {
   std::vector<ShapeValue> values = {{{"nodes", ""}, static_cast<double>(result.mesh.points.size())},
                                     {{"rms_distance", "length"}, result.rms_distance}};
+  if (shape.contacts) {
+    values.push_back({{"contact_error_mean", "%"}, shape.contacts->mean});
+    values.push_back({{"contact_error_scatter", "%"}, shape.contacts->scatter});
+  }
   if (shape.scan) {
     append_mesh("scan.", *shape.scan, result.original_quality, values);
     const MeshCheckReport& input = result.input;
@@ -70,10 +74,11 @@ std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& 
   return values;
 }
 
-std::vector<std::string> columns_of(Described what) {
+std::vector<std::string> columns_of(const ShapeMeasures& measures) {
   GrainShape shape;
-  if (describes_scan(what)) shape.scan.emplace();
-  if (describes_remesh(what)) shape.remesh.emplace();
+  if (describes_scan(measures.described)) shape.scan.emplace();
+  if (describes_remesh(measures.described)) shape.remesh.emplace();
+  if (measures.contacts) shape.contacts.emplace();
   std::vector<std::string> names = {"grain", "status", "error", "file"};
   for (const ShapeValue& one : values_of(RemeshResult(), shape)) {
     names.push_back(heading_of(one.column));
@@ -90,7 +95,7 @@ bool is_shape_table(const std::string& path) {
   return reader.next(fields) && fields.size() > 3 && fields[0] == "grain" && fields[3] == "file";
 }
 
-std::string shape_header(Described what) { return csv_record(columns_of(what)); }
+std::string shape_header(const ShapeMeasures& measures) { return csv_record(columns_of(measures)); }
 
 GrainShape describe_result(const RemeshResult& result, Described what, const Execution& execution) {
   GrainShape shape;
@@ -111,8 +116,9 @@ std::string shape_row(const std::string& grain, const std::string& file, const R
   return csv_record(fields);
 }
 
-std::string failed_shape_row(const std::string& grain, const std::string& error, Described what) {
-  std::vector<std::string> fields(columns_of(what).size());
+std::string failed_shape_row(const std::string& grain, const std::string& error,
+                             const ShapeMeasures& measures) {
+  std::vector<std::string> fields(columns_of(measures).size());
   fields[0] = grain;
   fields[1] = "failed";
   fields[2] = error;

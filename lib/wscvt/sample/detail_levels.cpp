@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "wscvt/base/error.h"
@@ -16,6 +17,31 @@ namespace {
 
 Eigen::ArrayXd column(const GrainTable& table, const std::string& name) {
   return table.values.col(static_cast<Eigen::Index>(table.index_of(name))).array();
+}
+
+bool is_contact_error(const std::string& name) { return name.rfind("contact_error_", 0) == 0; }
+
+/// The error of each grain in %; nothing if the table lacks a column.
+std::optional<Eigen::ArrayXd> errors_of(const GrainTable& table, const std::string& name) {
+  if (name == "rms_distance") {
+    if (!table.find(name) || !table.find("scan.equivalent_diameter")) return {};
+    return 200.0 * column(table, name) / column(table, "scan.equivalent_diameter");
+  }
+  if (is_contact_error(name)) {
+    if (!table.find(name)) return {};
+    return column(table, name);
+  }
+  if (!table.find("scan." + name) || !table.find("remesh." + name)) return {};
+  return 100.0 * (column(table, "remesh." + name) / column(table, "scan." + name) - 1.0);
+}
+
+/// The kinds of errors, in the order of a table's rows.
+std::vector<std::string> error_names() {
+  std::vector<std::string> names = {"rms_distance", "contact_error_mean", "contact_error_scatter"};
+  for (const DescriptorValue& one : list_descriptors(DetailedDescriptors())) {
+    if (one.on_ratio_scale) names.push_back(one.key);
+  }
+  return names;
 }
 
 LevelError level_error(const Eigen::ArrayXd& percent) {
@@ -59,22 +85,14 @@ DetailLevels measure_levels(const std::vector<GrainTable>& tables, double mark_p
     }
     result.nodes.push_back(nodes);
   }
-  result.rows.push_back({"rms_distance", {}, 0.0});
-  for (const DescriptorValue& one : list_descriptors(DetailedDescriptors())) {
-    if (one.on_ratio_scale) result.rows.push_back({one.key, {}, 0.0});
-  }
-  for (DescriptorLevels& row : result.rows) {
+  for (const std::string& name : error_names()) {
+    DescriptorLevels row{name, {}, 0.0};
     for (const auto& [nodes, table] : levels) {
-      if (&row == &result.rows.front()) {
-        const Eigen::ArrayXd radius = 0.5 * column(*table, "scan.equivalent_diameter");
-        row.levels.push_back(level_error(100.0 * column(*table, "rms_distance") / radius));
-        continue;
-      }
-      const Eigen::ArrayXd scan = column(*table, "scan." + row.name);
-      row.levels.push_back(
-          level_error(100.0 * (column(*table, "remesh." + row.name) / scan - 1.0)));
+      if (const auto errors = errors_of(*table, name)) row.levels.push_back(level_error(*errors));
     }
+    if (row.levels.size() < levels.size()) continue;
     row.nodes_needed = nodes_needed(result.nodes, row.levels, mark_percent);
+    result.rows.push_back(std::move(row));
   }
   return result;
 }

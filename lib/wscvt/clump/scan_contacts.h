@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/clump/first_contact.h"
+#include "wscvt/clump/unit_frame.h"
+
+namespace wscvt {
+
+/// First contact of two copies of a scan, against which that of remeshes is measured: over 992
+/// pairs of poses that are always the same.
+class ScanContacts {
+ public:
+  /// The scan is closed and outward, in any unit; `shape` has its descriptors.
+  ScanContacts(const IndexedMesh& scan, const ShapeDescriptors& shape, const Execution& execution);
+
+  /// The error of two copies of a remesh in the scan's coordinates. A scan and a remesh that are
+  /// moved, turned or scaled together have the same error, but for rounding.
+  ContactError error_of(const IndexedMesh& remesh, const Execution& execution) const;
+
+ private:
+  UnitFrame frame_;
+  double reach_ = 0.0;
+  std::vector<double> distances_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/sample/sample_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+}  // namespace
+
+std::vector<std::string> sample_files(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return {path};
+  const std::string whole = (fs::path(path) / "shape.csv").string();
+  if (fs::exists(whole, error)) return {whole};
+  std::vector<std::string> tables;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    const fs::path table = entry.path() / "shape.csv";
+    if (entry.path().filename().string().front() == 'n' && fs::exists(table, error)) {
+      tables.push_back(table.string());
+    }
+  }
+  std::sort(tables.begin(), tables.end());
+  if (!tables.empty()) return tables;
+  const std::string parts = (fs::path(path) / "shape-*.csv").string();
+  refuse("The folder \"" + path +
+         "\" has no shape.csv. Give a folder that wscvt batch wrote without --describe none. Join "
+         "the tables of its parts by: wscvt collect " +
+         parts + " -o " + whole);
+}
+
+std::size_t finest_table(const std::vector<GrainTable>& tables) {
+  std::size_t best = 0;
+  double most = -1.0;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    const auto nodes = tables[k].find("nodes");
+    if (!nodes) continue;
+    const double count = tables[k].values(0, static_cast<Eigen::Index>(*nodes));
+    if (!(count > most)) continue;
+    most = count;
+    best = k;
+  }
+  return best;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "wscvt/sample/grain_table.h"
+
+namespace wscvt {
+
+/// The tables of shapes that a path stands for: a file itself, or shape.csv of a batch's folder. A
+/// batch with several numbers of nodes has one in each of its folders, such as n100. Throws
+/// Error(InvalidInput) for a folder without a table.
+std::vector<std::string> sample_files(const std::string& path);
+
+/// The table with the most nodes, whose remeshes are the closest to the scans; the first one if no
+/// table has a column "nodes".
+std::size_t finest_table(const std::vector<GrainTable>& tables);
+
+}  // namespace wscvt

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/clump/scan_contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "support/test_shapes.h"
+
+namespace wscvt {
+namespace {
+
+/// An egg with three axes off the origin, `scale` times its size about its centroid.
+IndexedMesh grain(double scale) {
+  IndexedMesh mesh = test::scaled(test::sphere(4), Vector3(2.0, 1.5, 1.2));
+  for (Vector3& p : mesh.points) {
+    p.y() *= 1.0 + 0.1 * p.x();
+    p.z() *= 1.0 - 0.05 * p.x() + 0.1 * p.y();
+  }
+  const Vector3 centroid = describe_shape(mesh, Execution(1)).centroid;
+  return test::moved(test::moved(std::move(mesh), 1.0, -centroid), scale, Vector3(7.0, -2.0, 3.0));
+}
+
+TEST(ScanContacts, OfTheScanItselfHaveNoError) {
+  const IndexedMesh scan = grain(1.0);
+  const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
+  const ContactError error = contacts.error_of(scan, Execution(1));
+  EXPECT_EQ(error.mean, 0.0);
+  EXPECT_EQ(error.scatter, 0.0);
+}
+
+/// Bodies that are smaller by 2 % touch at 2 % less of the distance, which lies between twice the
+/// least half-axis, 1.2 less its curving, and twice the greatest.
+TEST(ScanContacts, OfASmallerBodyAreTooNear) {
+  const IndexedMesh scan = grain(1.0);
+  const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
+  const ContactError error = contacts.error_of(grain(0.98), Execution(1));
+  const double radius = std::cbrt(2.0 * 1.5 * 1.2);
+  EXPECT_LT(error.mean, -4.0 * 1.1 / radius);
+  EXPECT_GT(error.mean, -4.0 * 2.1 / radius);
+  EXPECT_GT(error.scatter, 0.0);
+}
+
+TEST(ScanContacts, FollowMotionAndScale) {
+  const Eigen::Matrix3d turn = 3.0 * test::random_rotation(5);
+  const auto placed = [&](double scale) {
+    return test::transformed(grain(scale), turn, Vector3(-1.0, 4.0, 0.5));
+  };
+  const IndexedMesh scan = grain(1.0);
+  const ContactError error = ScanContacts(scan, describe_shape(scan, Execution(1)), Execution(1))
+                                 .error_of(grain(0.9), Execution(1));
+  const IndexedMesh turned = placed(1.0);
+  const ContactError same = ScanContacts(turned, describe_shape(turned, Execution(2)), Execution(2))
+                                .error_of(placed(0.9), Execution(2));
+  // Pixels at the rim of a height map change sides by rounding.
+  EXPECT_NEAR(same.mean, error.mean, 0.01);
+  EXPECT_NEAR(same.scatter, error.scatter, 0.01);
+}
+
+}  // namespace
+}  // namespace wscvt
