@@ -45,6 +45,36 @@ ReadSample read_sample(const std::string& path, const Execution& execution) {
   return sample;
 }
 
+/// Reads "2650", or "2650,2600".
+std::vector<double> densities_of(std::string_view text) {
+  std::vector<double> densities;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    densities.push_back(from_typed(text.substr(0, comma), density_option));
+    if (comma == std::string_view::npos) return densities;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+void check_densities(const SampleArguments& arguments) {
+  const std::size_t given = arguments.densities.size();
+  if (given > 1 && given != arguments.samples.size()) {
+    refuse(std::to_string(given) + " densities are given, and " +
+           std::to_string(arguments.samples.size()) +
+           (arguments.samples.size() == 1 ? " sample" : " samples") +
+           ". Give one density, or one per sample.");
+  }
+}
+
+/// The options of one of the samples.
+SampleOptions options_of(const SampleArguments& arguments, std::size_t sample) {
+  SampleOptions options = arguments.options;
+  if (!arguments.densities.empty()) {
+    options.density = arguments.densities[std::min(sample, arguments.densities.size() - 1)];
+  }
+  return options;
+}
+
 std::string name_of(const std::string& path) {
   fs::path whole(path);
   if (whole.filename().empty()) whole = whole.parent_path();
@@ -77,7 +107,12 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
       ->expected(1, 2);
   add_choice(app, "--size", arguments.options.size);
   add_choice(app, "--of", arguments.options.of);
-  add_number(app, "--density", arguments.options.density, density_option);
+  add_typed(app, "--density",
+            [&arguments](std::string_view text) { arguments.densities = densities_of(text); })
+      ->description(
+          "Mass / volume, in the units of the table; of two samples one for both, or two such as "
+          "2650,2600. Default: the table's column mass or density, else 1")
+      ->type_name("N");
   add_number(app, "--mark", arguments.mark_percent, mark_option);
   add_number(app, "--repetitions", arguments.options.repetitions, repetitions_option);
   add_typed(app, "--seed",
@@ -98,6 +133,7 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
 
 int run(const SampleArguments& arguments) {
   checked([&] {
+    check_densities(arguments);
     for (const std::string& report : arguments.reports) report_format(report);
     std::vector<NamedFile> inputs;
     for (const std::string& path : arguments.samples) {
@@ -118,7 +154,7 @@ int run(const SampleArguments& arguments) {
     ReportedSample one;
     one.name = name_of(path);
     one.folder = folder_of(read.files[shown]);
-    one.sample = sample_of(read.tables[shown], arguments.options);
+    one.sample = sample_of(read.tables[shown], options_of(arguments, report.samples.size()));
     one.statistics = measure_sample(one.sample, arguments.options, execution);
     if (report.samples.empty() && read.tables.size() > 1) {
       DetailLevels levels = measure_levels(read.tables, arguments.mark_percent);

@@ -5,9 +5,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -18,6 +20,7 @@
 #include "work.h"
 #include "wscvt/base/error.h"
 #include "wscvt/report/sample_report.h"
+#include "wscvt/sample/sample_files.h"
 
 namespace wscvt::python {
 
@@ -31,8 +34,8 @@ using TableParts =
     std::tuple<std::vector<std::string>, std::vector<std::string>,
                std::vector<std::pair<std::string, std::string>>, Eigen::MatrixXd, std::size_t>;
 
-/// A name, the folder of the grains' files and the table.
-using NamedTable = std::tuple<std::string, std::string, TableParts>;
+/// A name, and the table or the path of a table or of a batch's folder.
+using NamedSample = std::tuple<std::string, std::string, std::optional<TableParts>>;
 
 TableParts read_table(const std::filesystem::path& path) {
   GrainTable table = read_grain_table(path.string());
@@ -56,23 +59,53 @@ GrainTable table_of(TableParts parts) {
   return table;
 }
 
-py::object sample(std::vector<NamedTable> tables, const std::vector<std::string>& reports,
-                  const std::string& size, const std::string& of, double density,
-                  std::uint64_t seed, int repetitions, int threads, const py::object& progress) {
+/// A density for all samples, one per sample, or none.
+using Densities = std::vector<double>;
+
+/// The tables of a sample: one, or one per number of nodes.
+struct ReadTables {
+  std::vector<GrainTable> tables;
+  std::vector<std::string> files;  ///< of the tables; empty if those are the caller's
+};
+
+ReadTables tables_of(NamedSample& sample) {
+  auto& [name, path, parts] = sample;
+  ReadTables read;
+  if (parts) {
+    read.tables.push_back(table_of(std::move(*parts)));
+    return read;
+  }
+  read.files = sample_files(path);
+  for (const std::string& file : read.files) read.tables.push_back(read_grain_table(file));
+  return read;
+}
+
+py::object sample(std::vector<NamedSample> samples, const std::vector<std::string>& reports,
+                  const std::string& size, const std::string& of, const Densities& density,
+                  double mark, std::uint64_t seed, int repetitions, int threads,
+                  const py::object& progress) {
   SampleReport report;
   report.options.size = value_of_name<SizeMeasure>(size);
   report.options.of = value_of_name<SampledMesh>(of);
-  report.options.density = density;
   report.options.seed = seed;
   report.options.repetitions = repetitions;
   const std::string json = work_on(threads, progress, [&](const Execution& execution) {
-    for (auto& [name, folder, parts] : tables) {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const ReadTables read = tables_of(samples[k]);
+      SampleOptions options = report.options;
+      if (!density.empty()) options.density = density[std::min(k, density.size() - 1)];
+      const std::size_t shown = finest_table(read.tables);
       ReportedSample one;
-      one.name = std::move(name);
-      one.folder = std::move(folder);
-      one.sample = sample_of(table_of(std::move(parts)), report.options);
-      one.statistics = measure_sample(one.sample, report.options, execution);
+      one.name = std::get<0>(samples[k]);
+      if (!read.files.empty()) {
+        one.folder = std::filesystem::path(read.files[shown]).parent_path().string();
+      }
+      one.sample = sample_of(read.tables[shown], options);
+      one.statistics = measure_sample(one.sample, options, execution);
       report.samples.push_back(std::move(one));
+      if (k > 0 || read.tables.size() == 1) continue;
+      DetailLevels levels = measure_levels(read.tables, mark);
+      if (!levels.rows.empty()) report.levels = std::move(levels);
     }
     if (report.samples.size() > 1) {
       report.comparison = compare_samples(report.samples[0].sample, report.samples[1].sample,
@@ -89,11 +122,12 @@ py::object sample(std::vector<NamedTable> tables, const std::vector<std::string>
 void bind_sample(py::module_& module) {
   const SampleOptions defaults;
   module.def("read_table", &read_table, py::arg("path"));
-  module.def("sample", &sample, py::arg("tables"), py::arg("reports"), py::kw_only(),
+  module.def("sample_files", &sample_files, py::arg("path"));
+  module.def("sample", &sample, py::arg("samples"), py::arg("reports"), py::kw_only(),
              py::arg("size") = key_of(defaults.size), py::arg("of") = key_of(defaults.of),
-             py::arg("density") = defaults.density, py::arg("seed") = defaults.seed,
-             py::arg("repetitions") = defaults.repetitions, py::arg("threads") = 0,
-             py::arg("progress") = py::none());
+             py::arg("density") = Densities(), py::arg("mark") = 1.0,
+             py::arg("seed") = defaults.seed, py::arg("repetitions") = defaults.repetitions,
+             py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

@@ -11,6 +11,7 @@
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/sample_summary.h"
+#include "wscvt/sample/distribution.h"
 
 namespace wscvt {
 

@@ -85,6 +85,18 @@ TEST_F(Sample, TwoAreCompared) {
   EXPECT_NE(content("d.json"), content("c.json"));
 }
 
+TEST_F(Sample, ADensityPerSampleGivesTheMasses) {
+  write_table("a.csv", 3.0);
+  write_table("b.csv", 3.0);
+  ASSERT_EQ(run("sample a.csv b.csv -q --density 2,5 --repetitions 9 --report c.json").exit_code,
+            0);
+  const Document all = Document::parse(content("c.json"));
+  const double volume = 78.0 * 78.0 - 9.0;
+  EXPECT_NEAR(all.at("samples").at(0).at("mass").get<double>(), 2.0 * volume, 1e-9);
+  EXPECT_NEAR(all.at("samples").at(1).at("mass").get<double>(), 5.0 * volume, 1e-9);
+  EXPECT_EQ(all.at("samples").at(1).at("density"), 5.0);
+}
+
 TEST_F(Sample, RefusesWhatIsNone) {
   write_table("a.csv", 3.0);
   fs::create_directory(folder_ / "empty");
@@ -93,6 +105,8 @@ TEST_F(Sample, RefusesWhatIsNone) {
                   {"a.csv --report bad.pdf", 2, "bad.pdf"},
                   {"a.csv --report a.csv", 2, "a.csv"},
                   {"a.csv --density 0", 2, "density"},
+                  {"a.csv --density 2,3", 2, "one per sample"},
+                  {"a.csv a.csv --density 2,x", 2, "density"},
                   {"a.csv --size feret-min", 1, "feret_min"},
                   {"empty", 1, "shape.csv"},
                   {"no.csv", 1, "no.csv"}},

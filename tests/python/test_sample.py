@@ -46,6 +46,38 @@ def test_a_sample_is_that_of_the_program(table):
         assert size == report["samples"][0]["size"]
 
 
+def test_a_family_of_remeshes_has_levels(table):
+    folder = table.parent / "family"
+    for nodes, off in [(100, 1.04), (400, 1.01)]:
+        (folder / f"n{nodes}").mkdir(parents=True)
+        (folder / f"n{nodes}" / "shape.csv").write_text(
+            "grain,nodes,contact_error_mean [%],scan.axis_i_box,scan.area,remesh.area\r\n" + "".join(
+                f"{name},{nodes},{-50.0 / nodes},{size},10,{10 * off}\r\n"
+                for name, size in [("a", 2), ("b", 3)]), newline="")
+    levels = wscvt.sample(folder, mark=0.25)["levels"]
+    assert levels["descriptors"]["area"]["errors"][1]["median_percent"] == pytest.approx(1.0)
+    assert levels["descriptors"]["contact_error_mean"]["nodes_needed"] == 200.0
+    with pytest.raises(wscvt.Error, match="n100"):
+        wscvt.read_table(folder)
+    empty = folder / "empty"
+    empty.mkdir()
+    with pytest.raises(wscvt.Error, match="has no shape.csv"):
+        wscvt.sample(empty)
+
+
+def test_masses_come_from_the_table_or_the_density():
+    sizes = np.array([1.0, 2.0, 3.0])
+    one = {"axis_i_box": sizes, "volume": sizes}
+    def mass(*tables, **options):
+        return [sample["mass"] for sample in wscvt.sample(*tables, **options)["samples"]]
+    assert mass(one, one, density=(2.0, 3.0), repetitions=9) == [12.0, 18.0]
+    assert mass({**one, "density": sizes}) == [14.0]
+    assert mass({**one, "density": sizes, "mass": [1.0, 1.0, 2.0]}) == [4.0]
+    assert mass({**one, "density": sizes}, density=2.0) == [12.0]
+    with pytest.raises(TypeError, match="one per sample"):
+        mass(one, density=(2.0, 3.0))
+
+
 def test_two_samples_are_compared():
     sizes = np.arange(1.0, 21.0)
     one = {"axis_i_box": sizes, "volume": sizes**3}

@@ -50,15 +50,13 @@ TEST(Distribution, LeavesOutWhatHasNoValueOrNoWeight) {
   EXPECT_TRUE(std::isnan(Distribution().quantile(0.5)));
 }
 
-TEST(WeightedQuantiles, AreThoseOfTheDistribution) {
+TEST(Quantile, OfValuesIsThatOfTheirDistribution) {
+  EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+  EXPECT_EQ(quantile({3.0}, 0.9), 3.0);
   const std::vector<double> values = {1.0, 2.0, 2.0, 3.5, 7.0, 11.0};
-  const std::vector<double> weights = {2.0, 0.0, 1.0, 4.0, 0.5, 3.0};
-  const std::vector<double> shares = {0.0, 0.1, 0.25, 0.5, 0.9, 1.0};
-  const Distribution all(vector_of(values), vector_of(weights));
-  std::vector<double> quantiles(shares.size());
-  weighted_quantiles(values, weights, 10.5, shares, quantiles.data());
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    EXPECT_NEAR(quantiles[k], all.quantile(shares[k]), 1e-14) << shares[k];
+  for (const double fraction : {0.0, 0.05, 0.1, 0.25, 0.5, 0.9, 1.0}) {
+    EXPECT_NEAR(quantile(values, fraction), Distribution(values).quantile(fraction), 1e-14)
+        << fraction;
   }
 }
 

@@ -71,6 +71,34 @@ TEST(GrainSample, TakesTheColumnsOfOneMesh) {
   EXPECT_THROW(sample_with(Eigen::Vector2d(1.0, no_value)), Error);
 }
 
+TEST(GrainSample, TakesMassesOrDensitiesOfTheTable) {
+  GrainTable table = table_of(Eigen::Vector3d(1.0, 2.0, 3.0));
+  table.columns[0].name = "density";
+  table.values.col(0) = Eigen::Vector3d(7.0, 5.0, 2.0);
+  GrainSample sample = sample_of(table, {});
+  EXPECT_EQ(sample.masses, Eigen::Vector3d(7.0, 40.0, 54.0));
+  EXPECT_TRUE(std::isnan(sample.density));
+  ASSERT_EQ(sample.notes.size(), 1U);
+  EXPECT_NE(sample.notes[0].find("\"density\""), std::string::npos);
+  table.columns[4].name = "mass";
+  table.values.col(4) = Eigen::Vector3d(0.5, 0.25, 4.0);
+  EXPECT_EQ(sample_of(table, {}).masses, Eigen::Vector3d(0.5, 0.25, 4.0));
+  SampleOptions options;
+  options.density = 2.0;  // what is typed counts
+  EXPECT_EQ(sample_of(table, options).masses, Eigen::Vector3d(2.0, 16.0, 54.0));
+}
+
+TEST(SampleComparison, RefusesTwoUnits) {
+  SampleOptions options;
+  options.repetitions = 0;
+  GrainSample one = sample_with(Eigen::Vector3d(1.0, 2.0, 3.0));
+  GrainSample other = one;
+  other.columns[1].unit = "mm";  // against "length", which may be any
+  EXPECT_NO_THROW(compare_samples(one, other, options, Execution(1)));
+  one.columns[1].unit = "um";
+  EXPECT_THROW(compare_samples(one, other, options, Execution(1)), Error);
+}
+
 TEST(SampleStatistics, SizesOfAUniformSampleAreItsShares) {
   // Sizes 0.5, 1.5, ..., 999.5: by number D10 is 100; by mass (cubes) D10 is 1000 * 0.1^(1/4).
   const Eigen::VectorXd sizes = Eigen::VectorXd::LinSpaced(1000, 0.5, 999.5);
@@ -130,6 +158,61 @@ TEST(SampleStatistics, TheIntervalOfAMeanIsThatOfTheNormalDistribution) {
   const double now = 100.0 * 0.5 * (size.mean.upper - size.mean.lower) / size.mean.value;
   EXPECT_NEAR(grains_needed(size.mean, 400, 0.5 * now), 1600.0, 1.0);
   EXPECT_TRUE(std::isnan(grains_needed({1.0, no_value, no_value}, 400, 1.0)));
+}
+
+/// 602 grains, so that sums have several blocks; some without a value, some without a mass.
+GrainSample gapped_sample() {
+  GrainTable table = table_of(uniform(602, 21).array() + 0.5);
+  table.values(601, 3) = table.values(5, 3) = no_value;
+  table.values(600, 1) = table.values(17, 1) = no_value;
+  table.values.col(3).segment(100, 40).setConstant(0.75);
+  return sample_of(table, {});
+}
+
+/// The middle 95 % of repetitions that are made here one by one.
+TEST(SampleStatistics, IntervalsAreThoseOfEachDraw) {
+  const GrainSample sample = gapped_sample();
+  SampleOptions options;
+  options.repetitions = 7;
+  options.seed = 12;
+  const SampleStatistics s = measure_sample(sample, options, Execution(2));
+  const Eigen::VectorXd& values = sample.values.col(2);
+  std::vector<std::vector<double>> drawn(4);
+  for (std::uint64_t k = 0; k < 7; ++k) {
+    RandomStream random(options.seed, k);
+    Eigen::VectorXd times = Eigen::VectorXd::Zero(602);
+    for (int draw = 0; draw < 602; ++draw) {
+      times[static_cast<Eigen::Index>(random.below(602))] += 1.0;
+    }
+    const Distribution by_number(values, times);
+    const Distribution by_mass(values, times.cwiseProduct(sample.masses));
+    const Distribution sizes(sample.sizes, times.cwiseProduct(sample.masses));
+    drawn[0].push_back(by_number.quantile(0.9));
+    drawn[1].push_back(by_mass.quantile(0.5));
+    drawn[2].push_back(by_mass.mean());
+    drawn[3].push_back(std::pow(sizes.quantile(0.3), 2) /
+                       (sizes.quantile(0.1) * sizes.quantile(0.6)));
+  }
+  const ColumnStatistics& column = s.columns[2];
+  const Estimate estimates[] = {column.by_number.percent_90, column.by_mass.median,
+                                column.by_mass.mean, s.size_by_mass.curvature};
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    const Distribution all(drawn[k]);
+    EXPECT_NEAR(estimates[k].lower, all.quantile(0.025), 1e-12) << k;
+    EXPECT_NEAR(estimates[k].upper, all.quantile(0.975), 1e-12) << k;
+  }
+  EXPECT_EQ(column.count, 600U);
+}
+
+TEST(SampleStatistics, DeviationOfADrawCountsAGrainAsOftenAsItCame) {
+  // Of two grains a draw has both, or one twice; then the deviation is 0, and by number the two
+  // others' is |difference| / sqrt(2).
+  SampleOptions options;
+  options.repetitions = 100;
+  const SampleStatistics s =
+      measure_sample(sample_with(Eigen::Vector2d(1.0, 3.0), options), options, Execution(1));
+  EXPECT_EQ(s.columns[1].by_number.deviation.lower, 0.0);
+  EXPECT_NEAR(s.columns[1].by_number.deviation.upper, std::sqrt(2.0), 1e-14);
 }
 
 TEST(SampleStatistics, HaveTheSameBytesOnAnyNumberOfThreads) {
@@ -221,6 +304,12 @@ TEST(SampleComparison, PTellsSamplesOfOneFromThoseOfTwo) {
     EXPECT_EQ(farther[0].by_number.kolmogorov_p, 0.01);
     EXPECT_EQ(farther[0].by_mass.wasserstein_p, 0.01);
     EXPECT_GT(farther[3].by_number.wasserstein_p, 0.01) << farther[3].column.name;
+    // Every column has the distance of its two distributions, and of itself none.
+    const SampleDistance by_mass = distance_between(Distribution(one.sizes, one.masses),
+                                                    Distribution(moved.sizes, moved.masses));
+    EXPECT_NEAR(farther[0].by_mass.wasserstein, by_mass.wasserstein, 1e-12);
+    EXPECT_NEAR(farther[0].by_mass.kolmogorov, by_mass.kolmogorov, 1e-12);
+    EXPECT_EQ(compare_samples(one, one, options, Execution(1))[0].by_number.wasserstein_p, 1.0);
   }
   EXPECT_LE(same, 7);  // more than 7 of 40 at 0.05: one run in 1,500
 }

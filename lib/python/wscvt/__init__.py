@@ -256,8 +256,11 @@ def _table_parts(table):
 
 
 def _table_file(path):
-    path = pathlib.Path(path)
-    return path / "shape.csv" if path.is_dir() else path
+    files = _wscvt.sample_files(str(path))
+    if len(files) > 1:
+        raise Error(f'The folder "{path}" is of a batch with several numbers of nodes. Give the folder of '
+                    f'one, such as "{pathlib.Path(files[0]).parent}".')
+    return files[0]
 
 
 def read_table(path):
@@ -280,32 +283,40 @@ def read_table(path):
     return table
 
 
-def sample(table, other=None, *, report=(), **options):
+def sample(table, other=None, *, report=(), density=None, **options):
     """Statistics of a sample by number and by mass, or of two that are compared; a dictionary.
 
     sizes = wscvt.sample("out", density=2650.0)["samples"][0]["size"]["by_mass"]
 
     table: the folder of a batch, a .csv file, a structured array (read_table), a DataFrame of pandas
-        or a dictionary of arrays, with columns named as in shape.csv.
+        or a dictionary of arrays, with columns named as in shape.csv. The folder of a batch with
+        several numbers of nodes gives "levels" too, the errors against the number of nodes.
     other: a second sample to compare with.
     report: a path or several that end in .html, .json or .csv, which are written.
     size: "sieve", "equivalent-diameter", "feret-max" or "feret-min".
     of: "scan" or "remesh".
-    density: mass / volume; 1 by default.
+    density: mass / volume, or a pair of them for two samples. By default the table's column "mass"
+        or "density", else 1.
+    mark: error in %, of levels: the number of nodes is told from which on 90 % of the grains are
+        below it; 1 by default.
     seed, repetitions: of the 95 % intervals and of p; 1 and 1000 by default.
     threads, progress: as for remesh. Threads change no result.
 
     The dictionary is the JSON report of "wscvt sample". Raises Error, and TypeError for what is no
     table.
     """
-    tables = []
+    samples = []
     for number, one in enumerate([table] if other is None else [table, other]):
-        is_path = isinstance(one, (str, os.PathLike))
-        folder = str(_table_file(one).parent) if is_path else ""
-        name = pathlib.Path(one).name if is_path else f"sample {number + 1}"
-        tables.append((name, folder, _table_parts(one)))
+        if isinstance(one, (str, os.PathLike)):
+            samples.append((pathlib.Path(one).name, str(one), None))
+        else:
+            samples.append((f"sample {number + 1}", "", _table_parts(one)))
     reports = [report] if isinstance(report, (str, os.PathLike)) else report
-    return _wscvt.sample(tables, [str(path) for path in reports], **options)
+    densities = [] if density is None else numpy.atleast_1d(density).tolist()
+    if len(densities) > 1 and len(densities) != len(samples):
+        raise TypeError(f"{len(densities)} densities are given, and {len(samples)} samples. Give one "
+                        "density, or one per sample.")
+    return _wscvt.sample(samples, [str(path) for path in reports], density=densities, **options)
 
 
 def convex(vertices, faces=None, **options):

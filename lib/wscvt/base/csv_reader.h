@@ -30,6 +30,7 @@ class CsvReader {
  private:
   std::istream& stream_;
   std::string text_;
+  std::vector<std::string> record_;  ///< room for the next record
   std::size_t size_ = 0;
   bool is_cut_ = false;
 };

@@ -177,15 +177,6 @@ SampleSummary summarise_table(const std::string& path) {
   return summary;
 }
 
-double quantile(const std::vector<double>& values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  const double part = place - static_cast<double>(below);
-  return values[below] + part * (values[above] - values[below]);
-}
-
 Histogram histogram_of(const std::vector<double>& values) {
   // Square-root rule, with bins that can be told apart on a page.
   const auto bins = static_cast<std::size_t>(

@@ -41,10 +41,6 @@ inline constexpr std::size_t most_failures_named = 100;
 /// no such table or ends within a row, InputOutput.
 SampleSummary summarise_table(const std::string& path);
 
-/// The value below which a share, 0 to 1, of the values lies, between neighbours by a straight
-/// line; NaN of none. `values` ascend.
-double quantile(const std::vector<double>& values, double share);
-
 /// Bins from the first to the last of values that ascend, as many as a page can show.
 Histogram histogram_of(const std::vector<double>& values);
 

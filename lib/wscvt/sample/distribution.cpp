@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace wscvt {
 
@@ -23,14 +24,15 @@ Distribution::Distribution(const std::vector<double>& values)
               .eval()) {}
 
 Distribution::Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
+  std::vector<std::pair<double, std::uint32_t>> sorted;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (std::isfinite(values[k]) && std::isfinite(weights[k]) && weights[k] > 0.0) {
-      grains_.push_back(static_cast<std::uint32_t>(k));
+      sorted.emplace_back(values[k], static_cast<std::uint32_t>(k));
     }
   }
   // Equal values keep the order of the grains, so that sums have the same bits everywhere.
-  std::stable_sort(grains_.begin(), grains_.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return values[a] < values[b]; });
+  std::sort(sorted.begin(), sorted.end());
+  for (const auto& [value, grain] : sorted) grains_.push_back(grain);
   double total = 0.0;
   for (const std::uint32_t grain : grains_) {
     values_.push_back(values[grain]);
@@ -70,24 +72,14 @@ double Distribution::quantile(double fraction) const {
   return values_[k - 1] + part * (values_[k] - values_[k - 1]);
 }
 
-void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
-                        double total, const std::vector<double>& fractions, double* quantiles) {
-  double below = 0.0;
-  double last_middle = 0.0;
-  double last_value = no_number;
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < values.size() && next < fractions.size(); ++k) {
-    if (!(weights[k] > 0.0)) continue;
-    const double middle = below + 0.5 * weights[k];
-    for (; next < fractions.size() && fractions[next] * total <= middle; ++next) {
-      const double part = (fractions[next] * total - last_middle) / (middle - last_middle);
-      quantiles[next] = below > 0.0 ? last_value + part * (values[k] - last_value) : values[k];
-    }
-    below += weights[k];
-    last_middle = middle;
-    last_value = values[k];
-  }
-  for (; next < fractions.size(); ++next) quantiles[next] = last_value;
+double quantile(const std::vector<double>& ascending, double fraction) {
+  if (ascending.empty()) return no_number;
+  const auto last = static_cast<double>(ascending.size() - 1);
+  const double place = std::clamp(fraction * (last + 1.0) - 0.5, 0.0, last);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, ascending.size() - 1);
+  const double part = place - static_cast<double>(below);
+  return ascending[below] + part * (ascending[above] - ascending[below]);
 }
 
 }  // namespace wscvt

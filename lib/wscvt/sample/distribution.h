@@ -45,10 +45,9 @@ class Distribution {
   std::vector<double> middles_;  ///< weight below the middle of each grain / all
 };
 
-/// Several quantiles of sorted values with weights, zeros among them, as Distribution::quantile has
-/// them; `fractions` ascend, `total` is the sum of the weights. For repetitions, which change the
-/// weights only.
-void weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights,
-                        double total, const std::vector<double>& fractions, double* quantiles);
+/// The value below which a fraction, 0 to 1, of values in ascending order lies, as
+/// Distribution::quantile has it for equal weights: all quantiles of this library are Hazen's
+/// (method="hazen" of NumPy), since those have weights too. NaN for no value.
+double quantile(const std::vector<double>& ascending, double fraction);
 
 }  // namespace wscvt

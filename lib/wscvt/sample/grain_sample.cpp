@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <optional>
 
 #include "wscvt/base/error.h"
@@ -81,10 +83,36 @@ std::optional<std::size_t> find(const GrainSample& sample, const std::string& na
   return {};
 }
 
+/// The mass of a grain of this volume: row and volume give it.
+using MassOf = std::function<double(Eigen::Index row, double volume)>;
+
+/// Chooses where masses come from.
+MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSample& sample) {
+  const auto column = [&](std::size_t place) {
+    return [&table, place](Eigen::Index row) {
+      return table.values(row, static_cast<Eigen::Index>(place));
+    };
+  };
+  const auto mass = table.find("mass");
+  const auto density = table.find("density");
+  if (!options.density && (mass || density)) {
+    sample.density = std::numeric_limits<double>::quiet_NaN();
+    if (mass) {
+      sample.notes.push_back("Masses are those of the column \"mass\".");
+      return [read = column(*mass)](Eigen::Index row, double) { return read(row); };
+    }
+    sample.notes.push_back("Densities are those of the column \"density\".");
+    return
+        [read = column(*density)](Eigen::Index row, double volume) { return read(row) * volume; };
+  }
+  sample.density = options.density.value_or(1.0);
+  return [all = sample.density](Eigen::Index, double volume) { return all * volume; };
+}
+
 }  // namespace
 
 GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
-  require_in_range(options.density, density_option);
+  if (options.density) require_in_range(*options.density, density_option);
   require_in_range(options.repetitions, repetitions_option);
   GrainSample sample;
   sample.failed = table.failed;
@@ -114,10 +142,11 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
            ". Statistics need two or more.");
   }
   const auto volume = find(sample, "volume");
-  if (!volume) {
+  if (!volume && (options.density || !table.find("mass"))) {
     sample.notes.push_back(
         "The table has no column \"volume\", so masses are those of spheres of the grains' size.");
   }
+  const MassOf mass_of = masses_of(table, options, sample);
   const auto rows = static_cast<Eigen::Index>(kept.size());
   sample.values.resize(rows, static_cast<Eigen::Index>(places.size()));
   sample.sizes.resize(rows);
@@ -131,8 +160,7 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     }
     const double size = value(k, *size_place);
     sample.sizes[row] = size;
-    sample.masses[row] =
-        options.density * (volume ? value(k, *volume) : pi / 6.0 * size * size * size);
+    sample.masses[row] = mass_of(k, volume ? value(k, *volume) : pi / 6.0 * size * size * size);
   }
   return sample;
 }

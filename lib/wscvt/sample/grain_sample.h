@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,8 @@ struct EnumerationTable<SampledMesh> {
 struct SampleOptions {
   SizeMeasure size = SizeMeasure::Sieve;
   SampledMesh of = SampledMesh::Scan;
-  double density = 1.0;    ///< mass / volume of all grains, > 0
+  /// Mass / volume of all grains, > 0. Without it the table says, or it is 1; see sample_of.
+  std::optional<double> density;
   std::uint64_t seed = 1;  ///< of the repetitions behind intervals and p
   int repetitions = 1000;  ///< 0: no intervals and no p
 };
@@ -69,6 +71,7 @@ struct GrainSample {
   std::string size_unit;           ///< such as "length"; may be empty
   Eigen::VectorXd sizes;
   Eigen::VectorXd masses;
+  double density = 1.0;              ///< of all grains; NaN if the table tells masses or densities
   std::vector<GrainColumn> columns;  ///< names without "scan."; no positions and no directions
   Eigen::MatrixXd values;            ///< grains x columns; NaN: missing
   std::size_t failed = 0;            ///< of the table
@@ -77,9 +80,11 @@ struct GrainSample {
 
 /// Chooses a sample's columns from a table: those named "scan." or "remesh." by options.of if there
 /// are such, else all. Of a table of remeshes only, the remeshes are taken, with a note. Grains
-/// without a size are left out, with a note. A mass is density times volume, or times pi / 6 size^3
-/// if the table has no column "volume". Throws Error(InvalidInput) for options out of range, if
-/// the table has no column for the size, and if fewer than two grains remain.
+/// without a size are left out, with a note. A mass is the density times the volume, or times
+/// pi / 6 size^3 if the table has no column "volume". Without options.density a column "mass" of
+/// the table has the masses, or a column "density" the densities. Throws Error(InvalidInput) for
+/// options out of range, if the table has no column for the size, and if fewer than two grains
+/// remain.
 GrainSample sample_of(const GrainTable& table, const SampleOptions& options);
 
 }  // namespace wscvt

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <unordered_set>
+#include <utility>
 
 #include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
@@ -79,7 +80,7 @@ class TableReader {
   std::size_t name_field_ = 0;
   std::optional<std::size_t> file_field_;
   std::optional<std::size_t> status_field_;
-  std::vector<double> numbers_;  ///< row by row, a number per field
+  std::vector<std::vector<double>> numbers_;  ///< of each field that is no text
   GrainTable table_;
 };
 
@@ -106,6 +107,7 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     roles_.push_back(is_text ? Role::Text : Role::Undecided);
   }
   roles_[name_field_] = Role::Text;
+  numbers_.resize(fields_.size());
 }
 
 void TableReader::read_row(const std::vector<std::string>& fields) {
@@ -120,17 +122,14 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
   table_.grains.push_back(fields[name_field_]);
   if (file_field_) table_.files.push_back(fields[*file_field_]);
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (roles_[k] == Role::Text) {
-      numbers_.push_back(missing);
-      continue;
-    }
+    if (roles_[k] == Role::Text) continue;
     const std::optional<double> number = field_number(fields[k]);
     if (!number && roles_[k] == Role::Number) {
       fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
            "\", and numbers above it. Write a number, or leave the field empty.");
     }
     if (!trimmed(fields[k]).empty()) roles_[k] = number ? Role::Number : Role::Text;
-    numbers_.push_back(number.value_or(missing));
+    numbers_[k].push_back(number.value_or(missing));
   }
 }
 
@@ -147,12 +146,11 @@ GrainTable TableReader::table() {
     fail("no column of the table holds numbers. Write decimal points, not commas.");
   }
   const auto rows = static_cast<Eigen::Index>(table_.grains.size());
-  const auto width = static_cast<Eigen::Index>(fields_.size());
-  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> all(numbers_.data(), rows,
-                                                                             width);
   table_.values.resize(rows, static_cast<Eigen::Index>(taken.size()));
   for (std::size_t k = 0; k < taken.size(); ++k) {
-    table_.values.col(static_cast<Eigen::Index>(k)) = all.col(static_cast<Eigen::Index>(taken[k]));
+    const std::vector<double> numbers = std::move(numbers_[taken[k]]);
+    table_.values.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows);
   }
   return std::move(table_);
 }

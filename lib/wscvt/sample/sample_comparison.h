@@ -34,7 +34,8 @@ SampleDistance distance_between(const Distribution& one, const Distribution& oth
 
 /// Compares the descriptors that both samples have, the size first. With p from
 /// options.repetitions partings, fewer above 4,000 grains but 200 at least; p = (1 + partings as
-/// far) / (1 + all). The same options give the same bytes on any number of threads.
+/// far) / (1 + all). The same options give the same bytes on any number of threads. Throws
+/// Error(InvalidInput) if a descriptor has two units, such as mm and um; "length" is any unit.
 std::vector<ColumnComparison> compare_samples(const GrainSample& one, const GrainSample& other,
                                               const SampleOptions& options,
                                               const Execution& execution);

@@ -2,9 +2,11 @@
 #include "wscvt/sample/sample_statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "wscvt/sample/distribution.h"
 #include "wscvt/sample/random_stream.h"
@@ -18,67 +20,174 @@ constexpr double no_statistic = std::numeric_limits<double>::quiet_NaN();
 /// Two-sided 95 % of the normal distribution.
 constexpr double normal_95 = 1.959963984540054;
 
-/// Draws and sorted sums cost n a repetition: above this many grains fewer are made.
+/// Sums cost n a repetition: above this many grains fewer are made.
 constexpr std::size_t most_grains_at_full = 20000;
 constexpr int least_repetitions = 200;
 
 /// Mean, deviation, 10, 50 and 90 %: what is repeated of a column.
 constexpr std::size_t column_numbers = 5;
-const std::vector<double> column_shares = {0.1, 0.5, 0.9};
+constexpr std::array<double, 3> column_shares = {0.1, 0.5, 0.9};
 /// D10 to D90, Cu, Cc: what is repeated of the size.
 constexpr std::size_t size_numbers = 7;
-const std::vector<double> size_shares = {0.1, 0.3, 0.5, 0.6, 0.9};
+constexpr std::array<double, 5> size_shares = {0.1, 0.3, 0.5, 0.6, 0.9};
 
-/// A distribution whose grains are drawn again and again.
+/// Draws that are summed at once: their numbers fill the registers of a processor.
+constexpr std::size_t lanes = 4;
+using Lanes = std::array<double, lanes>;
+/// How often each grain comes in each draw.
+using Draws = std::vector<std::array<std::uint16_t, lanes>>;
+
+/// One number of each grain, whose grains are drawn again and again.
 class Repeated {
  public:
-  Repeated(const Eigen::VectorXd& values, const Eigen::VectorXd& weights, bool is_size)
-      : distribution_(values, weights), middle_(distribution_.mean()), is_size_(is_size) {}
-
-  std::size_t numbers() const { return is_size_ ? size_numbers : column_numbers; }
-
-  /// The statistics of a draw in which the grains come `times`. `weights` is room to work in.
-  void measure(const std::vector<std::uint16_t>& times, std::vector<double>& weights,
-               double* result) const {
-    const std::vector<double>& values = distribution_.values();
-    const std::vector<double>& own = distribution_.weights();
-    const std::vector<std::uint32_t>& grains = distribution_.grains();
-    weights.resize(values.size());
-    // In one pass, about the mean of the sample, where no digits are lost. A grain that was drawn
-    // twice is two grains.
-    double total = 0.0;
-    double squares = 0.0;
-    double first = 0.0;
-    double second = 0.0;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const double weight = times[grains[k]] * own[k];
-      const double difference = values[k] - middle_;
-      weights[k] = weight;
-      total += weight;
-      squares += weight * own[k];
-      first += weight * difference;
-      second += weight * difference * difference;
-    }
-    if (!(total > 0.0)) {
-      // No grain of the draw has a value.
-      std::fill(result, result + numbers(), no_statistic);
-    } else if (is_size_) {
-      weighted_quantiles(values, weights, total, size_shares, result);
-      result[5] = result[3] / result[0];
-      result[6] = result[1] * result[1] / (result[0] * result[3]);
-    } else {
-      result[0] = middle_ + first / total;
-      const double spread = std::max(0.0, second - first * first / total);
-      result[1] = std::sqrt(spread / (total - squares / total));
-      weighted_quantiles(values, weights, total, column_shares, result + 2);
+  Repeated(const Eigen::VectorXd& values, const Eigen::VectorXd& masses, bool is_size)
+      : is_size_(is_size) {
+    const Distribution distribution(values);
+    values_ = distribution.values();
+    grains_ = distribution.grains();
+    middle_ = distribution.mean();
+    for (const std::uint32_t grain : grains_) {
+      const double mass = masses[grain];
+      masses_.push_back(std::isfinite(mass) && mass > 0.0 ? mass : 0.0);
     }
   }
 
+  const std::vector<double>& values() const { return values_; }
+  const std::vector<std::uint32_t>& grains() const { return grains_; }
+  /// How many statistics there are by number, and as many by mass.
+  std::size_t numbers() const { return is_size_ ? size_numbers : column_numbers; }
+
+  /// The statistics of the first draws, as many as there are results: each has room for numbers()
+  /// by number and then numbers() by mass.
+  void measure(const Draws& draws, const std::vector<double*>& results) const;
+
  private:
-  Distribution distribution_;
-  double middle_;
+  /// The weights of all grains below the first of each block.
+  struct Below {
+    Lanes by_number{};
+    Lanes by_mass{};
+  };
+  static constexpr std::size_t block = 256;
+
+  template <bool by_mass>
+  double weight(const Draws& draws, std::size_t k, std::size_t lane) const {
+    const double times = draws[grains_[k]][lane];
+    return by_mass ? times * masses_[k] : times;
+  }
+  /// Distribution::quantile of a draw whose weights sum to `total` > 0.
+  template <bool by_mass>
+  double quantile(const Draws& draws, const std::vector<Below>& blocks, std::size_t lane,
+                  double total, double fraction) const;
+  template <bool by_mass>
+  void append_quantiles(const Draws& draws, const std::vector<Below>& blocks, std::size_t lane,
+                        double total, double* result) const;
+
+  std::vector<double> values_;  ///< ascending
+  std::vector<double> masses_;  ///< 0: missing
+  std::vector<std::uint32_t> grains_;
+  double middle_ = 0.0;
   bool is_size_;
 };
+
+template <bool by_mass>
+double Repeated::quantile(const Draws& draws, const std::vector<Below>& blocks, std::size_t lane,
+                          double total, double fraction) const {
+  const auto below_of = [&](const Below& one) {
+    return by_mass ? one.by_mass[lane] : one.by_number[lane];
+  };
+  const double target = fraction * total;
+  // No grain before the last block that begins below the target has its middle beyond it.
+  const auto later = std::partition_point(blocks.begin() + 1, blocks.end(),
+                                          [&](const Below& one) { return below_of(one) < target; });
+  const auto first = static_cast<std::size_t>(later - blocks.begin()) - 1;
+  double below = below_of(blocks[first]);
+  std::size_t k = first * block;
+  double middle = 0.0;
+  for (; k < values_.size(); ++k) {
+    const double own = weight<by_mass>(draws, k, lane);
+    middle = below + 0.5 * own;
+    if (own > 0.0 && middle >= target) break;
+    below += own;
+  }
+  // The grain before, among those that were drawn.
+  std::size_t last = k;
+  double last_weight = 0.0;
+  while (last > 0 && !(last_weight > 0.0)) last_weight = weight<by_mass>(draws, --last, lane);
+  if (!(last_weight > 0.0)) return values_[k];
+  if (k == values_.size()) return values_[last];
+  const double last_middle = below - 0.5 * last_weight;
+  const double part = (target - last_middle) / (middle - last_middle);
+  return values_[last] + part * (values_[k] - values_[last]);
+}
+
+template <bool by_mass>
+void Repeated::append_quantiles(const Draws& draws, const std::vector<Below>& blocks,
+                                std::size_t lane, double total, double* result) const {
+  if (is_size_) {
+    for (const double share : size_shares) {
+      *result++ = quantile<by_mass>(draws, blocks, lane, total, share);
+    }
+    const double* const d = result - size_shares.size();
+    result[0] = d[3] / d[0];
+    result[1] = d[1] * d[1] / (d[0] * d[3]);
+    return;
+  }
+  for (const double share : column_shares) {
+    *result++ = quantile<by_mass>(draws, blocks, lane, total, share);
+  }
+}
+
+void Repeated::measure(const Draws& draws, const std::vector<double*>& results) const {
+  // In one pass, about the mean of the sample, where no digits are lost. A grain that was drawn
+  // twice is two grains, also in the sum of the squared masses.
+  Lanes count{};
+  Lanes first{};
+  Lanes second{};
+  Lanes mass{};
+  Lanes squares{};
+  Lanes mass_first{};
+  Lanes mass_second{};
+  std::vector<Below> blocks(values_.size() / block + 1);
+  for (std::size_t k = 0; k < values_.size(); ++k) {
+    if (k % block == 0) blocks[k / block] = {count, mass};
+    const double difference = values_[k] - middle_;
+    const double own = masses_[k];
+    const std::array<std::uint16_t, lanes>& times = draws[grains_[k]];
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double drawn = times[lane];
+      const double drawn_mass = drawn * own;
+      count[lane] += drawn;
+      first[lane] += drawn * difference;
+      second[lane] += drawn * difference * difference;
+      mass[lane] += drawn_mass;
+      squares[lane] += drawn_mass * own;
+      mass_first[lane] += drawn_mass * difference;
+      mass_second[lane] += drawn_mass * difference * difference;
+    }
+  }
+  if (values_.size() % block == 0) blocks.back() = {count, mass};
+  const auto moments = [&](double total, double sum, double square, double weights,
+                           double* result) {
+    result[0] = middle_ + sum / total;
+    result[1] = std::sqrt(std::max(0.0, square - sum * sum / total) / (total - weights / total));
+  };
+  const std::size_t own_numbers = is_size_ ? 0 : 2;
+  for (std::size_t lane = 0; lane < results.size(); ++lane) {
+    double* const by_number = results[lane];
+    double* const by_mass = by_number + numbers();
+    // A draw may have no grain with a value, or none with a mass.
+    std::fill(by_number, by_mass + numbers(), no_statistic);
+    if (count[lane] > 0.0) {
+      if (!is_size_) moments(count[lane], first[lane], second[lane], count[lane], by_number);
+      append_quantiles<false>(draws, blocks, lane, count[lane], by_number + own_numbers);
+    }
+    if (mass[lane] > 0.0) {
+      if (!is_size_)
+        moments(mass[lane], mass_first[lane], mass_second[lane], squares[lane], by_mass);
+      append_quantiles<true>(draws, blocks, lane, mass[lane], by_mass + own_numbers);
+    }
+  }
+}
 
 /// The middle 95 % of what repetitions gave, about the value of the sample itself.
 Estimate estimate_of(double value, std::vector<double>& repeated) {
@@ -97,42 +206,46 @@ int repetitions_for(std::size_t grains, int asked) {
   return std::max(least_repetitions, static_cast<int>(asked * share));
 }
 
-/// Estimates of all distributions' numbers, one after the other.
+/// Draws as many grains as there are, with replacement, in each lane from a stream of its own.
+void draw(std::uint64_t seed, std::size_t first_stream, std::size_t grains, Draws& draws) {
+  draws.assign(grains, {});
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    RandomStream random(seed, first_stream + lane);
+    for (std::size_t k = 0; k < grains; ++k) ++draws[random.below(grains)][lane];
+  }
+}
+
+/// Estimates of all columns' numbers, one after the other, by number and then by mass.
 std::vector<Estimate> bootstrap(const std::vector<Repeated>& all, std::size_t grains,
-                                int repetitions, std::uint64_t seed, const Execution& execution) {
+                                std::size_t repetitions, std::uint64_t seed,
+                                const Execution& execution) {
   std::size_t width = 0;
-  for (const Repeated& one : all) width += one.numbers();
-  std::vector<double> drawn(width * static_cast<std::size_t>(repetitions));
-  execution.parallel_for(static_cast<std::size_t>(repetitions), 4,
-                         [&](std::size_t begin, std::size_t end) {
-                           std::vector<std::uint16_t> times;
-                           std::vector<double> weights;
-                           for (std::size_t k = begin; k < end; ++k) {
-                             RandomStream random(seed, k);
-                             times.assign(grains, 0);
-                             for (std::size_t draw = 0; draw < grains; ++draw)
-                               ++times[random.below(grains)];
-                             double* result = &drawn[k * width];
-                             for (const Repeated& one : all) {
-                               one.measure(times, weights, result);
-                               result += one.numbers();
-                             }
-                           }
-                         });
+  for (const Repeated& one : all) width += 2 * one.numbers();
+  std::vector<double> drawn(width * repetitions);
+  const auto measure = [&](const Draws& draws, std::size_t begin, std::size_t end, double* rows) {
+    std::vector<double*> results;
+    for (std::size_t k = begin; k < end; ++k) results.push_back(rows + k * width);
+    for (const Repeated& one : all) {
+      one.measure(draws, results);
+      for (double*& result : results) result += 2 * one.numbers();
+    }
+  };
+  execution.parallel_for(
+      (repetitions + lanes - 1) / lanes, 1, [&](std::size_t begin, std::size_t end) {
+        Draws draws;
+        for (std::size_t k = begin; k < end; ++k) {
+          draw(seed, k * lanes, grains, draws);
+          measure(draws, k * lanes, std::min(repetitions, (k + 1) * lanes), drawn.data());
+        }
+      });
+  std::vector<double> own(width);
+  measure(Draws(grains, {1, 1, 1, 1}), 0, 1, own.data());
   std::vector<Estimate> estimates;
   std::vector<double> repeated;
-  const std::vector<std::uint16_t> once(grains, 1);
-  std::vector<double> weights;
-  for (const Repeated& one : all) {
-    std::vector<double> own(one.numbers());
-    one.measure(once, weights, own.data());
-    for (const double value : own) {
-      repeated.clear();
-      for (std::size_t k = estimates.size(); k < drawn.size(); k += width) {
-        repeated.push_back(drawn[k]);
-      }
-      estimates.push_back(estimate_of(value, repeated));
-    }
+  for (std::size_t k = 0; k < width; ++k) {
+    repeated.clear();
+    for (std::size_t row = 0; row < repetitions; ++row) repeated.push_back(drawn[row * width + k]);
+    estimates.push_back(estimate_of(own[k], repeated));
   }
   return estimates;
 }
@@ -143,45 +256,34 @@ SizeEstimates size_estimates(const Estimate* at) {
 
 ColumnEstimates column_estimates(const Estimate* at) { return {at[0], at[1], at[2], at[3], at[4]}; }
 
-/// Ranks from 1, those of equal values their mean.
-std::vector<double> ranks_of(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  std::vector<double> ranks(values.size());
-  for (std::size_t begin = 0; begin < order.size();) {
+/// Of each row that the distribution has: its rank from 1, that of equal values their mean.
+std::vector<double> ranks_of(const std::vector<double>& values,
+                             const std::vector<std::uint32_t>& rows, std::size_t count) {
+  std::vector<double> ranks(count, no_statistic);
+  for (std::size_t begin = 0; begin < values.size();) {
     std::size_t end = begin;
-    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
+    while (end < values.size() && values[end] == values[begin]) ++end;
     const double rank = 0.5 * static_cast<double>(begin + 1 + end);
-    for (std::size_t k = begin; k < end; ++k) ranks[order[k]] = rank;
+    for (std::size_t k = begin; k < end; ++k) ranks[rows[k]] = rank;
     begin = end;
   }
   return ranks;
 }
 
-}  // namespace
-
-Estimate rank_correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
-  std::vector<double> a;
-  std::vector<double> b;
-  for (Eigen::Index k = 0; k < one.size(); ++k) {
-    if (!std::isfinite(one[k]) || !std::isfinite(other[k])) continue;
-    a.push_back(one[k]);
-    b.push_back(other[k]);
-  }
-  const auto n = static_cast<double>(a.size());
-  if (a.size() < 4) return {no_statistic, no_statistic, no_statistic};
-  a = ranks_of(a);
-  b = ranks_of(b);
+/// Of ranks of the same rows; rows without a rank have none in both.
+Estimate correlation_of(const std::vector<double>& one, const std::vector<double>& other,
+                        std::size_t count) {
+  const auto n = static_cast<double>(count);
+  if (count < 4) return {no_statistic, no_statistic, no_statistic};
   const double middle = 0.5 * (n + 1.0);
   double ab = 0.0;
   double aa = 0.0;
   double bb = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    ab += (a[k] - middle) * (b[k] - middle);
-    aa += (a[k] - middle) * (a[k] - middle);
-    bb += (b[k] - middle) * (b[k] - middle);
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    if (std::isnan(one[k])) continue;
+    ab += (one[k] - middle) * (other[k] - middle);
+    aa += (one[k] - middle) * (one[k] - middle);
+    bb += (other[k] - middle) * (other[k] - middle);
   }
   const double r = ab / std::sqrt(aa * bb);
   if (!std::isfinite(r)) return {no_statistic, no_statistic, no_statistic};
@@ -190,37 +292,53 @@ Estimate rank_correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& oth
   return {r, std::tanh(z - reach), std::tanh(z + reach)};
 }
 
+}  // namespace
+
+Estimate rank_correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  const auto rows = static_cast<std::size_t>(one.size());
+  const Distribution a(one.array().isFinite().select(other.array(), no_statistic).matrix().eval());
+  const Distribution b(other.array().isFinite().select(one.array(), no_statistic).matrix().eval());
+  return correlation_of(ranks_of(a.values(), a.grains(), rows),
+                        ranks_of(b.values(), b.grains(), rows), a.size());
+}
+
 SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& options,
                                 const Execution& execution) {
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(sample.sizes.size());
-  std::vector<Repeated> all;
-  for (const Eigen::VectorXd* weights : {&ones, &sample.masses}) {
-    all.emplace_back(sample.sizes, *weights, true);
-    for (Eigen::Index k = 0; k < sample.values.cols(); ++k) {
-      all.emplace_back(sample.values.col(k), *weights, false);
-    }
-  }
-  SampleStatistics statistics;
-  statistics.repetitions = repetitions_for(sample.grains.size(), options.repetitions);
+  const std::size_t grains = sample.grains.size();
   execution.report(0.0, "Measuring the sample");
-  const std::vector<Estimate> estimates =
-      bootstrap(all, sample.grains.size(), statistics.repetitions, options.seed, execution);
-  const Estimate* by_number = estimates.data();
-  const Estimate* by_mass = by_number + estimates.size() / 2;
-  statistics.size_by_number = size_estimates(by_number);
-  statistics.size_by_mass = size_estimates(by_mass);
-  for (std::size_t k = 0; k < sample.columns.size(); ++k) {
-    const Eigen::VectorXd values = sample.values.col(static_cast<Eigen::Index>(k));
-    const Distribution distribution(values);
+  std::vector<std::optional<Repeated>> made(sample.columns.size() + 1);
+  execution.parallel_for(made.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto column = static_cast<Eigen::Index>(k) - 1;
+      made[k].emplace(k == 0 ? sample.sizes : Eigen::VectorXd(sample.values.col(column)),
+                      sample.masses, k == 0);
+    }
+  });
+  std::vector<Repeated> all;
+  for (std::optional<Repeated>& one : made) all.push_back(std::move(*one));
+  SampleStatistics statistics;
+  statistics.repetitions = repetitions_for(grains, options.repetitions);
+  const std::vector<Estimate> estimates = bootstrap(
+      all, grains, static_cast<std::size_t>(statistics.repetitions), options.seed, execution);
+  const Estimate* at = estimates.data();
+  statistics.size_by_number = size_estimates(at);
+  statistics.size_by_mass = size_estimates(at + size_numbers);
+  at += 2 * size_numbers;
+  const std::vector<double> size_ranks = ranks_of(all[0].values(), all[0].grains(), grains);
+  for (std::size_t k = 0; k < sample.columns.size(); ++k, at += 2 * column_numbers) {
+    const std::vector<double>& values = all[k + 1].values();
     ColumnStatistics column;
     column.column = sample.columns[k];
-    column.count = distribution.size();
-    column.smallest = distribution.quantile(0.0);
-    column.largest = distribution.quantile(1.0);
-    const std::size_t place = size_numbers + k * column_numbers;
-    column.by_number = column_estimates(by_number + place);
-    column.by_mass = column_estimates(by_mass + place);
-    column.size_correlation = rank_correlation(sample.sizes, values);
+    column.count = values.size();
+    column.smallest = values.empty() ? no_statistic : values.front();
+    column.largest = values.empty() ? no_statistic : values.back();
+    column.by_number = column_estimates(at);
+    column.by_mass = column_estimates(at + column_numbers);
+    // Where all grains have the descriptor, the ranks of their sizes are known.
+    column.size_correlation =
+        values.size() == grains
+            ? correlation_of(size_ranks, ranks_of(values, all[k + 1].grains(), grains), grains)
+            : rank_correlation(sample.sizes, sample.values.col(static_cast<Eigen::Index>(k)));
     statistics.columns.push_back(column);
   }
   for (const double mass : sample.masses) {
