@@ -55,5 +55,23 @@ TEST(CsvReader, TellsARecordThatIsCut) {
   }
 }
 
+TEST(CsvReader, TakesALastRecordWithoutALineBreakIfAsked) {
+  std::istringstream stream("a;b\n1,5;\"2;3\"");
+  CsvReader reader(stream, ';');
+  Fields fields;
+  EXPECT_FALSE(reader.last(fields));
+  ASSERT_TRUE(reader.next(fields));
+  EXPECT_EQ(fields, (Fields{"a", "b"}));
+  ASSERT_FALSE(reader.next(fields));
+  ASSERT_TRUE(reader.last(fields));
+  EXPECT_EQ(fields, (Fields{"1,5", "2;3"}));
+  EXPECT_FALSE(reader.last(fields));
+  std::istringstream open("a,b\n1,\"2");
+  CsvReader of_open(open);
+  ASSERT_TRUE(of_open.next(fields));
+  ASSERT_FALSE(of_open.next(fields));
+  EXPECT_FALSE(of_open.last(fields));
+}
+
 }  // namespace
 }  // namespace wscvt

@@ -100,6 +100,10 @@ TEST_F(Sample, ADensityPerSampleGivesTheMasses) {
 TEST_F(Sample, RefusesWhatIsNone) {
   write_table("a.csv", 3.0);
   fs::create_directory(folder_ / "empty");
+  fs::create_directory(folder_ / "meshes");
+  write_mesh(test::sphere(1), path("meshes/a.stl"));
+  std::ofstream(folder_ / "units.csv") << "grain,axis_i_box,e\na,1 mm,1\nb,2 mm,2\n";
+  std::ofstream(folder_ / "numbers.csv") << "grain,d,e\na,1,2\nb,2,3\n";
   expect_refused("sample",
                  {{"", 2, "samples"},
                   {"a.csv --report bad.pdf", 2, "bad.pdf"},
@@ -109,6 +113,10 @@ TEST_F(Sample, RefusesWhatIsNone) {
                   {"a.csv a.csv --density 2,x", 2, "density"},
                   {"a.csv --size feret-min", 1, "feret_min"},
                   {"empty", 1, "shape.csv"},
+                  {"meshes", 1, "wscvt batch meshes -o"},
+                  {"meshes/a.stl", 1, "wscvt batch"},
+                  {"units.csv", 1, "axis_i_box [mm]"},
+                  {"numbers.csv", 1, "numbers: d, e."},
                   {"no.csv", 1, "no.csv"}},
                  {"bad.pdf"});
 }

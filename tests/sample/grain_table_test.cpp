@@ -53,6 +53,21 @@ TEST_F(GrainTableTest, ReadsNamesUnitsNumbersAndFiles) {
   EXPECT_TRUE(table.values.col(2).array().isNaN().all());
 }
 
+TEST_F(GrainTableTest, ReadsWhatSpreadsheetsWrite) {
+  const std::string comma = "grain,size [mm],note\r\na,1.5,x\r\nb,-2e-1,y";
+  for (const char* other : {"\xEF\xBB\xBFgrain;size [mm];note\r\na;1,5;x\r\nb;-2e-1;y\r\n",
+                            "grain\tsize [mm]\tnote\na\t1,5\tx\nb\t-0.2\ty"}) {
+    const GrainTable table = read(other);
+    const GrainTable same = read(comma);  // its last row has no line break
+    EXPECT_EQ(table.grains, same.grains);
+    ASSERT_EQ(table.columns.size(), 1U);
+    EXPECT_EQ(table.columns[0].unit, "mm");
+    EXPECT_EQ(table.values, Eigen::Vector2d(1.5, -0.2));
+    EXPECT_EQ(table.values, same.values);
+    EXPECT_EQ(table.text_columns, (std::vector<std::string>{"grain", "note"}));
+  }
+}
+
 TEST_F(GrainTableTest, NamesAreTheFirstColumnIfNoneIsNamedGrain) {
   const GrainTable table = read("id,volume\n17,2\n4,3\n");
   EXPECT_EQ(table.grains, (std::vector<std::string>{"17", "4"}));
@@ -73,9 +88,11 @@ TEST_F(GrainTableTest, ErrorsNameFileLineAndColumn) {
   EXPECT_NE(refusal(rows + "c,x,2\n").find(path_ + "\", line 4: the column \"v\" has \"x\""),
             std::string::npos);
   EXPECT_NE(refusal(rows + "c,1\n").find("line 4: the row has 2 fields"), std::string::npos);
-  EXPECT_NE(refusal(rows + "c,1,2").find("line 4: the file ends within"), std::string::npos);
+  EXPECT_NE(refusal(rows + "c,\"1,2\n").find("line 4: the file ends within"), std::string::npos);
+  EXPECT_NE(refusal("grain,status,v\na,done,1").find("line 2: the file ends within"),
+            std::string::npos);
   EXPECT_NE(refusal("a,b,a [mm]\n").find("line 1: two columns are named \"a\""), std::string::npos);
-  EXPECT_NE(refusal("a;b\n1;2\n").find("by commas"), std::string::npos);
+  EXPECT_NE(refusal("a|b\n1|2\n").find("by commas"), std::string::npos);
   EXPECT_NE(refusal("grain,v\n").find("no row"), std::string::npos);
   EXPECT_NE(refusal("grain,v\na,b\n").find("no column"), std::string::npos);
   EXPECT_NE(refusal("").find("no table"), std::string::npos);

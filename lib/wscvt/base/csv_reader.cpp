@@ -18,22 +18,23 @@ std::string& begin_field(std::vector<std::string>& fields, std::size_t& count) {
 }
 
 /// Takes a record without quotes apart; returns the number of its fields.
-std::size_t split(std::string_view record, std::vector<std::string>& fields) {
+std::size_t split(std::string_view record, char separator, std::vector<std::string>& fields) {
   std::size_t count = 0;
   record.remove_suffix(1);
   while (true) {
-    const std::size_t comma = record.find(',');
-    const std::string_view text = record.substr(0, comma);
+    const std::size_t end = record.find(separator);
+    const std::string_view text = record.substr(0, end);
     std::string& field = begin_field(fields, count);
     field = text;
     field.erase(std::remove(field.begin(), field.end(), '\r'), field.end());
-    if (comma == std::string_view::npos) return count;
-    record.remove_prefix(comma + 1);
+    if (end == std::string_view::npos) return count;
+    record.remove_prefix(end + 1);
   }
 }
 
 /// Takes a record with quotes apart.
-std::size_t split_quoted(std::string_view record, std::vector<std::string>& fields) {
+std::size_t split_quoted(std::string_view record, char separator,
+                         std::vector<std::string>& fields) {
   std::size_t count = 0;
   std::string* field = &begin_field(fields, count);
   bool quoted = false;
@@ -43,9 +44,9 @@ std::size_t split_quoted(std::string_view record, std::vector<std::string>& fiel
       // A doubled quote closes and opens again, and stands for itself.
       if (!quoted && k > 0 && record[k - 1] == '"') *field += '"';
       quoted = !quoted;
-    } else if (quoted || (c != ',' && c != '\r' && c != '\n')) {
+    } else if (quoted || (c != separator && c != '\r' && c != '\n')) {
       *field += c;
-    } else if (c == ',') {
+    } else if (c == separator) {
       field = &begin_field(fields, count);
     }
   }
@@ -58,12 +59,10 @@ bool CsvReader::next(std::vector<std::string>& fields) {
   // Lines up to one that ends outside of quotes.
   std::string text;
   std::string line;
-  bool has_quotes = false;
   bool quoted = false;
   while (std::getline(stream_, line)) {
     const bool is_whole = !stream_.eof();
     const auto quotes = std::count(line.begin(), line.end(), '"');
-    has_quotes = has_quotes || quotes > 0;
     quoted = quoted != (quotes % 2 == 1);
     if (text.empty()) {
       text.swap(line);
@@ -74,13 +73,26 @@ bool CsvReader::next(std::vector<std::string>& fields) {
     if (!is_whole || !quoted) break;
   }
   is_cut_ = !text.empty() && (quoted || text.back() != '\n');
+  if (is_cut_ && !quoted) rest_.swap(text);
   if (text.empty() || is_cut_) return false;
-  const std::size_t count = has_quotes ? split_quoted(text, record_) : split(text, record_);
-  record_.resize(count);
-  record_.swap(fields);
+  take(text, fields);
   size_ += text.size();
   text_.swap(text);
   return true;
+}
+
+bool CsvReader::last(std::vector<std::string>& fields) {
+  if (rest_.empty()) return false;
+  take(rest_ + '\n', fields);
+  rest_.clear();
+  return true;
+}
+
+void CsvReader::take(const std::string& record, std::vector<std::string>& fields) {
+  const bool has_quotes = record.find('"') != std::string::npos;
+  record_.resize(has_quotes ? split_quoted(record, separator_, record_)
+                            : split(record, separator_, record_));
+  record_.swap(fields);
 }
 
 }  // namespace wscvt

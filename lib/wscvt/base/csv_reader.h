@@ -12,8 +12,9 @@ namespace wscvt {
 /// longest record.
 class CsvReader {
  public:
-  /// The stream must outlive the reader.
-  explicit CsvReader(std::istream& stream) : stream_(stream) {}
+  /// The stream must outlive the reader. Spreadsheets of some languages separate by ';'.
+  explicit CsvReader(std::istream& stream, char separator = ',')
+      : stream_(stream), separator_(separator) {}
 
   /// The fields of the next record; false, and nothing changed, where no whole one follows.
   bool next(std::vector<std::string>& fields);
@@ -27,12 +28,20 @@ class CsvReader {
   /// Whether the stream ended within a record.
   bool is_cut() const { return is_cut_; }
 
+  /// The fields of a last record that lacks its line break only; false, and nothing changed, if
+  /// there is none or a quote is open.
+  bool last(std::vector<std::string>& fields);
+
  private:
+  void take(const std::string& record, std::vector<std::string>& fields);
+
   std::istream& stream_;
+  char separator_;
   std::string text_;
   std::vector<std::string> record_;  ///< room for the next record
   std::size_t size_ = 0;
   bool is_cut_ = false;
+  std::string rest_;  ///< of a last record without its line break
 };
 
 }  // namespace wscvt

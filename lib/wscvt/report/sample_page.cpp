@@ -257,6 +257,11 @@ std::vector<std::vector<std::string>> comparison_table(const SampleReport& repor
   return rows;
 }
 
+/// An error that is nothing but rounding is exact.
+std::string shown_error(double percent) {
+  return percent < 1e-9 ? "exact" : format_number(percent, 3);
+}
+
 std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels) {
   std::vector<std::vector<std::string>> rows = {{"median, 90 % of the errors, %"}};
   for (const double nodes : levels.nodes) rows[0].push_back("N = " + format_number(nodes, 4));
@@ -264,7 +269,9 @@ std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels) {
   for (const DescriptorLevels& row : levels.rows) {
     std::vector<std::string> cells = {row.name};
     for (const LevelError& error : row.levels) {
-      cells.push_back(format_number(error.median, 3) + ", " + format_number(error.percent_90, 3));
+      cells.push_back(error.count == 0
+                          ? "-"
+                          : shown_error(error.median) + ", " + shown_error(error.percent_90));
     }
     cells.push_back(format_number(row.nodes_needed, 4));
     rows.push_back(std::move(cells));

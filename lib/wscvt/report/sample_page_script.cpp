@@ -216,7 +216,8 @@ function zingg(sample, weighting) {
   for (const [word, x, y] of [["discs", 0.02, 0.94], ["spheres", 0.98, 0.94],
                               ["blades", 0.02, 0.03], ["rods", 0.98, 0.03]]) {
     body += text(a.px(x), a.py(y), word,
-                 `fill="#333" text-anchor="${x < 0.5 ? "start" : "end"}"`);
+                 `fill="#333" text-anchor="${x < 0.5 ? "start" : "end"}" ` +
+                 'stroke="#fff" stroke-width="3" paint-order="stroke"');
   }
   return {svg: svgOf(body), rows: rows};
 }
@@ -257,10 +258,10 @@ function sneedFolk(sample, weighting) {
     body += line(a[0], a[1], b[0], b[1], "#333", 'stroke-dasharray="4 3"');
     body += text(a[0] - 6, a[1] + 4, "S/L " + y, 'text-anchor="end" fill="#333"');
   }
-  for (const t of [1 / 3, 2 / 3]) {
+  for (const [t, name] of [[1 / 3, "1/3"], [2 / 3, "2/3"]]) {
     const [a, b] = [corner(0, t), corner(0.7, t)];
     body += line(a[0], a[1], b[0], b[1], "#333", 'stroke-dasharray="4 3"');
-    body += text(a[0], base + 16, shown(t), 'text-anchor="middle" fill="#333"');
+    body += text(a[0], base + 16, name, 'text-anchor="middle" fill="#333"');
   }
   body += text(width / 2 + 10, base - tall + 6, "compact", 'fill="#333"');
   body += text(x0, base + 16, "platy", 'text-anchor="middle" fill="#333"');
@@ -308,20 +309,24 @@ function histogram(name, weighting) {
   return {svg: svgOf(body + names(data.samples)), rows: rows};
 }
 function againstSize(name) {
+  // A little beyond the outermost grains, so that none lies on the edge.
   const [low, high] = range(data.samples.map(sample => sample.size));
   const [from, to] = range(data.samples.map(sample => values(sample, name) || []));
-  const a = axes({low: low, high: high, log: true, label: data.samples[0].sizeName},
-                 {low: from, high: to, label: name});
+  const beyond = (high / low) ** 0.03, above = 0.03 * (to - from);
+  const a = axes({low: low / beyond, high: high * beyond, log: true,
+                  label: data.samples[0].sizeName},
+                 {low: from - above, high: to + above, label: name});
   const rows = [["sample", "grain", "size", name]];
   let body = a.body;
   data.samples.forEach((sample, s) => {
     const list = values(sample, name) || [];
     const step = Math.max(1, Math.floor(list.length / 2000));
+    const radius = list.length < 200 ? 3 : 1.6;
     list.forEach((v, k) => {
       if (!found(v)) return;
       rows.push([sample.name, sample.grains[k], sample.size[k], v]);
       if (k % step !== 0) return;
-      body += `<circle cx="${at(a.px(sample.size[k]))}" cy="${at(a.py(v))}" r="1.6" ` +
+      body += `<circle cx="${at(a.px(sample.size[k]))}" cy="${at(a.py(v))}" r="${radius}" ` +
           `fill="${colours[s]}" fill-opacity="0.45"/>`;
     });
   });
@@ -335,7 +340,9 @@ function errors(name) {
   const first = levels.nodes[0], last = levels.nodes[levels.nodes.length - 1];
   const a = axes({low: first * 0.9, high: last * 1.1, log: true, at: levels.nodes,
                   label: "number of nodes N"},
-                 {low: least * 0.8, high: most * 1.25, log: true, label: "error, %"});
+                 {low: least * 0.8, high: most * 1.25, log: true,
+                  label: /^(rms_distance|contact_error)/.test(name) ?
+                      "error, % of the equivalent radius" : "error, %"});
   const curve = list => levels.nodes.map((n, k) => [n, list[k]])
       .filter(p => found(p[1]) && p[1] > 0).map(p => [a.px(p[0]), a.py(p[1])]);
   let body = a.body + line(left, a.py(levels.mark), width - right, a.py(levels.mark), "#a00");

@@ -140,7 +140,9 @@ std::vector<std::vector<std::string>> level_rows(const DetailLevels& levels, boo
     if (!all && !is_main(row.name) && !is_distance_or_contact(row.name)) continue;
     std::vector<std::string> cells = {row.name};
     for (std::size_t k = first; k < row.levels.size(); ++k) {
-      cells.push_back(short_number(row.levels[k].percent_90));
+      // What is nothing but rounding is exact.
+      const double error = row.levels[k].percent_90;
+      cells.push_back(error < 1e-9 ? "exact" : short_number(error));
     }
     cells.push_back(short_number(row.nodes_needed));
     rows.push_back(std::move(cells));

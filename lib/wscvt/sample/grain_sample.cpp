@@ -9,6 +9,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/readable_text.h"
 
 namespace wscvt {
 
@@ -83,6 +84,27 @@ std::optional<std::size_t> find(const GrainSample& sample, const std::string& na
   return {};
 }
 
+[[noreturn]] void refuse_without_size(const GrainTable& table, const std::string& column) {
+  for (const std::string& text : table.text_columns) {
+    if (text == column || text == "scan." + column) {
+      refuse("The column \"" + text +
+             "\" holds a text in its first row. Write numbers only, and the "
+             "unit in the heading, such as \"" +
+             text + " [mm]\".");
+    }
+  }
+  // Of a long table the first ones.
+  constexpr std::size_t most = 20;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(most, table.columns.size()); ++k) {
+    names += (names.empty() ? "" : ", ") + readable(table.columns[k].name, "");
+  }
+  if (table.columns.size() > most) names += ", ...";
+  refuse("The table has no column \"" + column +
+         "\" for the size of the grains. Name a column so, or choose another size: " +
+         keys_of<SizeMeasure>() + ". Its columns of numbers: " + names + ".");
+}
+
 /// The mass of a grain of this volume: row and volume give it.
 using MassOf = std::function<double(Eigen::Index row, double volume)>;
 
@@ -120,9 +142,7 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   const std::string size_column = column_of(options.size);
   const auto size_place = find(sample, size_column);
   if (!size_place) {
-    refuse("The table has no column \"" + size_column +
-           "\" for the size of the grains. Give a table with it, or choose another --size: " +
-           keys_of<SizeMeasure>() + ".");
+    refuse_without_size(table, size_column);
   }
   sample.size_name = label_of(options.size);
   sample.size_unit = sample.columns[*size_place].unit;

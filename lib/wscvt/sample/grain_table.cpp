@@ -27,9 +27,15 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Nothing for a text.
-std::optional<double> field_number(std::string_view field) {
+/// Nothing for a text. `decimal` is the decimal mark beside the point.
+std::optional<double> field_number(std::string_view field, char decimal) {
+  std::string with_point;
   std::string_view text = trimmed(field);
+  if (decimal != '.' && text.find(decimal) != std::string_view::npos) {
+    with_point = text;
+    with_point[text.find(decimal)] = '.';
+    text = with_point;
+  }
   if (text.empty() || text == "NA") return missing;
   if (text.front() == '+') text.remove_prefix(1);
   double value = missing;
@@ -55,7 +61,7 @@ enum class Role { Undecided, Number, Text };
 /// Takes the rows of a file one after the other.
 class TableReader {
  public:
-  explicit TableReader(const std::string& path) : path_(path) {}
+  TableReader(const std::string& path, char decimal) : path_(path), decimal_(decimal) {}
 
   void read_heading(const std::vector<std::string>& fields);
   void read_row(const std::vector<std::string>& fields);
@@ -67,12 +73,16 @@ class TableReader {
     next_line_ += static_cast<std::size_t>(std::count(record.begin(), record.end(), '\n'));
   }
 
+  /// Whether the table is a batch's, whose last row may have been cut.
+  bool has_status() const { return status_field_.has_value(); }
+
   [[noreturn]] void fail(const std::string& what) const {
     refuse("\"" + readable(path_, "") + "\", line " + std::to_string(line_) + ": " + what);
   }
 
  private:
   const std::string& path_;
+  char decimal_;
   std::size_t line_ = 1;
   std::size_t next_line_ = 1;
   std::vector<GrainColumn> fields_;
@@ -100,7 +110,10 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     if (name == "status") status_field_ = k;
   }
   if (fields_.size() == 1) {
-    fail("the table has only one column. Separate columns by commas, and write decimal points.");
+    fail(
+        "the table has only one column. Separate columns by commas, semicolons or tabs; the first "
+        "line "
+        "has their names.");
   }
   for (const GrainColumn& column : fields_) {
     const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
@@ -123,7 +136,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
   if (file_field_) table_.files.push_back(fields[*file_field_]);
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (roles_[k] == Role::Text) continue;
-    const std::optional<double> number = field_number(fields[k]);
+    const std::optional<double> number = field_number(fields[k], decimal_);
     if (!number && roles_[k] == Role::Number) {
       fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
            "\", and numbers above it. Write a number, or leave the field empty.");
@@ -138,12 +151,15 @@ GrainTable TableReader::table() {
   std::vector<std::size_t> taken;
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     // A column of a batch may be empty for all of its grains.
-    if (roles_[k] == Role::Text) continue;
+    if (roles_[k] == Role::Text) {
+      table_.text_columns.push_back(fields_[k].name);
+      continue;
+    }
     taken.push_back(k);
     table_.columns.push_back(fields_[k]);
   }
   if (std::count(roles_.begin(), roles_.end(), Role::Number) == 0) {
-    fail("no column of the table holds numbers. Write decimal points, not commas.");
+    fail("no column of the table holds numbers. Write numbers without units, with decimal points.");
   }
   const auto rows = static_cast<Eigen::Index>(table_.grains.size());
   table_.values.resize(rows, static_cast<Eigen::Index>(taken.size()));
@@ -153,6 +169,18 @@ GrainTable TableReader::table() {
         Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows);
   }
   return std::move(table_);
+}
+
+/// What separates the columns of a heading. The stream is back at its begin.
+char separator_of(std::istream& stream) {
+  std::string heading;
+  std::getline(stream, heading);
+  stream.clear();
+  stream.seekg(0);
+  for (const char separator : {',', ';', '\t'}) {
+    if (heading.find(separator) != std::string::npos) return separator;
+  }
+  return ',';
 }
 
 }  // namespace
@@ -182,8 +210,9 @@ GrainTable read_grain_table(const std::string& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) refuse_to_open(path, errno);
-  CsvReader reader(stream);
-  TableReader table(path);
+  const char separator = separator_of(stream);
+  CsvReader reader(stream, separator);
+  TableReader table(path, separator == ',' ? '.' : ',');
   std::vector<std::string> fields;
   if (!reader.next(fields)) {
     table.fail("the file holds no table. Write a heading and a row per grain.");
@@ -195,7 +224,10 @@ GrainTable read_grain_table(const std::string& path) {
     table.read_row(fields);
   }
   if (stream.bad()) refuse_to_read(path);
-  if (reader.is_cut()) {
+  if (!table.has_status() && reader.last(fields)) {
+    table.count_lines("");
+    table.read_row(fields);
+  } else if (reader.is_cut()) {
     table.count_lines("");
     table.fail(
         "the file ends within this row. End the row with a line break if it is whole; or "

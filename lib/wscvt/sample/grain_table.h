@@ -24,6 +24,8 @@ struct GrainTable {
   std::vector<GrainColumn> columns;
   Eigen::MatrixXd values;  ///< grains x columns; NaN: missing
   std::size_t failed = 0;  ///< rows left out because their status is "failed"
+  /// Columns that were left out because their first entry is a text.
+  std::vector<std::string> text_columns;
 
   /// The index of a column; nothing if the table has no such column.
   std::optional<std::size_t> find(std::string_view name) const;
@@ -36,7 +38,9 @@ struct GrainTable {
 /// A column's heading in a file: "scan.volume [length^3]", or the name alone without a unit.
 std::string heading_of(const GrainColumn& column);
 
-/// Reads a CSV file (RFC 4180, commas, decimal points, a heading in the first line).
+/// Reads a CSV file (RFC 4180, a heading in the first line), with commas between columns and
+/// decimal points; or, if the heading has no comma, with semicolons or tabs, and points or commas
+/// in decimals, as spreadsheets of many languages write them.
 ///
 /// The column "grain" names the grains, or else the first column. The column "file" names mesh
 /// files. Every other column holds numbers if its first entry is a number, and is left out if that
@@ -46,8 +50,9 @@ std::string heading_of(const GrainColumn& column);
 ///
 /// Memory is about 20 bytes per field. Throws Error with the file and the line:
 /// InvalidInput if a row has another number of fields than the heading, a column of numbers holds a
-/// text, two columns have one name, no column holds numbers, no row holds a grain or the file ends
-/// within a row; InputOutput if the file cannot be read.
+/// text, two columns have one name, no column holds numbers, no row holds a grain, or the file ends
+/// within a row: in quotes, or a table with a status, as a batch writes it, without a line break.
+/// InputOutput if the file cannot be read.
 GrainTable read_grain_table(const std::string& path);
 
 }  // namespace wscvt

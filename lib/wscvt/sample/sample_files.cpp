@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
+#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 
@@ -12,11 +14,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Files that are easily taken for the table of a sample.
+void refuse_other_files(const std::string& path) {
+  const fs::path name = fs::path(path).filename();
+  std::error_code error;
+  if (name == "grains.csv" && fs::exists(fs::path(path).parent_path() / "shape.csv", error)) {
+    refuse("\"" + path +
+           "\" is the table of a batch's errors. Give shape.csv beside it, or the folder.");
+  }
+  if (ending_of(path) != ".csv" && is_mesh_file(path)) {
+    refuse("\"" + path +
+           "\" is a mesh. Measure the meshes of a folder first, by wscvt batch, and give "
+           "the folder that it wrote.");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> sample_files(const std::string& path) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return {path};
+  if (!fs::is_directory(path, error)) {
+    refuse_other_files(path);
+    return {path};
+  }
   const std::string whole = (fs::path(path) / "shape.csv").string();
   if (fs::exists(whole, error)) return {whole};
   std::vector<std::string> tables;
@@ -28,6 +48,12 @@ std::vector<std::string> sample_files(const std::string& path) {
   }
   std::sort(tables.begin(), tables.end());
   if (!tables.empty()) return tables;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    if (!is_mesh_file(entry.path().string())) continue;
+    refuse("The folder \"" + path +
+           "\" holds meshes and no shape.csv. Measure them first: wscvt batch " + path +
+           " -o FOLDER. Then give that folder.");
+  }
   const std::string parts = (fs::path(path) / "shape-*.csv").string();
   refuse("The folder \"" + path +
          "\" has no shape.csv. Give a folder that wscvt batch wrote without --describe none. Join "

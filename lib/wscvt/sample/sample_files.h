@@ -11,7 +11,7 @@ namespace wscvt {
 
 /// The tables of shapes that a path stands for: a file itself, or shape.csv of a batch's folder. A
 /// batch with several numbers of nodes has one in each of its folders, such as n100. Throws
-/// Error(InvalidInput) for a folder without a table.
+/// Error(InvalidInput) for a folder without a table, and for a mesh or grains.csv in its place.
 std::vector<std::string> sample_files(const std::string& path);
 
 /// The table with the most nodes, whose remeshes are the closest to the scans; the first one if no
