@@ -24,22 +24,22 @@ constexpr std::size_t most_grains_permuted = 4000;
 constexpr int least_permutations = 200;
 
 /// Partings that are measured at once: their numbers fill the registers of a processor.
-constexpr std::size_t lanes = 4;
-using Lanes = std::array<double, lanes>;
+constexpr std::size_t partings_at_once = 4;
+using PartingNumbers = std::array<double, partings_at_once>;
 /// Of each grain of both samples: whether it is of the first one, 1 or 0, in each parting.
-using Partings = std::vector<std::array<std::uint8_t, lanes>>;
+using Partings = std::vector<std::array<std::uint8_t, partings_at_once>>;
 
-struct LaneDistances {
-  Lanes kolmogorov{};
-  Lanes wasserstein{};
+struct PartingDistances {
+  PartingNumbers kolmogorov{};
+  PartingNumbers wasserstein{};
 };
 
 /// What turns a grain's label into its step of the difference of two distribution functions.
 struct Step {
-  Lanes both{};
-  Lanes fall{};
-  Step(const Lanes& of_one, double all) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+  PartingNumbers both{};
+  PartingNumbers fall{};
+  Step(const PartingNumbers& of_one, double all) {
+    for (std::size_t lane = 0; lane < partings_at_once; ++lane) {
       fall[lane] = 1.0 / (all - of_one[lane]);
       both[lane] = 1.0 / of_one[lane] + fall[lane];
     }
@@ -61,23 +61,24 @@ class PooledColumn {
     }
   }
 
-  void measure(const Partings& partings, LaneDistances& by_number, LaneDistances& by_mass) const {
-    Lanes ones{};
-    Lanes mass_of_one{};
+  void measure(const Partings& partings, PartingDistances& by_number,
+               PartingDistances& by_mass) const {
+    PartingNumbers ones{};
+    PartingNumbers mass_of_one{};
     for (std::size_t k = 0; k < values_.size(); ++k) {
-      const std::array<std::uint8_t, lanes>& is_one = partings[grains_[k]];
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::array<std::uint8_t, partings_at_once>& is_one = partings[grains_[k]];
+      for (std::size_t lane = 0; lane < partings_at_once; ++lane) {
         ones[lane] += is_one[lane];
         mass_of_one[lane] += is_one[lane] * masses_[k];
       }
     }
     const Step step(ones, static_cast<double>(values_.size()));
     const Step mass_step(mass_of_one, mass_);
-    Lanes difference{};
-    Lanes mass_difference{};
+    PartingNumbers difference{};
+    PartingNumbers mass_difference{};
     for (std::size_t k = 0; k + 1 < values_.size(); ++k) {
-      const std::array<std::uint8_t, lanes>& is_one = partings[grains_[k]];
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::array<std::uint8_t, partings_at_once>& is_one = partings[grains_[k]];
+      for (std::size_t lane = 0; lane < partings_at_once; ++lane) {
         difference[lane] += is_one[lane] * step.both[lane] - step.fall[lane];
         mass_difference[lane] +=
             masses_[k] * (is_one[lane] * mass_step.both[lane] - mass_step.fall[lane]);
@@ -88,15 +89,15 @@ class PooledColumn {
       add(difference, gap, by_number);
       add(mass_difference, gap, by_mass);
     }
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    for (std::size_t lane = 0; lane < partings_at_once; ++lane) {
       if (!std::isfinite(step.both[lane])) clear(by_number, lane);
       if (!std::isfinite(mass_step.both[lane])) clear(by_mass, lane);
     }
   }
 
  private:
-  static void add(const Lanes& difference, double gap, LaneDistances& distances) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+  static void add(const PartingNumbers& difference, double gap, PartingDistances& distances) {
+    for (std::size_t lane = 0; lane < partings_at_once; ++lane) {
       const double size = std::abs(difference[lane]);
       distances.kolmogorov[lane] = std::max(distances.kolmogorov[lane], size);
       distances.wasserstein[lane] += size * gap;
@@ -104,7 +105,7 @@ class PooledColumn {
   }
 
   /// Of a parting that leaves one part empty.
-  static void clear(LaneDistances& distances, std::size_t lane) {
+  static void clear(PartingDistances& distances, std::size_t lane) {
     distances.kolmogorov[lane] = distances.wasserstein[lane] = no_comparison;
   }
 
@@ -117,14 +118,14 @@ class PooledColumn {
 /// The two samples as they are, in every lane.
 Partings as_given(std::size_t of_one, std::size_t all) {
   Partings partings(all, {0, 0, 0, 0});
-  std::fill_n(partings.begin(), of_one, std::array<std::uint8_t, lanes>{1, 1, 1, 1});
+  std::fill_n(partings.begin(), of_one, std::array<std::uint8_t, partings_at_once>{1, 1, 1, 1});
   return partings;
 }
 
 /// Random partings into as many grains, each from a stream of its own.
 void part(std::uint64_t seed, std::size_t first_stream, std::size_t of_one, Partings& partings) {
   std::vector<std::uint8_t> is_one(partings.size());
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < partings_at_once; ++lane) {
     std::fill(is_one.begin(), is_one.end(), std::uint8_t{0});
     std::fill_n(is_one.begin(), of_one, std::uint8_t{1});
     RandomStream random(seed, first_stream + lane);
@@ -146,7 +147,7 @@ std::size_t partings_for(std::size_t grains, int asked) {
   return static_cast<std::size_t>(std::max<double>(least_permutations, asked * share));
 }
 
-SampleDistance first_lane(const LaneDistances& distances) {
+SampleDistance first_lane(const PartingDistances& distances) {
   return {distances.kolmogorov[0], distances.wasserstein[0], no_comparison, no_comparison};
 }
 
@@ -154,8 +155,8 @@ SampleDistance first_lane(const LaneDistances& distances) {
 /// Kolmogorov's distance, then Wasserstein's.
 using Farther = std::array<std::uint32_t, 4>;
 
-/// Counts the first `count` lanes.
-void count_farther(const LaneDistances& parted, const SampleDistance& own, std::size_t count,
+/// Counts the first `count` partings.
+void count_farther(const PartingDistances& parted, const SampleDistance& own, std::size_t count,
                    std::uint32_t* farther) {
   for (std::size_t lane = 0; lane < count; ++lane) {
     farther[0] += is_as_far(parted.kolmogorov[lane], own.kolmogorov) ? 1 : 0;
@@ -169,16 +170,16 @@ void test_rows(const std::vector<PooledColumn>& columns, std::size_t of_one, std
                std::vector<ColumnComparison>& rows) {
   const std::size_t partings = partings_for(all, options.repetitions);
   if (partings == 0) return;
-  const std::size_t groups = (partings + lanes - 1) / lanes;
+  const std::size_t groups = (partings + partings_at_once - 1) / partings_at_once;
   std::vector<Farther> farther(groups * columns.size(), Farther{});
   execution.parallel_for(groups, 1, [&](std::size_t begin, std::size_t end) {
     Partings parted(all);
     for (std::size_t group = begin; group < end; ++group) {
-      part(options.seed, group * lanes, of_one, parted);
-      const std::size_t count = std::min(lanes, partings - group * lanes);
+      part(options.seed, group * partings_at_once, of_one, parted);
+      const std::size_t count = std::min(partings_at_once, partings - group * partings_at_once);
       for (std::size_t k = 0; k < columns.size(); ++k) {
-        LaneDistances by_number;
-        LaneDistances by_mass;
+        PartingDistances by_number;
+        PartingDistances by_mass;
         columns[k].measure(parted, by_number, by_mass);
         Farther& counted = farther[group * columns.size() + k];
         count_farther(by_number, rows[k].by_number, count, counted.data());
@@ -255,8 +256,8 @@ SampleDistance distance_between(const Distribution& one, const Distribution& oth
   };
   const PooledColumn pooled(joined(mapped(one.values()), mapped(other.values())),
                             joined(mapped(one.weights()), mapped(other.weights())));
-  LaneDistances by_number;
-  LaneDistances by_weight;
+  PartingDistances by_number;
+  PartingDistances by_weight;
   pooled.measure(as_given(one.size(), one.size() + other.size()), by_number, by_weight);
   return first_lane(by_weight);
 }
@@ -276,8 +277,8 @@ std::vector<ColumnComparison> compare_samples(const GrainSample& one, const Grai
     for (std::size_t k = begin; k < end; ++k) {
       const ColumnPair& pair = pairs[k];
       made[k].emplace(joined(pair.one, pair.other), masses);
-      LaneDistances by_number;
-      LaneDistances by_mass;
+      PartingDistances by_number;
+      PartingDistances by_mass;
       made[k]->measure(given, by_number, by_mass);
       rows[k] = {pair.column, Distribution(pair.one).deviation(), first_lane(by_number),
                  first_lane(by_mass)};

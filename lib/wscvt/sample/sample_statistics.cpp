@@ -32,10 +32,10 @@ constexpr std::size_t size_numbers = 7;
 constexpr std::array<double, 5> size_shares = {0.1, 0.3, 0.5, 0.6, 0.9};
 
 /// Draws that are summed at once: their numbers fill the registers of a processor.
-constexpr std::size_t lanes = 4;
-using Lanes = std::array<double, lanes>;
+constexpr std::size_t draws_at_once = 4;
+using DrawNumbers = std::array<double, draws_at_once>;
 /// How often each grain comes in each draw.
-using Draws = std::vector<std::array<std::uint16_t, lanes>>;
+using Draws = std::vector<std::array<std::uint16_t, draws_at_once>>;
 
 /// One number of each grain, whose grains are drawn again and again.
 class Repeated {
@@ -64,8 +64,8 @@ class Repeated {
  private:
   /// The weights of all grains below the first of each block.
   struct Below {
-    Lanes by_number{};
-    Lanes by_mass{};
+    DrawNumbers by_number{};
+    DrawNumbers by_mass{};
   };
   static constexpr std::size_t block = 256;
 
@@ -140,20 +140,20 @@ void Repeated::append_quantiles(const Draws& draws, const std::vector<Below>& bl
 void Repeated::measure(const Draws& draws, const std::vector<double*>& results) const {
   // In one pass, about the mean of the sample, where no digits are lost. A grain that was drawn
   // twice is two grains, also in the sum of the squared masses.
-  Lanes count{};
-  Lanes first{};
-  Lanes second{};
-  Lanes mass{};
-  Lanes squares{};
-  Lanes mass_first{};
-  Lanes mass_second{};
+  DrawNumbers count{};
+  DrawNumbers first{};
+  DrawNumbers second{};
+  DrawNumbers mass{};
+  DrawNumbers squares{};
+  DrawNumbers mass_first{};
+  DrawNumbers mass_second{};
   std::vector<Below> blocks(values_.size() / block + 1);
   for (std::size_t k = 0; k < values_.size(); ++k) {
     if (k % block == 0) blocks[k / block] = {count, mass};
     const double difference = values_[k] - middle_;
     const double own = masses_[k];
-    const std::array<std::uint16_t, lanes>& times = draws[grains_[k]];
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const std::array<std::uint16_t, draws_at_once>& times = draws[grains_[k]];
+    for (std::size_t lane = 0; lane < draws_at_once; ++lane) {
       const double drawn = times[lane];
       const double drawn_mass = drawn * own;
       count[lane] += drawn;
@@ -209,7 +209,7 @@ int repetitions_for(std::size_t grains, int asked) {
 /// Draws as many grains as there are, with replacement, in each lane from a stream of its own.
 void draw(std::uint64_t seed, std::size_t first_stream, std::size_t grains, Draws& draws) {
   draws.assign(grains, {});
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < draws_at_once; ++lane) {
     RandomStream random(seed, first_stream + lane);
     for (std::size_t k = 0; k < grains; ++k) ++draws[random.below(grains)][lane];
   }
@@ -230,14 +230,15 @@ std::vector<Estimate> bootstrap(const std::vector<Repeated>& all, std::size_t gr
       for (double*& result : results) result += 2 * one.numbers();
     }
   };
-  execution.parallel_for(
-      (repetitions + lanes - 1) / lanes, 1, [&](std::size_t begin, std::size_t end) {
-        Draws draws;
-        for (std::size_t k = begin; k < end; ++k) {
-          draw(seed, k * lanes, grains, draws);
-          measure(draws, k * lanes, std::min(repetitions, (k + 1) * lanes), drawn.data());
-        }
-      });
+  execution.parallel_for((repetitions + draws_at_once - 1) / draws_at_once, 1,
+                         [&](std::size_t begin, std::size_t end) {
+                           Draws draws;
+                           for (std::size_t k = begin; k < end; ++k) {
+                             draw(seed, k * draws_at_once, grains, draws);
+                             measure(draws, k * draws_at_once,
+                                     std::min(repetitions, (k + 1) * draws_at_once), drawn.data());
+                           }
+                         });
   std::vector<double> own(width);
   measure(Draws(grains, {1, 1, 1, 1}), 0, 1, own.data());
   std::vector<Estimate> estimates;
