@@ -28,7 +28,8 @@ foreach(header ${headers})
 endforeach()
 # The shells of the library build on these as well: how they write texts and files, tables of samples and
 # volumes, contacts of a batch, and virtual grains, which the program and Python offer, but no C++ interface yet.
-set(of_the_project wscvt/base/convex_hull.h wscvt/clump/scan_contacts.h wscvt/base/file_name.h wscvt/base/machine_refused.h
+set(of_the_project wscvt/base/convex_hull.h wscvt/base/lower_case.h wscvt/clump/scan_contacts.h
+  wscvt/sample/quick_shape.h wscvt/scan/folded_solid_angle.h wscvt/base/file_name.h wscvt/base/machine_refused.h
   wscvt/base/option_words.h wscvt/base/output_file.h wscvt/base/pi.h wscvt/base/readable_text.h
   wscvt/base/text_format.h wscvt/exchange/distance_grid.h wscvt/exchange/node_table.h
   wscvt/exchange/template_files.h wscvt/measures/form_axes.h wscvt/remesh/option_advice.h
