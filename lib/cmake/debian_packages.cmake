@@ -46,16 +46,14 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libopenmesh-dev, libeigen3-dev, libcgal-dev, zlib1g-dev")
 
-if(WSCVT_BUILD_PROGRAM)
-  list(APPEND CPACK_COMPONENTS_ALL program)
-  set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Remeshing of scanned grains: program
+list(APPEND CPACK_COMPONENTS_ALL program)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Remeshing of scanned grains: program
 wscvt remeshes dense scans of grains to an exact number of nodes, one or a
 whole sample, and measures their shape.")
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wscvt)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-  wscvt_install_documents(program wscvt README.md CHANGELOG.md)
-  install(FILES lib/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wscvt/lib COMPONENT program)
-endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wscvt)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+wscvt_install_documents(program wscvt README.md CHANGELOG.md)
+install(FILES lib/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wscvt/lib COMPONENT program)
 
 if(WSCVT_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)

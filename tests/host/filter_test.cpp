@@ -710,6 +710,26 @@ TEST(Filter, LogHoldsCountsInFull) {
   }
 }
 
+TEST(Filter, LogHoldsTheSmallestAngleAndTheMeanEdgeRatioOfBothMeshes) {
+  RemeshResult result;
+  result.input.input_vertices = 500;
+  result.original_quality.smallest_angle = 7.5;
+  result.original_quality.mean_smallest_angle = 33.25;
+  result.original_quality.edge_ratio.mean = 3.5;
+  result.original_quality.edge_ratio.maximum = 9.25;
+  result.quality.smallest_angle = 31.5;
+  result.quality.mean_smallest_angle = 52.25;
+  result.quality.edge_ratio.mean = 1.25;
+  result.quality.edge_ratio.maximum = 1.75;
+  QStringList log;
+  for (const filter::LogLine& line : filter::log_lines(result, 0.1)) {
+    log.push_back(QString::fromStdString(line.text).simplified());
+  }
+  for (const char* row : {"smallest angle, degrees 7.5 31.5", "mean edge ratio 3.5 1.25"}) {
+    EXPECT_TRUE(log.contains(row)) << log.join("\n").toStdString();
+  }
+}
+
 TEST(Filter, LogTablesAreNoWiderThanThePanel) {
   const std::string tiny = "-1.2346e-05";
   const std::vector<std::vector<std::string>> rows = {
