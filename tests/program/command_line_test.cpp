@@ -379,6 +379,10 @@ TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
   EXPECT_NE(refusal("a.ply b.ply --noeds=5").find("Did you mean --nodes?"), std::string::npos);
   EXPECT_NE(refusal("describe a.ply --nodes 5").find("wscvt describe has no option --nodes."),
             std::string::npos);
+  // Only what the help of the command shows is proposed.
+  EXPECT_NE(refusal("remesh a.ply b.ply --helpall").find("Did you mean --help-all?"),
+            std::string::npos);
+  EXPECT_EQ(refusal("collect a.csv --helpall").find("Did you mean"), std::string::npos);
   EXPECT_EQ(run("help batch").output, run("batch --help").output);
   EXPECT_EQ(run("help").output, run("--help").output);
   EXPECT_EQ(run("-v").output, run("--version").output);
