@@ -2,6 +2,8 @@
 """Convex parts, and what a scan carries."""
 import os
 import pathlib
+import subprocess
+import xml.etree.ElementTree
 
 import numpy as np
 import pytest
@@ -40,3 +42,22 @@ def test_convex_parts_hold_the_grain():
     assert report["mass_properties"]["volume"] > 0 and report["excess_volume_percent"] > 0
     with pytest.raises(wscvt.Error, match="number of parts"):
         wscvt.convex(MESHES / "sand_5658.ply", parts=0, nodes=150)
+
+
+def test_files_for_engines_are_well_formed_and_name_their_parts(tmp_path):
+    # Signs of markup, blanks and quotes in the name.
+    stem = "a & b <c> \"d\" 'e'"
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "convex", MESHES / "sand_5658.ply", "-k", "2", "-n", "100", "-q",
+                    "--density", "2650", "-o", tmp_path / (stem + ".urdf"), "-o", tmp_path / (stem + ".xml")], check=True)
+    _, report = wscvt.convex(MESHES / "sand_5658.ply", parts=2, nodes=100)
+    mass = 2650 * report["mass_properties"]["volume"]
+    robot = xml.etree.ElementTree.parse(tmp_path / (stem + ".urdf")).getroot()
+    assert robot.get("name") == stem
+    assert float(robot.find("link/inertial/mass").get("value")) == pytest.approx(mass, rel=1e-9)
+    names = [mesh.get("filename") for mesh in robot.iterfind("link/collision/geometry/mesh")]
+    assert names == [f"{stem}_1.obj", f"{stem}_2.obj"]
+    assert all((tmp_path / name).stat().st_size > 0 for name in names)
+    body = xml.etree.ElementTree.parse(tmp_path / (stem + ".xml")).getroot().find("worldbody/body")
+    assert body.get("name") == stem
+    assert float(body.find("inertial").get("mass")) == pytest.approx(mass, rel=1e-9)
+    assert len(body.findall("geom")) == 2

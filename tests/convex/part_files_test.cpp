@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/convex/part_files.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/file_folder.h"
+#include "support/test_shapes.h"
+
+namespace wscvt {
+namespace {
+
+/// The numbers of the first attribute of this name.
+std::vector<double> numbers_of(const std::string& text, const std::string& attribute) {
+  std::smatch found;
+  if (!std::regex_search(text, found, std::regex("[ <]" + attribute + "=\"([^\"]*)\""))) return {};
+  std::istringstream words(found[1].str());
+  return {std::istream_iterator<double>(words), {}};
+}
+
+double number_of(const std::string& text, const std::string& attribute) {
+  const std::vector<double> numbers = numbers_of(text, attribute);
+  return numbers.size() == 1 ? numbers[0] : -1e300;
+}
+
+class PartFiles : public test::FileFolder {
+ protected:
+  PartFiles() {
+    const Vector3 squares(1.5 * 1.5, 2.5 * 2.5, 4.0 * 4.0);
+    // A box a x b x c: V (b^2 + c^2) / 12 about the axis along a.
+    const Vector3 moments = volume / 12.0 * (Vector3::Constant(squares.sum()) - squares);
+    inertia = turn * moments.asDiagonal() * turn.transpose();
+    mass = mass_properties(describe_shape(box, Execution(1)));
+  }
+  std::string written(const std::string& name) {
+    write_parts(path(name), {box, other}, mass, density);
+    std::ifstream file(path(name));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  const double volume = 1.5 * 2.5 * 4.0;
+  const double density = 2650.0;
+  const Vector3 middle = Vector3(7.0, -3.0, 11.0);
+  const Eigen::Matrix3d turn = test::random_rotation(8);
+  const IndexedMesh box = test::transformed(test::box(1.5, 2.5, 4.0), turn, middle);
+  const IndexedMesh other = test::moved(test::lumpy(1), 1.0, middle);
+  Eigen::Matrix3d inertia;
+  MassProperties mass;
+};
+
+TEST_F(PartFiles, OfUrdfHaveTheMassAndInertiaOfATurnedBox) {
+  const std::string text = written("grain.urdf");
+  const double rounding = 1e-9 * density * inertia.norm();
+  EXPECT_NEAR(numbers_of(text, "mass value").at(0), density * volume, 1e-9 * density * volume);
+  const std::vector<double> at = numbers_of(text, "xyz");
+  ASSERT_EQ(at.size(), 3U);
+  EXPECT_LT((Vector3(at[0], at[1], at[2]) - middle).norm(), 1e-9);
+  EXPECT_NEAR(number_of(text, "ixx"), density * inertia(0, 0), rounding);
+  EXPECT_NEAR(number_of(text, "ixy"), density * inertia(0, 1), rounding);
+  EXPECT_NEAR(number_of(text, "ixz"), density * inertia(0, 2), rounding);
+  EXPECT_NEAR(number_of(text, "iyy"), density * inertia(1, 1), rounding);
+  EXPECT_NEAR(number_of(text, "iyz"), density * inertia(1, 2), rounding);
+  EXPECT_NEAR(number_of(text, "izz"), density * inertia(2, 2), rounding);
+  std::ifstream part(path("grain_2.obj"));
+  const std::string obj{std::istreambuf_iterator<char>(part), {}};
+  EXPECT_EQ(obj.rfind("g part_2\nv ", 0), 0U);
+  EXPECT_NE(obj.find("\nf 1 "), std::string::npos) << "each file numbers its own vertices";
+}
+
+TEST_F(PartFiles, OfMujocoHaveTheMassAndInertiaOfATurnedBox) {
+  const std::string text = written("grain.xml");
+  const double rounding = 1e-9 * density * inertia.norm();
+  EXPECT_NEAR(number_of(text, "mass"), density * volume, 1e-9 * density * volume);
+  const std::vector<double> at = numbers_of(text, "pos");
+  ASSERT_EQ(at.size(), 3U);
+  EXPECT_LT((Vector3(at[0], at[1], at[2]) - middle).norm(), 1e-9);
+  // MuJoCo's order: xx, yy, zz, xy, xz, yz.
+  const std::vector<double> full = numbers_of(text, "fullinertia");
+  ASSERT_EQ(full.size(), 6U);
+  const std::vector<double> by_hand = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                                       inertia(0, 1), inertia(0, 2), inertia(1, 2)};
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(full[k], density * by_hand[k], rounding) << k;
+  EXPECT_EQ(numbers_of(text, "vertex").size(), 3 * box.points.size());
+}
+
+TEST_F(PartFiles, OfObjHaveAGroupPerPart) {
+  const std::string text = written("grain.obj");
+  const std::size_t second = text.find("g part_2\n");
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(text.find("g part_1\n"), second);
+  // Vertices count on, from 1.
+  EXPECT_EQ(text.find("f 1 ", second), std::string::npos);
+  EXPECT_EQ(text.find("g part_3"), std::string::npos);
+}
+
+TEST_F(PartFiles, KeepSignsOfMarkupInNamesOutOfTheMarkup) {
+  const std::string urdf = written("a & \"b\" <c> 'd'.urdf");
+  EXPECT_NE(urdf.find("<mesh filename=\"a &amp; &quot;b&quot; &lt;c&gt; 'd'_2.obj\"/>"),
+            std::string::npos);
+  EXPECT_NE(written("a & \"b\".xml").find("model=\"a &amp; &quot;b&quot;\""), std::string::npos);
+}
+
+TEST_F(PartFiles, RefuseOtherEndings) {
+  EXPECT_ERROR(check_part_file("parts.stl"), InvalidInput);
+  EXPECT_ERROR(write_parts(path("parts.ply"), {box}, mass, density), InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt
