@@ -29,7 +29,8 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
        "Take a grain apart into convex parts, for physics engines",
        {"scan.ply -k 8 -o parts.obj", "scan.ply -k 4 -o grain.urdf -o grain.xml --density 2650",
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html"},
-       "The scan is remeshed first, to 500 nodes; its options are those of wscvt remesh.",
+       "The cuts are chosen on a remesh of 500 nodes, which has the options of wscvt remesh. The "
+       "parts are hulls of pieces of the scan.",
        true});
   add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
       ->required();

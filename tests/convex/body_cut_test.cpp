@@ -65,10 +65,40 @@ TEST(BodyCut, OfARingAlongItsPlaneHasACapWithAHole) {
   ASSERT_EQ(quarters.above.size(), 1U);
   ASSERT_EQ(quarters.below.size(), 1U);
   EXPECT_NEAR(sum_of_volumes(quarters), halves.above[0].volume(), 1e-12);
+  // Across that one again: two legs, each with a cap of its own.
+  const SolidCut legs = quarters.above[0].cut({Vector3(0.8, -0.6, 0.0), 0.4}, on_plane);
+  EXPECT_EQ(legs.above.size(), 1U);
+  EXPECT_EQ(legs.below.size(), 2U);
   // Beside the hole: its loop stays whole on one side.
   const SolidCut beside = halves.above[0].cut({Vector3(0.8, -0.6, 0.0), 0.9}, on_plane);
   EXPECT_EQ(beside.above.size() + beside.below.size(), 2U);
   EXPECT_NEAR(sum_of_volumes(beside), halves.above[0].volume(), 1e-12);
+}
+
+TEST(BodyCut, OfACupHasABottomInOnePiece) {
+  // A box 4 x 4 x 3 with the hollow 2 x 2 x 2 from above: the hollow's bottom hangs on the cap.
+  IndexedMesh cup;
+  for (const auto& [half, z] :
+       {std::pair(2.0, 0.0), std::pair(2.0, 3.0), std::pair(1.0, 3.0), std::pair(1.0, 1.0)}) {
+    for (int k = 0; k < 4; ++k) {
+      cup.points.emplace_back(k == 0 || k == 3 ? -half : half, k < 2 ? -half : half, z);
+    }
+  }
+  for (std::int32_t ring = 0; ring < 12; ring += 4) {
+    for (std::int32_t k = 0; k < 4; ++k) {
+      const std::int32_t next = (k + 1) % 4;
+      cup.triangles.push_back({ring + k, ring + next, ring + next + 4});
+      cup.triangles.push_back({ring + k, ring + next + 4, ring + k + 4});
+    }
+  }
+  for (const Triangle& t : std::vector<Triangle>{{0, 2, 1}, {0, 3, 2}, {12, 13, 14}, {12, 14, 15}})
+    cup.triangles.push_back(t);
+  ASSERT_NEAR(volume_of(cup), 40.0, 1e-12);
+  const SolidCut cut = CutSolid(cup).cut({Vector3::UnitZ(), 1.5}, on_plane);
+  ASSERT_EQ(cut.above.size(), 1U);
+  ASSERT_EQ(cut.below.size(), 1U);
+  EXPECT_NEAR(cut.above[0].volume(), 1.5 * 12.0, 1e-12);
+  EXPECT_NEAR(cut.below[0].volume(), 16.0 + 0.5 * 12.0, 1e-12);
 }
 
 TEST(BodyCut, ManyTimesLosesNothing) {

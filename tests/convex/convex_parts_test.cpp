@@ -215,8 +215,7 @@ TEST(ConvexParts, OfAWasherAreSectors) {
   EXPECT_LT(measures.shared_volume, 0.01 * measures.grain_volume);
 }
 
-TEST(ConvexParts, ShareNextToNothingAndAConvexGrainIsNotJoinedAcross) {
-  // A ball that is convex within the tolerance in each half, but not as a whole.
+TEST(ConvexParts, ShareNextToNothing) {
   const IndexedMesh body = test::lumpy(2);
   const PartsMeasures measures = measure_parts(convex_parts(body, body, at_most(4)), body);
   EXPECT_LT(measures.shared_volume, 0.01 * measures.grain_volume);
@@ -264,6 +263,13 @@ TEST(SignedGrid, IsNearTheDistanceWithItsSign) {
     // A distance changes no faster than the point moves, half a cell's diagonal.
     EXPECT_NEAR(grid.at(p), exact, 0.87 * grid.spacing());
   }
+}
+
+TEST(SignedGrid, IsNegativeInABoxWhoseFacesItsRowsMeetAtRightAngles) {
+  const SignedGrid grid(test::box(4.0, 3.0, 2.0), 20, Execution(1));
+  EXPECT_NEAR(grid.at(Vector3(0.1, 0.2, 0.0)), -1.0, 1e-9);
+  EXPECT_NEAR(grid.at(Vector3(-1.9, 0.2, 0.0)), -0.1, 1e-9);
+  EXPECT_NEAR(grid.at(Vector3(2.1, 0.2, 0.0)), 0.1, 1e-9);
 }
 
 }  // namespace

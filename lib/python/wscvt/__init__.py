@@ -322,7 +322,8 @@ def sample(table, other=None, *, report=(), density=None, **options):
 def convex(vertices, faces=None, **options):
     """Takes a grain apart into at most `parts` convex parts, for physics engines.
 
-    vertices, faces: as for remesh. The grain is remeshed first, to 500 nodes.
+    vertices, faces: as for remesh. The cuts are chosen on a remesh of 500 nodes. The parts are hulls of
+    pieces of the grain itself, and hold it but for what `part_faces` leaves out.
     parts: 1 to 1000; 8 by default.
     part_faces: faces of a part at most; 255 by default.
     tolerance: distance of hulls that need no cut, % of the equivalent radius; 0.5 by default.

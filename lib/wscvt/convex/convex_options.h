@@ -13,8 +13,8 @@ struct ConvexOptions {
       0.5;  ///< largest distance of hulls that need no cut, % of the equivalent radius
 };
 
-/// Nodes of the remesh that is cut, unless told otherwise: cuts take the less time the fewer they
-/// are.
+/// Nodes of the remesh on which the cuts are chosen, unless told otherwise. Fewer nodes take less
+/// time.
 inline constexpr int convex_node_count = 500;
 
 inline constexpr NumberOption<int> convex_parts_option = {
