@@ -177,7 +177,7 @@ TEST(FormAxes, StopsWhenAskedTo) {
   const std::vector<Vector3> points = test::lumpy(5).points;
   test::expect_to_be_stopped(
       [&](const Execution& execution) { oriented_box_axes(points, execution); },
-      "Turning the bounding box", 2000 + 200);
+      "Turning the bounding box", 600 + 200);
 }
 
 TEST(FormAxes, RefusesWhatHasNoBox) {

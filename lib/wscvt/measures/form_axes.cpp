@@ -18,6 +18,9 @@ namespace {
 
 constexpr const char* box_stage = "Turning the bounding box";
 
+/// Directions for the extreme points of the second search.
+constexpr int medium_directions = 600;
+
 /// Twice the first steps of the search by extreme points, and by all.
 constexpr double medium_angle = 0.04;
 constexpr double last_angle = 0.008;
@@ -195,7 +198,7 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points, const Execution& 
   check_scan_size(points);
   const std::vector<Vector3> local = in_frame(points, points.front(), frame_of(points));
   const std::vector<Vector3> extremes =
-      extreme_points(local, thinning_directions, box_stage, execution);
+      extreme_points(local, medium_directions, box_stage, execution);
   const std::vector<Vector3> few =
       extreme_points(extremes, coarse_directions, box_stage, execution);
   NearbyBoxes medium(extremes, medium_angle);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -96,25 +97,27 @@ Rectangle smallest_rectangle(const std::vector<Vector2>& hull) {
   std::size_t left = 1;
   for (std::size_t i = 0; i < n; ++i) {
     const Vector2 edge = hull[(i + 1) % n] - hull[i];
-    const double length = edge.norm();
-    if (!(length > 0.0)) continue;
-    const Vector2 along = edge / length;
-    const Vector2 across(-along.y(), along.x());
+    const double squared = edge.squaredNorm();
+    if (!(squared > 0.0)) continue;
+    const Vector2 across(-edge.y(), edge.x());
     const auto follow = [&](std::size_t& k, const Vector2& direction) {
       while (direction.dot(hull[(k + 1) % n] - hull[k]) > 0.0) k = (k + 1) % n;
     };
-    follow(right, along);
+    follow(right, edge);
     if (i == 0) top = right;
     follow(top, across);
     if (i == 0) left = top;
-    follow(left, -along);
-    Rectangle tried;
-    tried.side = along;
-    tried.length = along.dot(hull[right] - hull[left]);
-    tried.width = across.dot(hull[top] - hull[i]);
-    if (tried.area() < least) {
-      least = tried.area();
-      best = tried;
+    follow(left, -edge);
+    // Times the length of the edge.
+    const double length = edge.dot(hull[right] - hull[left]);
+    const double width = across.dot(hull[top] - hull[i]);
+    const double area = length * width / squared;
+    if (area < least) {
+      least = area;
+      const double unit = std::sqrt(squared);
+      best.side = edge / unit;
+      best.length = length / unit;
+      best.width = width / unit;
     }
   }
   return best;
