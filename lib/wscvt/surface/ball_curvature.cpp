@@ -62,7 +62,8 @@ class BallSearch {
   explicit BallSearch(const SurfacePatches& patches)
       : patches_(patches),
         seen_in_(patches.patches.size(), 0),
-        found_(new Found[patches.patches.size()]) {}
+        found_(new Found[patches.patches.size() + 1]),
+        beyond_(new Found[patches.patches.size() + 1]) {}
 
   /// Sums over the patches in each ball that can be reached from the first inside it; the first is
   /// always one. `radii` ascend.
@@ -72,34 +73,35 @@ class BallSearch {
     std::size_t count = 1;
     found_[0] = found(centre.patch, centre.point);
     seen_in_[index(centre.patch)] = ball_;
-    beyond_.clear();
     std::size_t next = 0;
+    std::size_t left = 0;  // next to those found, but outside
     for (std::size_t k = 0; k < radii.size(); ++k) {
       const double square = radii[k] * radii[k];
       const double inverse = 1.0 / radii[k];
       // What the smaller ball has left out begins where it touches what hangs together.
-      std::size_t left = 0;
-      for (const Found& one : beyond_) {
+      const std::size_t before = left;
+      left = 0;
+      for (std::size_t i = 0; i < before; ++i) {
+        const Found one = beyond_[i];
         if (one.square < square) {
           found_[count++] = one;
         } else {
           beyond_[left++] = one;
         }
       }
-      beyond_.resize(left);
       for (; next < count; ++next) {
         const std::size_t patch = index(found_[next].patch);
         const std::int32_t* const end = patches_.neighbours.end(patch);
         for (const std::int32_t* n = patches_.neighbours.begin(patch); n != end; ++n) {
           if (seen_in_[index(*n)] == ball_) continue;
           seen_in_[index(*n)] = ball_;
+          // In both lists, of which one forgets it: no processor foresees in which it belongs.
           const Found one = found(*n, centre.point);
           const bool inside = one.square < square;
-          if (inside) {
-            found_[count++] = one;
-          } else {
-            beyond_.push_back(one);
-          }
+          found_[count] = one;
+          beyond_[left] = one;
+          count += inside ? 1 : 0;
+          left += inside ? 0 : 1;
         }
       }
       BallSums ball;  // not in place, so that it stays in registers
@@ -126,8 +128,9 @@ class BallSearch {
   const SurfacePatches& patches_;
   std::vector<std::uint32_t> seen_in_;
   std::uint32_t ball_ = 0;
-  std::unique_ptr<Found[]> found_;  ///< not a vector, which would be filled for each block anew
-  std::vector<Found> beyond_;       ///< next to those found, but outside
+  // Not vectors, which would be filled for each block anew.
+  std::unique_ptr<Found[]> found_;
+  std::unique_ptr<Found[]> beyond_;
 };
 
 PrincipalCurvatures fit_normals(const BallSums& sums, double radius) {
