@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -50,6 +51,27 @@ TEST(FaceBoxes, AgreeWithAllFacesOneByOneNearAndFarInWhateverOrderThePointsCome)
     EXPECT_NEAR(boxes.distance(boxes.nearest_point(points[i])), 0.0, 1e-14);
   }
   EXPECT_EQ(boxes.distances(points, Execution(3)), distances);
+}
+
+TEST(FaceBoxes, SearchFromAnyFaceAndEndEarlyWhereThatIsEnough) {
+  const IndexedMesh mesh = test::lumpy(3);
+  const FaceBoxes boxes(mesh, Execution(1), "");
+  std::size_t start = 0;
+  for (const Vector3& point : points_about(mesh, 10)) {
+    const double distance = boxes.distance(point);
+    std::size_t face = start = (start + 977) % mesh.triangles.size();
+    EXPECT_EQ(std::sqrt(boxes.squared_distance(point, face, 0.0)), distance);
+    EXPECT_NEAR((boxes.nearest_point_of(face, point) - point).norm(), distance, 1e-14);
+    const double twice = 2.0 * distance;
+    face = start;
+    EXPECT_LE(boxes.squared_distance(point, face, twice * twice), twice * twice);
+    EXPECT_LE((boxes.nearest_point_of(face, point) - point).norm(), twice + 1e-14);
+    std::size_t near = 0;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      near += (boxes.nearest_point_of(f, point) - point).norm() <= twice ? 1U : 0U;
+    }
+    EXPECT_EQ(boxes.faces_within(point, (1.0 + 1e-14) * twice).size(), near);
+  }
 }
 
 TEST(FaceBoxes, AreTheSameOnAnyNumberOfThreads) {
