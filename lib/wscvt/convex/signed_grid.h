@@ -30,7 +30,8 @@ class SignedGrid {
 
  private:
   std::size_t index(int i, int j, int k) const {
-    return static_cast<std::size_t>((k * counts_[1] + j) * counts_[0] + i);
+    const auto number = [](int value) { return static_cast<std::size_t>(value); };
+    return (number(k) * number(counts_[1]) + number(j)) * number(counts_[0]) + number(i);
   }
 
   MeshDistance distance_;
