@@ -61,6 +61,15 @@ LayerContent content_of(const RemeshResult& result, const ResultSettings& settin
   return {result.mesh, quality_values(result, settings.quality), settings.colour_by_quality, {}};
 }
 
+/// Adds a warning for each picture of the texture that could not be read.
+void warn_of_pictures(const MeshTexture& texture, std::vector<std::string>& warnings) {
+  for (std::size_t k = 0; k < texture.pictures.size(); ++k) {
+    if (!texture.pictures[k].empty()) continue;
+    warnings.push_back("The picture \"" + texture.names[k] +
+                       "\" of the texture could not be read. The result gets no color from it.");
+  }
+}
+
 /// The content with what the scan carries. Its quality takes the place of radial distances, which
 /// are the default.
 LayerContent content_of(const RemeshResult& result, const RemeshSettings& settings,
@@ -177,7 +186,8 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   const MeshAttributes attributes =
       settings.keep_attributes ? layers.attributes(scan.number) : MeshAttributes();
   const IndexedMesh read = attributes.empty() ? IndexedMesh() : mesh;
-  const RemeshResult result = remesh(std::move(mesh), settings.options, execution);
+  RemeshResult result = remesh(std::move(mesh), settings.options, execution);
+  warn_of_pictures(attributes.texture, result.warnings);
   const LayerContent content =
       content_of(result, settings, read, attributes, execution.part(1.0, 1.0));
   // Files first: when they cannot be written the document stays as it was.

@@ -107,6 +107,28 @@ std::vector<MeshAttribute> attributes_of(const Elements& elements, bool has_colo
   return attributes;
 }
 
+/// Places of the faces' corners in the mesh's pictures, without those of deleted faces: the
+/// corners' own, or their vertices'. The mesh must have them.
+template <class VcgMesh>
+MeshTexture texture_of(const VcgMesh& mesh, bool of_corners) {
+  MeshTexture texture;
+  texture.names = mesh.textures;
+  for (const auto& face : mesh.face) {
+    if (face.IsD()) continue;
+    std::array<MeshTexture::Place, 3> corners;
+    int picture = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto& place = of_corners ? face.cWT(k) : face.cV(k)->cT();
+      corners[static_cast<std::size_t>(k)] = {static_cast<float>(place.U()),
+                                              static_cast<float>(place.V())};
+      if (k == 0) picture = place.N();
+    }
+    texture.corners.push_back(corners);
+    texture.picture_of_face.push_back(picture);
+  }
+  return texture;
+}
+
 /// Sets the colours of vertices or faces, which must be enabled, from attributes that have one
 /// value each. Leaves parts of the colour without an attribute as they are.
 template <class Elements>

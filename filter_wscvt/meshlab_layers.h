@@ -3,11 +3,13 @@
 
 #include <vcg/complex/algorithms/update/color.h>
 
+#include <QImage>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "layers.h"
@@ -19,7 +21,8 @@ namespace wscvt::filter {
 /// The layers of a MeshLab document, in any version. What versions call differently is in `Api`,
 /// beside each version's adapter: the types Document and Model, and
 ///   std::vector<Model*> all(Document&), void remove(Document&, Model&),
-///   void update_box_and_normals(Model&).
+///   void update_box_and_normals(Model&), QImage texture_picture(const Model&, name), which is null
+///   for one that is not there.
 template <class Api>
 class MeshlabLayers final : public Layers {
  public:
@@ -44,10 +47,19 @@ class MeshlabLayers final : public Layers {
 
   MeshAttributes attributes(int number) const override {
     const Model& layer = model(number);
+    const bool of_corners = layer.hasDataMask(Model::MM_WEDGTEXCOORD);
+    MeshTexture texture;
+    if (!layer.cm.textures.empty() && (of_corners || layer.hasDataMask(Model::MM_VERTTEXCOORD))) {
+      texture = texture_of(layer.cm, of_corners);
+      for (const std::string& name : texture.names) {
+        texture.pictures.push_back(picture_of(Api::texture_picture(layer, name)));
+      }
+    }
     return {attributes_of(layer.cm.vert, layer.hasDataMask(Model::MM_VERTCOLOR),
                           layer.hasDataMask(Model::MM_VERTQUALITY)),
             attributes_of(layer.cm.face, layer.hasDataMask(Model::MM_FACECOLOR),
-                          layer.hasDataMask(Model::MM_FACEQUALITY))};
+                          layer.hasDataMask(Model::MM_FACEQUALITY)),
+            std::move(texture)};
   }
 
   IndexedMesh as_held(IndexedMesh mesh) const override {
@@ -153,6 +165,18 @@ class MeshlabLayers final : public Layers {
     }
     set_attributes(model, content);
     Api::update_box_and_normals(model);
+  }
+
+  /// Empty for a picture that could not be read.
+  static TexturePicture picture_of(const QImage& image) {
+    const QImage colours = image.convertToFormat(QImage::Format_RGB888);
+    TexturePicture picture{colours.width(), colours.height(), {}};
+    for (int row = 0; row < colours.height(); ++row) {
+      const uchar* const line = colours.constScanLine(row);
+      picture.colours.insert(picture.colours.end(), line,
+                             line + std::ptrdiff_t{3} * colours.width());
+    }
+    return picture;
   }
 
   static void set_attributes(Model& model, const LayerContent& content) {

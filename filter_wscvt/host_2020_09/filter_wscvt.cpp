@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_wscvt.h"
 
+#include <QDir>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +48,10 @@ struct Api {
   }
   static void remove(MeshDocument& document, MeshModel& model) { document.delMesh(&model); }
   static void update_box_and_normals(MeshModel& model) { model.UpdateBoxAndNormals(); }
+  /// This version keeps names only, from the layer's folder.
+  static QImage texture_picture(const MeshModel& model, const std::string& name) {
+    return QImage(QDir(model.pathName()).filePath(QString::fromStdString(name)));
+  }
 
   template <class Rich, class... Arguments>
   static void add(RichParameterList& list, const FilterParameter& parameter, const QString& tooltip,

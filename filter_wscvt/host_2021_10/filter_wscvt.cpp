@@ -2,6 +2,7 @@
 #include "filter_wscvt.h"
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,10 @@ struct Api {
   }
   static void remove(MeshDocument& document, MeshModel& model) { document.delMesh(model.id()); }
   static void update_box_and_normals(MeshModel& model) { model.updateBoxAndNormals(); }
+  static QImage texture_picture(const MeshModel& model, const std::string& name) {
+    // What these versions show for a picture that is missing.
+    return name == "dummy.png" ? QImage() : model.getTexture(name);
+  }
 
   template <class Rich, class... Arguments>
   static void add(RichParameterList& list, const FilterParameter& parameter, const QString& tooltip,

@@ -121,7 +121,8 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
     return seconds_since(start);
   };
   const auto make = [&]() -> GrainRow {
-    GrainScan scan = grains.read(k, execution);
+    const bool holds = holds_attributes(output.levels().front().mesh(grain));
+    GrainScan scan = grains.read(k, holds, execution);
     RemeshOptions options = arguments.options;
     options.measures.repaired_scan =
         describes_scan(arguments.shapes.described) || arguments.shapes.contacts;
@@ -129,8 +130,7 @@ GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output
                                     output.levels().front().mesh(grain)](const RemeshResult& made) {
       return as_written(made.mesh, path);
     };
-    const bool carries =
-        holds_attributes(output.levels().front().mesh(grain)) && !scan.attributes.empty();
+    const bool carries = holds && !scan.attributes.empty();
     const IndexedMesh read = carries ? scan.mesh : IndexedMesh();
     std::vector<RemeshResult> results =
         remeshes_of(arguments, std::move(scan.mesh), options, execution);

@@ -116,11 +116,12 @@ void BatchGrains::begin(std::size_t first) {
   }
 }
 
-GrainScan BatchGrains::read(std::size_t grain, const Execution& execution) {
+GrainScan BatchGrains::read(std::size_t grain, bool with_pictures, const Execution& execution) {
   const Place& place = places_[grain];
   if (place.kind == Place::Body) return {bodies_[place.grain], {}, {}};
   if (place.kind == Place::File) {
     MeshFile file = read_mesh_file(names_[grain], execution);
+    if (with_pictures) read_pictures(file, names_[grain], execution);
     return {std::move(file.mesh), std::move(file.attributes), std::move(file.warnings)};
   }
   LabelGrain label = volumes_[place.volume]->read(place.grain, execution);

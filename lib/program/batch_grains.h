@@ -46,7 +46,8 @@ class BatchGrains {
   void begin(std::size_t first);
 
   /// Reads a grain; each once. On several threads at once.
-  GrainScan read(std::size_t grain, const Execution& execution);
+  /// `with_pictures`: of a file's texture too.
+  GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution);
 
  private:
   /// What a name stands for.

@@ -127,7 +127,7 @@ GrainRow clump_row(const ClumpArguments& arguments, const OutputFolder& folder, 
                    std::size_t k, const Execution& execution) {
   const std::string& grain = grains.names()[k];
   const auto make = [&]() -> GrainRow {
-    GrainScan scan = grains.read(k, execution);
+    GrainScan scan = grains.read(k, false, execution);
     ClumpResult clump = make_clump(std::move(scan.mesh), arguments.options, execution);
     clump.warnings.insert(clump.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
     write_clump(folder.mesh(grain), clump, arguments.frame, arguments.density);

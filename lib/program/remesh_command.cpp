@@ -106,6 +106,8 @@ int run(const RemeshArguments& arguments) {
   }
   // The scan as read, which the remesh takes its colours and labels from.
   const bool carries = holds_attributes(arguments.output) && !file.attributes.empty();
+  if (carries)
+    read_pictures(file, arguments.scan, work.execution().part(reading_share, reading_share));
   const IndexedMesh scan = carries ? file.mesh : IndexedMesh();
   RemeshResult result =
       remesh(std::move(file.mesh), options, work.execution().part(reading_share, 1.0));

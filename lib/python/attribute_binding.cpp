@@ -72,15 +72,53 @@ py::tuple carry_attributes(const py::object& scan, const py::object& mesh,
   }));
 }
 
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) {
+    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
+  }
+}
+
+py::tuple carry_attributes_of_file(const std::string& path, const py::object& mesh, int threads) {
+  const IndexedMesh to = mesh_of_reference(mesh);
+  std::vector<std::string> warnings;
+  const MeshAttributes carried = work_on(threads, py::none(), [&](const Execution& execution) {
+    MeshFile file = read_mesh_file(path, execution);
+    file.warnings.clear();
+    read_pictures(file, path, execution);
+    warnings = file.warnings;
+    return carried_attributes(file.mesh, file.attributes, to, execution);
+  });
+  warn(warnings);
+  return both(carried);
+}
+
+/// Of the file's mesh onto itself, so that a texture becomes colours of its vertices.
+py::tuple read_attributes(const std::string& path) {
+  MeshFile file = read_mesh_file(path);
+  if (file.attributes.texture.empty()) return both(file.attributes);
+  file.warnings.clear();
+  read_pictures(file, path);
+  warn(file.warnings);
+  MeshAttributes texture;
+  if (attribute_named(file.attributes.of_vertices, "red") == nullptr) {
+    texture.texture = std::move(file.attributes.texture);
+  }
+  for (MeshAttribute& part : carried_attributes(file.mesh, texture, file.mesh).of_vertices) {
+    file.attributes.of_vertices.push_back(std::move(part));
+  }
+  return both(file.attributes);
+}
+
 }  // namespace
 
 void bind_attributes(py::module_& module) {
   module.def(
-      "read_attributes",
-      [](const std::string& path) { return both(read_mesh_file(path).attributes); },
-      py::arg("path"),
+      "read_attributes", &read_attributes, py::arg("path"),
       "The numbers that the vertices and the faces of a PLY file carry, such as red, green, blue, "
-      "quality or label: two dictionaries of arrays (n,). Both are empty for other formats.");
+      "quality or label, and the colours of OBJ's vertices: two dictionaries of arrays (n,). A "
+      "texture of either becomes colours of the vertices. Both are empty for other formats.");
+  module.def("carry_attributes_of_file", &carry_attributes_of_file, py::arg("path"),
+             py::arg("mesh"), py::kw_only(), py::arg("threads") = 0);
   module.def("carry_attributes", &carry_attributes, py::arg("scan"), py::arg("mesh"),
              py::arg("vertex_attributes") = py::dict(), py::arg("face_attributes") = py::dict(),
              py::kw_only(), py::arg("threads") = 0,

@@ -27,7 +27,7 @@ NEWEST_SYMBOLS = {"GLIBC": (2, 36), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13)}
 OF_EVERY_LINUX = re.compile(r"(libc|libm|libstdc\+\+|libgcc_s|ld-linux-x86-64)\.so\.\d+$")
 # Packages whose code is in the modules, beside the libraries that are bundled.
 HEADERS_OF = ["libcgal-dev", "libboost1.74-dev", "libeigen3-dev", "libopenmesh-dev",
-              "nlohmann-json3-dev", "pybind11-dev"]
+              "nlohmann-json3-dev", "libstb-dev", "pybind11-dev"]
 METADATA = """Metadata-Version: 2.1
 Name: wscvt
 Version: {version}

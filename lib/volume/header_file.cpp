@@ -33,13 +33,6 @@ std::string HeaderFile::line() {
   return std::string(trimmed(*text));
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr const char* white_space = " \t\r\n\v\f";
-  const std::size_t begin = text.find_first_not_of(white_space);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
-}
-
 std::vector<double> numbers_in(std::string_view text, const HeaderFile& file) {
   std::string plain(text);
   for (char& c : plain) {

@@ -37,9 +37,6 @@ class HeaderFile {
   ByteReader reader_;
 };
 
-/// A text without white space at its ends.
-std::string_view trimmed(std::string_view text);
-
 /// The numbers of a text, between which stand blanks, commas and brackets. Throws
 /// Error(InputOutput), naming the line, where one is none.
 std::vector<double> numbers_in(std::string_view text, const HeaderFile& file);

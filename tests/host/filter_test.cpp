@@ -5,6 +5,7 @@
 #include <QApplication>
 #include <QFile>
 #include <QFileInfo>
+#include <QImage>
 #include <QJsonDocument>
 #include <QLabel>
 #include <QMainWindow>
@@ -671,6 +672,50 @@ TEST(Filter, KeepsTheScansColorsAndQualityUnlessToldOtherwise) {
   EXPECT_FALSE(plain.hasDataMask(MeshModel::MM_FACECOLOR));
   // The radial distance.
   for (const auto& v : plain.cm.vert) EXPECT_NEAR(v.cQ(), v.cP().Norm(), 0.1);
+}
+
+TEST(Filter, KeepsTheColorsOfTheScansPicture) {
+  // Linear in the place, 200 x 100 pixels.
+  QImage picture(200, 100, QImage::Format_RGB888);
+  for (int row = 0; row < 100; ++row) {
+    for (int column = 0; column < 200; ++column) {
+      picture.setPixel(column, row, qRgb(20 + column, 5 + 2 * row, 17));
+    }
+  }
+  const QTemporaryDir folder;
+  LoadedFilter loaded;
+  MeshDocument document;
+  MeshModel& scan = add_layer(document, grain());
+  scan.updateDataMask(MeshModel::MM_WEDGTEXCOORD);
+  scan.cm.textures = {"missing.png"};
+  add_picture(scan, "stone.png", picture, folder.path());
+  const auto u = [](const auto& p) { return 0.5 + 0.2 * p[0]; };
+  const auto v = [](const auto& p) { return 0.5 + 0.3 * p[1]; };
+  for (auto& f : scan.cm.face) {
+    for (int k = 0; k < 3; ++k) {
+      f.WT(k).U() = static_cast<float>(u(f.P(k)));
+      f.WT(k).V() = static_cast<float>(v(f.P(k)));
+      f.WT(k).N() = 1;
+    }
+  }
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(300));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  const MeshModel& result = *document.mm();
+  ASSERT_TRUE(result.hasDataMask(MeshModel::MM_VERTCOLOR));
+  for (const auto& node : result.cm.vert) {
+    // The nearest point lies within the misfit, some hundredths.
+    EXPECT_NEAR(node.cC()[0], 20.0 + 200.0 * u(node.cP()) - 0.5, 3.0);
+    EXPECT_NEAR(node.cC()[1], 5.0 + 2.0 * (100.0 * (1.0 - v(node.cP())) - 0.5), 4.0);
+    EXPECT_EQ(node.cC()[2], 17);
+  }
+  EXPECT_TRUE(loaded.log().join(" ").contains("missing.png"))
+      << loaded.log().join("\n").toStdString();
+
+  document.setCurrentMesh(static_cast<int>(scan.id()));
+  parameters.setValue("KeepColors", BoolValue(false));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  EXPECT_FALSE(document.mm()->hasDataMask(MeshModel::MM_VERTCOLOR));
 }
 
 TEST(Filter, LogBeginsEmptyAndHoldsTheTableAndTheTime) {

@@ -5,6 +5,7 @@
 #include <common/interfaces.h>
 #include <common/mlexception.h>
 
+#include <QImage>
 #include <QTextDocumentFragment>
 #include <map>
 #include <string>
@@ -54,6 +55,14 @@ inline std::vector<MeshModel*> layers_of(MeshDocument& document) {
 }
 
 inline void update_box_and_normals(MeshModel& layer) { layer.UpdateBoxAndNormals(); }
+
+/// Gives a layer the picture of a texture, which this version reads from a file of `folder`.
+inline void add_picture(MeshModel& layer, const QString& name, const QImage& picture,
+                        const QString& folder) {
+  picture.save(folder + "/" + name);
+  layer.setFileName(folder + "/scan.obj");
+  layer.cm.textures.push_back(name.toStdString());
+}
 
 inline void remove_layer(MeshDocument& document, MeshModel& layer) { document.delMesh(&layer); }
 

@@ -5,6 +5,7 @@
 #include <common/mlexception.h>
 #include <common/plugins/interfaces/filter_plugin.h>
 
+#include <QImage>
 #include <list>
 #include <map>
 #include <string>
@@ -59,6 +60,12 @@ inline std::vector<MeshModel*> layers_of(MeshDocument& document) {
 }
 
 inline void update_box_and_normals(MeshModel& layer) { layer.updateBoxAndNormals(); }
+
+/// Gives a layer the picture of a texture.
+inline void add_picture(MeshModel& layer, const QString& name, const QImage& picture,
+                        const QString& /*folder*/) {
+  layer.addTexture(name.toStdString(), picture);
+}
 
 inline void remove_layer(MeshDocument& document, MeshModel& layer) { document.delMesh(layer.id()); }
 

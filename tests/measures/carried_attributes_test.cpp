@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
@@ -86,6 +88,118 @@ TEST(CarriedAttributes, AreInterpolatedWithinATriangle) {
   EXPECT_NEAR(carried.of_vertices[0].values[2], 55.0, 1e-12);
   EXPECT_EQ(carried.of_vertices[1].values, (std::vector<double>{90, 90, 50}));
   EXPECT_EQ(carried.of_faces[0].values, (std::vector<double>{2}));
+}
+
+/// 7 x 5 pixels whose colours are linear in their places.
+TexturePicture linear_picture() {
+  TexturePicture picture{7, 5, {}};
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      picture.colours.push_back(static_cast<std::uint8_t>(10 + 30 * column));
+      picture.colours.push_back(static_cast<std::uint8_t>(200 - 40 * row));
+      picture.colours.push_back(static_cast<std::uint8_t>(5 + 11 * column + 7 * row));
+    }
+  }
+  return picture;
+}
+
+/// Red, green and blue of vertex i.
+std::array<double, 3> colour_of(const MeshAttributes& attributes, std::size_t i) {
+  EXPECT_EQ(attributes.of_vertices.size(), 3U);
+  std::array<double, 3> colour{};
+  const std::array<const char*, 3> names{"red", "green", "blue"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(attributes.of_vertices[k].name, names[k]);
+    EXPECT_EQ(attributes.of_vertices[k].type, ScalarType::Uint8);
+    colour[k] = attributes.of_vertices[k].values[i];
+  }
+  return colour;
+}
+
+/// Two triangles of a square from (0, 0) to (1, 1), whose places in the picture are those of the
+/// square, moved.
+MeshAttributes square_texture(const IndexedMesh& square, const MeshTexture::Place& moved) {
+  MeshAttributes own;
+  own.texture.pictures = {linear_picture()};
+  own.texture.picture_of_face = {0, 0};
+  for (const Triangle& t : square.triangles) {
+    std::array<MeshTexture::Place, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = square.points[t[k]].head<2>().cast<float>() + moved;
+    }
+    own.texture.corners.push_back(corners);
+  }
+  return own;
+}
+
+const IndexedMesh unit_square{
+    {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(1, 1, 0), Vector3(0, 1, 0)},
+    {{0, 1, 2}, {0, 2, 3}}};
+
+TEST(CarriedAttributes, ATextureIsItsPicturesColourAtTheNearestPoint) {
+  // Between the middles of the outermost pixels; u from the left, v from the bottom.
+  const IndexedMesh mesh{{Vector3(0.21, 0.83, 0.4), Vector3(0.77, 0.16, -1.0),
+                          Vector3(0.5, 0.5, 0.0), Vector3(0.0, 1.0, 0.0), Vector3(1.0, 0.0, 0.0)},
+                         {}};
+  for (const MeshTexture::Place& moved :
+       {MeshTexture::Place(0, 0), MeshTexture::Place(3, -2), MeshTexture::Place(-1, 5)}) {
+    const MeshAttributes carried =
+        carried_attributes(unit_square, square_texture(unit_square, moved), mesh);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double column = 7.0 * mesh.points[i].x() - 0.5;
+      const double row = 5.0 * (1.0 - mesh.points[i].y()) - 0.5;
+      const std::array<double, 3> colour = colour_of(carried, i);
+      // Places are single numbers of up to 6.
+      const double tolerance = 210.0 * 1e-6;
+      EXPECT_NEAR(colour[0], 10.0 + 30.0 * column, tolerance) << moved.transpose();
+      EXPECT_NEAR(colour[1], 200.0 - 40.0 * row, tolerance);
+      EXPECT_NEAR(colour[2], 5.0 + 11.0 * column + 7.0 * row, tolerance);
+    }
+  }
+  // At the picture's corners the outermost pixels, not mixed with those of the other end.
+  const MeshAttributes corners =
+      carried_attributes(unit_square, square_texture(unit_square, MeshTexture::Place(0, 0)), mesh);
+  EXPECT_EQ(colour_of(corners, 3), (std::array<double, 3>{10.0, 200.0, 5.0}));
+  EXPECT_EQ(colour_of(corners, 4), (std::array<double, 3>{190.0, 40.0, 99.0}));
+}
+
+TEST(CarriedAttributes, EachFaceHasItsPictureAndOneWithoutIsWhite) {
+  MeshAttributes own = square_texture(unit_square, MeshTexture::Place(0, 0));
+  own.texture.pictures.push_back({1, 1, {12, 34, 56}});
+  own.texture.pictures.push_back({});
+  const IndexedMesh mesh{{Vector3(0.9, 0.1, 0.2), Vector3(0.1, 0.9, 0.2)}, {}};
+  const std::array<double, 3> white{255.0, 255.0, 255.0};
+  own.texture.picture_of_face = {1, -1};
+  EXPECT_EQ(colour_of(carried_attributes(unit_square, own, mesh), 0),
+            (std::array<double, 3>{12.0, 34.0, 56.0}));
+  EXPECT_EQ(colour_of(carried_attributes(unit_square, own, mesh), 1), white);
+  own.texture.picture_of_face = {2, 3};
+  EXPECT_EQ(colour_of(carried_attributes(unit_square, own, mesh), 0), white);
+  EXPECT_EQ(colour_of(carried_attributes(unit_square, own, mesh), 1), white);
+  // Corners without places show the colour of a material, but no picture.
+  for (auto& corners : own.texture.corners) corners.fill(MeshTexture::no_place());
+  own.texture.picture_of_face = {1, 0};
+  EXPECT_EQ(colour_of(carried_attributes(unit_square, own, mesh), 0),
+            (std::array<double, 3>{12.0, 34.0, 56.0}));
+  EXPECT_EQ(colour_of(carried_attributes(unit_square, own, mesh), 1), white);
+}
+
+TEST(CarriedAttributes, ColoursOfVerticesGoBeforeATextureAndNoPictureGivesNone) {
+  MeshAttributes own = square_texture(unit_square, MeshTexture::Place(0, 0));
+  own.of_vertices = {{"red", ScalarType::Uint8, {1, 2, 3, 4}}};
+  const MeshAttributes coloured = carried_attributes(unit_square, own, unit_square);
+  ASSERT_EQ(coloured.of_vertices.size(), 1U);
+  EXPECT_EQ(coloured.of_vertices[0].values, own.of_vertices[0].values);
+  EXPECT_TRUE(coloured.texture.empty());
+  own.of_vertices.clear();
+  own.texture.pictures = {TexturePicture()};
+  EXPECT_TRUE(carried_attributes(unit_square, own, unit_square).empty());
+  own.texture.pictures = {linear_picture()};
+  own.texture.pictures[0].colours.pop_back();
+  EXPECT_ERROR(carried_attributes(unit_square, own, unit_square), InvalidInput);
+  own = square_texture(unit_square, MeshTexture::Place(0, 0));
+  own.texture.corners.pop_back();
+  EXPECT_ERROR(carried_attributes(unit_square, own, unit_square), InvalidInput);
 }
 
 TEST(CarriedAttributes, OfPointsAreThoseOfTheNearest) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The commands of the program: what their helps promise, and that each does what the library does.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -13,6 +15,7 @@
 #include "support/flat_json.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
+#include "support/tga_picture.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/grain_measures.h"
@@ -98,6 +101,55 @@ TEST_F(Commands, RemeshAndBatchCarryColoursAndLabelsInPly) {
     ASSERT_EQ(other.attributes.of_vertices.size(), 1U) << same;
     EXPECT_EQ(other.attributes.of_vertices[0].values, remesh.attributes.of_vertices[0].values);
     EXPECT_EQ(other.attributes.of_faces[0].values, remesh.attributes.of_faces[0].values);
+  }
+}
+
+TEST_F(Commands, RemeshAndBatchTakeColoursFromThePictureOfAnObj) {
+  const IndexedMesh scan = read_mesh(path("scan.ply"));
+  std::ostringstream obj;
+  obj << "mtllib stone.mtl\nusemtl stone\n";
+  for (const Vector3& p : scan.points) {
+    obj << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << "\nvt " << 0.5 + 0.21 * p.x() << ' '
+        << 0.5 + 0.17 * p.y() << '\n';
+  }
+  for (const auto& [a, b, c] : scan.triangles) {
+    obj << "f " << a + 1 << '/' << a + 1 << ' ' << b + 1 << '/' << b + 1 << ' ' << c + 1 << '/'
+        << c + 1 << '\n';
+  }
+  std::vector<std::uint8_t> colours;
+  for (int row = 0; row < 48; ++row) {
+    for (int column = 0; column < 60; ++column) {
+      colours.push_back(static_cast<std::uint8_t>(3 + 4 * column));
+      colours.push_back(static_cast<std::uint8_t>(5 * row));
+      colours.push_back(static_cast<std::uint8_t>(row + 2 * column));
+    }
+  }
+  fs::create_directory(path("scans"));
+  std::ofstream(folder_ / "scans/stone.obj") << obj.str();
+  std::ofstream(folder_ / "scans/stone.mtl") << "newmtl stone\nmap_Kd stone.tga\n";
+  const Outcome missing = run("remesh scans/stone.obj plain.ply -n 200");
+  EXPECT_EQ(missing.exit_code, 0);
+  EXPECT_TRUE(read_mesh_file(path("plain.ply")).attributes.empty());
+  std::ofstream(folder_ / "scans/stone.tga", std::ios::binary)
+      << test::tga_picture(60, 48, colours);
+  const Outcome done = run("remesh scans/stone.obj remesh.ply -n 200");
+  if (done.errors.find("libstb-dev") != std::string::npos) GTEST_SKIP();
+  EXPECT_NE(missing.errors.find("stone.tga"), std::string::npos) << missing.errors;
+  EXPECT_EQ(done.errors.find("stone.tga"), std::string::npos) << done.errors;
+  ASSERT_EQ(run("batch scans -o out -n 200 -q").exit_code, 0);
+  for (const char* name : {"remesh.ply", "out/stone.ply"}) {
+    const MeshFile remesh = read_mesh_file(path(name));
+    ASSERT_EQ(remesh.attributes.of_vertices.size(), 3U) << name;
+    for (std::size_t i = 0; i < remesh.mesh.points.size(); ++i) {
+      const Vector3& p = remesh.mesh.points[i];
+      const double column = 60.0 * (0.5 + 0.21 * p.x()) - 0.5;
+      const double row = 48.0 * (0.5 - 0.17 * p.y()) - 0.5;
+      // The nearest point lies within the misfit, some hundredths.
+      const std::array<double, 3> expected = {3.0 + 4.0 * column, 5.0 * row, row + 2.0 * column};
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(remesh.attributes.of_vertices[k].values[i], expected[k], 3.0) << name;
+      }
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import subprocess
+import warnings
 import xml.etree.ElementTree
 
 import numpy as np
@@ -31,6 +32,41 @@ def test_colours_and_labels_are_carried_and_kept_by_ply(tmp_path):
     assert set(np.unique(labels["label"])) == {-7, 12}
     with pytest.raises(wscvt.Error, match="give one each"):
         wscvt.carry_attributes((vertices, faces), remesh, {"red": red[1:]})
+
+
+def test_a_texture_becomes_colours(tmp_path):
+    scan = wscvt.create("ellipsoid", nodes=300, semi_axes=(1.3, 1.0, 0.8))
+    vertices, faces = scan.vertices, scan.faces
+    # 40 x 30 pixels of a TGA from the top, blue, green and red of each.
+    pixels = np.zeros((30, 40, 3), np.uint8)
+    pixels[:, :, 2] = 10 + 5 * np.arange(40)
+    pixels[:, :, 1] = 7 * np.arange(30)[:, None]
+    pixels[:, :, 0] = 99
+    places = np.c_[0.5 + 0.3 * vertices[:, 0], 0.5 + 0.4 * vertices[:, 1]]
+    lines = ["mtllib a.mtl", "usemtl stone"]
+    lines += ["v %.17g %.17g %.17g" % tuple(v) for v in vertices] + ["vt %.9g %.9g" % tuple(p) for p in places]
+    lines += ["f " + " ".join("%d/%d" % (i + 1, i + 1) for i in face) for face in faces]
+    path = tmp_path / "a.obj"
+    path.write_text("\n".join(lines) + "\n")
+    (tmp_path / "a.mtl").write_text("newmtl stone\nmap_Kd a.tga\n")
+    remesh = wscvt.remesh(path, 100)
+    with pytest.warns(UserWarning, match="a.tga"):
+        carried, _ = wscvt.carry_attributes(path, remesh)
+    assert not carried
+    (tmp_path / "a.tga").write_bytes(bytes([0, 0, 2] + 9 * [0] + [40, 0, 30, 0, 24, 0x20]) + pixels.tobytes())
+    with warnings.catch_warnings(record=True) as told:
+        carried, _ = wscvt.carry_attributes(path, remesh)
+    if any("libstb-dev" in str(warning.message) for warning in told):
+        pytest.skip("built without pictures")
+    assert not told
+    own, _ = wscvt.read_attributes(path)
+    # Each rounded; the nearest point lies within the distance of the remesh, some hundredths.
+    for colours, points, within in ((own, vertices, 1), (carried, remesh.vertices, 1 + 84 * 0.05)):
+        assert colours["red"].dtype == np.uint8 and set(colours) == {"red", "green", "blue"}
+        column, row = 40 * (0.5 + 0.3 * points[:, 0]) - 0.5, 30 * (0.5 - 0.4 * points[:, 1]) - 0.5
+        assert np.abs(colours["red"] - (10.0 + 5 * column)).max() < within
+        assert np.abs(colours["green"] - 7.0 * row).max() < within
+        assert (colours["blue"] == 99).all()
 
 
 def test_convex_parts_hold_the_grain():

@@ -348,10 +348,11 @@ def write_mesh(path, vertices, faces=None, *, vertex_attributes=None, face_attri
 
 
 def read_attributes(path):
-    """The numbers that vertices and faces of a PLY file carry, such as red, quality or label.
+    """The numbers that vertices and faces of a PLY file carry, such as red, quality or label, and the
+    colours of the vertices of an OBJ file. A texture of either becomes colours of the vertices.
 
     Returns two dictionaries of arrays (n,), of the vertices and of the faces; both are empty for
-    other formats. Raises Error.
+    other formats. Warns of pictures that are missing. Raises Error.
     """
     return _wscvt.read_attributes(os.fspath(path))
 
@@ -361,12 +362,15 @@ def carry_attributes(scan, mesh, vertex_attributes=None, face_attributes=None, *
 
     scan, mesh: (vertices, faces), a path, or a mesh of trimesh or PyVista.
     vertex_attributes, face_attributes: dictionaries of arrays (n,), a number for each vertex or face
-        of the scan. Without both, those of the scan's file are taken.
+        of the scan. Without both, the scan is a path: its file's are taken, with its texture as
+        red, green and blue of the vertices.
 
-    Returns two dictionaries with the same names and types. Raises Error.
+    Returns two dictionaries with the same names and types. Warns of pictures that are missing.
+    Raises Error.
     """
     if vertex_attributes is None and face_attributes is None:
-        vertex_attributes, face_attributes = read_attributes(scan)
+        pair = mesh if isinstance(mesh, tuple) else _arrays(mesh)
+        return _wscvt.carry_attributes_of_file(os.fspath(scan), pair, threads=threads)
     pairs = [m if isinstance(m, tuple) else _arrays(m) for m in (scan, mesh)]
     return _wscvt.carry_attributes(*pairs, vertex_attributes or {}, face_attributes or {}, threads=threads)
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,12 +27,37 @@ struct MeshAttribute {
   std::vector<double> values;
 };
 
+/// A picture: red, green and blue of each pixel, rows from the top, each from the left.
+struct TexturePicture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> colours;  ///< 3 width height
+
+  bool empty() const { return colours.empty(); }
+};
+
+/// Pictures on the faces of a mesh.
+struct MeshTexture {
+  /// Place of a corner in its picture: from the left and from the bottom, the whole picture from 0
+  /// to 1, repeated beyond. Not finite: the corner has none.
+  using Place = Eigen::Vector2f;
+  static Place no_place() { return Place::Constant(std::numeric_limits<float>::quiet_NaN()); }
+
+  std::vector<std::string> names;        ///< of the pictures, or of the materials that have them
+  std::vector<TexturePicture> pictures;  ///< an empty one could not be read
+  std::vector<std::int32_t> picture_of_face;  ///< index; -1: none
+  std::vector<std::array<Place, 3>> corners;  ///< of each face
+
+  bool empty() const { return corners.empty(); }
+};
+
 /// The numbers that a mesh carries beside its shape.
 struct MeshAttributes {
   std::vector<MeshAttribute> of_vertices;
   std::vector<MeshAttribute> of_faces;
+  MeshTexture texture = {};
 
-  bool empty() const { return of_vertices.empty() && of_faces.empty(); }
+  bool empty() const { return of_vertices.empty() && of_faces.empty() && texture.empty(); }
 };
 
 /// Returns the attribute of that name, or null if there is none.

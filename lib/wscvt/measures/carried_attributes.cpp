@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/error.h"
@@ -67,6 +69,101 @@ MeshAttribute at_places(const IndexedMesh& scan, const MeshAttribute& attribute,
   return result;
 }
 
+void check_texture(const MeshTexture& texture, std::size_t faces) {
+  if (texture.empty()) return;
+  if (texture.corners.size() != faces || texture.picture_of_face.size() != faces) {
+    refuse("The texture has " + std::to_string(texture.corners.size()) +
+           " faces, but the scan has " + std::to_string(faces) + "; give each face its corners.");
+  }
+  for (const TexturePicture& picture : texture.pictures) {
+    const bool is_whole =
+        picture.empty() ||
+        (picture.width > 0 && picture.height > 0 &&
+         picture.colours.size() == std::size_t{3} * static_cast<std::size_t>(picture.width) *
+                                       static_cast<std::size_t>(picture.height));
+    if (is_whole) continue;
+    refuse("A picture of the texture has " + std::to_string(picture.colours.size()) +
+           " numbers, but is " + std::to_string(picture.width) + " x " +
+           std::to_string(picture.height) + "; give 3 for each pixel.");
+  }
+}
+
+/// Whether the colours of the vertices are a picture's.
+bool shows_picture(const MeshAttributes& attributes) {
+  const std::vector<TexturePicture>& pictures = attributes.texture.pictures;
+  return attribute_named(attributes.of_vertices, "red") == nullptr && !attributes.texture.empty() &&
+         std::any_of(pictures.begin(), pictures.end(),
+                     [](const TexturePicture& p) { return !p.empty(); });
+}
+
+using Colour = std::array<double, 3>;
+constexpr Colour white = {255.0, 255.0, 255.0};
+
+/// The pixels about a place from 0 to 1 along a side: the two whose middles it lies between, or
+/// the last one twice, and the weight of the second.
+struct PixelPair {
+  std::size_t first;
+  std::size_t second;
+  double weight;
+  PixelPair(double place, int pixels) {
+    const double at = std::clamp(place * pixels - 0.5, 0.0, pixels - 1.0);
+    first = static_cast<std::size_t>(at);
+    second = std::min(first + 1, static_cast<std::size_t>(pixels) - 1);
+    weight = at - static_cast<double>(first);
+  }
+};
+
+Colour colour_at(const TexturePicture& picture, const Eigen::Vector2d& place) {
+  // 1 is the right or upper end of the picture, and not the next one's beginning; places are of
+  // single precision.
+  const auto within = [](double x) {
+    constexpr double rounding = 1e-5;
+    return x >= -rounding && x <= 1.0 + rounding ? std::clamp(x, 0.0, 1.0) : x - std::floor(x);
+  };
+  const PixelPair columns(within(place.x()), picture.width);
+  const PixelPair rows(1.0 - within(place.y()), picture.height);
+  Colour colour{};
+  for (std::size_t part = 0; part < colour.size(); ++part) {
+    const auto pixel = [&](std::size_t row, std::size_t column) {
+      const std::size_t at = row * static_cast<std::size_t>(picture.width) + column;
+      return static_cast<double>(picture.colours[3 * at + part]);
+    };
+    const auto along = [&](std::size_t row) {
+      return (1.0 - columns.weight) * pixel(row, columns.first) +
+             columns.weight * pixel(row, columns.second);
+    };
+    colour[part] = (1.0 - rows.weight) * along(rows.first) + rows.weight * along(rows.second);
+  }
+  return colour;
+}
+
+Colour colour_at(const MeshTexture& texture, const MeshPlace& place) {
+  const std::int32_t shown = texture.picture_of_face[place.triangle];
+  if (shown < 0 || static_cast<std::size_t>(shown) >= texture.pictures.size()) return white;
+  const TexturePicture& picture = texture.pictures[static_cast<std::size_t>(shown)];
+  if (picture.empty()) return white;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double weight = place.weights[static_cast<Eigen::Index>(k)];
+    if (weight > 0.0) at += weight * texture.corners[place.triangle][k].cast<double>();
+  }
+  // A picture of one pixel is the colour of a material, which needs no places.
+  if (picture.colours.size() == 3) at.setZero();
+  return at.allFinite() ? colour_at(picture, at) : white;
+}
+
+void append_colours(const MeshTexture& texture, const std::vector<MeshPlace>& places,
+                    std::vector<MeshAttribute>& attributes) {
+  std::array<MeshAttribute, 3> parts{{{"red", ScalarType::Uint8, {}},
+                                      {"green", ScalarType::Uint8, {}},
+                                      {"blue", ScalarType::Uint8, {}}}};
+  for (const MeshPlace& place : places) {
+    const Colour colour = colour_at(texture, place);
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k].values.push_back(colour[k]);
+  }
+  for (MeshAttribute& part : parts) attributes.push_back(std::move(part));
+}
+
 /// Vertices of the mesh by the points of a scan without faces, each a triangle of no area that the
 /// tree of faces would leave out: searched plainly, in blocks.
 std::vector<std::size_t> nearest_points(const std::vector<Vector3>& scan,
@@ -94,6 +191,7 @@ MeshAttributes carried_attributes(const IndexedMesh& scan, const MeshAttributes&
                                   const IndexedMesh& mesh, const Execution& execution) {
   check_sizes(attributes.of_vertices, scan.points.size(), "vertices");
   check_sizes(attributes.of_faces, scan.triangles.size(), "faces");
+  check_texture(attributes.texture, scan.triangles.size());
   MeshAttributes result;
   if (attributes.empty() || scan.points.empty()) return result;
   execution.report(0.0, stage);
@@ -107,11 +205,13 @@ MeshAttributes carried_attributes(const IndexedMesh& scan, const MeshAttributes&
   }
   const FaceBoxes boxes(scan, execution, stage);
   if (boxes.empty()) return result;
-  if (!attributes.of_vertices.empty()) {
+  const bool shows = shows_picture(attributes);
+  if (!attributes.of_vertices.empty() || shows) {
     const std::vector<MeshPlace> places = boxes.nearest_places(mesh.points, execution);
     for (const MeshAttribute& attribute : attributes.of_vertices) {
       result.of_vertices.push_back(at_places(scan, attribute, places));
     }
+    if (shows) append_colours(attributes.texture, places, result.of_vertices);
   }
   if (!attributes.of_faces.empty()) {
     std::vector<Vector3> middles;

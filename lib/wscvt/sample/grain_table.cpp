@@ -14,18 +14,13 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/readable_text.h"
+#include "wscvt/scan/text_fields.h"
 
 namespace wscvt {
 
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// Nothing for a text. `decimal` is the decimal mark beside the point.
 std::optional<double> field_number(std::string_view field, char decimal) {

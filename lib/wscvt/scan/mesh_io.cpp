@@ -36,6 +36,7 @@
 #include "wscvt/scan/point_text_reader.h"
 #include "wscvt/scan/stl_reader.h"
 #include "wscvt/scan/text_writers.h"
+#include "wscvt/scan/texture_files.h"
 #include "wscvt/scan/vtp_reader.h"
 
 namespace wscvt {
@@ -257,8 +258,13 @@ const Format& format_of(const std::string& path, MeshUse use) {
 
 MeshFile read_as(ByteReader& reader, const Format& format) {
   MeshFile file;
-  file.mesh =
-      format.read == read_ply ? read_ply_attributes(reader, file.attributes) : format.read(reader);
+  if (format.read == read_ply) {
+    file.mesh = read_ply_attributes(reader, file.attributes);
+  } else if (format.read == read_obj) {
+    file.mesh = read_obj_attributes(reader, file.attributes, file.material_libraries);
+  } else {
+    file.mesh = format.read(reader);
+  }
   file.warnings = reader.warnings();
   return file;
 }
@@ -308,6 +314,13 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
   if (error) refuse_to_open(path, error.value());
   ByteReader reader(file, size, path, execution);
   return read_as(reader, format);
+}
+
+void read_pictures(MeshFile& file, const std::string& path, const Execution& execution) {
+  if (file.attributes.texture.empty()) return;
+  MeshTexture& texture = file.attributes.texture;
+  texture.pictures =
+      pictures_of(texture.names, file.material_libraries, path, file.warnings, execution);
 }
 
 bool is_mesh_format(const std::string& path, MeshUse use) {

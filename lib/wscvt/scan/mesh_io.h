@@ -26,9 +26,18 @@ IndexedMesh read_mesh(const std::string& path, const Execution& execution = Exec
 /// A mesh as its file holds it.
 struct MeshFile {
   IndexedMesh mesh;
-  MeshAttributes attributes;          ///< of PLY: colour, quality, labels
-  std::vector<std::string> warnings;  ///< of what is odd about the file, a sentence each
+  /// Of PLY: colour, quality, labels. Of OBJ: colour. Of both a texture without its pictures, see
+  /// read_pictures.
+  MeshAttributes attributes;
+  std::vector<std::string> material_libraries;  ///< that an OBJ names (.mtl)
+  std::vector<std::string> warnings;            ///< of what is odd about the file, a sentence each
 };
+
+/// Reads the pictures of the texture of a mesh that was read from `path`, from the mesh's folder.
+/// Adds a warning for each file that is missing or cannot be read: its faces are left without
+/// colour. Throws Error(Cancelled).
+void read_pictures(MeshFile& file, const std::string& path,
+                   const Execution& execution = Execution(1));
 
 /// A mesh with remarks on its file that do no harm, such as bytes behind its end.
 MeshFile read_mesh_file(const std::string& path, const Execution& execution = Execution(1));

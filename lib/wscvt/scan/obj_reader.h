@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 #include "wscvt/scan/byte_reader.h"
 
 namespace wscvt {
@@ -13,5 +17,11 @@ namespace wscvt {
 /// The library that the writer comes from stops in silence at the first line it does not know,
 /// which makes half a scan out of a whole one.
 IndexedMesh read_obj(ByteReader& reader);
+
+/// Reads an OBJ file as read_obj, with red, green and blue of its vertices, if three numbers from 0
+/// to 1 follow each one's coordinates, and with its texture, if faces name places (vt) and a
+/// library of materials is named. `libraries` become the names of these.
+IndexedMesh read_obj_attributes(ByteReader& reader, MeshAttributes& attributes,
+                                std::vector<std::string>& libraries);
 
 }  // namespace wscvt

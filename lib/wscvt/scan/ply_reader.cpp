@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "wscvt/scan/polygon_fan.h"
@@ -39,7 +40,13 @@ struct Element {
 struct Header {
   Encoding encoding = Encoding::Text;
   std::vector<Element> elements;
+  std::vector<std::string> pictures;  ///< that are wanted
 };
+
+constexpr std::size_t no_list = std::numeric_limits<std::size_t>::max();
+
+const std::array<MeshTexture::Place, 3> no_corners{MeshTexture::no_place(), MeshTexture::no_place(),
+                                                   MeshTexture::no_place()};
 
 constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
 
@@ -119,6 +126,9 @@ Header read_header(ByteReader& reader) {
   while ((line = reader.line())) {
     TextFields fields(*line);
     const std::string_view keyword = fields.next();
+    if (keyword == "comment" && lower_case(fields.next()) == "texturefile") {
+      header.pictures.emplace_back(trimmed(fields.rest()));
+    }
     if (keyword.empty() || keyword == "comment" || keyword == "obj_info") continue;
     if (keyword == "end_header") {
       if (!format_known) reader.fail("has a header without the line \"format\".");
@@ -188,9 +198,19 @@ std::size_t find_property(const Element& element, const Fits& fits) {
   return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), fits) - all.begin());
 }
 
+/// Names of the places of vertices in a picture, by which programs write them.
+constexpr std::array<std::array<const char*, 2>, 3> picture_places{
+    {{"texture_u", "texture_v"}, {"u", "v"}, {"s", "t"}}};
+
 /// Marks the numbers that a remesh can carry: not the place, which the remesh has of its own, nor
-/// normals, texture coordinates and flags, which tell of this mesh alone.
+/// normals, texture coordinates and flags, which tell of this mesh alone. Texture coordinates are
+/// marked if there are pictures, since the body makes the texture of them.
 void mark_attributes(Header& header) {
+  const auto is_wanted_place = [&](const Element& element, const std::string& name) {
+    return !header.pictures.empty() && element.name == "vertex" &&
+           std::any_of(picture_places.begin(), picture_places.end(),
+                       [&](const auto& names) { return name == names[0] || name == names[1]; });
+  };
   static const std::set<std::string_view> others{
       "x", "y", "z", "nx",        "ny",        "nz",        "u",
       "v", "s", "t", "texture_u", "texture_v", "texnumber", "flags"};
@@ -198,8 +218,10 @@ void mark_attributes(Header& header) {
     if (element.name != "vertex" && element.name != "face") continue;
     std::set<std::string_view> names;
     for (Property& property : element.properties) {
-      property.is_kept = !property.is_list && !property.name.empty() &&
-                         others.count(property.name) == 0 && names.insert(property.name).second;
+      const bool is_carried =
+          others.count(property.name) == 0 || is_wanted_place(element, property.name);
+      property.is_kept = !property.is_list && !property.name.empty() && is_carried &&
+                         names.insert(property.name).second;
     }
   }
 }
@@ -253,6 +275,7 @@ class Body {
       reader_.fail("declares faces, but none of them has three corners" +
                    std::string(export_again));
     }
+    if (!header_.pictures.empty()) finish_texture();
     return std::move(mesh_);
   }
 
@@ -367,6 +390,62 @@ class Body {
     }
   }
 
+  /// The attribute of that name, which is taken out of the vertices'.
+  std::vector<double> taken_out(const char* name) {
+    std::vector<MeshAttribute>& all = attributes_.of_vertices;
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const MeshAttribute& a) { return a.name == name; });
+    if (found == all.end()) return {};
+    std::vector<double> values = std::move(found->values);
+    all.erase(found);
+    return values;
+  }
+
+  /// Corners without a place take their vertex's; a mesh without any has no texture.
+  void finish_texture() {
+    MeshTexture& texture = attributes_.texture;
+    texture.corners.resize(mesh_.triangles.size(), no_corners);
+    texture.picture_of_face.resize(mesh_.triangles.size(), 0);
+    for (const auto& names : picture_places) {
+      const std::vector<double> u = taken_out(names[0]);
+      const std::vector<double> v = taken_out(names[1]);
+      if (u.empty() || v.empty()) continue;
+      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto vertex = static_cast<std::size_t>(mesh_.triangles[t][k]);
+          MeshTexture::Place& place = texture.corners[t][k];
+          if (place.allFinite() || vertex >= u.size()) continue;
+          place = {static_cast<float>(u[vertex]), static_cast<float>(v[vertex])};
+        }
+      }
+    }
+    const bool has_places = std::any_of(
+        texture.corners.begin(), texture.corners.end(),
+        [](const std::array<MeshTexture::Place, 3>& face) { return face[0].allFinite(); });
+    texture.names = header_.pictures;
+    if (!has_places) texture = MeshTexture();
+  }
+
+  /// The places of the triangles of the polygon that was read last, in its picture.
+  void add_places(const Element& element) {
+    MeshTexture& texture = attributes_.texture;
+    const std::size_t number = find_property(
+        element, [](const Property& p) { return !p.is_list && p.name == "texnumber"; });
+    const double picture = number < element.properties.size() ? scalars_[number] : 0.0;
+    const bool is_known = picture >= 0.0 && picture < static_cast<double>(header_.pictures.size());
+    const bool has_places = places_.size() == 2 * corners_.size();
+    const auto place = [&](std::size_t k) {
+      return MeshTexture::Place(static_cast<float>(places_[2 * k]),
+                                static_cast<float>(places_[2 * k + 1]));
+    };
+    for (std::size_t i = 2; i < corners_.size(); ++i) {
+      texture.picture_of_face.push_back(is_known ? static_cast<std::int32_t>(picture) : -1);
+      texture.corners.push_back(
+          has_places ? std::array<MeshTexture::Place, 3>{place(0), place(i - 1), place(i)}
+                     : no_corners);
+    }
+  }
+
   /// Faces, or strips of triangles.
   void read_polygons(const Element& element, bool strips) {
     const std::size_t list = find_property(element, [](const Property& property) {
@@ -378,6 +457,10 @@ class Body {
                    "\" without the list \"vertex_indices\"" + export_again);
     }
     if (!strips) attributes_.of_faces = begin_attributes(element);
+    places_list_ =
+        header_.pictures.empty() ? no_list : find_property(element, [](const Property& property) {
+          return property.is_list && property.name == "texcoord";
+        });
     // A strip's number of triangles is not known before it is read.
     if (!strips) mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
     switch (header_.encoding) {
@@ -401,7 +484,8 @@ class Body {
                                            [](const auto& p) { return p.is_list; }) > 1;
     const Property& indices = properties[list];
     const bool whole = indices.type != ScalarType::Float32 && indices.type != ScalarType::Float64;
-    const bool plain = !other_lists && whole && indices.count_type == ScalarType::Uint8;
+    const bool plain = !other_lists && whole && indices.count_type == ScalarType::Uint8 &&
+                       header_.pictures.empty();
     if (!plain || strips || !attributes_.of_faces.empty()) {
       for (std::uint64_t f = 0; f < element.count; ++f) {
         read_binary_record<Order>(element, f, list);
@@ -458,6 +542,7 @@ class Body {
     } else {
       add_fan(corners_.data(), corners_.size(), mesh_.triangles);
       keep_attributes(element, std::max<std::size_t>(corners_.size(), 2) - 2, attributes_.of_faces);
+      if (!header_.pictures.empty()) add_places(element);
     }
   }
 
@@ -512,15 +597,16 @@ class Body {
       const std::uint64_t count = list_count(element, record, scalars_[k]);
       const std::size_t item_size = size_of(property.type);
       if (count > reader_.remaining() / item_size) fail_list(element, record, count);
-      if (k != wanted_list) {
+      if (k != wanted_list && k != places_list_) {
         if (!reader_.skip(item_size * count)) fail_cut(element, record);
         continue;
       }
       const char* const items = reader_.next(item_size * static_cast<std::size_t>(count));
       if (items == nullptr) fail_cut(element, record);
-      items_.resize(static_cast<std::size_t>(count));
-      for (std::size_t i = 0; i < items_.size(); ++i) {
-        items_[i] = load_as_double<Order>(property.type, items + item_size * i);
+      std::vector<double>& read = k == wanted_list ? items_ : places_;
+      read.resize(static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < read.size(); ++i) {
+        read[i] = load_as_double<Order>(property.type, items + item_size * i);
       }
     }
   }
@@ -545,10 +631,13 @@ class Body {
       const std::uint64_t count = list_count(element, record, scalars_[k]);
       // An item takes a digit and a blank.
       if (count > (fields.rest().size() + 1) / 2) fail_list(element, record, count);
-      if (k == wanted_list) items_.resize(static_cast<std::size_t>(count));
+      std::vector<double>* const read = k == wanted_list    ? &items_
+                                        : k == places_list_ ? &places_
+                                                            : nullptr;
+      if (read != nullptr) read->resize(static_cast<std::size_t>(count));
       for (std::size_t i = 0; i < count; ++i) {
         const double value = next_number();
-        if (k == wanted_list) items_[i] = value;
+        if (read != nullptr) (*read)[i] = value;
       }
     }
     if (!fields.next().empty()) {
@@ -581,13 +670,16 @@ class Body {
   std::uint64_t vertices_ = 0;
   std::vector<double> scalars_;
   std::vector<double> items_;
+  std::size_t places_list_ = no_list;
+  std::vector<double> places_;  ///< of the polygon's corners in its picture
   std::vector<std::int32_t> corners_;
 };
 
 }  // namespace
 
 IndexedMesh read_ply(ByteReader& reader) {
-  const Header header = read_header(reader);
+  Header header = read_header(reader);
+  header.pictures.clear();
   MeshAttributes none;
   return Body(reader, header, none).read();
 }

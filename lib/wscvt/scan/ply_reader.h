@@ -19,6 +19,10 @@ IndexedMesh read_ply(ByteReader& reader);
 /// Reads a PLY file as read_ply, with the numbers at its vertices and faces: every property that is
 /// no list, no coordinate, normal, texture coordinate or flag. Triangles of a polygon have the
 /// polygon's numbers; triangle strips have none.
+///
+/// If the header names pictures (comment TextureFile), their places become the texture: of the
+/// faces' corners (lists texcoord with texnumber, as MeshLab writes), or of the vertices (s and t,
+/// u and v, texture_u and texture_v).
 IndexedMesh read_ply_attributes(ByteReader& reader, MeshAttributes& attributes);
 
 }  // namespace wscvt

@@ -27,6 +27,13 @@ std::optional<std::int64_t> whole_number_in(std::string_view field) {
   return parse<std::int64_t>(field);
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* white_space = " \t\r\n\v\f";
+  const std::size_t begin = text.find_first_not_of(white_space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
+}
+
 std::string shown(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text;

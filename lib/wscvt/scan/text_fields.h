@@ -55,6 +55,9 @@ std::optional<Number> number_of_type(std::string_view field) {
   }
 }
 
+/// A text without the white space at its ends.
+std::string_view trimmed(std::string_view text);
+
 /// A field as a sentence shows it: cut when long, without control characters.
 std::string shown(std::string_view field);
 
