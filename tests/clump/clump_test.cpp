@@ -101,6 +101,33 @@ TEST(Clump, OfACupLeavesTheHollowEmpty) {
   EXPECT_GT(clump.intersection_over_union, 0.7);
 }
 
+// Spheres without a limit were 17 times the equivalent radius here, with a side of the plate for a
+// part of their surface.
+TEST(Clump, OfAVeryThinPlateStaysAboutIt) {
+  const IndexedMesh plate =
+      test::transformed(test::sphere(4), Vector3(1.0, 0.8, 0.03).asDiagonal());
+  const ClumpResult clump = clump_of(plate, 6);
+  for (const Sphere& sphere : clump.spheres) {
+    EXPECT_LT(sphere.centre.norm(), 1.0);
+    EXPECT_LT(sphere.radius, 0.1);
+  }
+  ASSERT_FALSE(clump.warnings.empty());
+  EXPECT_NE(clump.warnings[0].find("Give more spheres"), std::string::npos) << clump.warnings[0];
+}
+
+TEST(Clump, BodiesThatAreLeftOutAreTold) {
+  IndexedMesh scan = test::sphere(3);
+  const IndexedMesh other = test::moved(test::sphere(2), 0.4, {3.0, 0.5, 0.0});
+  const auto first = static_cast<std::int32_t>(scan.points.size());
+  scan.points.insert(scan.points.end(), other.points.begin(), other.points.end());
+  for (const auto& [a, b, c] : other.triangles) {
+    scan.triangles.push_back({a + first, b + first, c + first});
+  }
+  const ClumpResult clump = clump_of(scan, 1);
+  ASSERT_EQ(clump.warnings.size(), 1U);
+  EXPECT_NE(clump.warnings[0].find("2 separate bodies"), std::string::npos) << clump.warnings[0];
+}
+
 TEST(Clump, BetterWithMoreSpheres) {
   const IndexedMesh scan = test::lumpy(4);
   double before = 1e9;

@@ -12,6 +12,7 @@
 #include "wscvt/clump/unit_frame.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh.h"
+#include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/scan/enclosure.h"
 
@@ -111,6 +112,7 @@ std::size_t group_count(const std::vector<Sphere>& spheres) {
 }
 
 void add_warnings(ClumpResult& result) {
+  append_repair_warnings(result.input, "made a clump", result.warnings);
   const ClumpOptions& options = result.options;
   const double error = 100.0 * result.rms_distance / result.equivalent_radius;
   const std::string count =
@@ -123,6 +125,13 @@ void add_warnings(ClumpResult& result) {
   } else if (options.max_error_percent == 0.0 &&
              result.spheres.size() < static_cast<std::size_t>(options.sphere_count)) {
     result.warnings.push_back("Only " + count + " of the smallest radius fit inside.");
+  }
+  constexpr double least_shared = 0.5;
+  if (result.intersection_over_union < least_shared) {
+    result.warnings.push_back(
+        "Scan and clump share only " + format_percent(result.intersection_over_union) +
+        " of the volume of both (intersection over union). Give more spheres: flat and long grains "
+        "need many.");
   }
   const std::size_t groups = group_count(result.spheres);
   if (groups > 1) {

@@ -7,7 +7,9 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/clump/medial_spheres.h"
+#include "wscvt/clump/point_blocks.h"
 #include "wscvt/clump/sphere_fit.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/inscribed_sphere.h"
@@ -20,7 +22,11 @@ namespace {
 constexpr double held_weight = 8.0;  ///< of what bulges out, while spheres are added
 constexpr std::size_t most_candidates = 3000;
 constexpr std::size_t judged = 20000;  ///< samples that errors are told of
+constexpr std::size_t depth_samples = 40000;
 constexpr double least_radius = 1e-3;
+/// A sphere may be so many times as large as the largest inscribed one. Without a limit the face of
+/// a thin plate is nearly a part of a sphere that holds everything on one side of it.
+constexpr double most_bulge = 2.0;
 constexpr const char* stage_name = "Fitting spheres";
 
 /// Points of a grid, those inside of the mesh and those outside: some 2,000 inside of a body as
@@ -67,6 +73,8 @@ class Growth {
         smallest_(std::max(least_radius, 0.01 * options.smallest_radius_percent)),
         surface_(grain, execution),
         judged_(area_uniform_samples(grain, judged)),
+        depths_(options.inside ? area_uniform_samples(grain, depth_samples)
+                               : std::vector<Vector3>()),
         fit_(begin(grain)) {}
 
   FittedSpheres run() {
@@ -92,8 +100,10 @@ class Growth {
       before = fit_.energy();
       sweep(fit_, 10);
     }
-    result.stages.back() = {fit_.spheres().size(), rms_distance(fit_)};
     result.spheres = fit_.spheres();
+    if (options_.inside) keep_inside(result.spheres);
+    result.stages.back() = {result.spheres.size(),
+                            union_distance(judged_, result.spheres, execution_).root_mean_square};
     return result;
   }
 
@@ -116,14 +126,20 @@ class Growth {
     points.reserve(samples.size());
     for (const SurfaceSample& sample : samples) points.push_back(sample.point);
     const std::size_t step = (samples.size() + most_candidates - 1) / most_candidates;
+    const double smallest = smallest_in_fit(grain);
     for (Sphere& sphere : medial_spheres(samples, step, 1.001 * largest.upper_bound, execution_)) {
-      if (options_.inside && sphere.radius < smallest_) continue;
-      sphere.radius = std::max(sphere.radius, smallest_);
+      if (options_.inside) {
+        const Vector3& nearest = depths_.points()[depths_.nearest(sphere.centre)];
+        sphere.radius = std::min(sphere.radius, (nearest - sphere.centre).norm());
+        if (sphere.radius < smallest) continue;
+      }
+      sphere.radius = std::max(sphere.radius, smallest);
       candidates_.push_back(sphere);
     }
     const GridPoints grid = grid_points(grain, execution_);
     SphereFit fit(points, grid.inside, grid.outside,
-                  {smallest_, options_.inside ? &surface_ : nullptr});
+                  {smallest, std::max(smallest, most_bulge * largest.upper_bound),
+                   options_.inside ? &depths_ : nullptr});
     fit.set_inner_weight(held_weight);
     fit.add({largest.centre, std::max(largest.radius, smallest_)});
     sweep(fit, 10);
@@ -137,40 +153,57 @@ class Growth {
     }
   }
 
-  /// Adds the candidate that lowers the energy most, of those that do so by an eighth of the
-  /// samples.
-  bool add_sphere() {
-    constexpr std::size_t looked_at = 24;
-    if (candidates_.empty()) return false;
-    using Judged = std::pair<double, std::size_t>;  // energy, candidate
-    std::vector<Judged> energies(candidates_.size());
-    execution_.parallel_for(candidates_.size(), 256, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        energies[i] = {fit_.rough_energy_with(candidates_[i]), i};
-      }
-    });
-    const std::size_t count = std::min(looked_at, energies.size());
-    std::partial_sort(energies.begin(), energies.begin() + static_cast<std::ptrdiff_t>(count),
-                      energies.end());
-    energies.resize(count);
-    for (auto& [energy, i] : energies) {
-      if (options_.inside) keep_inside(candidates_[i]);
-      energy = fit_.energy_with(candidates_[i]);
+  /// Between the samples that depths are measured by the surface may be nearer: a sphere that is
+  /// taken back from it must not become too small.
+  double smallest_in_fit(const IndexedMesh& grain) const {
+    if (!options_.inside || options_.smallest_radius_percent == 0.0) return smallest_;
+    double area = 0.0;
+    for (const auto& [a, b, c] : grain.triangles) {
+      area += 0.5 * doubled_area_normal(grain.points[a], grain.points[b], grain.points[c]).norm();
     }
-    const Sphere& best = candidates_[std::min_element(energies.begin(), energies.end())->second];
-    if (options_.inside && best.radius < smallest_) return false;
-    fit_.add(best);
+    return std::sqrt(smallest_ * smallest_ + area / depth_samples);
+  }
+
+  /// Adds the candidate that lowers the energy most. What a candidate gains nearly always falls as
+  /// spheres are added, so that of many spheres only those of the largest gains are judged again,
+  /// and all of them now and then.
+  bool add_sphere() {
+    if (candidates_.empty()) return false;
+    const std::size_t count = fit_.spheres().size();
+    const bool all = count >= next_judging_ || gains_.size() != candidates_.size();
+    const auto judge = [&](std::size_t i) {
+      gains_[i] = fit_.energy() - fit_.energy_with(candidates_[i]);
+    };
+    if (all) {
+      gains_.resize(candidates_.size());
+      next_judging_ = count + 1 + count / 64;
+      execution_.parallel_for(candidates_.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) judge(i);
+      });
+    }
+    std::vector<char> is_judged(candidates_.size(), all ? 1 : 0);
+    std::size_t best = 0;
+    while (true) {
+      best =
+          static_cast<std::size_t>(std::max_element(gains_.begin(), gains_.end()) - gains_.begin());
+      if (is_judged[best] != 0) break;
+      judge(best);
+      is_judged[best] = 1;
+    }
+    fit_.add(candidates_[best]);
     sweep(fit_, 4);
     return true;
   }
 
-  /// Takes the candidate back from the surface between the samples. One that is too small after
-  /// that is put far away, where it lowers no energy.
-  void keep_inside(Sphere& candidate) const {
-    const double depth = surface_.distance(candidate.centre);
-    candidate.radius = std::min(candidate.radius, depth);
-    if (candidate.radius >= smallest_ && surface_.contains(candidate.centre)) return;
-    candidate = {Vector3::Constant(1e3), 0.0};
+  /// Takes the spheres back to the surface between the samples, and leaves out those that are too
+  /// small after that.
+  void keep_inside(std::vector<Sphere>& spheres) const {
+    for (Sphere& sphere : spheres) {
+      sphere.radius = surface_.contains(sphere.centre) ? surface_.distance(sphere.centre) : 0.0;
+    }
+    spheres.erase(std::remove_if(spheres.begin(), spheres.end(),
+                                 [&](const Sphere& sphere) { return sphere.radius < smallest_; }),
+                  spheres.end());
   }
 
   /// Takes out the spheres that matter least and adds as many, one at first and one more after each
@@ -184,6 +217,7 @@ class Growth {
       if (count < static_cast<std::size_t>(failures) + 2) break;
       SphereFit before = fit_;
       for (int i = 0; i <= failures; ++i) fit_.remove(fit_.least_needed());
+      next_judging_ = 0;
       while (fit_.spheres().size() < count && add_sphere()) continue;
       sweep(fit_, 6);
       const bool is_better = fit_.energy() < 0.9999 * before.energy();
@@ -210,7 +244,10 @@ class Growth {
   double smallest_;  ///< radius
   MeshDistance surface_;
   std::vector<Vector3> judged_;
+  PointBlocks depths_;  ///< of the surface, if spheres must lie inside
   std::vector<Sphere> candidates_;
+  std::vector<double> gains_;     ///< what each candidate took from the energy when last judged
+  std::size_t next_judging_ = 0;  ///< number of spheres at which all are judged again
   SphereFit fit_;
 };
 

@@ -47,7 +47,8 @@ inline constexpr NumberOption<int> compared_nodes_option = {
     0,
     100000,
     Ends::Both,
-    "whose error of first contact the report shows beside the clump's; 0 makes none"};
+    "whose error of first contact the report shows beside the clump's, to compare; 0 makes no "
+    "remesh"};
 
 /// Calls `visitor` for every option, as for_each_option of a remesh does. The scan's own options
 /// (points, shrink-wrap, repairs) have the names that they have there.

@@ -2,81 +2,79 @@
 #include "wscvt/clump/sphere_fit.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 namespace wscvt {
 
 namespace {
 
 constexpr double far_away = 1e6;  ///< of a sphere that there is not, in equivalent radii
-constexpr std::size_t rough_step = 8;
-constexpr double no_limit = std::numeric_limits<double>::infinity();
+/// What rounding may take from a block's reach.
+constexpr double slack = 1e-9;
 
 }  // namespace
 
 SphereFit::SphereFit(const std::vector<Vector3>& on_surface, const std::vector<Vector3>& inside,
                      const std::vector<Vector3>& outside, const Limits& limits)
     : limits_(limits), surface_count_(on_surface.size()) {
-  const auto append = [&](const std::vector<Vector3>& points, std::size_t first, double lowest,
-                          double highest) {
-    for (std::size_t i = first; i < points.size(); i += rough_step) {
-      x_.push_back(points[i].x());
-      y_.push_back(points[i].y());
-      z_.push_back(points[i].z());
-      lowest_.push_back(lowest);
-      highest_.push_back(highest);
-    }
-  };
-  // One of each so many samples first: they lie beside each other, and the rough energy is theirs.
-  for (std::size_t first = 0; first < rough_step; ++first) {
-    append(on_surface, first, -no_limit, no_limit);
-    append(inside, first, 0.0, no_limit);
-    append(outside, first, -no_limit, 0.0);
-    if (first == 0) rough_count_ = x_.size();
-  }
+  append(on_surface, Kind::Surface);
+  append(inside, Kind::Inside);
+  append(outside, Kind::Outside);
   nearest_.resize(x_.size());
   first_.assign(x_.size(), far_away);
   second_.assign(x_.size(), far_away);
-  energy_ = far_away * far_away;
+  for (Block& block : blocks_) update(block);
+  add_up();
 }
 
-void SphereFit::distances_to(const Sphere& sphere, std::vector<double>& distances) const {
-  const double x = sphere.centre.x();
-  const double y = sphere.centre.y();
-  const double z = sphere.centre.z();
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    const double dx = x_[i] - x;
-    const double dy = y_[i] - y;
-    const double dz = z_[i] - z;
-    distances[i] = std::sqrt(dx * dx + dy * dy + dz * dz) - sphere.radius;
+void SphereFit::append(const std::vector<Vector3>& points, Kind kind) {
+  const PointBlocks parted(points);
+  for (const PointBlock& part : parted.blocks()) {
+    Block block;
+    static_cast<PointBlock&>(block) = part;
+    block.begin += x_.size();
+    block.end += x_.size();
+    block.kind = kind;
+    blocks_.push_back(block);
+  }
+  for (const Vector3& p : parted.points()) {
+    x_.push_back(p.x());
+    y_.push_back(p.y());
+    z_.push_back(p.z());
   }
 }
 
-double SphereFit::energy_with(const Sphere& sphere, std::size_t samples) const {
-  const double x = sphere.centre.x();
-  const double y = sphere.centre.y();
-  const double z = sphere.centre.z();
-  return sum_of_costs(samples, [&](std::size_t i) {
-    const double dx = x_[i] - x;
-    const double dy = y_[i] - y;
-    const double dz = z_[i] - z;
-    const double distance = std::sqrt(dx * dx + dy * dy + dz * dz) - sphere.radius;
-    return std::min(distance, first_[i]);
-  });
+/// What a block tells of its samples.
+void SphereFit::update(Block& block) {
+  block.most_first = -far_away;
+  block.most_second = -far_away;
+  block.cost = 0.0;
+  for (std::size_t i = block.begin; i < block.end; ++i) {
+    block.most_first = std::max(block.most_first, first_[i]);
+    block.most_second = std::max(block.most_second, second_[i]);
+    block.cost += cost(block.kind, first_[i]);
+  }
 }
-
-double SphereFit::rough_energy_with(const Sphere& sphere) const {
-  const double share = static_cast<double>(x_.size()) / static_cast<double>(rough_count_);
-  return share * energy_with(sphere, rough_count_);
-}
-
-double SphereFit::energy_with(const Sphere& sphere) const { return energy_with(sphere, x_.size()); }
 
 void SphereFit::add_up() {
-  energy_ = sum_of_costs(x_.size(), [this](std::size_t i) { return first_[i]; });
+  double sum = 0.0;
+  for (const Block& block : blocks_) sum += block.cost;
+  energy_ = sum / static_cast<double>(surface_count_);
+}
+
+double SphereFit::energy_with(const Sphere& sphere) const {
+  double change = 0.0;
+  for (const Block& block : blocks_) {
+    // What is inside costs nothing once a sphere holds it, and what is outside until one does.
+    const double most = block.kind == Kind::Outside ? 0.0 : block.most_first;
+    if ((block.kind == Kind::Inside && most <= 0.0) || block.reach(sphere) >= most) continue;
+    double sum = 0.0;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      sum += cost(block.kind, std::min(distance(i, sphere), first_[i]));
+    }
+    change += sum - block.cost;
+  }
+  return energy_ + change / static_cast<double>(surface_count_);
 }
 
 void SphereFit::find_nearest(std::size_t i) {
@@ -84,14 +82,14 @@ void SphereFit::find_nearest(std::size_t i) {
   double first = far_away;
   double second = far_away;
   for (std::size_t k = 0; k < spheres_.size(); ++k) {
-    const double distance = distances_[k][i];
-    if (distance < first) {
+    const double other = distance(i, spheres_[k]);
+    if (other < first) {
       second = first;
       nearest.second = nearest.first;
-      first = distance;
+      first = other;
       nearest.first = static_cast<std::int32_t>(k);
-    } else if (distance < second) {
-      second = distance;
+    } else if (other < second) {
+      second = other;
       nearest.second = static_cast<std::int32_t>(k);
     }
   }
@@ -100,26 +98,42 @@ void SphereFit::find_nearest(std::size_t i) {
   second_[i] = second;
 }
 
+/// The two nearest of a sample, after the sphere `own` came to lie at that distance.
+void SphereFit::move_nearest(std::size_t i, std::int32_t own, double distance) {
+  Nearest& nearest = nearest_[i];
+  if (nearest.first == own) {
+    if (distance > second_[i]) return find_nearest(i);
+    first_[i] = distance;
+  } else if (distance < first_[i]) {
+    second_[i] = first_[i];
+    nearest.second = nearest.first;
+    first_[i] = distance;
+    nearest.first = own;
+  } else if (nearest.second == own && distance > second_[i]) {
+    find_nearest(i);
+  } else if (distance < second_[i]) {
+    second_[i] = distance;
+    nearest.second = own;
+  }
+}
+
 void SphereFit::take(std::size_t k, const Sphere& sphere) {
   const auto own = static_cast<std::int32_t>(k);
+  const Sphere before = spheres_[k];
   spheres_[k] = sphere;
-  distances_to(sphere, distances_[k]);
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    const double distance = distances_[k][i];
-    if (distance >= second_[i] && nearest_[i].first != own && nearest_[i].second != own) continue;
-    wake(nearest_[i].first);
-    if (nearest_[i].first == own || nearest_[i].second == own) {
-      find_nearest(i);
-    } else if (distance < first_[i]) {
-      second_[i] = first_[i];
-      nearest_[i].second = nearest_[i].first;
-      first_[i] = distance;
-      nearest_[i].first = own;
-    } else {
-      second_[i] = distance;
-      nearest_[i].second = own;
+  for (Block& block : blocks_) {
+    if (std::min(block.reach(before), block.reach(sphere)) > block.most_second + slack) continue;
+    bool changes = false;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const Nearest was = nearest_[i];
+      const double now = distance(i, sphere);
+      if (now >= second_[i] && was.first != own && was.second != own) continue;
+      changes = true;
+      move_nearest(i, own, now);
+      wake(was.first);
+      wake(nearest_[i].first);
     }
-    wake(nearest_[i].first);
+    if (changes) update(block);
   }
   add_up();
 }
@@ -127,46 +141,58 @@ void SphereFit::take(std::size_t k, const Sphere& sphere) {
 void SphereFit::set_inner_weight(double weight) {
   inner_weight_ = weight;
   steps_.assign(spheres_.size(), Steps());
+  for (Block& block : blocks_) update(block);
   add_up();
 }
 
 void SphereFit::add(const Sphere& sphere) {
   spheres_.push_back(sphere);
   steps_.emplace_back();
-  distances_.emplace_back(x_.size());
   take(spheres_.size() - 1, sphere);
 }
 
 std::size_t SphereFit::least_needed() const {
   std::vector<double> rises(spheres_.size(), 0.0);
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    rises[static_cast<std::size_t>(nearest_[i].first)] += cost(i, second_[i]) - cost(i, first_[i]);
+  for (const Block& block : blocks_) {
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      rises[static_cast<std::size_t>(nearest_[i].first)] +=
+          cost(block.kind, second_[i]) - cost(block.kind, first_[i]);
+    }
   }
   return static_cast<std::size_t>(std::min_element(rises.begin(), rises.end()) - rises.begin());
 }
 
 void SphereFit::remove(std::size_t k) {
+  const auto own = static_cast<std::int32_t>(k);
   spheres_.erase(spheres_.begin() + static_cast<std::ptrdiff_t>(k));
-  steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(k));
-  distances_.erase(distances_.begin() + static_cast<std::ptrdiff_t>(k));
-  for (std::size_t i = 0; i < x_.size(); ++i) find_nearest(i);
-  for (Steps& steps : steps_) steps = Steps();
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    Nearest& nearest = nearest_[i];
+    if (nearest.first == own || nearest.second == own) {
+      find_nearest(i);
+      continue;
+    }
+    if (nearest.first > own) --nearest.first;
+    if (nearest.second > own) --nearest.second;
+  }
+  steps_.assign(spheres_.size(), Steps());
+  for (Block& block : blocks_) update(block);
   add_up();
 }
 
 /// Changes the sphere if that lowers the energy.
 bool SphereFit::try_sphere(std::size_t k, const Sphere& sphere) {
   const auto own = static_cast<std::int32_t>(k);
-  const std::vector<double>& before = distances_[k];
-  // No distance changes by more, so that most samples keep their nearest sphere unseen.
-  const double most_change =
-      (sphere.centre - spheres_[k].centre).norm() + std::abs(sphere.radius - spheres_[k].radius);
   double change = 0.0;
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    if (before[i] - most_change > first_[i]) continue;
-    const double others = nearest_[i].first == own ? second_[i] : first_[i];
-    const double own_distance = sphere.distance(Vector3(x_[i], y_[i], z_[i]));
-    change += cost(i, std::min(others, own_distance)) - cost(i, first_[i]);
+  for (const Block& block : blocks_) {
+    if (std::min(block.reach(spheres_[k]), block.reach(sphere)) > block.most_first + slack) {
+      continue;
+    }
+    double sum = 0.0;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const double others = nearest_[i].first == own ? second_[i] : first_[i];
+      sum += cost(block.kind, std::min(others, distance(i, sphere)));
+    }
+    change += sum - block.cost;
   }
   constexpr double least_gain = 1e-7;
   if (!(change / static_cast<double>(surface_count_) < -least_gain * energy_)) return false;
@@ -181,25 +207,31 @@ bool SphereFit::gauss_newton(std::size_t k, bool radius_follows, Sphere& moved) 
   const Sphere& sphere = spheres_[k];
   Vector3 slope = Vector3::Zero();
   if (radius_follows) {
-    slope = (sphere.centre - limits_.surface->nearest_point(sphere.centre)).normalized();
+    const std::size_t i = limits_.depths->nearest(sphere.centre);
+    slope = (sphere.centre - limits_.depths->points()[i]).normalized();
   }
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   double count = 0.0;
   double weights = 0.0;
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    if (nearest_[i].first != own) continue;
-    const double residual = std::clamp(first_[i], lowest_[i], highest_[i]);
-    if (residual != first_[i]) continue;
-    const Vector3 from = Vector3(x_[i], y_[i], z_[i]) - sphere.centre;
-    Eigen::Vector4d row;
-    row.head<3>() = -from.normalized() - slope;
-    row[3] = radius_follows ? 0.0 : -1.0;
-    const double counts = weight(residual);
-    matrix += counts * row * row.transpose();
-    right -= counts * residual * row;
-    count += 1.0;
-    weights += counts;
+  for (const Block& block : blocks_) {
+    if (block.reach(sphere) > block.most_first + slack) continue;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const double residual = first_[i];
+      if (nearest_[i].first != own || (block.kind == Kind::Inside && residual < 0.0) ||
+          (block.kind == Kind::Outside && residual > 0.0)) {
+        continue;
+      }
+      const Vector3 from = Vector3(x_[i], y_[i], z_[i]) - sphere.centre;
+      Eigen::Vector4d row;
+      row.head<3>() = -from.normalized() - slope;
+      row[3] = radius_follows ? 0.0 : -1.0;
+      const double counts = residual < 0.0 ? inner_weight_ : 1.0;
+      matrix += counts * row * row.transpose();
+      right -= counts * residual * row;
+      count += 1.0;
+      weights += counts;
+    }
   }
   if (count < 4.0) return false;
   matrix.diagonal().array() += steps_[k].damping * weights;
@@ -216,7 +248,7 @@ void SphereFit::improve_freely(std::size_t k) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
     Sphere moved;
     if (!gauss_newton(k, false, moved)) break;
-    moved.radius = std::max(moved.radius, limits_.smallest_radius);
+    moved.radius = std::clamp(moved.radius, limits_.smallest_radius, limits_.largest_radius);
     if (try_sphere(k, moved)) {
       steps_[k].damping = std::max(least_damping, 0.3 * steps_[k].damping);
       return;
@@ -234,7 +266,8 @@ void SphereFit::improve_inside(std::size_t k) {
     const Sphere before = spheres_[k];
     if (move.norm() > longest * before.radius) move *= longest * before.radius / move.norm();
     const Vector3 centre = before.centre + move;
-    const double radius = limits_.surface->distance(centre);
+    const std::size_t nearest = limits_.depths->nearest(centre);
+    const double radius = (limits_.depths->points()[nearest] - centre).norm();
     return radius >= limits_.smallest_radius && try_sphere(k, {centre, radius});
   };
   Sphere moved;
@@ -257,7 +290,7 @@ void SphereFit::improve_inside(std::size_t k) {
 void SphereFit::sweep() {
   for (std::size_t k = 0; k < spheres_.size(); ++k) {
     if (steps_[k].rests) continue;
-    if (limits_.surface != nullptr) {
+    if (limits_.depths != nullptr) {
       improve_inside(k);
     } else {
       improve_freely(k);

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "wscvt/clump/point_blocks.h"
 #include "wscvt/clump/sphere.h"
-#include "wscvt/measures/distances.h"
 
 namespace wscvt {
 
@@ -19,12 +19,17 @@ namespace wscvt {
 /// the surface from outside. The energy is the sum of the squares over the number of
 /// surface samples.
 ///
+/// Samples lie in blocks of neighbours. A sphere that moves visits only the blocks that it may be
+/// near to, so that a step costs the less the more spheres there are.
+///
 /// Lengths are in equivalent radii about the centroid. One fit is the work of one thread.
 class SphereFit {
  public:
   struct Limits {
-    double smallest_radius = 0.0;           ///< no sphere becomes smaller
-    const MeshDistance* surface = nullptr;  ///< where spheres must lie inside: of the body
+    double smallest_radius = 0.0;                                     ///< no sphere becomes smaller
+    double largest_radius = std::numeric_limits<double>::infinity();  ///< nor larger, freely
+    /// Of the surface, if spheres must lie inside: a radius is the depth of the centre below them.
+    const PointBlocks* depths = nullptr;
   };
 
   SphereFit(const std::vector<Vector3>& on_surface, const std::vector<Vector3>& inside,
@@ -33,10 +38,8 @@ class SphereFit {
   const std::vector<Sphere>& spheres() const { return spheres_; }
   double energy() const { return energy_; }
 
-  /// The energy that it would have with one sphere more; and an estimate of it from an eighth of
-  /// the samples.
+  /// The energy that it would have with one sphere more.
   double energy_with(const Sphere& sphere) const;
-  double rough_energy_with(const Sphere& sphere) const;
   void add(const Sphere& sphere);
 
   /// The sphere without which the energy rises least. There must be two or more.
@@ -53,6 +56,17 @@ class SphereFit {
   void sweep();
 
  private:
+  enum class Kind { Surface, Inside, Outside };
+  /// Samples of one kind beside each other.
+  struct Block : PointBlock {
+    Kind kind = Kind::Surface;
+    double most_first = 0.0;   ///< the largest distance to a nearest sphere
+    double most_second = 0.0;  ///< and to a second one
+    double cost = 0.0;
+
+    /// No sample is nearer to the sphere.
+    double reach(const Sphere& sphere) const { return sphere.distance(centre) - radius; }
+  };
   /// The two nearest spheres of a sample; distances as of a union.
   struct Nearest {
     std::int32_t first = -1;
@@ -65,28 +79,18 @@ class SphereFit {
     bool rests = false;     ///< no step helps, until a sample gets another nearest sphere
   };
 
-  double weight(double residual) const { return residual < 0.0 ? inner_weight_ : 1.0; }
-  double cost(std::size_t i, double distance) const {
-    const double residual = std::min(std::max(distance, lowest_[i]), highest_[i]);
-    return weight(residual) * residual * residual;
+  double cost(Kind kind, double distance) const {
+    const double residual = kind == Kind::Surface  ? distance
+                            : kind == Kind::Inside ? std::max(distance, 0.0)
+                                                   : std::min(distance, 0.0);
+    return (residual < 0.0 ? inner_weight_ : 1.0) * residual * residual;
   }
-  /// Sum over the first samples of the costs of distance_of(i), over the surface samples. In four
-  /// sums, so that the compiler adds four at a time, always in the same order.
-  template <class DistanceOf>
-  double sum_of_costs(std::size_t samples, const DistanceOf& distance_of) const {
-    std::array<double, 4> sums{};
-    const std::size_t whole = samples / 4 * 4;
-    for (std::size_t i = 0; i < whole; i += 4) {
-      for (std::size_t lane = 0; lane < 4; ++lane) {
-        sums[lane] += cost(i + lane, distance_of(i + lane));
-      }
-    }
-    for (std::size_t i = whole; i < samples; ++i) sums[0] += cost(i, distance_of(i));
-    return (sums[0] + sums[1] + (sums[2] + sums[3])) / static_cast<double>(surface_count_);
+  double distance(std::size_t i, const Sphere& sphere) const {
+    return sphere.distance(Vector3(x_[i], y_[i], z_[i]));
   }
-  double energy_with(const Sphere& sphere, std::size_t samples) const;
+  void append(const std::vector<Vector3>& points, Kind kind);
+  void update(Block& block);
   void add_up();
-  void distances_to(const Sphere& sphere, std::vector<double>& distances) const;
   bool try_sphere(std::size_t k, const Sphere& sphere);
   void improve_freely(std::size_t k);
   void improve_inside(std::size_t k);
@@ -95,17 +99,15 @@ class SphereFit {
     if (k >= 0) steps_[static_cast<std::size_t>(k)].rests = false;
   }
   void find_nearest(std::size_t i);
+  void move_nearest(std::size_t i, std::int32_t own, double distance);
   void take(std::size_t k, const Sphere& sphere);
 
   Limits limits_;
   std::size_t surface_count_;
-  std::size_t rough_count_ = 0;  ///< samples of the rough energy, the first ones
+  std::vector<Block> blocks_;
   std::vector<double> x_, y_, z_;
-  /// Limits of the residual: none on the surface, 0 or more inside, 0 or less outside.
-  std::vector<double> lowest_, highest_;
   std::vector<Sphere> spheres_;
   std::vector<Steps> steps_;
-  std::vector<std::vector<double>> distances_;  ///< of each sphere, to each sample
   std::vector<Nearest> nearest_;
   std::vector<double> first_, second_;  ///< distances of the two nearest
   double energy_ = 0.0;

@@ -48,22 +48,7 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   }
   const MeshCheckReport& input = result.input;
   if (input.has_voxel_steps) warnings.push_back(voxel_steps_advice("The scan"));
-  const std::size_t bodies = input.components - input.inner_components;
-  if (input.components > input.inner_components + 1) {
-    warnings.push_back("The scan has " + std::to_string(bodies) +
-                       " separate bodies; only the largest was remeshed.");
-  }
-  if (input.inner_components > 0) {
-    warnings.push_back("The scan has " + std::to_string(input.inner_components) +
-                       (input.inner_components == 1 ? " surface" : " surfaces") +
-                       " inside its outer one, around " + format_percent(input.inner_volume_share) +
-                       " of its volume; only the outer one was remeshed, as a body without pores.");
-  }
-  const double mended = input.flap_area_share + input.filled_area_share;
-  if (mended > 0.0) {
-    warnings.push_back("Holes and non-manifold edges of the scan were repaired. This changed " +
-                       format_percent(mended) + " of its area. Check the result against the scan.");
-  }
+  append_repair_warnings(input, "remeshed", warnings);
 }
 
 void warn_of_handles(const RemeshResult& result, Sentences& warnings) {
@@ -236,6 +221,27 @@ bool is_inaccurate(const RemeshResult& result) {
   if (result.input.has_voxel_steps) return false;
   return result.rms_distance > distance_warning_limit * result.input.equivalent_radius ||
          std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
+}
+
+void append_repair_warnings(const MeshCheckReport& input, const std::string& done,
+                            std::vector<std::string>& warnings) {
+  const std::size_t bodies = input.components - input.inner_components;
+  if (input.components > input.inner_components + 1) {
+    warnings.push_back("The scan has " + std::to_string(bodies) +
+                       " separate bodies; only the largest was " + done + ".");
+  }
+  if (input.inner_components > 0) {
+    warnings.push_back("The scan has " + std::to_string(input.inner_components) +
+                       (input.inner_components == 1 ? " surface" : " surfaces") +
+                       " inside its outer one, around " + format_percent(input.inner_volume_share) +
+                       " of its volume; only the outer one was " + done +
+                       ", as a body without pores.");
+  }
+  const double mended = input.flap_area_share + input.filled_area_share;
+  if (mended > 0.0) {
+    warnings.push_back("Holes and non-manifold edges of the scan were repaired. This changed " +
+                       format_percent(mended) + " of its area. Check the result against the scan.");
+  }
 }
 
 std::vector<std::string> remesh_warnings(const RemeshResult& result,

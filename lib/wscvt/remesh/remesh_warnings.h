@@ -24,6 +24,11 @@ inline constexpr double area_warning_limit = 0.02;
 /// from which it should differ.
 bool is_inaccurate(const RemeshResult& result);
 
+/// Adds a sentence about each of the scan's bodies that were left out, surfaces inside, and area
+/// that repairs changed. `done` is what became of the body that is left, such as "remeshed".
+void append_repair_warnings(const MeshCheckReport& input, const std::string& done,
+                            std::vector<std::string>& warnings);
+
 /// What the user of a result ought to know, a sentence or more each, the scan's faults first. The
 /// first of all is `of_precision`, if it is not empty (see precision_warning).
 std::vector<std::string> remesh_warnings(const RemeshResult& result,
