@@ -129,9 +129,9 @@ void add_warnings(ClumpResult& result) {
   constexpr double least_shared = 0.5;
   if (result.intersection_over_union < least_shared) {
     result.warnings.push_back(
-        "Scan and clump share only " + format_percent(result.intersection_over_union) +
-        " of the volume of both (intersection over union). Give more spheres: flat and long grains "
-        "need many.");
+        "Scan and clump have only " + format_percent(result.intersection_over_union) +
+        " of the volume of both in common (intersection over union). Give more spheres: flat and "
+        "long grains need many.");
   }
   const std::size_t groups = group_count(result.spheres);
   if (groups > 1) {

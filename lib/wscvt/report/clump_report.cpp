@@ -2,6 +2,7 @@
 #include "wscvt/report/clump_report.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -90,6 +91,11 @@ Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
           {"warnings", clump.warnings}};
 }
 
+std::string counted_spheres(const ClumpResult& clump) {
+  const std::size_t count = clump.spheres.size();
+  return std::to_string(count) + (count == 1 ? " sphere" : " spheres");
+}
+
 std::vector<std::vector<std::string>> error_rows(const ClumpResult& clump) {
   const auto distance = [&](const std::string& label, double length) {
     return std::vector<std::string>{label, format_number(length, 4),
@@ -107,7 +113,7 @@ std::vector<std::vector<std::string>> contact_rows(const ClumpResult& clump) {
   };
   std::vector<std::vector<std::string>> rows = {
       {"first contact, % of equivalent radius", "mean error", "scatter"},
-      row("clump of " + std::to_string(clump.spheres.size()) + " spheres", clump.contact)};
+      row("clump of " + counted_spheres(clump), clump.contact)};
   if (clump.remesh_contact) {
     rows.push_back(row("remesh of " + std::to_string(clump.options.compared_nodes) + " nodes",
                        *clump.remesh_contact));
@@ -121,8 +127,7 @@ std::vector<std::vector<std::string>> mass_error_rows(const ClumpResult& clump) 
                                     format_number(error.centroid_percent, 3),
                                     format_number(error.inertia_percent, 3)};
   };
-  return {{"error if taken in place of the grain's", "volume %", "centroid, % of equivalent radius",
-           "inertia %"},
+  return {{"error if taken for the grain's", "volume %", "centroid, % of radius", "inertia %"},
           row("union of the spheres", clump.united.error),
           row("sum over the spheres", clump.summed.error)};
 }
@@ -131,6 +136,39 @@ std::vector<NamedMass> masses(const ClumpResult& clump) {
   return {{"grain", mass_properties(clump.original)},
           {"union of the spheres", clump.united.mass},
           {"sum over the spheres", clump.summed.mass}};
+}
+
+/// The mass properties in a log, whose lines have 80 columns: a number in each cell.
+std::vector<std::vector<std::string>> single_mass_rows(const ClumpResult& clump) {
+  std::vector<std::vector<std::string>> rows = {{"Mass at unit density", "grain", "union", "sum"}};
+  const std::vector<NamedMass> bodies = masses(clump);
+  const auto add = [&](const std::string& label, const auto& number_of) {
+    rows.push_back({"  " + label});
+    for (const NamedMass& body : bodies) {
+      rows.back().push_back(format_number(number_of(body.mass)));
+    }
+  };
+  constexpr std::array<char, 3> axes{'x', 'y', 'z'};
+  add("volume, length^3", [](const MassProperties& m) { return m.volume; });
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    add(std::string("centroid ") + axes[static_cast<std::size_t>(i)] + ", length",
+        [i](const MassProperties& m) { return m.centroid[i]; });
+  }
+  for (const auto& [i, j] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}) {
+    add(std::string("inertia about it ") + axes[static_cast<std::size_t>(i)] +
+            axes[static_cast<std::size_t>(j)] + ", length^5",
+        [i = i, j = j](const MassProperties& m) { return m.inertia_tensor(i, j); });
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    add("principal moment " + std::to_string(i + 1) + ", length^5",
+        [i](const MassProperties& m) { return m.principal_moments[i]; });
+  }
+  // In Eigen's order w comes last.
+  for (const auto& [name, i] : {std::pair('w', 3), {'x', 0}, {'y', 1}, {'z', 2}}) {
+    add(std::string("principal axes, quaternion ") + name,
+        [i = i](const MassProperties& m) { return m.principal_axes.coeffs()[i]; });
+  }
+  return rows;
 }
 
 }  // namespace
@@ -146,7 +184,7 @@ std::vector<std::string> clump_lines(const ClumpResult& clump) {
       "Scan        " + std::to_string(clump.input.vertices) + " vertices, " +
           std::to_string(clump.input.faces) + " faces, equivalent radius " +
           format_number(clump.equivalent_radius),
-      "Clump       " + std::to_string(clump.spheres.size()) + " spheres, intersection over union " +
+      "Clump       " + counted_spheres(clump) + ", intersection over union " +
           format_number(clump.intersection_over_union, 4)};
   const auto append = [&](const std::vector<std::vector<std::string>>& rows) {
     for (std::string& line : aligned_lines(rows)) lines.push_back(std::move(line));
@@ -154,7 +192,7 @@ std::vector<std::string> clump_lines(const ClumpResult& clump) {
   append(error_rows(clump));
   append(contact_rows(clump));
   append(mass_error_rows(clump));
-  append(mass_rows(masses(clump)));
+  append(single_mass_rows(clump));
   return lines;
 }
 
@@ -172,7 +210,7 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
       page_figures(ShownMesh{clump.repaired_scan, "scan"}, {clump.surface, "clump"}, execution);
   const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
   HtmlDocument page("Clump" + (name.empty() ? "" : " of " + name) + " with " +
-                    std::to_string(clump.spheres.size()) + " spheres");
+                    counted_spheres(clump));
   page.add_paragraph(origin_sentence(origin));
   for (const std::string& warning : clump.warnings) page.add_warning(warning);
   page.add_figures(figures.pictures);

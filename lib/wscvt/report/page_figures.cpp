@@ -21,6 +21,8 @@ constexpr const char* page_stage = "Drawing the page";
 constexpr std::size_t histogram_bins = 60;
 constexpr const char* reference_colour = "#6e6e6e";
 constexpr const char* shown_colour = "#0a58b4";
+/// The edges of more would hide the surface.
+constexpr std::size_t most_faces_with_edges = 30000;
 /// Pictures are drawn twice as wide and high and halved, which smooths their edges.
 constexpr int drawn_pixels = 840;
 /// Points of the surface at which the histogram takes distances: a bin of 1 % holds 200 of them.
@@ -102,7 +104,6 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   const MeshView view = view_of(both, drawn_pixels);
   if (reference) {
     execution.report(0.0, page_stage);
-    // On a dense scan the edges would hide the surface.
     figures.pictures.push_back(picture_figure(
         draw(reference->mesh, look_at(reference->mesh, view), view, false, {}),
         reference->name + ": " + std::to_string(reference->mesh.points.size()) + " vertices, " +
@@ -110,8 +111,9 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   }
   execution.report(0.0, page_stage);
   const SeenMesh seen = look_at(shown.mesh, view);
+  const bool with_edges = shown.mesh.triangles.size() <= most_faces_with_edges;
   figures.pictures.push_back(
-      picture_figure(draw(shown.mesh, seen, view, true, {}),
+      picture_figure(draw(shown.mesh, seen, view, with_edges, {}),
                      shown.name + ": " + std::to_string(shown.mesh.points.size()) + " vertices, " +
                          std::to_string(shown.mesh.triangles.size()) + " faces"));
   add_triangle_histograms(figures.distributions, reference, shown, execution);
