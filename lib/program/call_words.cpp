@@ -145,8 +145,9 @@ std::string refusal_text(const CLI::App& program, const CLI::ParseError& error) 
         if (option->get_group().empty()) continue;
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
       }
-      return call + " has no option " + word + "." + meant_word(word, names) + " \"" + call +
-             " --help\" lists all.";
+      std::string sentence = call;
+      sentence.append(" has no option ").append(word).append(".").append(meant_word(word, names));
+      return sentence.append(" \"").append(call).append(" --help\" lists all.");
     }
     const CLI::Option* output = command->get_option_no_throw("--output");
     const bool is_missing =
