@@ -72,10 +72,8 @@ py::tuple carry_attributes(const py::object& scan, const py::object& mesh,
   }));
 }
 
-void warn(const std::vector<std::string>& sentences) {
-  for (const std::string& sentence : sentences) {
-    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
-  }
+void warn_all(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) warn(sentence);
 }
 
 py::tuple carry_attributes_of_file(const std::string& path, const py::object& mesh, int threads) {
@@ -88,7 +86,7 @@ py::tuple carry_attributes_of_file(const std::string& path, const py::object& me
     warnings = file.warnings;
     return carried_attributes(file.mesh, file.attributes, to, execution);
   });
-  warn(warnings);
+  warn_all(warnings);
   return both(carried);
 }
 
@@ -98,7 +96,7 @@ py::tuple read_attributes(const std::string& path) {
   if (file.attributes.texture.empty()) return both(file.attributes);
   file.warnings.clear();
   read_pictures(file, path);
-  warn(file.warnings);
+  warn_all(file.warnings);
   MeshAttributes texture;
   if (attribute_named(file.attributes.of_vertices, "red") == nullptr) {
     texture.texture = std::move(file.attributes.texture);
