@@ -16,7 +16,6 @@
 namespace wscvt {
 namespace {
 
-using Json = nlohmann::json;
 using test::count_of;
 
 /// Of a grain without symmetry, off the origin, with a remesh beside it.
@@ -65,7 +64,7 @@ TEST(ClumpReport, LinesFitIn80ColumnsAndHoldEachNumberOnce) {
 
 TEST(ClumpReport, JsonHoldsTheResult) {
   const ClumpResult& clump = shown_clump();
-  const Json json = Json::parse(clump_json(clump, {"grain.ply", "2026-11-26"}));
+  const nlohmann::json json = nlohmann::json::parse(clump_json(clump, {"grain.ply", "2026-11-26"}));
   EXPECT_EQ(json["source"], "grain.ply");
   EXPECT_EQ(json["sphere_count"], 6);
   EXPECT_EQ(json["options"]["spheres"], 6);

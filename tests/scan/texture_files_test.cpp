@@ -76,11 +76,11 @@ void expect_no_picture(const std::string& path, const std::string& text) {
 const std::string four_vertices = "v 0 0 0\nv 3 0 0\nv 0 5 0\nv 0 0 7\n";
 const std::string four_places = "vt .1 .2\nvt .9 .25 0\nvt .3 2.75\nvt -1.5 .5\n";
 
-void expect_corners(const std::array<MeshTexture::Place, 3>& corners,
+void expect_corners(const std::array<MeshTexture::Place, 3>& read,
                     const std::array<std::array<float, 2>, 3>& expected) {
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(corners[k].x(), expected[k][0]) << k;
-    EXPECT_EQ(corners[k].y(), expected[k][1]) << k;
+    EXPECT_EQ(read[k].x(), expected[k][0]) << k;
+    EXPECT_EQ(read[k].y(), expected[k][1]) << k;
   }
 }
 
@@ -140,13 +140,13 @@ TEST_F(TextureFiles, ObjHasThePlacesOfItsCornersAndPicturesOfItsMaterials) {
 }
 
 TEST_F(TextureFiles, MissingFilesAreWarningsThatNameThem) {
-  const std::string faces =
+  const std::string of_faces =
       four_vertices + four_places + "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/2 4/3\n";
-  const MeshFile no_library = scan("a.obj", "mtllib none.mtl\n" + faces);
+  const MeshFile no_library = scan("a.obj", "mtllib none.mtl\n" + of_faces);
   ASSERT_EQ(no_library.warnings.size(), 1U);
   EXPECT_NE(no_library.warnings[0].find("none.mtl"), std::string::npos);
   file("b.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd gone.png\nnewmtl c\n");
-  const MeshFile no_picture = scan("b.obj", "mtllib b.mtl\n" + faces);
+  const MeshFile no_picture = scan("b.obj", "mtllib b.mtl\n" + of_faces);
   ASSERT_EQ(no_picture.warnings.size(), 1U);
   EXPECT_NE(no_picture.warnings[0].find("gone.png\" is not there"), std::string::npos);
   for (const TexturePicture& picture : no_picture.attributes.texture.pictures) {
@@ -155,12 +155,12 @@ TEST_F(TextureFiles, MissingFilesAreWarningsThatNameThem) {
   // Colours of materials without any picture are those of programs that ask nobody.
   file("c.mtl", "newmtl a\nKd .8 .8 .8\nnewmtl b\nKd .8 .8 .8\n");
   for (const TexturePicture& picture :
-       scan("c.obj", "mtllib c.mtl\n" + faces).attributes.texture.pictures) {
+       scan("c.obj", "mtllib c.mtl\n" + of_faces).attributes.texture.pictures) {
     EXPECT_TRUE(picture.empty());
   }
   // A picture that fails leaves the others.
   file("d.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd six.png\n");
-  const MeshFile one = scan("d.obj", "mtllib d.mtl\n" + faces);
+  const MeshFile one = scan("d.obj", "mtllib d.mtl\n" + of_faces);
   EXPECT_EQ(one.warnings.size(), 1U);
   EXPECT_TRUE(one.attributes.texture.pictures[0].empty());
   EXPECT_EQ(one.attributes.texture.pictures[1].colours, six_colours);
