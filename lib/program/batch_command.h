@@ -26,7 +26,7 @@ struct BatchArguments {
   RemeshOptions options;    ///< without advice, which is for a person at one grain
   std::vector<int> levels;  ///< numbers of nodes if there are several, ascending; else empty
   ShapeMeasures shapes;     ///< of the table of shapes
-  VolumeOptions volume;                   ///< of inputs that are volumes
+  VolumeOptions volume;     ///< of inputs that are volumes
 };
 
 /// Adds what is asked of a sample as a whole: shard, format, seconds, and the remesh of its grains.

@@ -44,8 +44,9 @@ CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::str
   return app.add_option(names, file, description)->type_name("FILE");
 }
 
-void add_common_arguments(CLI::App& app, CommonArguments& arguments) {
-  app.add_option("--report", arguments.reports,
+void add_common_arguments(CLI::App& app, CommonArguments& arguments,
+                          const std::string& names_of_report) {
+  app.add_option(names_of_report, arguments.reports,
                  "Write the report to this file, by its ending .html (a page with pictures and "
                  "histograms), .json (everything) or .csv (a row more of a table); may be given "
                  "more than once")

@@ -17,8 +17,10 @@ struct CommonArguments {
   bool quiet = false;
 };
 
-/// Adds them. Reading a call changes `arguments`, which must outlive `app`.
-void add_common_arguments(CLI::App& app, CommonArguments& arguments);
+/// Adds them. Reading a call changes `arguments`, which must outlive `app`. A command whose only
+/// output is the report has it as -o too.
+void add_common_arguments(CLI::App& app, CommonArguments& arguments,
+                          const std::string& names_of_report = "--report");
 
 /// Adds the number of threads alone.
 void add_threads_argument(CLI::App& app, int& threads);

@@ -29,8 +29,8 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
        "Take a grain apart into convex parts, for physics engines",
        {"scan.ply -k 8 -o parts.obj", "scan.ply -k 4 -o grain.urdf -o grain.xml --density 2650",
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html"},
-       "The cuts are chosen on a remesh of 500 nodes, which has the options of wscvt remesh. The "
-       "parts are hulls of pieces of the scan.",
+       "The cuts are chosen on a remesh of 500 nodes, which has the options of wscvt remesh.\n"
+       "The parts are hulls of pieces of the scan.",
        true});
   add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
       ->required();
@@ -43,7 +43,7 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
   add_number(app, "-k,--parts", arguments.options.parts, convex_parts_option);
   add_number(app, "--faces", arguments.options.faces, convex_faces_option);
   add_number(app, "--hull-distance", arguments.options.tolerance, convex_tolerance_option);
-  add_number(app, "--density", arguments.density, density_option);
+  add_number(app, "--density", arguments.density, parts_density_option);
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.frame.frame);
   add_number(app, "--" + std::string(size_option.key), arguments.frame.size, size_option);
   add_number(app, "--" + std::string(scale_option.key), arguments.frame.scale, scale_option);
@@ -66,7 +66,7 @@ int run(const ConvexArguments& arguments) {
   checked([&] {
     check_options(arguments.remesh);
     check_options(arguments.options);
-    require_in_range(arguments.density, density_option);
+    require_in_range(arguments.density, parts_density_option);
     check_frame_options(arguments.frame);
     check_mesh_format(arguments.scan, MeshUse::Read);
     for (const std::string& output : arguments.outputs) check_part_file(output);

@@ -22,7 +22,7 @@ void add_measure_arguments(CLI::App& app, MeasureArguments& arguments) {
   };
   add(arguments.options.roundness_ball, roundness_ball_option);
   add(arguments.options.roughness_cutoff, roughness_cutoff_option);
-  add_common_arguments(app, arguments.common);
+  add_common_arguments(app, arguments.common, "-o,--report");  // their only output
 }
 
 void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference) {

@@ -121,7 +121,7 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
             })
       ->description(help_of(static_cast<int>(arguments.options.seed), seed_option))
       ->type_name("N");
-  app.add_option("--report", arguments.reports,
+  app.add_option("-o,--report", arguments.reports,
                  "Write this file, by its ending: .html a page, .json or .csv all statistics; may "
                  "be given more than once")
       ->type_name("FILE")

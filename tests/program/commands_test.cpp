@@ -205,10 +205,13 @@ TEST_F(Commands, AnOutputIsTheLastWordOrNamed) {
   EXPECT_TRUE(exists("made.ply"));
   EXPECT_EQ(run("split scan.ply -o bodies -q").exit_code, 0);
   EXPECT_TRUE(exists("bodies/1.ply"));
-  // Whatever makes something takes -o; the others have only reports.
+  EXPECT_EQ(run("describe scan.ply -o shape.json -q").exit_code, 0);
+  EXPECT_FALSE(content("shape.json").empty());
+  // All take -o; those that only measure, for their reports.
   for (const std::string& command : commands()) {
     const bool measures = command == "describe" || command == "compare" || command == "sample";
-    EXPECT_EQ(run(command + " --help").output.find("-o,--output") == std::string::npos, measures)
+    EXPECT_NE(run(command + " --help").output.find(measures ? "-o,--report" : "-o,--output"),
+              std::string::npos)
         << command;
   }
 }

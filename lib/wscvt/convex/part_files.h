@@ -12,7 +12,7 @@
 namespace wscvt {
 
 /// Density of a grain in the files of engines that want masses.
-inline constexpr NumberOption<double> density_option = {
+inline constexpr NumberOption<double> parts_density_option = {
     "density",     "density",
     0.0,           std::numeric_limits<double>::infinity(),
     Ends::Neither, "mass of a unit of volume, for the mass and inertia in .urdf and .xml"};

@@ -180,7 +180,8 @@ IndexedMesh without_handles(const IndexedMesh& mesh, const Execution& execution)
   const std::size_t handles = genus_of(mesh);
   if (handles > most_handles_cut) {
     refuse("The grain has overhangs and " + std::to_string(handles) +
-           " handles: it is porous. Close its pores first, or leave it out of the sample.");
+           " handles: it is porous. Take its outer surface by a shrink-wrap, "
+           "or leave it out of the sample.");
   }
   const HandleFreeMesh cut = remove_handles(mesh, HandleOptions(), execution);
   if (cut.report.kept > 0) {
