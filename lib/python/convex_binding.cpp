@@ -34,8 +34,7 @@ py::tuple convex(const Points& vertices, const py::object& faces, int parts, int
     RemeshResult result = remesh(std::move(scan), remesh_options, execution.part(0.0, 0.3));
     PartsReport made;
     made.warnings = result.warnings;
-    made.parts =
-        convex_parts(result.mesh, result.repaired_scan, options, execution.part(0.3, 0.9));
+    made.parts = convex_parts(result.mesh, result.repaired_scan, options, execution.part(0.3, 0.9));
     made.measures = measure_parts(made.parts, result.repaired_scan, execution.part(0.9, 1.0));
     made.mass = mass_properties(result.original);
     return made;
