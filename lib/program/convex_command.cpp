@@ -13,6 +13,7 @@
 #include "wscvt/convex/convex_parts.h"
 #include "wscvt/convex/part_files.h"
 #include "wscvt/remesh.h"
+#include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/report/parts_report.h"
 
 namespace wscvt::program {
@@ -82,7 +83,8 @@ int run(const ConvexArguments& arguments) {
 
   PartsReport report;
   report.warnings = std::move(file.warnings);
-  report.warnings.insert(report.warnings.end(), result.warnings.begin(), result.warnings.end());
+  const std::vector<std::string> of_scan = scan_warnings(result);
+  report.warnings.insert(report.warnings.end(), of_scan.begin(), of_scan.end());
   report.parts = convex_parts(result.mesh, result.repaired_scan, arguments.options,
                               work.execution().part(0.3, 0.9));
   report.measures =

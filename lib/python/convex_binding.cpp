@@ -11,6 +11,7 @@
 #include "work.h"
 #include "wscvt/convex/convex_parts.h"
 #include "wscvt/remesh.h"
+#include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/report/parts_report.h"
 
 namespace wscvt::python {
@@ -33,7 +34,7 @@ py::tuple convex(const Points& vertices, const py::object& faces, int parts, int
     check_options(options);
     RemeshResult result = remesh(std::move(scan), remesh_options, execution.part(0.0, 0.3));
     PartsReport made;
-    made.warnings = result.warnings;
+    made.warnings = scan_warnings(result);
     made.parts = convex_parts(result.mesh, result.repaired_scan, options, execution.part(0.3, 0.9));
     made.measures = measure_parts(made.parts, result.repaired_scan, execution.part(0.9, 1.0));
     made.mass = mass_properties(result.original);

@@ -32,7 +32,7 @@ set(of_the_project wscvt/base/convex_hull.h wscvt/base/lower_case.h wscvt/clump/
   wscvt/sample/quick_shape.h wscvt/scan/folded_solid_angle.h wscvt/base/file_name.h wscvt/base/machine_refused.h
   wscvt/base/option_words.h wscvt/base/output_file.h wscvt/base/pi.h wscvt/base/readable_text.h
   wscvt/base/text_format.h wscvt/exchange/distance_grid.h wscvt/exchange/node_table.h
-  wscvt/exchange/template_files.h wscvt/measures/form_axes.h wscvt/remesh/option_advice.h
+  wscvt/exchange/template_files.h wscvt/measures/form_axes.h wscvt/remesh/option_advice.h wscvt/remesh/remesh_warnings.h
   wscvt/report/descriptor_report.h wscvt/report/json.h wscvt/report/mass_table.h
   wscvt/report/sample_summary.h wscvt/report/sample_table.h
   wscvt/report/shape_table.h wscvt/sample/given_sizes.h wscvt/sample/grain_grower.h

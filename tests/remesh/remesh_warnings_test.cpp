@@ -70,6 +70,23 @@ TEST(RemeshWarnings, ThereAreNoneOfACleanResult) {
   EXPECT_EQ(warnings, std::vector<std::string>{"Far away."});
 }
 
+TEST(RemeshWarnings, ThoseOfTheScanLeaveOutTheRemesh) {
+  RemeshResult result = clean();
+  result.options.envelope.opening_percent = 5.0;
+  result.input.genus = 1;
+  on_scan(result).handles.kept = 1;
+  result.remesh.area = 5.0;
+  result.original.sdq = 0.5;
+  result.original.sdq_half_clip = 0.52;
+  const std::vector<std::string> all = remesh_warnings(result, "");
+  const std::vector<std::string> of_scan = scan_warnings(result);
+  ASSERT_EQ(of_scan.size(), 2U);
+  EXPECT_NE(of_scan[0].find("by its shrink-wrap"), std::string::npos);
+  EXPECT_NE(of_scan[1].find("1 handle"), std::string::npos);
+  EXPECT_EQ(std::vector<std::string>(all.begin(), all.begin() + 2), of_scan);
+  EXPECT_EQ(all.size(), 4U);
+}
+
 TEST(RemeshWarnings, TellAnSdqThatIsWhatItsClipSays) {
   expect_warnings(
       {{[](RemeshResult& r) {

@@ -244,12 +244,17 @@ void append_repair_warnings(const MeshCheckReport& input, const std::string& don
   }
 }
 
-std::vector<std::string> remesh_warnings(const RemeshResult& result,
-                                         const std::string& of_precision) {
+std::vector<std::string> scan_warnings(const RemeshResult& result) {
   Sentences warnings;
-  if (!of_precision.empty()) warnings.push_back(of_precision);
   warn_of_scan(result, warnings);
   warn_of_handles(result, warnings);
+  return warnings;
+}
+
+std::vector<std::string> remesh_warnings(const RemeshResult& result,
+                                         const std::string& of_precision) {
+  Sentences warnings = scan_warnings(result);
+  if (!of_precision.empty()) warnings.insert(warnings.begin(), of_precision);
   warn_of_fit(result, warnings);
   warn_of_distance(result, warnings);
   const std::string clipped = sdq_clip_sentence("the scan", result.original);

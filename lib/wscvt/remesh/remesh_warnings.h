@@ -29,6 +29,10 @@ bool is_inaccurate(const RemeshResult& result);
 void append_repair_warnings(const MeshCheckReport& input, const std::string& done,
                             std::vector<std::string>& warnings);
 
+/// What the user of anything that is made of the scan ought to know, if it is not the remesh: how
+/// the scan was taken and repaired, and its handles.
+std::vector<std::string> scan_warnings(const RemeshResult& result);
+
 /// What the user of a result ought to know, a sentence or more each, the scan's faults first. The
 /// first of all is `of_precision`, if it is not empty (see precision_warning).
 std::vector<std::string> remesh_warnings(const RemeshResult& result,
