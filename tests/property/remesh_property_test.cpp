@@ -37,7 +37,7 @@ class Promises : public ::testing::TestWithParam<int> {
 
 TEST_P(Promises, AreKeptByWholeRemeshes) {
   std::uint64_t bodies = 0;
-  for_each_seed(500, [&](std::uint64_t seed) {
+  for_each_seed(400, [&](std::uint64_t seed) {
     test::Choices choices(seed);
     const RemeshOptions options = test::random_options(choices);
     const test::RandomBody body = test::random_body(choices);
