@@ -96,7 +96,7 @@ def steps():
     second = bpy.data.objects[name].copy()
     second.name = "second"
     bpy.context.scene.collection.objects.link(second)
-    second.modifiers.new("finer", "SUBSURF").levels = 3  # takes seconds
+    second.modifiers.new("finer", "SUBSURF").levels = 4  # takes seconds
     second.select_set(True)
     with bpy.context.temp_override(**view()):
         bpy.ops.object.remesh_grain_wscvt("INVOKE_DEFAULT")
