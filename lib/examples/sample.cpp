@@ -3,7 +3,6 @@
 // a table with the columns grain, axis_i_box and volume.
 #include <wscvt/base/error.h>
 #include <wscvt/report/sample_report.h>
-#include <wscvt/sample/grain_table.h>
 
 #include <exception>
 #include <iostream>
@@ -16,11 +15,9 @@ int main(int count, char** arguments) {
   try {
     const wscvt::Execution all_threads;
     wscvt::SampleReport report;
-    report.options.density = 2650.0;
-    wscvt::ReportedSample one;
-    one.name = arguments[1];
-    one.sample = wscvt::sample_of(wscvt::read_grain_table(arguments[1]), report.options);
-    one.statistics = wscvt::measure_sample(one.sample, report.options, all_threads);
+    wscvt::add_sample(report, arguments[1], wscvt::read_sample(arguments[1], all_threads), {2650.0},
+                      wscvt::usual_mark_percent, all_threads);
+    const wscvt::ReportedSample& one = report.samples.front();
     const wscvt::Estimate d50 = one.statistics.size_by_mass.d50;
     std::cout << one.sample.grains.size() << " grains: D50 by mass " << d50.value << ' '
               << one.sample.size_unit << " (" << d50.lower << " to " << d50.upper << "), Cu "
@@ -29,7 +26,6 @@ int main(int count, char** arguments) {
       std::cout << "mean of " << column.column.name << ' ' << column.by_number.mean.value << ' '
                 << column.column.unit << '\n';
     }
-    report.samples.push_back(one);
     if (count > 2) wscvt::write_sample_report(arguments[2], report, all_threads);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

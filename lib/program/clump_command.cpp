@@ -65,8 +65,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
                  "Write the clump to this file, by its ending: .csv (x,y,z,r), .multisphere "
                  "(LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for "
                  "MercuryDPM), .p3dat (PFC), .molecule (LAMMPS). May be given more than once. For "
-                 "several scans: the folder "
-                 "of their clumps and of the table grains.csv")
+                 "several scans: the folder of their clumps and of the table grains.csv")
       ->type_name("FILE")
       ->required()
       ->allow_extra_args(false);

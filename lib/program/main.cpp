@@ -61,9 +61,8 @@ int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
   app.formatter(std::make_shared<program::HelpFormatter>());
   app.footer(
-      "\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\", \"wscvt FOLDER OUT\" and \"wscvt "
-      "SCANS... "
-      "OUT\"\nare \"wscvt batch\". The help of a command:\n"
+      "\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\", \"wscvt FOLDER OUT\" and "
+      "\"wscvt SCANS... OUT\"\nare \"wscvt batch\". The help of a command:\n"
       "  wscvt help remesh\n"
       "  wscvt remesh --help-all\n" +
       program::exit_code_text(true));

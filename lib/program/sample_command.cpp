@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sample_command.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <optional>
-#include <utility>
 
 #include "command.h"
 #include "common_arguments.h"
@@ -23,27 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Any number that fits 64 bits.
 constexpr NumberOption<int> seed_option = {
     "seed",     "seed",
     0,          2147483647,
     Ends::Both, "of the random draws behind intervals and p; the same seed gives the same bytes"};
-
-/// A sample that was read.
-struct ReadSample {
-  std::vector<GrainTable> tables;  ///< one, or one per number of nodes
-  std::vector<std::string> files;  ///< of the tables
-};
-
-ReadSample read_sample(const std::string& path, const Execution& execution) {
-  ReadSample sample;
-  sample.files = sample_files(path);
-  for (const std::string& file : sample.files) {
-    execution.report(0.0, "Reading \"" + file + "\"");
-    sample.tables.push_back(read_grain_table(file));
-  }
-  return sample;
-}
 
 /// Reads "2650", or "2650,2600".
 std::vector<double> densities_of(std::string_view text) {
@@ -66,26 +46,12 @@ void check_densities(const SampleArguments& arguments) {
   }
 }
 
-/// The options of one of the samples.
-SampleOptions options_of(const SampleArguments& arguments, std::size_t sample) {
-  SampleOptions options = arguments.options;
-  if (!arguments.densities.empty()) {
-    options.density = arguments.densities[std::min(sample, arguments.densities.size() - 1)];
-  }
-  return options;
-}
-
 std::string name_of(const std::string& path) {
   fs::path whole(path);
   if (whole.filename().empty()) whole = whole.parent_path();
   if (whole.filename() == "shape.csv" && whole.has_parent_path()) whole = whole.parent_path();
   const std::string name = whole.filename().string();
   return name == "." || name == ".." || name.empty() ? path : name;
-}
-
-std::string folder_of(const std::string& file) {
-  const std::string folder = fs::path(file).parent_path().string();
-  return folder.empty() ? "." : folder;
 }
 
 }  // namespace
@@ -149,26 +115,13 @@ int run(const SampleArguments& arguments) {
   SampleReport report;
   report.options = arguments.options;
   for (const std::string& path : arguments.samples) {
-    const ReadSample read = read_sample(path, execution);
-    const std::size_t shown = finest_table(read.tables);
-    ReportedSample one;
-    one.name = name_of(path);
-    one.folder = folder_of(read.files[shown]);
-    one.sample = sample_of(read.tables[shown], options_of(arguments, report.samples.size()));
-    one.statistics = measure_sample(one.sample, arguments.options, execution);
-    if (report.samples.empty() && read.tables.size() > 1) {
-      DetailLevels levels = measure_levels(read.tables, arguments.mark_percent);
-      if (!levels.rows.empty()) report.levels = std::move(levels);
-    }
-    report.samples.push_back(std::move(one));
+    add_sample(report, name_of(path), read_sample(path, execution), arguments.densities,
+               arguments.mark_percent, execution);
   }
-  if (report.samples.size() > 1) {
-    if (report.samples[0].name == report.samples[1].name) {
-      for (std::size_t k = 0; k < 2; ++k) report.samples[k].name = arguments.samples[k];
-    }
-    report.comparison = compare_samples(report.samples[0].sample, report.samples[1].sample,
-                                        arguments.options, execution);
+  if (report.samples.size() > 1 && report.samples[0].name == report.samples[1].name) {
+    for (std::size_t k = 0; k < 2; ++k) report.samples[k].name = arguments.samples[k];
   }
+  compare_samples(report, execution);
   for (const std::string& file : arguments.reports) {
     work.write(file, [&](const std::string& path, const Execution& part) {
       write_sample_report(path, report, part);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/sample/detail_levels.h"
 #include "wscvt/sample/grain_sample.h"
 
 namespace wscvt::program {
@@ -13,10 +14,10 @@ namespace wscvt::program {
 struct SampleArguments {
   std::vector<std::string> samples;  ///< folders of a batch, or tables; one or two
   SampleOptions options;
-  std::vector<double> densities;     ///< one for all samples, or one per sample; may be empty
-  double mark_percent = 1.0;         ///< of levels
-  std::vector<std::string> reports;  ///< files; the ending says what each becomes
-  int threads = 0;                   ///< 0: all
+  std::vector<double> densities;  ///< one for all samples, or one per sample; may be empty
+  double mark_percent = usual_mark_percent;  ///< of levels
+  std::vector<std::string> reports;          ///< files; the ending says what each becomes
+  int threads = 0;                           ///< 0: all
   bool quiet = false;
 };
 

@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -59,58 +58,28 @@ GrainTable table_of(TableParts parts) {
   return table;
 }
 
-/// A density for all samples, one per sample, or none.
-using Densities = std::vector<double>;
-
-/// The tables of a sample: one, or one per number of nodes.
-struct ReadTables {
-  std::vector<GrainTable> tables;
-  std::vector<std::string> files;  ///< of the tables; empty if those are the caller's
-};
-
-ReadTables tables_of(NamedSample& sample) {
+SampleTables tables_of(NamedSample& sample, const Execution& execution) {
   auto& [name, path, parts] = sample;
-  ReadTables read;
-  if (parts) {
-    read.tables.push_back(table_of(std::move(*parts)));
-    return read;
-  }
-  read.files = sample_files(path);
-  for (const std::string& file : read.files) read.tables.push_back(read_grain_table(file));
-  return read;
+  if (!parts) return read_sample(path, execution);
+  SampleTables tables;
+  tables.tables.push_back(table_of(std::move(*parts)));
+  return tables;
 }
 
 py::object sample(std::vector<NamedSample> samples, const std::vector<std::string>& reports,
-                  const std::string& size, const std::string& of, const Densities& density,
-                  double mark, std::uint64_t seed, int repetitions, int threads,
-                  const py::object& progress) {
+                  const std::string& size, const std::string& of,
+                  const std::vector<double>& density, double mark, std::uint64_t seed,
+                  int repetitions, int threads, const py::object& progress) {
   SampleReport report;
   report.options.size = value_of_name<SizeMeasure>(size);
   report.options.of = value_of_name<SampledMesh>(of);
   report.options.seed = seed;
   report.options.repetitions = repetitions;
   const std::string json = work_on(threads, progress, [&](const Execution& execution) {
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      const ReadTables read = tables_of(samples[k]);
-      SampleOptions options = report.options;
-      if (!density.empty()) options.density = density[std::min(k, density.size() - 1)];
-      const std::size_t shown = finest_table(read.tables);
-      ReportedSample one;
-      one.name = std::get<0>(samples[k]);
-      if (!read.files.empty()) {
-        one.folder = std::filesystem::path(read.files[shown]).parent_path().string();
-      }
-      one.sample = sample_of(read.tables[shown], options);
-      one.statistics = measure_sample(one.sample, options, execution);
-      report.samples.push_back(std::move(one));
-      if (k > 0 || read.tables.size() == 1) continue;
-      DetailLevels levels = measure_levels(read.tables, mark);
-      if (!levels.rows.empty()) report.levels = std::move(levels);
+    for (NamedSample& one : samples) {
+      add_sample(report, std::get<0>(one), tables_of(one, execution), density, mark, execution);
     }
-    if (report.samples.size() > 1) {
-      report.comparison = compare_samples(report.samples[0].sample, report.samples[1].sample,
-                                          report.options, execution);
-    }
+    compare_samples(report, execution);
     for (const std::string& path : reports) write_sample_report(path, report, execution);
     return sample_json(report);
   });
@@ -125,7 +94,7 @@ void bind_sample(py::module_& module) {
   module.def("sample_files", &sample_files, py::arg("path"));
   module.def("sample", &sample, py::arg("samples"), py::arg("reports"), py::kw_only(),
              py::arg("size") = key_of(defaults.size), py::arg("of") = key_of(defaults.of),
-             py::arg("density") = Densities(), py::arg("mark") = 1.0,
+             py::arg("density") = std::vector<double>(), py::arg("mark") = usual_mark_percent,
              py::arg("seed") = defaults.seed, py::arg("repetitions") = defaults.repetitions,
              py::arg("threads") = 0, py::arg("progress") = py::none());
 }

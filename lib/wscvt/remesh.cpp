@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/remesh/prepared_grain.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
@@ -116,7 +116,7 @@ RemeshResult remesh(const RadialSurface& surface, const RemeshOptions& options,
                     const Execution& execution) {
   check_options(options);
   const SurfaceIntegrals integrals = integrate(surface, execution.part(0.0, 0.1));
-  const double unit = std::cbrt(3.0 * integrals.volume / (4.0 * pi));
+  const double unit = equivalent_radius(integrals.volume);
   const ScaledSurface scaled(surface, unit);
   PreparedGrain grain;
   prepare(scaled, integrals, unit, options, execution.part(0.1, 0.4), grain);

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "convex/mesh_volume.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -45,7 +44,7 @@ TEST(BodyCut, OfARingAcrossGivesTwoLegsAndABow) {
   const SolidCut halves = CutSolid(ring).cut({Vector3(0.6, 0.8, 0.0), 0.1}, on_plane);
   ASSERT_EQ(halves.above.size(), 1U);
   ASSERT_EQ(halves.below.size(), 1U);
-  EXPECT_NEAR(sum_of_volumes(halves), volume_of(ring), 1e-12);
+  EXPECT_NEAR(sum_of_volumes(halves), volume_of(ring, Execution(1)), 1e-12);
   const SolidCut slices = halves.above[0].cut({Vector3(0.6, 0.8, 0.0), 0.4}, on_plane);
   EXPECT_EQ(slices.above.size(), 1U) << "the bow";
   ASSERT_EQ(slices.below.size(), 2U) << "two legs, whose caps at one plane are two faces";
@@ -59,7 +58,7 @@ TEST(BodyCut, OfARingAlongItsPlaneHasACapWithAHole) {
   const SolidCut halves = CutSolid(ring).cut(along, on_plane);
   ASSERT_EQ(halves.above.size(), 1U);
   ASSERT_EQ(halves.below.size(), 1U);
-  EXPECT_NEAR(sum_of_volumes(halves), volume_of(ring), 1e-12);
+  EXPECT_NEAR(sum_of_volumes(halves), volume_of(ring, Execution(1)), 1e-12);
   // Across the hole of the cap: two halves of a ring's half.
   const SolidCut quarters = halves.above[0].cut({Vector3(0.8, -0.6, 0.0), 0.03}, on_plane);
   ASSERT_EQ(quarters.above.size(), 1U);
@@ -93,7 +92,7 @@ TEST(BodyCut, OfACupHasABottomInOnePiece) {
   }
   for (const Triangle& t : std::vector<Triangle>{{0, 2, 1}, {0, 3, 2}, {12, 13, 14}, {12, 14, 15}})
     cup.triangles.push_back(t);
-  ASSERT_NEAR(volume_of(cup), 40.0, 1e-12);
+  ASSERT_NEAR(volume_of(cup, Execution(1)), 40.0, 1e-12);
   const SolidCut cut = CutSolid(cup).cut({Vector3::UnitZ(), 1.5}, on_plane);
   ASSERT_EQ(cut.above.size(), 1U);
   ASSERT_EQ(cut.below.size(), 1U);
@@ -127,7 +126,7 @@ TEST(BodyCut, ManyTimesLosesNothing) {
   double volume = 0.0;
   for (const CutSolid& piece : pieces) volume += piece.volume();
   // Coordinates of 40 are rounded to 1e-14, areas are some hundreds.
-  EXPECT_NEAR(volume, volume_of(body), 1e-10);
+  EXPECT_NEAR(volume, volume_of(body, Execution(1)), 1e-10);
 }
 
 TEST(BodyCut, NamesTheEdgesThatBendInward) {
@@ -166,7 +165,7 @@ TEST(CutTree, MovedPlanesCostLessAndTheirPiecesFillTheGrain) {
   EXPECT_LT(total_cost(groups), 0.95 * before);
   double volume = 0.0;
   for (const PieceGroup& group : groups) volume += group.volume;
-  EXPECT_NEAR(volume, volume_of(body), 1e-10);
+  EXPECT_NEAR(volume, volume_of(body, Execution(1)), 1e-10);
   // What the groups say of themselves is what their pieces are.
   EXPECT_NEAR(total_cost(tree.groups()), total_cost(groups), 1e-9 * before);
   // Another mesh of the grain: its own hulls and volumes.
@@ -177,7 +176,7 @@ TEST(CutTree, MovedPlanesCostLessAndTheirPiecesFillTheGrain) {
     EXPECT_GE(group.body.volume, group.volume);
     volume += group.volume;
   }
-  EXPECT_NEAR(volume, volume_of(finer), 1e-10);
+  EXPECT_NEAR(volume, volume_of(finer, Execution(1)), 1e-10);
 }
 
 }  // namespace

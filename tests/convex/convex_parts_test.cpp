@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "convex/mesh_volume.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/convex_hull.h"
@@ -85,7 +84,8 @@ TEST(ConvexParts, OfTwoBoxesAreTwoBoxesInAnyPose) {
     const ConvexParts parts = convex_parts(body, {}, at_most(6));
     ASSERT_EQ(parts.size(), 2U);
     // Nothing too much, and nothing missing: to rounding of the coordinates.
-    EXPECT_NEAR(volume_of(parts[0]) + volume_of(parts[1]), l_volume, 1e-9);
+    EXPECT_NEAR(volume_of(parts[0], Execution(1)) + volume_of(parts[1], Execution(1)), l_volume,
+                1e-9);
     EXPECT_LT(farthest_outside(parts, body), 1e-9);
     const PartsMeasures measures = measure_parts(parts, body);
     EXPECT_LT(measures.largest_distance, 1e-9);
@@ -100,7 +100,7 @@ TEST(ConvexParts, OneIsTheHullOfTheScan) {
   ASSERT_EQ(parts.size(), 1U);
   const IndexedMesh hull = convex_hull(scan.points);
   EXPECT_EQ(parts[0].triangles.size(), hull.triangles.size());
-  EXPECT_NEAR(volume_of(parts[0]), volume_of(hull), 1e-12);
+  EXPECT_NEAR(volume_of(parts[0], Execution(1)), volume_of(hull, Execution(1)), 1e-12);
   EXPECT_LT(farthest_outside(parts, scan), 1e-12);
 }
 
@@ -158,7 +158,8 @@ TEST(ConvexParts, CoverTheBodyAndComeNearerTheMoreTheyAre) {
     EXPECT_LT(farthest_outside(parts, body), 1e-9);
     for (const IndexedMesh& part : parts) {
       EXPECT_EQ(part.triangles.size(), 2 * part.points.size() - 4);
-      EXPECT_NEAR(volume_of(part), volume_of(convex_hull(part.points)), 1e-12);
+      EXPECT_NEAR(volume_of(part, Execution(1)), volume_of(convex_hull(part.points), Execution(1)),
+                  1e-12);
     }
     const double distance = measure_parts(parts, body).largest_distance;
     EXPECT_LT(distance, before);
@@ -205,7 +206,7 @@ IndexedMesh washer() {
 
 TEST(ConvexParts, OfAWasherAreSectors) {
   const IndexedMesh body = test::transformed(washer(), test::random_rotation(3));
-  ASSERT_GT(volume_of(body), 0.0);
+  ASSERT_GT(volume_of(body, Execution(1)), 0.0);
   const ConvexParts parts = convex_parts(body, body, at_most(3));
   ASSERT_EQ(parts.size(), 3U);
   const PartsMeasures measures = measure_parts(parts, body);
@@ -238,8 +239,9 @@ TEST(ConvexParts, OfAFileComeBackAsTheComponents) {
                              test::moved(test::lumpy(1), 1.0, Vector3(7.0, 0.0, 0.0))};
   const ConvexParts read = parts_of(joined(parts));
   ASSERT_EQ(read.size(), 2U);
-  EXPECT_NEAR(volume_of(read[0]), 6.0, 1e-12);
-  EXPECT_NEAR(volume_of(read[1]), volume_of(convex_hull(parts[1].points)), 1e-12);
+  EXPECT_NEAR(volume_of(read[0], Execution(1)), 6.0, 1e-12);
+  EXPECT_NEAR(volume_of(read[1], Execution(1)),
+              volume_of(convex_hull(parts[1].points), Execution(1)), 1e-12);
 }
 
 TEST(ConvexParts, RefuseOptionsOutOfRangeAndFlatBodies) {

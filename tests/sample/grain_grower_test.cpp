@@ -58,6 +58,22 @@ TEST(GrainGrower, TakesEachGrainAsBaseOncePerRound) {
   }
 }
 
+// Attempts are judged three at a time; those that are left at the end count as well.
+TEST(GrainGrower, AsksForEachUsableAttempt) {
+  const SampleGrids grids(4);
+  const GrainGrower grower(test::random_sample(8, grids, 4), grids, grown_with(2, 1));
+  int usable = 0;
+  const auto never = [&](const GrownGrain&) {
+    ++usable;
+    return false;
+  };
+  EXPECT_ERROR(grower.grow(0, never), NumericalFailure);
+  ASSERT_NE(usable % 3, 0);
+  int asked = 0;
+  const GrownGrain last = grower.grow(0, [&](const GrownGrain&) { return ++asked == usable; });
+  EXPECT_EQ(last.redraws, 199);
+}
+
 // All grains of the sample are one grain and its mirror images, which share form and amplitudes: so
 // must all that is grown of them. The form changes by what the amplitudes of the last step move.
 TEST(GrainGrower, KeepsFormAndAmplitudesOfASampleThatHasOneOfEach) {

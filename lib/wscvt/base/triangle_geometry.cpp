@@ -20,6 +20,11 @@ MeshSums mesh_sums(const std::vector<Vector3>& points, const std::vector<Triangl
       });
 }
 
+double volume_of(const IndexedMesh& mesh, const Execution& execution) {
+  const Vector3& origin = mesh.points[mesh.triangles[0][0]];
+  return mesh_sums(mesh.points, mesh.triangles, origin, execution).volume();
+}
+
 std::vector<Vector3> vertex_normals(const std::vector<Vector3>& points,
                                     const std::vector<Triangle>& triangles) {
   std::vector<Vector3> normals(points.size(), Vector3::Zero());

@@ -74,6 +74,11 @@ struct MeshSums {
 MeshSums mesh_sums(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                    const Vector3& origin, const Execution& execution);
 
+/// The volume that a closed mesh encloses, length^3: negative if it is inward. Summed about a
+/// corner of the first triangle, of which there must be one. The same bits on any number of
+/// threads.
+double volume_of(const IndexedMesh& mesh, const Execution& execution);
+
 /// Unit normals at the points, outward for an outward mesh: the mean of those of the triangles
 /// about, by area. Zero where no triangle with an area is.
 std::vector<Vector3> vertex_normals(const std::vector<Vector3>& points,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/clump/sphere_mesh.h"
@@ -204,7 +205,7 @@ ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Exec
   result.input = repaired.checked.report;
   result.repaired_scan = std::move(repaired.checked.mesh);
   result.original = describe_shape(result.repaired_scan, execution);
-  result.equivalent_radius = std::cbrt(0.75 * result.original.volume / pi);
+  result.equivalent_radius = equivalent_radius(result.original.volume);
   if (!repaired.precision_warning.empty()) result.warnings.push_back(repaired.precision_warning);
 
   const UnitFrame frame(result.original);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cmath>
 #include <utility>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
@@ -19,7 +18,7 @@ struct UnitFrame {
   explicit UnitFrame(const ShapeDescriptors& grain)
       : centroid(grain.centroid),
         axes(grain.principal_axes.toRotationMatrix()),
-        radius(std::cbrt(0.75 * grain.volume / pi)) {}
+        radius(equivalent_radius(grain.volume)) {}
 
   Vector3 to_unit(const Vector3& p) const { return axes.transpose() * (p - centroid) / radius; }
   Vector3 to_scan(const Vector3& p) const { return centroid + radius * (axes * p); }

@@ -2,7 +2,6 @@
 #include "wscvt/convex/body_cut.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -137,7 +136,7 @@ CutSolid::CutSolid(const IndexedMesh& mesh) : points_(mesh.points) {
           "The mesh is not closed, or an edge has more than two triangles; repair the mesh first.");
     }
   }
-  volume_ = mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), Execution(1)).volume();
+  volume_ = volume_of(mesh, Execution(1));
 }
 
 void CutSolid::append_pieces(const std::vector<Vector3>& points, const Side& side,

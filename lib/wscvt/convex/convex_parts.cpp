@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/convex/convex_body.h"
 #include "wscvt/convex/cut_choice.h"
 #include "wscvt/convex/cut_tree.h"
@@ -141,7 +141,7 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
   constexpr int cells = 60;
   constexpr std::size_t pieces_a_part = 2;
   const ShapeDescriptors shape = describe_shape(mesh, execution.part(0.0, 0.0));
-  const double radius = std::cbrt(3.0 * shape.volume / (4.0 * pi));
+  const double radius = equivalent_radius(shape.volume);
   const auto count = static_cast<std::size_t>(options.parts);
   execution.report(0.0, "Cutting into convex parts");
   const SignedGrid grid(scan.triangles.empty() ? mesh : scan, cells, execution.part(0.0, 0.1));

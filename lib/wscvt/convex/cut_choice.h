@@ -11,13 +11,6 @@
 
 namespace wscvt {
 
-/// The hull of a piece of a grain.
-struct ConvexPiece {
-  ConvexBody body;
-  double distance = 0.0;  ///< from the hull to the grain, see hull_distance
-  double cost = 0.0;      ///< see hull_cost
-};
-
 /// What a convex hull costs that stands for pieces of a grain: its volume beyond that of the
 /// pieces, times the square root of its largest distance from the grain. Volume alone leaves deep
 /// narrow dents, distance alone shallow wide ones (tests/study/convex.md).

@@ -106,8 +106,7 @@ PartsMeasures measure_parts(const ConvexParts& parts, const IndexedMesh& grain,
   if (parts.empty()) refuse("There is no convex part with a volume; give closed convex meshes.");
   const Union all(parts);
   PartsMeasures measures;
-  measures.grain_volume =
-      mesh_sums(grain.points, grain.triangles, grain.points.front(), execution).volume();
+  measures.grain_volume = volume_of(grain, execution);
   if (!(measures.grain_volume > 0.0)) {
     refuse("The grain encloses no positive volume; give a closed mesh whose faces look outward.");
   }

@@ -94,8 +94,7 @@ void refuse_grid(const Box& box, const GridOptions& options) {
 
 double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
   const Box box = box_of(mesh);
-  const double volume =
-      mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), execution).volume();
+  const double volume = volume_of(mesh, execution);
   if (!(volume > 0.0)) {
     throw Error(ErrorCode::InvalidInput,
                 "The mesh encloses no positive volume, so there is no inside; give a closed mesh "

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/exchange/rockable_shape.h"
 
-#include <cmath>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -28,9 +27,9 @@ void check_frame(const MassProperties& mass, double radius) {
 
 std::string rockable_shape(const std::string& name, const NodeTable& nodes,
                            const MassProperties& mass) {
-  const double equivalent_radius = std::cbrt(3.0 * mass.volume / (4.0 * pi));
-  check_frame(mass, equivalent_radius);
-  const double radius = 0.01 * equivalent_radius;
+  const double of_grain = equivalent_radius(mass.volume);
+  check_frame(mass, of_grain);
+  const double radius = 0.01 * of_grain;
 
   Vector3 lowest = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 highest = -lowest;

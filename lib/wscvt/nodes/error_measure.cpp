@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
 
 namespace wscvt {
 
@@ -27,8 +27,7 @@ double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
     throw Error(ErrorCode::InvalidInput,
                 "The result holds no distances; ask for them in the options of the remesh.");
   }
-  const double equivalent_radius = std::cbrt(3.0 * original.volume / (4.0 * pi));
-  return 100.0 * distances->root_mean_square / equivalent_radius;
+  return 100.0 * distances->root_mean_square / equivalent_radius(original.volume);
 }
 
 }  // namespace wscvt

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
@@ -75,12 +76,6 @@ void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget&
                   std::string(harmonic_degree_option.key) + ", or use the method on-scan.");
 }
 
-/// Of a closed, outward mesh about the origin; length.
-double equivalent_radius(const IndexedMesh& mesh, const Execution& execution) {
-  const double volume = mesh_sums(mesh.points, mesh.triangles, Vector3::Zero(), execution).volume();
-  return std::cbrt(3.0 * volume / (4.0 * pi));
-}
-
 /// Makes the method ready that the options hold. This is where it is chosen. `before`: what was
 /// made ready for the same scan, or nullptr.
 void choose_method(const RemeshOptions& options, const ScanMethod* before,
@@ -137,7 +132,7 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
   IndexedMesh samples = mesh_of_surface(scaled, frequency, execution.part(0.0, 0.3));
   // Fitted nodes get the volume of their scan, so the scan gets the surface's: its equivalent
   // radius is 1 then, as that of any scan.
-  const double radius = on_scan == nullptr ? 1.0 : equivalent_radius(samples, execution);
+  const double radius = on_scan == nullptr ? 1.0 : equivalent_radius(volume_of(samples, execution));
   grain.scan = normalize(std::move(samples), Vector3::Zero(), radius, execution.part(0.3, 0.5));
   grain.scan.unit = unit;
   grain.input.volume = integrals.volume;

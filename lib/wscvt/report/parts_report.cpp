@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/csv_table.h"
 #include "wscvt/report/html_document.h"
@@ -18,7 +18,7 @@ namespace wscvt {
 namespace {
 
 double percent_of_radius(double length, const PartsMeasures& measures) {
-  return 100.0 * length / std::cbrt(3.0 * measures.grain_volume / (4.0 * pi));
+  return 100.0 * length / equivalent_radius(measures.grain_volume);
 }
 
 std::string length_text(double length, const PartsMeasures& measures) {

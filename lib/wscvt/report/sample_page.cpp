@@ -338,8 +338,7 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
     page.add_heading("Errors of the remeshes against the number of nodes");
     page.add_paragraph(
         "Distances and contact errors are in % of the equivalent radius, errors of descriptors in "
-        "% "
-        "of the scan's value, all without sign. Contact error: distance of two remeshes at first "
+        "% of the scan's value, all without sign. Contact error: distance of two remeshes at first "
         "contact, less that of two scans, over random pairs of poses; its mean, and its standard "
         "deviation (scatter) from pair to pair.");
     add_place(page, "levels");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <utility>
 
 #include "wscvt/base/output_file.h"
@@ -229,6 +230,34 @@ void append_levels(const std::string& sample, const DetailLevels& levels, std::s
 }
 
 }  // namespace
+
+void add_sample(SampleReport& report, const std::string& name, const SampleTables& sample,
+                const std::vector<double>& densities, double mark_percent,
+                const Execution& execution) {
+  const std::size_t number = report.samples.size();
+  SampleOptions options = report.options;
+  if (!densities.empty()) options.density = densities[std::min(number, densities.size() - 1)];
+  const std::size_t shown = finest_table(sample.tables);
+  ReportedSample one;
+  one.name = name;
+  if (!sample.files.empty()) {
+    one.folder = std::filesystem::path(sample.files[shown]).parent_path().string();
+    if (one.folder.empty()) one.folder = ".";
+  }
+  one.sample = sample_of(sample.tables[shown], options);
+  one.statistics = measure_sample(one.sample, options, execution);
+  if (number == 0 && sample.tables.size() > 1) {
+    DetailLevels levels = measure_levels(sample.tables, mark_percent);
+    if (!levels.rows.empty()) report.levels = std::move(levels);
+  }
+  report.samples.push_back(std::move(one));
+}
+
+void compare_samples(SampleReport& report, const Execution& execution) {
+  if (report.samples.size() != 2) return;
+  report.comparison = compare_samples(report.samples[0].sample, report.samples[1].sample,
+                                      report.options, execution);
+}
 
 std::vector<std::string> sample_lines(const SampleReport& report) {
   std::vector<std::string> lines;

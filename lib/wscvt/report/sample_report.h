@@ -8,6 +8,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/sample/detail_levels.h"
 #include "wscvt/sample/sample_comparison.h"
+#include "wscvt/sample/sample_files.h"
 #include "wscvt/sample/sample_statistics.h"
 
 namespace wscvt {
@@ -27,6 +28,17 @@ struct SampleReport {
   std::vector<ColumnComparison> comparison;  ///< of two samples
   std::optional<DetailLevels> levels;        ///< of the first sample
 };
+
+/// Measures one more sample of the report, by the report's options. Of several tables the finest is
+/// shown (see finest_table), and those of the first sample give the levels; `mark_percent`: see
+/// measure_levels. `densities`: one for all samples, one per sample, or none (see
+/// SampleOptions::density). Throws as sample_of, measure_sample and measure_levels.
+void add_sample(SampleReport& report, const std::string& name, const SampleTables& sample,
+                const std::vector<double>& densities, double mark_percent,
+                const Execution& execution);
+
+/// Compares the two samples of the report, if there are two. Throws as the other function.
+void compare_samples(SampleReport& report, const Execution& execution);
 
 /// The report as lines of at most 80 characters: sizes, the main descriptors, the comparison, the
 /// levels.

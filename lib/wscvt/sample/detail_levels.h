@@ -34,6 +34,7 @@ struct DetailLevels {
   std::vector<DescriptorLevels> rows;
 };
 
+inline constexpr double usual_mark_percent = 1.0;
 inline constexpr NumberOption<double> mark_option = {
     "mark",
     "marked error",

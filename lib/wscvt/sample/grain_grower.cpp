@@ -110,10 +110,6 @@ void standardise(std::vector<GrainFeatures>& features) {
   for (auto& f : features) f.array() /= square.array().sqrt().max(1e-12);
 }
 
-}  // namespace
-
-namespace {
-
 /// Smooth Voronoi masks, a weight per direction and donor. The weights' squares sum to 1, so that
 /// the variance of fields that have nothing in common is kept; those of aligned fields sum to 1.
 class Masks {
@@ -422,13 +418,14 @@ GrownGrain GrainGrower::grow(std::size_t index, const GrainCheck& is_accepted) c
   std::vector<Candidate> candidates;
   int unusable = 0;
   for (int draw = 0; draw < most_attempts; ++draw) {
+    const bool is_last = draw + 1 == most_attempts;
     RandomStream random(options_.seed, index, static_cast<std::uint64_t>(draw));
     if (std::optional<Candidate> candidate = attempt(near, base, random)) {
       candidates.push_back(std::move(*candidate));
     } else {
       ++unusable;
     }
-    if (candidates.size() < candidates_of_grain) continue;
+    if (candidates.size() < candidates_of_grain && !is_last) continue;
     std::sort(candidates.begin(), candidates.end(),
               [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
     for (Candidate& candidate : candidates) {

@@ -53,9 +53,10 @@ class GrainGrower {
   const std::vector<SampleGrain>& sample() const { return sample_; }
 
   /// Grain number `index`. Attempts are usable if they are star-shaped or, with an offset, do not
-  /// intersect themselves. Of three usable ones it is that whose sphericity and convexity are
-  /// nearest to the base grain's, and that `is_accepted`. May be called from several threads.
-  /// Throws Error(NumericalFailure) if 200 attempts give no such grain.
+  /// intersect themselves. Of three usable ones, or fewer at the end, it is that whose
+  /// sphericity and convexity are nearest to the base grain's, and that `is_accepted`. May be
+  /// called from several threads. Throws Error(NumericalFailure) if 200 attempts give no such
+  /// grain.
   GrownGrain grow(std::size_t index, const GrainCheck& is_accepted) const;
   GrownGrain grow(std::size_t index) const {
     return grow(index, [](const GrownGrain&) { return true; });

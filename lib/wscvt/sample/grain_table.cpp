@@ -107,8 +107,7 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   if (fields_.size() == 1) {
     fail(
         "the table has only one column. Separate columns by commas, semicolons or tabs; the first "
-        "line "
-        "has their names.");
+        "line has their names.");
   }
   for (const GrainColumn& column : fields_) {
     const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";

@@ -7,9 +7,9 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/nodes/self_intersections.h"
-#include "wscvt/sample/quick_shape.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
@@ -50,7 +50,7 @@ IndexedMesh GrownMeshes::mesh(const std::vector<double>& radial, double radius,
     const Vector3 centroid = describe_shape(mesh, one_thread).centroid;
     for (Vector3& point : mesh.points) point -= centroid;
   }
-  const double scale = radius * std::cbrt(4.0 * pi / 3.0 / volume_of(mesh));
+  const double scale = radius * std::cbrt(4.0 * pi / 3.0 / volume_of(mesh, one_thread));
   for (Vector3& point : mesh.points) point *= scale;
   return mesh;
 }

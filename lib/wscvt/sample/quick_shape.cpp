@@ -2,26 +2,17 @@
 #include "wscvt/sample/quick_shape.h"
 
 #include "wscvt/base/convex_hull.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/form_axes.h"
 
 namespace wscvt {
-
-double volume_of(const IndexedMesh& mesh) {
-  double six_volumes = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    six_volumes += mesh.points[static_cast<std::size_t>(t[0])].dot(
-        mesh.points[static_cast<std::size_t>(t[1])].cross(
-            mesh.points[static_cast<std::size_t>(t[2])]));
-  }
-  return six_volumes / 6.0;
-}
 
 QuickShape quick_shape(const IndexedMesh& mesh, const Execution& execution) {
   QuickShape quick;
   quick.shape = describe_shape(mesh, execution);
   const Vector3& axes = quick.shape.inertia_semi_axes;
   quick.form = form_ratios({axes[0], axes[1], axes[2]});
-  quick.convexity = quick.shape.volume / volume_of(convex_hull(mesh.points, execution));
+  quick.convexity = quick.shape.volume / volume_of(convex_hull(mesh.points, execution), execution);
   return quick;
 }
 

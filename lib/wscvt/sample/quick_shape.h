@@ -17,7 +17,4 @@ struct QuickShape {
 /// Throws as describe_shape.
 QuickShape quick_shape(const IndexedMesh& mesh, const Execution& execution);
 
-/// Enclosed by a closed mesh, negative if it is inward; length^3.
-double volume_of(const IndexedMesh& mesh);
-
 }  // namespace wscvt

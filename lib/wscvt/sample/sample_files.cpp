@@ -61,6 +61,16 @@ std::vector<std::string> sample_files(const std::string& path) {
          parts + " -o " + whole);
 }
 
+SampleTables read_sample(const std::string& path, const Execution& execution) {
+  SampleTables sample;
+  sample.files = sample_files(path);
+  for (const std::string& file : sample.files) {
+    execution.report(0.0, "Reading \"" + file + "\"");
+    sample.tables.push_back(read_grain_table(file));
+  }
+  return sample;
+}
+
 std::size_t finest_table(const std::vector<GrainTable>& tables) {
   std::size_t best = 0;
   double most = -1.0;

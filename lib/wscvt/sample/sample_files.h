@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/sample/grain_table.h"
 
 namespace wscvt {
@@ -13,6 +14,16 @@ namespace wscvt {
 /// batch with several numbers of nodes has one in each of its folders, such as n100. Throws
 /// Error(InvalidInput) for a folder without a table, and for a mesh or grains.csv in its place.
 std::vector<std::string> sample_files(const std::string& path);
+
+/// The tables of a sample: one, or one per number of nodes.
+struct SampleTables {
+  std::vector<GrainTable> tables;
+  std::vector<std::string> files;  ///< their paths; empty if they are from no files
+};
+
+/// Reads the tables that sample_files names. Throws as it and read_grain_table do,
+/// Error(Cancelled).
+SampleTables read_sample(const std::string& path, const Execution& execution);
 
 /// The table with the most nodes, whose remeshes are the closest to the scans; the first one if no
 /// table has a column "nodes".

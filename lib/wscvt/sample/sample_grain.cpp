@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/pi.h"
@@ -40,8 +41,6 @@ constexpr int mesh_frequency = 40;
 constexpr int measuring_frequency = 10;
 
 int fine_rows_of(int degree) { return std::max(96, 4 * (degree + 1)); }
-
-double equivalent_radius(double volume) { return std::cbrt(3.0 * volume / (4.0 * pi)); }
 
 std::vector<double> logarithms(std::vector<double> values) {
   for (double& value : values) value = std::log(value);
@@ -171,11 +170,6 @@ void set_series(const HarmonicGrid& grid, const std::vector<Vector3>& points, bo
   }
 }
 
-/// Of a closed, connected mesh.
-std::size_t genus_of(const IndexedMesh& mesh) {
-  return (mesh.triangles.size() / 2 + 2 - mesh.points.size()) / 2;
-}
-
 IndexedMesh without_handles(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t handles = genus_of(mesh);
   if (handles > most_handles_cut) {
@@ -208,10 +202,6 @@ void read_with_offsets(SampleGrain& grain, const IndexedMesh& standing, const Ve
   for (Vector3& point : points) point = point.cwiseProduct(semi_axes);
   set_series(grids.fine_radial(), points, false, grain.radial, grain.radial_offset);
 }
-
-}  // namespace
-
-namespace {
 
 SampleGrain measured(SampleGrain grain, const SampleGrids& grids) {
   const IndexedMesh mesh{surface_points(grain.radial, grain.radial_offset, grids.sphere().points),

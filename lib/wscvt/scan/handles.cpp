@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/closing_advice.h"
@@ -37,16 +37,6 @@ struct Loop {
   double length = infinity;
   std::vector<std::int32_t> half_edges;
 };
-
-double volume_of(const IndexedMesh& mesh) {
-  const Vector3& origin = mesh.points[mesh.triangles[0][0]];
-  return mesh_sums(mesh.points, mesh.triangles, origin, Execution(1)).volume();
-}
-
-std::size_t genus_of(const IndexedMesh& mesh) {
-  // V - E + F = 2 - 2 g with E = 3 F / 2.
-  return (mesh.triangles.size() + 4 - 2 * mesh.points.size()) / 4;
-}
 
 /// Shortest paths from a root and what they leave of the surface.
 class TreeCotree {
@@ -271,6 +261,11 @@ HalfEdges linked(const IndexedMesh& mesh) {
 
 }  // namespace
 
+std::size_t genus_of(const IndexedMesh& mesh) {
+  // V - E + F = 2 - 2 g with E = 3 F / 2.
+  return (mesh.triangles.size() + 4 - 2 * mesh.points.size()) / 4;
+}
+
 HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                               const Execution& execution) {
   require_in_range(options.length_limit, max_handle_loop_option);
@@ -286,8 +281,8 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                             std::string(EnumerationTable<HandleAction>::key) + " keep).",
                         finest_tried_percent);
   }
-  const double volume = volume_of(mesh);
-  const double radius = std::cbrt(3.0 * std::abs(volume) / (4.0 * pi));
+  const double volume = volume_of(mesh, Execution(1));
+  const double radius = equivalent_radius(std::abs(volume));
   for (std::size_t left = genus; left > 0; --left) {
     execution.report(static_cast<double>(genus - left) / static_cast<double>(genus), handle_stage);
     const Loop loop = short_loop(mesh, links, execution);
@@ -308,7 +303,8 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
     fair(mesh, links, moved);
     result.report.cut.push_back(handle);
   }
-  if (!result.report.cut.empty()) result.report.volume_change = volume_of(mesh) / volume - 1.0;
+  if (!result.report.cut.empty())
+    result.report.volume_change = volume_of(mesh, Execution(1)) / volume - 1.0;
   result.mesh = std::move(mesh);
   execution.report(1.0, handle_stage);
   return result;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/scan/scan_options.h"
 
 namespace wscvt {
+
+/// The number of handles of a closed, connected 2-manifold without vertices beside it.
+std::size_t genus_of(const IndexedMesh& mesh);
 
 /// A mesh without the handles that are the scanner's, and what was done to it.
 struct HandleFreeMesh {

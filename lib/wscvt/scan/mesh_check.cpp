@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/scan/closing_advice.h"
@@ -170,7 +170,7 @@ void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshChe
   const auto euler =
       static_cast<std::int64_t>(report.vertices) - static_cast<std::int64_t>(report.faces / 2);
   report.genus = static_cast<int>((2 - euler) / 2);
-  report.equivalent_radius = std::cbrt(3.0 * report.volume / (4.0 * pi));
+  report.equivalent_radius = equivalent_radius(report.volume);
 }
 
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
