@@ -124,6 +124,18 @@ TEST(FormAxes, EllipsoidHasItsAxes) {
   }
 }
 
+// The subdivided icosahedron has vertices on the axes, so that the ellipsoid's own box is one about
+// them. The search, which looks only at points near the rim of the body as it is seen, must not end
+// at a larger one: its last step of 1e-6 radians leaves less than 1e-7.
+TEST(FormAxes, OfASmoothBodyIsNotLargerThanItsOwnBox) {
+  for (const std::uint64_t seed : {31, 32, 33, 34}) {
+    const IndexedMesh mesh = test::transformed(test::scaled(test::sphere(5), {0.9, 0.95, 1.0}),
+                                               test::random_rotation(test::announced(seed)));
+    const FormAxes axes = oriented_box_axes(mesh.points);
+    EXPECT_LE(axes.shortest * axes.intermediate * axes.longest, 8.0 * 0.9 * 0.95 * (1.0 + 1e-7));
+  }
+}
+
 TEST(FormAxes, NeverLargerThanTheAxisAlignedBox) {
   const IndexedMesh mesh = test::lumpy(2);
   Vector3 lower = mesh.points[0];

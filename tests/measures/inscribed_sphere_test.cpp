@@ -61,6 +61,35 @@ TEST(InscribedSphere, FindsTheLargerOfTwoChambers) {
   EXPECT_LT((s.centre - Vector3(3, 0.1, 0.2)).norm(), 2.0 * tolerance);
 }
 
+/// The far end of a ball on a ray from the origin, which lies in the ball.
+double far_end(const Vector3& direction, const Vector3& centre, double radius) {
+  const double along = direction.dot(centre);
+  return along + std::sqrt(along * along - centre.squaredNorm() + radius * radius);
+}
+
+// Balls of radius 1 and 1.03 whose centres are 0.8 apart: in the smaller one is a deepest place
+// too, and the larger one lies within its reach. A spike moves the middle of the box into the
+// smaller one, where the search begins; mirrored, it begins in the larger one.
+TEST(InscribedSphere, FindsTheLargerOfTwoChambersThatOverlap) {
+  for (const double side : {-1.0, 1.0}) {
+    SCOPED_TRACE(side);
+    const Vector3 small(-0.37, 0.0, 0.0);
+    const Vector3 large(0.43, 0.0, 0.0);
+    IndexedMesh mesh = test::sphere(5);
+    for (Vector3& p : mesh.points) {
+      const Vector3 u = p.normalized();
+      const double cosine = std::max(0.0, side * u.x());
+      const double spike = 2.6 * std::pow(cosine, 60);
+      p = u * std::max({far_end(u, small, 1.0), far_end(u, large, 1.03), spike});
+    }
+    const InscribedSphere s = largest_inscribed_sphere(
+        test::transformed(mesh, test::random_rotation(5), {1, 2, 3}), Execution(1));
+    EXPECT_NEAR(s.radius, 1.03, 0.005);  // chords of 0.04 take 2e-4, the spike's foot nothing
+    EXPECT_LE(s.radius, s.upper_bound);
+    EXPECT_LE(s.upper_bound, s.radius * (1.0 + 2.0 * tolerance));
+  }
+}
+
 TEST(InscribedSphere, OfAPlateEndsAfterFiftyThousandDistances) {
   // Any point of the middle plane will do, and the bound would take 1e10 cells over it.
   std::vector<double> progress;
