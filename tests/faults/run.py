@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts faults into the sources, one at a time, and looks whether the tests notice.
 
-  tests/faults/run.py [--check] [--changed COMMIT] [--table] [--build DIRECTORY] [--jobs NUMBER]
-                      [WORD ...]
+  tests/faults/run.py [--check] [--changed COMMIT] [--untried] [--table] [--build DIRECTORY]
+                      [--jobs NUMBER] [WORD ...]
 
-faults.txt lists the faults; WORDs keep those whose folder, title or file holds one of them, and
---changed keeps those of files that differ from a commit. Each is put into a copy of the sources
+faults.txt lists the faults; WORDs keep those whose folder, title or file holds one of them,
+--changed keeps those of files that differ from a commit, and --untried those that README.md
+does not say to have been tried. Each is put into a copy of the sources
 under DIRECTORY (build/faults), what its tests need is built, the tests of its own subject are run,
 and the fault is taken out again. The tree itself is only read, so that it is as it was also after
 an interruption. A fault is killed when a test fails, crashes, or takes ten times as long as without
@@ -208,16 +209,27 @@ def try_fault(build, fault):
     return verdict, verdict.startswith("SURVIVES") == (fault.survives is not None)
 
 
+def read_rows(table):
+    """The day of a fault and what came of it, by its folder and title."""
+    rows = {}
+    for line in table.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) == 4:
+            rows[cells[0], cells[1]] = cells[2:]
+    return rows
+
+
+def tried_faults():
+    rows = read_rows((HERE / "README.md").read_text().partition(TABLE)[2])
+    return {fault for fault, (tried, _) in rows.items() if tried != "-"}
+
+
 def write_table(verdicts):
     """Puts (fault, verdict) into the table of README.md, in the order of faults.txt, and counts."""
     path = HERE / "README.md"
     head, mark, old = path.read_text().partition(TABLE)
     text = head.partition(SUMMARY)[0]
-    rows = {}
-    for line in old.splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) == 4:
-            rows[cells[0], cells[1]] = cells[2:]
+    rows = read_rows(old)
     today = datetime.date.today().isoformat()
     rows.update({(fault.room, fault.title): [today, verdict] for fault, verdict in verdicts})
     faults = read_faults(HERE / "faults.txt")
@@ -254,6 +266,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--changed", metavar="COMMIT")
+    parser.add_argument("--untried", action="store_true")
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "faults")
     parser.add_argument("--jobs", type=int, default=1)
@@ -263,6 +276,9 @@ def main():
     faults = [fault for fault in read_faults(HERE / "faults.txt")
               if not arguments.words or any(word in " ".join((fault.room, fault.title, fault.file))
                                             for word in arguments.words)]
+    if arguments.untried:
+        tried = tried_faults()
+        faults = [fault for fault in faults if (fault.room, fault.title) not in tried]
     changed = changed_since(arguments.changed) if arguments.changed else None
     lost = 0
     kept = []
