@@ -49,20 +49,20 @@ void compare_parts(const CompareArguments& arguments) {
   });
   Work work(common);
   const Execution reading = work.execution().part(0.0, reading_share);
-  PartsReport report;
-  report.parts = parts_of(read_mesh(measure.grain, reading));
+  PartsResult result;
+  result.parts = parts_of(read_mesh(measure.grain, reading));
   MeshFile reference = read_mesh_file(arguments.reference, reading);
-  report.warnings = std::move(reference.warnings);
-  report.grain = check_mesh(std::move(reference.mesh), MeshCheckOptions(), reading).mesh;
-  report.measures =
-      measure_parts(report.parts, report.grain, work.execution().part(reading_share, 1.0));
-  report.mass = mass_properties(describe_shape(report.grain, work.execution().part(1.0, 1.0)));
+  result.warnings = std::move(reference.warnings);
+  result.grain = check_mesh(std::move(reference.mesh), MeshCheckOptions(), reading).mesh;
+  result.measures =
+      measure_parts(result.parts, result.grain, work.execution().part(reading_share, 1.0));
+  result.original = describe_shape(result.grain, work.execution().part(1.0, 1.0));
   for (const std::string& name : common.reports) {
     work.write(name, [&](const std::string& path, const Execution& execution) {
-      write_report(path, report, origin_of(measure.grain), execution);
+      write_report(path, result, origin_of(measure.grain), execution);
     });
   }
-  work.print(report.warnings, parts_lines(report));
+  work.print(result.warnings, parts_lines(result));
 }
 
 }  // namespace

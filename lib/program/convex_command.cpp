@@ -10,18 +10,13 @@
 #include "remesh_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/convex/convex_parts.h"
-#include "wscvt/convex/part_files.h"
-#include "wscvt/remesh.h"
-#include "wscvt/remesh/remesh_warnings.h"
+#include "wscvt/convex/parts.h"
+#include "wscvt/exchange/part_files.h"
 #include "wscvt/report/parts_report.h"
 
 namespace wscvt::program {
 
-ConvexArguments::ConvexArguments() {
-  remesh.measures.suggestions = false;
-  remesh.node_count = convex_node_count;
-}
+ConvexArguments::ConvexArguments() { remesh.node_count = convex_node_count; }
 
 CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
   CLI::App& app = add_command(
@@ -76,35 +71,24 @@ int run(const ConvexArguments& arguments) {
   });
   Work work(common);
   MeshFile file = read_mesh_file(arguments.scan, work.execution().part(0.0, reading_share));
-  RemeshOptions options = arguments.remesh;
-  options.measures.repaired_scan = true;
-  RemeshResult result =
-      remesh(std::move(file.mesh), options, work.execution().part(reading_share, 0.3));
-
-  PartsReport report;
-  report.warnings = std::move(file.warnings);
-  const std::vector<std::string> of_scan = scan_warnings(result);
-  report.warnings.insert(report.warnings.end(), of_scan.begin(), of_scan.end());
-  report.parts = convex_parts(result.mesh, result.repaired_scan, arguments.options,
-                              work.execution().part(0.3, 0.9));
-  report.measures =
-      measure_parts(report.parts, result.repaired_scan, work.execution().part(0.9, 1.0));
-  report.mass = mass_properties(result.original);
-  report.grain = std::move(result.repaired_scan);
+  PartsResult result = make_parts(std::move(file.mesh), arguments.remesh, arguments.options,
+                                  work.execution().part(reading_share, 1.0));
+  result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
   const SimulationFrame frame = simulation_frame(result.original, arguments.frame);
-  ConvexParts written = report.parts;
+  const MassProperties mass = in_frame(mass_properties(result.original), frame);
+  ConvexParts written = result.parts;
   for (IndexedMesh& part : written) part = in_frame(std::move(part), frame);
   for (const std::string& output : arguments.outputs) {
     work.write(output, [&](const std::string& path, const Execution&) {
-      write_parts(path, written, in_frame(report.mass, frame), arguments.density);
+      write_parts(path, written, mass, arguments.density);
     });
   }
   for (const std::string& name : common.reports) {
     work.write(name, [&](const std::string& path, const Execution& execution) {
-      write_report(path, report, origin_of(arguments.scan), execution);
+      write_report(path, result, origin_of(arguments.scan), execution);
     });
   }
-  work.print(report.warnings, parts_lines(report));
+  work.print(result.warnings, parts_lines(result));
   return Done;
 }
 

@@ -9,9 +9,7 @@
 #include "conversion.h"
 #include "option_arguments.h"
 #include "work.h"
-#include "wscvt/convex/convex_parts.h"
-#include "wscvt/remesh.h"
-#include "wscvt/remesh/remesh_warnings.h"
+#include "wscvt/convex/parts.h"
 #include "wscvt/report/parts_report.h"
 
 namespace wscvt::python {
@@ -25,26 +23,17 @@ py::tuple convex(const Points& vertices, const py::object& faces, int parts, int
                  const py::kwargs& given) {
   RemeshOptions defaults;
   defaults.node_count = convex_node_count;
-  RemeshOptions remesh_options = options_of(given, defaults);
-  remesh_options.measures.suggestions = false;
-  remesh_options.measures.repaired_scan = true;
+  const RemeshOptions remesh_options = options_of(given, defaults);
   const ConvexOptions options{parts, part_faces, tolerance};
   IndexedMesh scan = mesh_of(vertices, faces);
-  const PartsReport report = work_on(threads, progress, [&](const Execution& execution) {
-    check_options(options);
-    RemeshResult result = remesh(std::move(scan), remesh_options, execution.part(0.0, 0.3));
-    PartsReport made;
-    made.warnings = scan_warnings(result);
-    made.parts = convex_parts(result.mesh, result.repaired_scan, options, execution.part(0.3, 0.9));
-    made.measures = measure_parts(made.parts, result.repaired_scan, execution.part(0.9, 1.0));
-    made.mass = mass_properties(result.original);
-    return made;
+  const PartsResult result = work_on(threads, progress, [&](const Execution& execution) {
+    return make_parts(std::move(scan), remesh_options, options, execution);
   });
   py::list list;
-  for (const IndexedMesh& part : report.parts) {
+  for (const IndexedMesh& part : result.parts) {
     list.append(py::make_tuple(array_of(part.points), array_of(part.triangles)));
   }
-  return py::make_tuple(list, parsed(parts_json(report)));
+  return py::make_tuple(list, parsed(parts_json(result)));
 }
 
 }  // namespace

@@ -20,17 +20,17 @@ namespace wscvt {
 namespace {
 
 /// A box 3 x 2 x 1 as three boxes that are `larger` on each outer side along y and z.
-PartsReport three_boxes(double larger) {
-  PartsReport report;
-  report.grain = test::box(3.0, 2.0, 1.0);
+PartsResult three_boxes(double larger) {
+  PartsResult result;
+  result.grain = test::box(3.0, 2.0, 1.0);
   for (const double x : {-1.0, 0.0, 1.0}) {
-    report.parts.push_back(test::moved(test::box(1.0, 2.0 + 2.0 * larger, 1.0 + 2.0 * larger), 1.0,
+    result.parts.push_back(test::moved(test::box(1.0, 2.0 + 2.0 * larger, 1.0 + 2.0 * larger), 1.0,
                                        Vector3(x, 0.0, 0.0)));
   }
-  report.measures = measure_parts(report.parts, report.grain);
-  report.mass = mass_properties(describe_shape(report.grain, Execution(1)));
-  report.warnings = {"A <warning>."};
-  return report;
+  result.measures = measure_parts(result.parts, result.grain);
+  result.original = describe_shape(result.grain, Execution(1));
+  result.warnings = {"A <warning>."};
+  return result;
 }
 
 /// The number at the right end of the page's colour scale.
@@ -53,18 +53,18 @@ TEST(PartsPage, HasTheScaleOfTheOuterSurface) {
 }
 
 TEST(PartsPage, NamesTheSourceTheWarningAndTheNumbers) {
-  const PartsReport report = three_boxes(0.05);
-  const std::string page = parts_html(report, {"a folder/a & b.ply", ""}, Execution(1));
+  const PartsResult result = three_boxes(0.05);
+  const std::string page = parts_html(result, {"a folder/a & b.ply", ""}, Execution(1));
   EXPECT_NE(page.find("<h1>3 convex parts of a &amp; b.ply</h1>"), std::string::npos);
   EXPECT_NE(page.find("A &lt;warning&gt;."), std::string::npos);
-  for (const std::string& line : parts_lines(report)) {
+  for (const std::string& line : parts_lines(result)) {
     EXPECT_NE(page.find(html_escaped(line)), std::string::npos) << line;
   }
 }
 
 TEST(PartsReportJson, HoldsTheMeasures) {
-  const PartsReport report = three_boxes(0.05);
-  const auto json = nlohmann::json::parse(parts_json(report, {"box.ply", "2026-11-26"}));
+  const PartsResult result = three_boxes(0.05);
+  const auto json = nlohmann::json::parse(parts_json(result, {"box.ply", "2026-11-26"}));
   EXPECT_EQ(json.at("parts"), 3);
   EXPECT_EQ(json.at("faces"), nlohmann::json({12, 12, 12}));
   EXPECT_EQ(json.at("source"), "box.ply");

@@ -38,9 +38,9 @@ std::string faces_text(const ConvexParts& parts) {
 
 }  // namespace
 
-std::vector<std::string> parts_lines(const PartsReport& report) {
-  const PartsMeasures& m = report.measures;
-  return {"Convex parts: " + std::to_string(report.parts.size()) + ", " + faces_text(report.parts),
+std::vector<std::string> parts_lines(const PartsResult& result) {
+  const PartsMeasures& m = result.measures;
+  return {"Convex parts: " + std::to_string(result.parts.size()) + ", " + faces_text(result.parts),
           "Distance from the parts to the grain: rms " + length_text(m.rms_distance, m) +
               ", largest " + length_text(m.largest_distance, m),
           "Points of the grain outside of the parts: at most " + length_text(m.largest_gap, m),
@@ -49,15 +49,15 @@ std::vector<std::string> parts_lines(const PartsReport& report) {
               " % that several parts hold"};
 }
 
-std::string parts_json(const PartsReport& report, const ReportOrigin& origin) {
-  const PartsMeasures& m = report.measures;
+std::string parts_json(const PartsResult& result, const ReportOrigin& origin) {
+  const PartsMeasures& m = result.measures;
   Json faces = Json::array();
-  for (const IndexedMesh& part : report.parts) faces.push_back(part.triangles.size());
+  for (const IndexedMesh& part : result.parts) faces.push_back(part.triangles.size());
   Json json = {{"format", "wscvt-convex-parts"},
                {"made_by", made_by()},
                {"source", told(origin.source)},
                {"date", told(origin.date)},
-               {"parts", report.parts.size()},
+               {"parts", result.parts.size()},
                {"faces", faces},
                {"largest_distance", m.largest_distance},
                {"largest_distance_percent", percent_of_radius(m.largest_distance, m)},
@@ -68,54 +68,54 @@ std::string parts_json(const PartsReport& report, const ReportOrigin& origin) {
                {"parts_volume", m.parts_volume},
                {"shared_volume", m.shared_volume},
                {"excess_volume_percent", m.excess_percent()},
-               {"mass_properties", json_of(report.mass)},
-               {"warnings", report.warnings}};
+               {"mass_properties", json_of(mass_properties(result.original))},
+               {"warnings", result.warnings}};
   return json_document(json);
 }
 
-std::string parts_html(const PartsReport& report, const ReportOrigin& origin,
+std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
                        const Execution& execution) {
-  const IndexedMesh shown = joined(report.parts);
+  const IndexedMesh shown = joined(result.parts);
   // Faces that parts turn to each other lie deep in the grain: they would take all of the scale.
-  const PageFigures figures = page_figures(ShownMesh{report.grain, "grain"}, {shown, "parts"},
-                                           execution, outer_points(report.parts));
+  const PageFigures figures = page_figures(ShownMesh{result.grain, "grain"}, {shown, "parts"},
+                                           execution, outer_points(result.parts));
   const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
-  HtmlDocument page(std::to_string(report.parts.size()) + " convex parts" +
+  HtmlDocument page(std::to_string(result.parts.size()) + " convex parts" +
                     (name.empty() ? "" : " of " + name));
   page.add_paragraph(origin_sentence(origin));
-  for (const std::string& warning : report.warnings) page.add_warning(warning);
+  for (const std::string& warning : result.warnings) page.add_warning(warning);
   page.add_figures(figures.pictures);
   page.add_heading("Distances and volume");
-  page.add_lines(parts_lines(report));
+  page.add_lines(parts_lines(result));
   page.add_heading("Mass properties of the grain");
-  page.add_rows(mass_rows({{"grain", report.mass}}));
+  page.add_rows(mass_rows({{"grain", mass_properties(result.original)}}));
   return page.text();
 }
 
 namespace {
 
-std::string parts_csv(const PartsReport& report, const ReportOrigin& origin) {
-  return csv_of(Json::parse(parts_json(report, origin)));
+std::string parts_csv(const PartsResult& result, const ReportOrigin& origin) {
+  return csv_of(Json::parse(parts_json(result, origin)));
 }
 
 }  // namespace
 
 void check_parts_report(const std::string& path) {
   if (report_format(path) == ReportFormat::Row) {
-    return check_table(path, parts_csv(PartsReport(), {}));
+    return check_table(path, parts_csv(PartsResult(), {}));
   }
   check_writable(path);
 }
 
-void write_report(const std::string& path, const PartsReport& report, const ReportOrigin& origin,
+void write_report(const std::string& path, const PartsResult& result, const ReportOrigin& origin,
                   const Execution& execution) {
   switch (report_format(path)) {
     case ReportFormat::Page:
-      return write_file(path, parts_html(report, origin, execution));
+      return write_file(path, parts_html(result, origin, execution));
     case ReportFormat::Document:
-      return write_file(path, parts_json(report, origin));
+      return write_file(path, parts_json(result, origin));
     case ReportFormat::Row:
-      return append_to_table(path, parts_csv(report, origin));
+      return append_to_table(path, parts_csv(result, origin));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/convex/part_files.h"
+#include "wscvt/exchange/part_files.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/convex/part_files.h"
+#include "wscvt/exchange/part_files.h"
 
 #include <gtest/gtest.h>
 
@@ -18,15 +18,15 @@ namespace wscvt {
 namespace {
 
 /// The numbers of the first attribute of this name.
-std::vector<double> numbers_of(const std::string& text, const std::string& attribute) {
+std::vector<double> attribute_numbers(const std::string& text, const std::string& attribute) {
   std::smatch found;
   if (!std::regex_search(text, found, std::regex("[ <]" + attribute + "=\"([^\"]*)\""))) return {};
   std::istringstream words(found[1].str());
   return {std::istream_iterator<double>(words), {}};
 }
 
-double number_of(const std::string& text, const std::string& attribute) {
-  const std::vector<double> numbers = numbers_of(text, attribute);
+double attribute_number(const std::string& text, const std::string& attribute) {
+  const std::vector<double> numbers = attribute_numbers(text, attribute);
   return numbers.size() == 1 ? numbers[0] : -1e300;
 }
 
@@ -58,16 +58,17 @@ class PartFiles : public test::FileFolder {
 TEST_F(PartFiles, OfUrdfHaveTheMassAndInertiaOfATurnedBox) {
   const std::string text = written("grain.urdf");
   const double rounding = 1e-9 * density * inertia.norm();
-  EXPECT_NEAR(numbers_of(text, "mass value").at(0), density * volume, 1e-9 * density * volume);
-  const std::vector<double> at = numbers_of(text, "xyz");
+  EXPECT_NEAR(attribute_numbers(text, "mass value").at(0), density * volume,
+              1e-9 * density * volume);
+  const std::vector<double> at = attribute_numbers(text, "xyz");
   ASSERT_EQ(at.size(), 3U);
   EXPECT_LT((Vector3(at[0], at[1], at[2]) - middle).norm(), 1e-9);
-  EXPECT_NEAR(number_of(text, "ixx"), density * inertia(0, 0), rounding);
-  EXPECT_NEAR(number_of(text, "ixy"), density * inertia(0, 1), rounding);
-  EXPECT_NEAR(number_of(text, "ixz"), density * inertia(0, 2), rounding);
-  EXPECT_NEAR(number_of(text, "iyy"), density * inertia(1, 1), rounding);
-  EXPECT_NEAR(number_of(text, "iyz"), density * inertia(1, 2), rounding);
-  EXPECT_NEAR(number_of(text, "izz"), density * inertia(2, 2), rounding);
+  EXPECT_NEAR(attribute_number(text, "ixx"), density * inertia(0, 0), rounding);
+  EXPECT_NEAR(attribute_number(text, "ixy"), density * inertia(0, 1), rounding);
+  EXPECT_NEAR(attribute_number(text, "ixz"), density * inertia(0, 2), rounding);
+  EXPECT_NEAR(attribute_number(text, "iyy"), density * inertia(1, 1), rounding);
+  EXPECT_NEAR(attribute_number(text, "iyz"), density * inertia(1, 2), rounding);
+  EXPECT_NEAR(attribute_number(text, "izz"), density * inertia(2, 2), rounding);
   std::ifstream part(path("grain_2.obj"));
   const std::string obj{std::istreambuf_iterator<char>(part), {}};
   EXPECT_EQ(obj.rfind("g part_2\nv ", 0), 0U);
@@ -77,17 +78,17 @@ TEST_F(PartFiles, OfUrdfHaveTheMassAndInertiaOfATurnedBox) {
 TEST_F(PartFiles, OfMujocoHaveTheMassAndInertiaOfATurnedBox) {
   const std::string text = written("grain.xml");
   const double rounding = 1e-9 * density * inertia.norm();
-  EXPECT_NEAR(number_of(text, "mass"), density * volume, 1e-9 * density * volume);
-  const std::vector<double> at = numbers_of(text, "pos");
+  EXPECT_NEAR(attribute_number(text, "mass"), density * volume, 1e-9 * density * volume);
+  const std::vector<double> at = attribute_numbers(text, "pos");
   ASSERT_EQ(at.size(), 3U);
   EXPECT_LT((Vector3(at[0], at[1], at[2]) - middle).norm(), 1e-9);
   // MuJoCo's order: xx, yy, zz, xy, xz, yz.
-  const std::vector<double> full = numbers_of(text, "fullinertia");
+  const std::vector<double> full = attribute_numbers(text, "fullinertia");
   ASSERT_EQ(full.size(), 6U);
   const std::vector<double> by_hand = {inertia(0, 0), inertia(1, 1), inertia(2, 2),
                                        inertia(0, 1), inertia(0, 2), inertia(1, 2)};
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(full[k], density * by_hand[k], rounding) << k;
-  EXPECT_EQ(numbers_of(text, "vertex").size(), 3 * box.points.size());
+  EXPECT_EQ(attribute_numbers(text, "vertex").size(), 3 * box.points.size());
 }
 
 TEST_F(PartFiles, OfObjHaveAGroupPerPart) {
