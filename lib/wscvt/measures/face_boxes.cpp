@@ -176,31 +176,6 @@ std::size_t FaceBoxes::nearby_face(const Vector3& point) const {
   return static_cast<std::size_t>(nodes_[i].faces);
 }
 
-double FaceBoxes::search(const Vector3& point, std::size_t& face) const {
-  double nearest = wscvt::squared_distance(faces_[face], point);
-  // A start as far as the face is large is no better than what a walk down the tree comes to.
-  if (nearest > (faces_[face][1] - faces_[face][0]).squaredNorm()) {
-    face = nearby_face(point);
-    nearest = wscvt::squared_distance(faces_[face], point);
-  }
-  for (std::size_t i = 0; i < nodes_.size();) {
-    const Node& node = nodes_[i];
-    if (node.squared_distance(point) >= nearest) {
-      i = static_cast<std::size_t>(node.beyond);
-      continue;
-    }
-    ++i;
-    if (node.faces < 0) continue;
-    visit_faces(node, [&](std::size_t candidate) {
-      const double distance = wscvt::squared_distance(faces_[candidate], point);
-      if (!(distance < nearest)) return;
-      nearest = distance;
-      face = candidate;
-    });
-  }
-  return nearest;
-}
-
 double FaceBoxes::squared_distance(const Vector3& point, std::size_t& face, double enough) const {
   double nearest = wscvt::squared_distance(faces_[face], point);
   // The nearer child first: of a point far inside many faces are nearly as far as the nearest.
@@ -273,7 +248,8 @@ std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,
   std::vector<double> result(points.size());
   execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     std::size_t face = 0;
-    for (std::size_t i = begin; i < end; ++i) result[i] = std::sqrt(search(points[i], face));
+    for (std::size_t i = begin; i < end; ++i)
+      result[i] = std::sqrt(squared_distance(points[i], face, 0.0));
   });
   return result;
 }
@@ -284,7 +260,7 @@ std::vector<MeshPlace> FaceBoxes::nearest_places(const std::vector<Vector3>& poi
   execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     std::size_t face = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      search(points[i], face);
+      squared_distance(points[i], face, 0.0);
       const auto& [a, b, c] = faces_[face];
       places[i] = {numbers_[face], nearest_weights(a, b, c, points[i])};
     }

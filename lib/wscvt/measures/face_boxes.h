@@ -86,9 +86,6 @@ class FaceBoxes {
     for (std::size_t face = begin; face < end; ++face) visit(face);
   }
   std::size_t nearby_face(const Vector3& point) const;
-  /// `face` is where the search starts, and becomes the nearest one; returns the square of its
-  /// distance.
-  double search(const Vector3& point, std::size_t& face) const;
 
   std::vector<Corners> faces_;         ///< in the order of the leaves
   std::vector<std::int32_t> numbers_;  ///< of these faces in the mesh
