@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
@@ -83,6 +86,30 @@ TEST(DescriptorReport, TextHasARowForEveryDescriptorAndDistance) {
     EXPECT_NE(text.find("  " + row.label + " "), std::string::npos) << row.label;
   }
   EXPECT_TRUE(distance_lines(one()).empty());
+}
+
+TEST(DescriptorReport, DistancesAreEachTheirOwnAndInPercentOfTheReferencesRadius) {
+  GrainMeasures measures = two();
+  MeshDistances distances;
+  distances.largest = 0.7;
+  distances.root_mean_square = 0.5;
+  distances.to_reference.maximum = 0.6;
+  distances.to_reference.root_mean_square = 0.4;
+  distances.to_reference.mean = 0.3;
+  distances.from_reference.maximum = 0.71;
+  distances.from_reference.root_mean_square = 0.51;
+  distances.from_reference.mean = 0.31;
+  measures.distances = distances;
+  std::vector<std::pair<std::string, double>> rows;
+  for (const DistanceRow& row : list_distances(measures)) rows.emplace_back(row.key, row.value);
+  const std::vector<std::pair<std::string, double>> expected = {
+      {"largest_distance", 0.7},  {"largest_to_reference", 0.6}, {"largest_from_reference", 0.71},
+      {"rms_distance", 0.5},      {"rms_to_reference", 0.4},     {"rms_from_reference", 0.51},
+      {"mean_to_reference", 0.3}, {"mean_from_reference", 0.31}};
+  EXPECT_EQ(rows, expected);
+  measures.reference->checked.report.equivalent_radius = 2.0;
+  const std::string line = distance_lines(measures).at(1);
+  EXPECT_EQ(line.substr(line.find_last_of(' ') + 1), "35") << line;
 }
 
 }  // namespace

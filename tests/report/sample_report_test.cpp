@@ -37,7 +37,7 @@ SampleReport report_of(Eigen::Index grains, bool with_other) {
         1.0 - 0.1 * (sizes.array() * 7.3).sin().abs();
     table.values(1, 4) = std::nan("");
     for (Eigen::Index row = 0; row < grains; ++row) {
-      table.grains.push_back("</script>" + std::to_string(row));
+      table.grains.push_back("a</script><!--" + std::to_string(row));
       table.files.push_back(std::to_string(row) + ".ply");
     }
     ReportedSample one;
@@ -114,7 +114,8 @@ TEST(SampleReport, APageHoldsItsDataAndLoadsNothing) {
   fs::remove_all(folder);
   const Document data = data_of(page);
   const Document& first = data.at("samples").at(0);
-  EXPECT_EQ(first.at("grains").at(4), "script>4") << "names without folders";
+  EXPECT_EQ(first.at("grains").at(4), "script><!--4") << "names without folders";
+  EXPECT_EQ(page.find("<!--"), std::string::npos) << "names end no element and begin no comment";
   EXPECT_EQ(first.at("size").at(4), 5.0);
   EXPECT_EQ(first.at("values").at(0).at(4), 125.0);
   EXPECT_TRUE(first.at("values").at(4).at(1).is_null());
