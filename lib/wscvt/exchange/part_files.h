@@ -11,16 +11,16 @@
 
 namespace wscvt {
 
-/// Density of a grain in the files of engines that want masses.
+/// Density of a grain in the files of engines that need masses.
 inline constexpr NumberOption<double> parts_density_option = {
     "density",     "density",
     0.0,           std::numeric_limits<double>::infinity(),
     Ends::Neither, "mass of a unit of volume, for the mass and inertia in .urdf and .xml"};
 
-/// The endings of files of parts: ".obj", ".urdf", ".xml".
+/// Returns the endings of files of parts: ".obj", ".urdf", ".xml".
 const std::vector<std::string>& part_endings();
 
-/// Throws Error(InvalidInput), with the endings, for a name that ends in none of them.
+/// Throws Error(InvalidInput), with the endings, for a name with another ending.
 void check_part_file(const std::string& path);
 
 /// Writes parts in the format of the ending, whole or not at all (see write_file):
