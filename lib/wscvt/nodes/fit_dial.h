@@ -14,7 +14,7 @@ struct FitDial {
   double early_angle = 0.0;       ///< kept by the earlier rounds
   double start_evenness = 0.0;    ///< evenness that the first rounds lead to
   double lead_rounds = 0.0;       ///< number of rounds that lead there
-  int heats = 1;                  ///< how often the evenness starts again
+  int heats = 1;                  ///< number of such leads, one after the other
   double first_steering = 0.0;    ///< round from which the ratio controls the evenness
   double ratio_slope = 0.0;       ///< fall of the ratio as the evenness grows by a factor e
   double plain_springs = 1.0;     ///< fraction of the springs that pull edges to their rest lengths
