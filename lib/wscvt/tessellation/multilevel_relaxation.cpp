@@ -67,7 +67,8 @@ void insert_seeds(Tessellation& tessellation, int extra) {
             .squaredNorm());
   }
   std::partial_sort(order.begin(), order.begin() + extra, order.end(),
-                    // A fixed order for equal areas, as in a lattice, must not depend on the sort.
+                    // A fixed order for equal areas, as of a lattice's triangles, must not depend
+                    // on the sort.
                     [&](std::size_t i, std::size_t j) {
                       return areas[i] != areas[j] ? areas[i] > areas[j] : i < j;
                     });
