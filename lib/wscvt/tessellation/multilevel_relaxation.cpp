@@ -66,12 +66,12 @@ void insert_seeds(Tessellation& tessellation, int extra) {
         doubled_area_normal(tessellation.seeds[a], tessellation.seeds[b], tessellation.seeds[c])
             .squaredNorm());
   }
-  std::partial_sort(order.begin(), order.begin() + extra, order.end(),
-                    // A fixed order for equal areas, as of a lattice's triangles, must not depend
-                    // on the sort.
-                    [&](std::size_t i, std::size_t j) {
-                      return areas[i] != areas[j] ? areas[i] > areas[j] : i < j;
-                    });
+  std::partial_sort(
+      order.begin(), order.begin() + extra, order.end(),
+      // A fixed order for equal areas, as of a lattice's triangles, must not depend on the sort.
+      [&](std::size_t i, std::size_t j) {
+        return areas[i] != areas[j] ? areas[i] > areas[j] : i < j;
+      });
   for (int k = 0; k < extra; ++k) {
     const auto [a, b, c] = tessellation.triangles[order[k]];
     const auto v = static_cast<std::int32_t>(tessellation.seeds.size());
