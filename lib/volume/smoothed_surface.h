@@ -16,11 +16,10 @@ inline constexpr NumberOption<int> smoothing_option = {
 /// smooths its steps. No vertex moves by more than half a voxel along each axis, so that thin parts
 /// keep their two sides (Gibson 1998, Constrained elastic surface nets). Then the mesh is scaled
 /// about its centroid to exactly the volume of the voxels inside the surface.
-/// encloses.
+///
 /// Each face gives two triangles, along the shorter diagonal. If two edges have the same two
 /// vertices, each gets one more, in its middle. Throws Error(NumericalFailure) if too little volume
 /// is left inside for scaling.
-/// is left inside that no scale can mend it.
 IndexedMesh smoothed_surface(const VoxelSurface& surface, int passes,
                              const VolumeGeometry& geometry);
 

@@ -20,8 +20,8 @@ namespace wscvt {
 //   .p3dat        PFC: the command "clump template create"
 //   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
 // All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
-// is diagonal, and hold the grain's mass properties: at unit density, but .molecule at a density
-// that is given, because LAMMPS cannot change it.
+// is diagonal. They contain the grain's mass properties at unit density; .molecule at the chosen
+// density, because LAMMPS cannot change it.
 
 /// Density of the grain in a .molecule file.
 inline constexpr NumberOption<double> clump_density_option = {

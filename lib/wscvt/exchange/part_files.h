@@ -27,7 +27,7 @@ void check_part_file(const std::string& path);
 /// - .obj: all parts, one group each, "part_1" to "part_K";
 /// - .urdf: a robot of one link, with the mass and inertia of `mass` times `density`. Its parts are
 ///   OBJ files beside it, "NAME_1.obj" to "NAME_K.obj", which are written first;
-/// - .xml: MuJoCo's MJCF, a free body with the same mass and inertia; the parts stand in the file.
+/// - .xml: MuJoCo's MJCF, a free body with the same mass and inertia; the file contains the parts.
 /// Coordinates keep all their digits. Throws Error(InputOutput) when a file cannot be written, and
 /// as check_part_file.
 void write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,

@@ -47,11 +47,6 @@ constexpr int evening_steps = 100;
 /// but edges along a rim leave no error there, however long. Without this bound the rim of a
 /// knapped stone of 25,000 vertices is crowded: 1000 nodes are 6.3 % of its radius off, 2.8 % with
 /// it. Densities of WSCVT-C are bounded by the paper's law.
-///
-/// Error-adaptive densities end at three times the mean. Sharp rims want more without end, but
-/// edges along a rim leave no error there, however long. Without this bound the rim of a knapped
-/// stone of 25,000 vertices is jammed: 1000 nodes are 6.3 % of its radius off, 2.8 % with it. Those
-/// of WSCVT-C are bounded by the paper's law.
 struct Steepness {
   double evened;
   double fitted;

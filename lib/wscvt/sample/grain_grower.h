@@ -34,7 +34,7 @@ struct GrownGrain {
 /// the sphere by smooth Voronoi masks, whose weights keep the variance across the seams. Each
 /// degree then gets the amplitude of the base grain. The whole gets the inertia of the base grain,
 /// moved a little towards a similar grain's. Offsets of grains with overhangs are joined by the
-/// same masks, and amplitudes are those of the radii.
+/// same masks, and amplitudes are the radii's.
 ///
 /// The base grains of grains 0 to n - 1 are all n grains of the sample once, and so on for each
 /// further n. Each grain has its own random stream, so grain k does not depend on the order of

@@ -22,7 +22,7 @@ struct SampleGrain {
   /// Standard deviations of the volume along the principal axes at this size, descending.
   Vector3 deviations = Vector3::Zero();
   /// The white grain is the grain stretched along its principal axes to the inertia of a sphere of
-  /// radius 1, so that it has no form. The series is that of the logarithm of its radius.
+  /// radius 1, so that it has no form. The series is of the logarithm of its radius.
   std::vector<double> white;
   /// If a grain has more overhangs than usual_fold_limit_percent, the surface is r(u) u + o(u) in
   /// either frame, with u spread over the scan. Empty for other grains.

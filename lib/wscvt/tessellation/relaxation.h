@@ -23,7 +23,6 @@ struct RelaxationResult {
 /// displacement and the standard deviation of (cell area / target) are below their tolerances, the
 /// seeds are at rest, a further step would tear the triangulation, or the iterations are used up.
 /// The report says which.
-/// of these is said in the report.
 ///
 /// Each step is 1.2 times the way from seed to centroid, plus Nesterov's momentum, dropped whenever
 /// it points uphill (O'Donoghue and Candes 2015, "Adaptive restart for accelerated gradient
