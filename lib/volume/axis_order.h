@@ -21,8 +21,8 @@ struct ArrayShape {
 };
 
 /// A volume's geometry, and the selected part of the array, by the convention of NumPy,
-/// scikit-image, napari and Fiji: dimensions of size one are ignored; the last three of the others
-/// are z, y and x, and dimensions before them are frames.
+/// scikit-image, napari and Fiji. Dimensions of size one are ignored. The last three of the others
+/// are z, y and x; dimensions before them are frames.
 struct ShapedVolume {
   VolumeGeometry geometry;
   std::vector<VolumeAxis> axes;  ///< the fastest first

@@ -7,14 +7,22 @@
 
 namespace wscvt {
 
-// The table of the labels of a volume: CSV (RFC 4180) with a row per label. Columns: "grain", the
-// volume and the label, as in the table of a sample; "label"; "name", the file's name of it;
-// "state", "taken" (it is remeshed), "written", "in N pieces" (the largest is written), "at the
-// border", "too small" or "failed"; "error", the message of a failure; "voxels"; "volume", of the
-// voxels; "unit", of length, as the file names it; "x_min" to "z_max", the box of its voxels;
-// "pieces", their number; "left_out", the fraction of its voxels outside the largest piece; and,
-// for a mesh that is written, "mesh_volume", of the largest piece, its pores filled; "vertices",
-// "faces" and "file".
+// The table of the labels of a volume: CSV (RFC 4180) with a row per label. Columns:
+//   grain           the volume and the label, as in the table of a sample
+//   label
+//   name            the file's name of the label
+//   state           "taken" (it is remeshed), "written", "in N pieces" (the largest is written),
+//                   "at the border", "too small" or "failed"
+//   error           the message of a failure
+//   voxels
+//   volume          of the voxels
+//   unit            of length, as the file names it
+//   x_min to z_max  the box of the voxels
+//   pieces          their number
+//   left_out        the fraction of voxels outside the largest piece
+// and, for a mesh that is written:
+//   mesh_volume     of the largest piece, its pores filled
+//   vertices, faces, file
 
 /// Result for a label.
 struct LabelOutcome {

@@ -26,10 +26,14 @@ std::unique_ptr<LabelVolume> open_legacy_vtk(const std::string& path, const Volu
 /// Opens HDF5, and MATLAB's files from version 7.3 on.
 std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice);
 
-/// Opens a raw file described by a JSON object: "dimensions", [x, y, z]; "type", such as "uint16";
-/// and if needed "byte_order", "little" (the default) or "big"; "spacing", [x, y, z] or one number;
-/// "origin", the centre of the first voxel; "unit"; "offset", bytes before the first voxel; "file",
-/// the raw file beside it; the default is this file's name with the ending .raw.
+/// Opens a raw file described by a JSON object with "dimensions", [x, y, z], "type", such as
+/// "uint16", and if needed:
+/// - "byte_order": "little" (the default) or "big";
+/// - "spacing": [x, y, z] or one number;
+/// - "origin": the centre of the first voxel;
+/// - "unit";
+/// - "offset": bytes before the first voxel;
+/// - "file": the raw file beside it; the default is this file's name with the ending .raw.
 std::unique_ptr<LabelVolume> open_raw(const std::string& path, const VolumeChoice& choice);
 
 /// Opens a folder of slices; see image_stack.h.

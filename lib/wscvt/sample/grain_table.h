@@ -51,8 +51,8 @@ std::string heading_of(const GrainColumn& column);
 /// Memory is about 20 bytes per field. Throws Error with the file and the line. InvalidInput if a
 /// row has another number of fields than the heading, a column of numbers contains a text, two
 /// columns have one name, no column contains numbers, no row contains a grain, or the file ends
-/// within a row: in quotes, or, for a table with a status as a batch writes it, without a line
-/// break. InputOutput if the file cannot be read.
+/// within a row. A row is cut if it ends in quotes, or, in a batch's table (with a status), without
+/// a line break. InputOutput if the file cannot be read.
 GrainTable read_grain_table(const std::string& path);
 
 }  // namespace wscvt
