@@ -261,8 +261,7 @@ void SphereFit::improve_freely(std::size_t k) {
 /// Centres come to lie on the medial axis, where the radius as the centre's depth has kinks. So
 /// steps along the axes are tried beside Gauss-Newton steps.
 void SphereFit::improve_inside(std::size_t k) {
-  constexpr double longest = 0.9;  // over the radius: after a smaller move the centre is still
-                                   // inside
+  constexpr double longest = 0.9;  // over the radius: after smaller moves the centre stays inside
   const auto try_move = [&](Vector3 move) {
     const Sphere before = spheres_[k];
     if (move.norm() > longest * before.radius) move *= longest * before.radius / move.norm();

@@ -58,8 +58,7 @@ FitSample sample_in_face(const SampledScan& scan, std::size_t t, const Eigen::Ve
 }  // namespace
 
 std::vector<FitSample> draw_fit_samples(const SampledScan& scan, std::size_t count, double cell) {
-  constexpr double golden = 0.61803398874989485;  // its multiples are evenly distributed over [0,
-                                                  // 1)
+  constexpr double golden = 0.61803398874989485;  // its multiples modulo 1 are evenly distributed
   const std::size_t faces = scan.mesh.triangles.size();
   std::vector<double> doubled_areas(faces);
   double total = 0.0;

@@ -22,7 +22,7 @@ inline constexpr double ring_stiffness = 0.13;
 /// times this, so that a cone's tip is not lost to the mean.
 inline constexpr double robust_weight = 0.3;
 inline constexpr double most_robust = 9.0;
-/// Weight of the edges around in a rest length; the rest is the mean edge of the mesh. Only local
+/// Weight of the surrounding mean edge in a rest length, against the mesh's mean edge. Only local
 /// means would let density drift; only the mesh's mean would cost distance. With a wanted density
 /// the local weight is smaller, so that the fit does not even the density out.
 inline constexpr double even_local_share = 0.9;

@@ -113,8 +113,7 @@ std::vector<double> node_densities(const IndexedMesh& surface, CellWeighting wei
                                    double curvature_alpha, int node_count,
                                    const Execution& execution) {
   if (weighting == CellWeighting::Area) return {};
-  constexpr int rings = 2;  // the paper fits over one ring, but scans then leave the fit
-                            // under-determined
+  constexpr int rings = 2;  // the paper fits over one, which scans leave under-determined
   const std::vector<PrincipalCurvatures> curvatures =
       quadric_fit_curvatures(surface, rings, execution);
   const std::vector<double> areas = vertex_areas(surface);

@@ -41,14 +41,14 @@ class PublishedRemesher : public RemeshMethod {
   /// Steps 3 to 5.
   Nodes place(int node_count, const Execution& execution) const override;
 
-  /// Returns the coefficients of the series; empty of a formula.
+  /// Returns the coefficients of the series; empty for a formula.
   const std::vector<double>& coefficients() const { return coefficients_; }
   const HarmonicFitReport& fit() const { return report_.fit; }
 
  private:
   AsPublishedOptions options_;
   bool with_curvatures_;
-  std::unique_ptr<const RadialSurface> series_;  ///< nullptr of a formula
+  std::unique_ptr<const RadialSurface> series_;  ///< nullptr for a formula
   const RadialSurface* surface_ = nullptr;       ///< the series, or the formula
   std::optional<MeshSurface> rays_;              ///< for nodes on the scan
   std::vector<double> coefficients_;

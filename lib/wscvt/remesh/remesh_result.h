@@ -35,8 +35,8 @@ struct OnScanReport {
 
 /// Report of the method AsPublished.
 struct AsPublishedReport {
-  double overhang_fraction = 0.0;  ///< of the scan, see folded_solid_angle; 0 of a formula
-  HarmonicFitReport fit;           ///< of the SH series; empty of a formula
+  double overhang_fraction = 0.0;  ///< of the scan, see folded_solid_angle; 0 for a formula
+  HarmonicFitReport fit;           ///< of the SH series; empty for a formula
   RelaxationReport relaxation;
 };
 

@@ -22,11 +22,9 @@ namespace {
 
 constexpr double mask_sharpness = 10.0;  ///< a seam is about 2 / this radians wide
 constexpr double largest_gain = 3.0;     ///< of a degree's amplitude; the smallest is its inverse
-constexpr int first_fine_degree = 7;     ///< from here on, amplitudes are also set in the final
-                                         ///< frame
+constexpr int first_fine_degree = 7;     ///< from here on amplitudes are set in the final frame too
 constexpr double smallest_radius_left = 0.02;  ///< of a grain of radius 1
-constexpr double near_fraction = 0.02;         ///< fraction of the sample from which donors are
-                                               ///< drawn
+constexpr double near_fraction = 0.02;         ///< of the sample; donors are drawn from it
 constexpr std::size_t fewest_near = 5;
 constexpr double jitter_of_size = 0.15;  ///< over the deviation of the logarithm of the sizes
 constexpr int most_attempts = 200;

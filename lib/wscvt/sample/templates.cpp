@@ -18,14 +18,11 @@ namespace wscvt {
 namespace {
 
 constexpr const char* stage = "Choosing templates";
-constexpr std::size_t levels = 100;     ///< number of points at which distribution functions are
-                                        ///< compared
-constexpr std::size_t candidates = 24;  ///< random grains, of which the one with the largest demand
-                                        ///< is tried
+constexpr std::size_t levels = 100;     ///< points at which distribution functions are compared
+constexpr std::size_t candidates = 24;  ///< random grains; the one in largest demand is tried
 constexpr int swaps_per_template = 100;
 constexpr int least_swaps = 2000;
-constexpr int absolute_rounds = 12;  ///< reweighting from least squares to least absolute
-                                     ///< differences
+constexpr int absolute_rounds = 12;  ///< rounds from least squares to least absolute differences
 constexpr int random_choices = 20;
 /// Weight of the equation that the weights sum to 1, relative to a descriptor's.
 constexpr double sum_weight = 1e3;
