@@ -17,14 +17,14 @@ std::string text_of(const std::vector<std::int64_t>& counts) {
   return text;
 }
 
-/// The roles of dimensions by habit.
+/// Returns the conventional roles of dimensions.
 std::vector<int> usual_roles(const std::vector<std::int64_t>& counts) {
   std::vector<int> roles(counts.size(), -1);
-  int next = 0;  // x, which is the last
+  int next = 0;  // x, the last dimension
   for (std::size_t k = counts.size(); k-- > 0 && next < 3;) {
     if (counts[k] > 1) roles[k] = next++;
   }
-  // An image is refused as what it is, so that it needs a dimension of one slice.
+  // An image gets a dimension of one slice, so that its refusal names the real cause.
   for (std::size_t k = counts.size(); k-- > 0 && next < 3;) {
     if (roles[k] < 0) roles[k] = next++;
   }

@@ -10,26 +10,27 @@
 
 namespace wscvt {
 
-/// Dimensions of an array, whose file does not say what they are, as they stand in the file.
+/// Dimensions of an array whose file does not say their meaning, in the file's order.
 struct ArrayShape {
-  std::vector<std::int64_t> counts;  ///< the slowest first, as NumPy and HDF5 name them
-  /// Which dimensions are x, y and z (0, 1, 2); -1: none of space. Empty: by habit, see
+  std::vector<std::int64_t> counts;  ///< the slowest first, as in NumPy and HDF5
+  /// For each dimension, 0, 1, 2 if it is x, y, z; -1: not space. Empty: by convention, see
   /// volume_of_shape.
   std::vector<int> roles = {};
-  Vector3 voxel_size = Vector3::Zero();  ///< along x, y, z; not above 0: it is not said
+  Vector3 voxel_size = Vector3::Zero();  ///< along x, y, z; not above 0: unknown
   std::string unit;
 };
 
-/// A volume's geometry, and what is taken of the array, by the habit of NumPy, scikit-image, napari
-/// and Fiji: dimensions of one place count for nothing; of those that are left the last three are
-/// z, y and x, and others before them are frames.
+/// A volume's geometry, and the selected part of the array, by the convention of NumPy,
+/// scikit-image, napari and Fiji. Dimensions of size one are ignored. The last three of the others
+/// are z, y and x; dimensions before them are frames.
 struct ShapedVolume {
   VolumeGeometry geometry;
   std::vector<VolumeAxis> axes;  ///< the fastest first
   std::vector<BlockPick> picks;
 };
 
-/// Throws Error(InputOutput), naming the file `path`, for shapes that are no volume.
+/// Returns the geometry and the selection. Throws Error(InputOutput), naming the file `path`, for
+/// shapes that are no volume.
 ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice,
                              const std::string& path);
 

@@ -23,7 +23,7 @@ namespace wscvt {
 
 namespace {
 
-/// Bytes that are fetched at once.
+/// Bytes per read.
 constexpr std::size_t block_size = std::size_t{1} << 20;
 
 class FileBytes : public ByteSource {
@@ -44,7 +44,7 @@ class FileBytes : public ByteSource {
   }
 
   void skip(std::uint64_t count) override {
-    // Inside the buffer it is kept, which seeking would throw away.
+    // Skips within the buffer, which seeking would discard.
     if (count < block_size) {
       stream_.ignore(static_cast<std::streamsize>(count));
     } else {
@@ -75,7 +75,7 @@ class InflatedBytes : public ByteSource {
  public:
   InflatedBytes(std::unique_ptr<ByteSource> packed, std::string path)
       : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {
-    constexpr int gzip_or_zlib = 32;  // told apart by their first bytes
+    constexpr int gzip_or_zlib = 32;  // zlib distinguishes them by their first bytes
     if (::inflateInit2(&stream_, MAX_WBITS + gzip_or_zlib) != Z_OK) throw std::bad_alloc();
   }
   InflatedBytes(const InflatedBytes&) = delete;
@@ -177,7 +177,7 @@ class BunzippedBytes : public ByteSource {
   bz_stream stream_{};
 };
 
-/// The six bits that each character stands for; -1 for those that stand for none.
+/// Six-bit values of the characters; -1 for other characters.
 constexpr std::array<signed char, 256> base64_values() {
   std::array<signed char, 256> values{};
   for (auto& value : values) value = -1;
@@ -204,7 +204,8 @@ class Base64Bytes : public ByteSource {
         made_.clear();
         next_ = 0;
         if (has_ended_) return filled;
-        // Four characters are three bytes; a text ends with fewer, and "=" in the others' place.
+        // Four characters are three bytes; the last group of a text may be shorter, padded with
+        // "=".
         std::array<int, 4> group{};
         std::size_t held = 0;
         std::size_t padding = 0;
@@ -241,7 +242,7 @@ class Base64Bytes : public ByteSource {
   }
 
  private:
-  /// -1 at the end.
+  /// Returns the next character; -1 at the end.
   int next_character() {
     if (begin_ == end_) {
       begin_ = 0;
@@ -304,7 +305,7 @@ class BytesOfNumbers : public ByteSource {
     return true;
   }
 
-  /// -1 at the end, which a "<" of XML is.
+  /// Returns the next character; -1 at the end or at a "<" of XML.
   int next_character() {
     if (has_ended_) return -1;
     if (begin_ == end_) {
@@ -362,7 +363,7 @@ class PickedBytes : public ByteSource {
   std::uint64_t block_;
   std::uint64_t count_;
   std::uint64_t place_;
-  std::uint64_t left_ = 0;  ///< of the block
+  std::uint64_t left_ = 0;  ///< in the block
   bool is_first_ = true;
 };
 

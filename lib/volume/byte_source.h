@@ -10,56 +10,56 @@
 
 namespace wscvt {
 
-// Bytes of a volume in their order, as often as wanted from the beginning: a volume is larger than
-// the memory, and what is packed can be read in no other order.
+// Bytes of a volume in their order, readable repeatedly from the beginning. A volume is larger than
+// the memory, and packed data can be read in no other order.
 
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
 
-  /// Fills `bytes` and returns how many there were: fewer than `count` only at the end.
+  /// Fills `bytes` and returns the number of bytes read: fewer than `count` only at the end.
   virtual std::size_t read(char* bytes, std::size_t count) = 0;
 
-  /// Passes over bytes; over fewer at the end.
+  /// Skips bytes; fewer at the end.
   virtual void skip(std::uint64_t count);
 
-  /// Back to the first byte.
+  /// Goes back to the first byte.
   virtual void rewind() = 0;
 };
 
-/// The bytes of a file from `offset` on. Throws Error(InputOutput) when it cannot be opened.
+/// Returns the bytes of a file from `offset` on. Throws Error(InputOutput) if it cannot be opened.
 std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t offset);
 
-/// What the gzip or zlib streams hold that stand one behind the other in `packed`. Reading throws
-/// Error(InputOutput), naming the file `path`, when they are damaged.
+/// Returns the unpacked bytes of consecutive gzip or zlib streams in `packed`. Reading throws
+/// Error(InputOutput), naming the file `path`, if they are damaged.
 std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, std::string path);
 
-/// The same for bzip2.
+/// Returns the unpacked bytes of bzip2 streams in the same way.
 std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, std::string path);
 
-/// What the base64 texts hold that stand one behind the other in `text`, up to the first character
-/// that is none of theirs. White space is passed over.
+/// Decodes consecutive base64 texts in `text`, up to the first character that is not base64. Skips
+/// white space.
 std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text);
 
-/// The numbers of a text, between which white space or commas stand, as little-endian doubles of
-/// eight bytes, up to a "<" or the end. Reading throws Error(InputOutput), naming the file `path`,
-/// for what is no number.
+/// Reads the numbers of a text, separated by white space or commas, up to a "<" or the end, as
+/// little-endian doubles of eight bytes. Reading throws Error(InputOutput), naming the file `path`,
+/// for other text.
 std::unique_ptr<ByteSource> bytes_of_numbers(std::unique_ptr<ByteSource> text, std::string path);
 
-/// Of every `count` blocks of `block` bytes the one at `place`.
+/// Returns block number `place` of every `count` blocks of `block` bytes.
 std::unique_ptr<ByteSource> picked_bytes(std::unique_ptr<ByteSource> bytes, std::uint64_t block,
                                          std::uint64_t count, std::uint64_t place);
 
-/// What stands behind the first `offset` bytes.
+/// Returns the bytes after the first `offset` bytes.
 std::unique_ptr<ByteSource> bytes_behind(std::unique_ptr<ByteSource> bytes, std::uint64_t offset);
 
-/// `part` bytes of each of `paths`, one behind the other; `open` gives the bytes of one of them.
-/// Reading throws Error(InputOutput), naming the file, where one holds fewer.
+/// Returns the first `part` bytes of each of `paths`, one after the other; `open` returns the bytes
+/// of one file. Reading throws Error(InputOutput), naming the file, if a file has fewer.
 std::unique_ptr<ByteSource> joined_bytes(
     std::vector<std::string> paths, std::uint64_t part,
     std::function<std::unique_ptr<ByteSource>(const std::string& path)> open);
 
-/// Size of a file in bytes. Throws Error(InputOutput) when it is not there.
+/// Returns the size of a file in bytes. Throws Error(InputOutput) if it does not exist.
 std::uint64_t file_size(const std::string& path);
 
 }  // namespace wscvt

@@ -25,7 +25,7 @@ Side side_of(const std::vector<std::uint64_t>& counts, std::size_t begin, std::s
   return side;
 }
 
-/// Where a window of `width` values holds most, by its middle; a peak that is flat, by that of it.
+/// Returns the middle of the fullest window of `width` values; of a flat peak, the peak's middle.
 double peak_of(const std::vector<std::uint64_t>& counts, std::size_t begin, std::size_t end,
                std::size_t width) {
   std::uint64_t sum = 0;
@@ -71,7 +71,7 @@ double level_between_peaks(const std::vector<std::uint64_t>& counts) {
   const auto parted = static_cast<std::size_t>(otsu_level(counts));
   const double contrast =
       side_of(counts, parted, counts.size()).mean() - side_of(counts, 0, parted).mean();
-  // Wide enough for the noise of the counts, narrow against the distance of the peaks.
+  // Wide against the noise of the counts, narrow against the distance of the peaks.
   const auto width = static_cast<std::size_t>(std::max(1.0, std::round(contrast / 8.0)));
   return 0.5 * (peak_of(counts, 0, parted, width) + peak_of(counts, parted, counts.size(), width));
 }

@@ -6,15 +6,14 @@
 
 namespace wscvt {
 
-/// The grey value that parts a histogram of two peaks, void and material: half way between the
-/// peaks. Otsu's threshold finds the two sides, and the peak of each is the fullest place of its
-/// counts, smoothed. Otsu's own threshold lies nearer to the wider side, and is off by what the
-/// shares of the two are. `counts` are those of the grey values 0, 1, 2, ...; at least two of them
-/// are above 0.
+/// Returns the grey value half way between the two peaks of a histogram, void and material. Otsu's
+/// threshold separates the two sides; each peak is the maximum of its side's smoothed counts.
+/// Otsu's threshold itself lies nearer to the wider side, and depends on the fractions of the two.
+/// `counts` are for the grey values 0, 1, 2, ...; at least two are above 0.
 double level_between_peaks(const std::vector<std::uint64_t>& counts);
 
-/// Otsu's: the grey value, of those that the histogram has, that parts it into values below and
-/// from it on with the largest variance between the means of the two.
+/// Returns Otsu's threshold: the grey value in the histogram for which the values below and from it
+/// on have the largest variance between their means.
 double otsu_level(const std::vector<std::uint64_t>& counts);
 
 }  // namespace wscvt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5, slice by slice, by its own library (4 MB); MATLAB's files are HDF5 from version 7.3 on.
+// HDF5, read slice by slice by its own library (4 MB). MATLAB's files are HDF5 from version 7.3 on.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -23,15 +23,15 @@ namespace wscvt {
 
 namespace {
 
-/// Debian's library is for one thread at a time, and volumes of a batch are read by several.
+/// Locks the library: Debian's is not thread-safe, and several threads of a batch read volumes.
 std::unique_lock<std::mutex> alone() {
   static std::mutex mutex;
   std::unique_lock<std::mutex> lock(mutex);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints of every error
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // otherwise it prints every error
   return lock;
 }
 
-/// What the library opened, closed at the end of its scope.
+/// An object of the library, closed at the end of its scope.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -57,7 +57,7 @@ class Handle {
 std::optional<VoxelType> type_of(hid_t data_set) {
   Handle type(H5Dget_type(data_set), H5Tclose);
   if (!type.is_there()) return std::nullopt;
-  // h5py's and PyTables' truth values are names of 0 and 1.
+  // Truth values of h5py and PyTables are enumerations of 0 and 1.
   if (H5Tget_class(type) == H5T_ENUM) type = Handle(H5Tget_super(type), H5Tclose);
   const std::size_t size = H5Tget_size(type);
   const bool is_float = H5Tget_class(type) == H5T_FLOAT;
@@ -77,11 +77,11 @@ std::vector<hsize_t> counts_of(hid_t data_set) {
   return counts;
 }
 
-/// The paths of the data sets that can be a volume.
+/// Finds the paths of the data sets that can be a volume.
 void find_volumes(hid_t group, const std::string& path, int depth, std::size_t& left,
                   std::vector<std::string>& found) {
   H5G_info_t info{};
-  constexpr int deepest = 16;  // groups may hold themselves
+  constexpr int deepest = 16;  // groups may contain themselves
   if (depth > deepest || H5Gget_info(group, &info) < 0) return;
   for (hsize_t k = 0; k < info.nlinks && left > 0; ++k, --left) {
     char name[512];
@@ -106,7 +106,8 @@ void find_volumes(hid_t group, const std::string& path, int depth, std::size_t& 
 
 bool is_of_matlab(hid_t data_set) { return H5Aexists(data_set, "MATLAB_class") > 0; }
 
-/// Along x, y and z, of an attribute that Fiji and ilastik write: z, y, x in micrometres.
+/// Returns the voxel size along x, y and z, from an attribute of Fiji and ilastik: z, y, x in
+/// micrometres.
 Vector3 voxel_size_of(hid_t data_set) {
   Vector3 size = Vector3::Zero();
   constexpr const char* name = "element_size_um";
@@ -129,7 +130,8 @@ ArrayShape shape_of(hid_t data_set, const std::string& path) {
     shape.counts.push_back(static_cast<std::int64_t>(count));
   }
   if (is_of_matlab(data_set)) {
-    // MATLAB's rows are y, its columns x, and the first runs fastest; the file has them turned.
+    // MATLAB's rows are y, its columns x, and the first dimension is the fastest; the file reverses
+    // them.
     shape.roles.assign(shape.counts.size(), -1);
     const std::size_t last = shape.counts.size() - 1;
     shape.roles[last] = 1;
@@ -141,7 +143,7 @@ ArrayShape shape_of(hid_t data_set, const std::string& path) {
   return shape;
 }
 
-/// Reads a slice at a time.
+/// Reads one slice at a time.
 class Hdf5Volume : public LabelVolume {
  public:
   Hdf5Volume(const ShapedVolume& volume, std::string path, std::string name,
@@ -149,7 +151,7 @@ class Hdf5Volume : public LabelVolume {
       : LabelVolume(volume.geometry), path_(std::move(path)) {
     const auto lock = alone();
     file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    // The dimensions, the slowest first; the first of space is that of slices.
+    // The dimensions, the slowest first; the first dimension of space is the slices'.
     for (std::size_t k = volume.axes.size(); k-- > 0;) {
       const VolumeAxis& axis = volume.axes[k];
       const bool is_space = axis.kind == AxisKind::Space;
@@ -192,7 +194,7 @@ class Hdf5Volume : public LabelVolume {
  private:
   static constexpr std::size_t none = 100;
 
-  /// Chunks that reach into the slice at work stay unpacked, up to 256 MB of them.
+  /// Keeps unpacked chunks of the current slice in memory, up to 256 MB.
   Handle access_list(const std::string& name) const {
     Handle list(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     const Handle plain(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
@@ -206,7 +208,7 @@ class Hdf5Volume : public LabelVolume {
       bytes *= chunks * static_cast<double>(chunk[k]);
     }
     constexpr double most = 256.0 * 1024 * 1024;
-    constexpr std::size_t slots = 100003;  // a prime, as the library wants it
+    constexpr std::size_t slots = 100003;  // a prime, as the library recommends
     H5Pset_chunk_cache(list, slots, static_cast<std::size_t>(std::min(bytes, most)), 1.0);
     return list;
   }
@@ -245,7 +247,7 @@ class Hdf5Volume : public LabelVolume {
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice) {
-  file_size(path);  // throws where there is none
+  file_size(path);  // throws if there is no file
   std::string name;
   ArrayShape shape;
   {

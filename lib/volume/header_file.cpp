@@ -23,7 +23,7 @@ HeaderFile::HeaderFile(const std::string& path, std::uint64_t begin)
 std::string HeaderFile::line() {
   constexpr std::size_t most_lines = 10000;
   constexpr std::size_t most_characters = 10000;
-  // Looked at before it is read: a line of voxels may be as long as the file.
+  // Checked before reading, because a line of voxels may be as long as the file.
   const std::string_view ahead = reader_.peek(most_characters);
   const bool has_end = ahead.size() < most_characters || ahead.find('\n') != std::string_view::npos;
   const std::optional<std::string_view> text = has_end ? reader_.line() : std::nullopt;

@@ -12,23 +12,23 @@
 
 namespace wscvt {
 
-/// The lines at the beginning of a file, before its voxels.
+/// Reads the lines at the beginning of a file, before its voxels.
 class HeaderFile {
  public:
-  /// Begins at the byte `begin`. Throws Error(InputOutput) when the file cannot be opened.
+  /// Begins at the byte `begin`. Throws Error(InputOutput) if the file cannot be opened.
   explicit HeaderFile(const std::string& path, std::uint64_t begin = 0);
 
-  /// The next line, without white space at its ends. Throws Error(InputOutput) where the file ends,
-  /// and after more lines or longer ones than a header has.
+  /// Returns the next line, without white space at its ends. Throws Error(InputOutput) at the end
+  /// of the file, and for more or longer lines than a header has.
   std::string line();
 
   bool is_at_end() const { return reader_.remaining() == 0; }
 
-  /// Bytes up to the end of the line read last.
+  /// Returns the number of bytes up to the end of the last line read.
   std::uint64_t offset() const { return size_ - reader_.remaining(); }
   std::uint64_t size() const { return size_; }
 
-  /// Throws Error(InputOutput), naming the line read last.
+  /// Throws Error(InputOutput), naming the last line read.
   [[noreturn]] void fail_line(const std::string& what) const { reader_.fail_line(what); }
 
  private:
@@ -37,14 +37,14 @@ class HeaderFile {
   ByteReader reader_;
 };
 
-/// The numbers of a text, between which stand blanks, commas and brackets. Throws
-/// Error(InputOutput), naming the line, where one is none.
+/// Returns the numbers of a text, separated by blanks, commas and brackets. Throws
+/// Error(InputOutput), naming the line, for other text.
 std::vector<double> numbers_in(std::string_view text, const HeaderFile& file);
 
-/// The same for three of them.
+/// Returns three such numbers.
 Vector3 vector_in(std::string_view text, const HeaderFile& file);
 
-/// A whole number. Throws Error(InputOutput), naming the line.
+/// Returns a whole number. Throws Error(InputOutput), naming the line.
 std::int64_t whole_number_of(std::string_view text, const HeaderFile& file);
 
 }  // namespace wscvt

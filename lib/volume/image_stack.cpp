@@ -23,7 +23,7 @@ bool is_tiff(const std::string& name) {
   return ending == ".tif" || ending == ".tiff";
 }
 
-/// What is in a folder.
+/// Files of a folder.
 struct FolderContent {
   std::vector<std::string> tiffs;
   std::vector<std::string> pngs;
@@ -42,7 +42,7 @@ FolderContent content_of(const std::string& folder) {
       (is_tiff(name) ? content.tiffs : content.pngs).push_back(entry.path().string());
     }
   }
-  // Numbers in names by their values: 9 before 10.
+  // Compares numbers in names by value: 9 before 10.
   const auto comes_before = [](const std::string& a, const std::string& b) {
     return ::strverscmp(a.c_str(), b.c_str()) < 0;
   };
@@ -64,7 +64,7 @@ std::string sentence_of_others(const std::vector<std::string>& names) {
   return text + ".";
 }
 
-/// The last number in a name; nothing where there is none.
+/// Returns the last number in a name; nothing without a number.
 std::optional<std::int64_t> number_of(const std::string& path) {
   const std::string stem = fs::path(path).stem().string();
   const std::size_t end = stem.find_last_of("0123456789");
@@ -74,7 +74,7 @@ std::optional<std::int64_t> number_of(const std::string& path) {
   return whole_number_in(std::string_view(stem).substr(begin, end + 1 - begin));
 }
 
-/// A sentence about the first slice that is not there where names are numbered; empty: none.
+/// Returns a sentence about the first missing slice of numbered names; empty if none is missing.
 std::string sentence_of_gap(const std::vector<std::string>& paths) {
   std::vector<std::int64_t> numbers;
   for (const std::string& path : paths) {

@@ -52,7 +52,7 @@ namespace {
 template <class Value>
 using VoxelImage = itk::Image<Value, 3>;
 
-/// The voxels as an image of ITK, which refers to them.
+/// Returns the voxels as an image of ITK that refers to them.
 template <class Value>
 typename VoxelImage<Value>::Pointer image_of(const Value* voxels, const FilterCounts& counts,
                                              const std::array<double, 3>& spacing = {1.0, 1.0,
@@ -66,14 +66,14 @@ typename VoxelImage<Value>::Pointer image_of(const Value* voxels, const FilterCo
   auto image = VoxelImage<Value>::New();
   image->SetRegions(size);
   image->SetSpacing(lengths);
-  // No filter here works in place, so that nothing is written.
+  // No filter here works in place, so nothing is written.
   image->GetPixelContainer()->SetImportPointer(const_cast<Value*>(voxels),
                                                size[0] * size[1] * size[2], false);
   return image;
 }
 
-/// Passes a filter's progress on. A filter reports from destructors too, which must not throw: a
-/// cancel is kept, and the filter asked to end.
+/// Forwards a filter's progress. Filters also report from destructors, which must not throw. So a
+/// cancel is stored, and the filter is asked to end.
 class Progress : public itk::Command {
  public:
   using Self = Progress;
@@ -106,8 +106,8 @@ class Progress : public itk::Command {
   std::exception_ptr cancel_;
 };
 
-/// Runs a filter on this thread alone: threads are those of Execution, which goes on with fewer
-/// where the machine refuses them. `execution` may be null, on other threads than the caller's.
+/// Runs a filter on this thread only. Execution provides the threads and continues with fewer if
+/// the machine refuses some. `execution` is null on other threads than the caller's.
 template <class Filter>
 void run(Filter& filter, const Execution* execution, const std::string& stage) {
   auto progress = Progress::New();
@@ -128,7 +128,7 @@ void run(Filter& filter, const Execution* execution, const std::string& stage) {
   progress->throw_cancel();
 }
 
-/// Said before a filter is made: those that a filter makes for itself follow it too.
+/// Call this before making a filter, so that its inner filters follow it too.
 void use_one_thread() {
   itk::MultiThreaderBase::SetGlobalDefaultThreader(itk::MultiThreaderBase::ThreaderEnum::Platform);
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1);
@@ -144,7 +144,7 @@ std::vector<std::uint16_t> median_of(const std::vector<std::uint16_t>& grey,
   const auto slice = static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]);
   const auto slices = static_cast<std::size_t>(counts[2]);
   std::vector<std::uint16_t> result(grey.size());
-  // A block of slices with those beside it is an image of its own.
+  // A block of slices with its neighbouring slices is an image of its own.
   const auto smooth = [&](std::size_t begin, std::size_t end) {
     const std::size_t first = begin - std::min<std::size_t>(begin, 1);
     const std::size_t last = std::min(slices, end + 1);
@@ -189,19 +189,19 @@ std::vector<std::uint32_t> basins_of(const std::vector<std::uint8_t>& mask,
                                      const FilterCounts& counts,
                                      const std::array<double, 3>& spacing, double depth,
                                      const Execution& execution) {
-  // Without one of the two there is no distance.
+  // Without material or without void there is no distance.
   if (std::find(mask.begin(), mask.end(), 0) == mask.end()) return {mask.begin(), mask.end()};
   if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return {mask.begin(), mask.end()};
   use_one_thread();
-  // Depths below the highest maximum, in steps that are a small share of `depth`: 16 bits hold
-  // them, and ITK's watershed copies them several times.
+  // Depths below the highest maximum, in steps of a small fraction of `depth`. They fit in 16 bits,
+  // and ITK's watershed copies them several times.
   double step = depth / 100.0;
   std::vector<std::uint16_t> heights(mask.size(), std::numeric_limits<std::uint16_t>::max());
   {
     auto filter =
         itk::SignedMaurerDistanceMapImageFilter<VoxelImage<std::uint8_t>, VoxelImage<float>>::New();
     filter->SetInput(image_of(mask.data(), counts, spacing));
-    filter->SetBackgroundValue(1);  // what is measured from is of 0
+    filter->SetBackgroundValue(1);  // distances are measured from voxels of 0
     filter->SetUseImageSpacing(true);
     filter->SetSquaredDistance(false);
     filter->SetInsideIsPositive(false);

@@ -9,30 +9,30 @@
 
 namespace wscvt {
 
-// Filters of ITK on voxels in their order, x fastest. ITK brings an Eigen of its own, so that
-// nothing of the library that includes Eigen comes in here. Without ITK they throw what
-// require_filters throws. What ITK itself refuses becomes Error(NumericalFailure); memory,
+// Filters of ITK on voxels in their order, x fastest. ITK has its own Eigen, so this file must not
+// include headers of the library that include Eigen. Without ITK the filters throw as
+// require_filters does. Errors of ITK become Error(NumericalFailure); lack of memory,
 // std::bad_alloc.
 
-/// How many voxels there are along x, y and z.
+/// Numbers of voxels along x, y and z.
 using FilterCounts = std::array<std::int32_t, 3>;
 
-/// Throws Error(InvalidInput) that says what to install, where the program was built without ITK.
+/// Throws Error(InvalidInput) that says what to install, if the program was built without ITK.
 void require_filters();
 
-/// The median of each voxel and its 26 neighbours; beyond the border the values of the border.
+/// Returns the median of each voxel and its 26 neighbours; values beyond the border equal the
+/// border's.
 std::vector<std::uint16_t> median_of(const std::vector<std::uint16_t>& grey,
                                      const FilterCounts& counts, const Execution& execution);
 
-/// Voxels of 0 that hang together by faces and do not reach the border become 1; the others are 0
-/// or 1 already.
+/// Sets voxels of 0 to 1 if they are not connected to the border by faces. All voxels are 0 or 1.
 void fill_holes(std::vector<std::uint8_t>& mask, const FilterCounts& counts,
                 const Execution& execution);
 
-/// The basins of the distance to the nearest voxel of 0, watershed by watershed: one for each
-/// maximum that is at least `depth` above the passes to higher ones. Voxels of 1 get the number of
-/// their basin, from 1; voxels of 0 get 0. `spacing` are the lengths of a voxel, `depth` is a
-/// length. Where two parts of the mask do not touch they may have one number. On one thread.
+/// Returns the watershed basins of the distance to the nearest voxel of 0: one for each maximum
+/// that is at least `depth` above the passes to higher maxima. Voxels of 1 get the number of their
+/// basin, from 1; voxels of 0 get 0. `spacing`: edge lengths of a voxel; `depth`: a length. Parts
+/// of the mask that do not touch may share a number. Runs on one thread.
 std::vector<std::uint32_t> basins_of(const std::vector<std::uint8_t>& mask,
                                      const FilterCounts& counts,
                                      const std::array<double, 3>& spacing, double depth,

@@ -12,8 +12,8 @@ namespace wscvt {
 
 namespace {
 
-/// Counts voxels of labels and of their parts. A part that does not reach into the next slice is
-/// done, so that memory is that of the parts of a slice.
+/// Counts voxels of labels and of their parts. A part that does not extend into the next slice is
+/// complete, so memory is only the parts of a slice.
 class Census {
  public:
   Census(const VoxelCounts& counts, Label background) : tracker_(counts, background) {}
@@ -66,7 +66,7 @@ class Census {
 
  private:
   struct Part {
-    std::size_t label = 0;  ///< its place
+    std::size_t label = 0;  ///< index of the label
     std::uint64_t voxels = 0;
   };
 
@@ -86,7 +86,7 @@ class Census {
     return place->second;
   }
 
-  /// The voxels of parts that were joined are those of the one that stands for them.
+  /// Adds the voxels of joined parts to the part that represents them.
   void gather() {
     for (std::uint32_t part = 0; part < parts_.size(); ++part) {
       const std::uint32_t root = joined_.find(part);

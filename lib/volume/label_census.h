@@ -10,27 +10,27 @@
 
 namespace wscvt {
 
-/// A label and where its voxels are.
+/// A label and the position of its voxels.
 struct LabelExtent {
   Label label = 0;
   std::uint64_t voxels = 0;
   VoxelCounts begin = {};           ///< its first voxel along each axis
-  VoxelCounts end = {};             ///< one behind its last
-  std::size_t pieces = 0;           ///< that it is in, which hang together by faces of voxels
-  std::uint64_t largest_piece = 0;  ///< voxels of the one that has most
+  VoxelCounts end = {};             ///< one after its last
+  std::size_t pieces = 0;           ///< of the label, connected by faces of voxels
+  std::uint64_t largest_piece = 0;  ///< voxels of the largest piece
 
-  /// The share of its voxels that are not in that piece.
+  /// Returns the fraction of voxels outside the largest piece.
   double left_out() const {
     return 1.0 - static_cast<double>(largest_piece) / static_cast<double>(voxels);
   }
   bool touches_border(const VoxelCounts& counts) const;
 };
 
-/// The largest number of labels that a volume may have: a grey image, taken for labels, has more.
+/// Largest number of labels of a volume. A grey image mistaken for labels has more.
 inline constexpr std::size_t most_labels = 1000000;
 
 /// Calls visit(label, y, z, begin, end) for every stretch of one label along x, in the order of the
-/// file; returns early where visit gives false.
+/// file; stops if visit returns false.
 template <class Visit>
 bool visit_stretches(const std::vector<Label>& row, std::int32_t y, std::int32_t z,
                      const Visit& visit) {
@@ -45,10 +45,10 @@ bool visit_stretches(const std::vector<Label>& row, std::int32_t y, std::int32_t
   return true;
 }
 
-/// Reads the volume once, from its beginning, and finds its labels but for the background, in their
-/// order, and how many pieces each is in. Memory is that of two slices' stretches and of the
-/// labels. Throws Error: InvalidInput for more than `most_labels`, Cancelled, and what the volume
-/// throws.
+/// Reads the volume once from its beginning, and returns its labels without the background, in
+/// their order, with the number of pieces of each. Needs memory for the labels and the stretches of
+/// two slices. Throws Error: InvalidInput for more than `most_labels`, Cancelled, and what the
+/// volume throws.
 std::vector<LabelExtent> label_census(LabelVolume& volume, Label background,
                                       const Execution& execution);
 

@@ -98,7 +98,7 @@ void LabelGrains::read_to(std::int32_t slice, const Execution& execution) {
     if (place != at_work_.end()) place->second.push_back({z, y, begin, end});
     return true;
   };
-  is_behind_ = true;  // where what follows throws
+  is_behind_ = true;  // in case the following code throws
   for (; next_slice_ < slice; ++next_slice_) {
     execution.report(0.0, "Reading the volume");
     for (std::int32_t y = 0; y < geometry().counts[1]; ++y) {
@@ -116,7 +116,7 @@ std::vector<VoxelStretch> LabelGrains::stretches_of(std::size_t grain, const Exe
   try {
     read_to(label.end[2], execution);
   } catch (const Error& error) {
-    // All of it could be read when the labels were found.
+    // The whole volume was readable when the labels were found.
     if (error.code() == ErrorCode::InputOutput) throw MachineRefused(error.what());
     throw;
   }

@@ -21,15 +21,15 @@
 namespace wscvt {
 
 struct VolumeOptions {
-  Label background = 0;         ///< what lies between the grains, which is none
-  std::int64_t smallest = 100;  ///< voxels of the smallest grain that is taken
-  bool at_border = false;  ///< also grains that touch the border of the volume, cut as they are
-  int smoothing = 20;      ///< passes, see smoothed_surface
-  bool parts = false;      ///< each part of a label is a grain, see volume_parts.h
-  /// Of a mask: grains that touch are parted too, see separate_option; the volume is then held, see
-  /// segmentation.h. Nothing: they are not.
+  Label background = 0;         ///< between the grains; not a grain
+  std::int64_t smallest = 100;  ///< voxels of the smallest grain to mesh
+  bool at_border = false;       ///< also cut grains at the border of the volume
+  int smoothing = 20;           ///< passes, see smoothed_surface
+  bool parts = false;           ///< each part of a label is a grain, see volume_parts.h
+  /// For a mask: touching grains are separated, see separate_option. The volume is then in memory,
+  /// see segmentation.h. Empty: not separated.
   std::optional<double> separate;
-  VolumeChoice choice;  ///< what is taken of the file, and the size of its voxels
+  VolumeChoice choice;  ///< the part of the file to read, and the size of its voxels
 };
 
 inline constexpr NumberOption<Label> background_option = {"background", "label of what is no grain",
@@ -56,21 +56,21 @@ inline constexpr NumberOption<double> voxel_size_option = {"voxel-size", "size o
 /// Throws Error(InvalidInput) for options out of range.
 void check_volume_options(const VolumeOptions& options);
 
-/// What becomes of a label.
+/// Whether a label becomes a grain.
 enum class LabelState { Taken, AtTheBorder, TooSmall };
 
 /// A grain, as a mesh in the volume's coordinates.
 struct LabelGrain {
-  IndexedMesh mesh;           ///< of the largest piece, pores filled; none where that is too small
-  std::size_t pieces = 0;     ///< that the label is in
-  std::int64_t enclosed = 0;  ///< voxels inside the mesh, which has exactly their volume
+  IndexedMesh mesh;               ///< of the largest piece, pores filled; empty if it is too small
+  std::size_t pieces = 0;         ///< of the label
+  std::int64_t enclosed = 0;      ///< voxels inside the mesh, which has exactly their volume
   std::int64_t piece_voxels = 0;  ///< of all pieces, pores filled
   std::int64_t pore_voxels = 0;   ///< in the pores of all pieces
 };
 
 /// The grains of a volume of labels, one after the other. The volume is read twice: first to find
-/// the labels, then for their voxels, slice by slice; memory is that of the grains that reach into
-/// the slices at work, as stretches of voxels.
+/// the labels, then for their voxels, slice by slice. Only stretches of voxels of the grains in the
+/// current slices are in memory.
 class LabelGrains {
  public:
   /// Opens the volume and finds its labels. Throws as open_volume, label_census and
@@ -82,28 +82,28 @@ class LabelGrains {
   /// See LabelVolume.
   const std::vector<std::string>& notes() const { return volume_->notes(); }
 
-  /// What the file calls a label; empty: nothing.
+  /// Returns the file's name of a label; empty if it has none.
   std::string name_of(Label label) const;
 
-  /// The share of the voxels of all labels that are taken that lies in pieces which are not: of
-  /// each the piece with most voxels is, unless it is smaller than the smallest grain.
+  /// Returns the fraction of the voxels of all taken labels that is not meshed: the smaller pieces,
+  /// and the largest too if it is below the smallest grain.
   double left_out() const;
 
   /// All labels, ascending.
   const std::vector<LabelExtent>& labels() const { return labels_; }
   LabelState state(const LabelExtent& label) const;
 
-  /// The labels that are taken, by their places in labels(), in the order in which their last
-  /// slices come, those of one slice ascending.
+  /// Returns the labels that are meshed, as indices into labels(), ordered by their last slices,
+  /// then by label.
   const std::vector<std::size_t>& taken() const { return taken_; }
 
-  /// Says which grains are to be read, by their places in taken(), ascending.
+  /// Sets the grains to be read, as ascending indices into taken().
   void want(const std::vector<std::size_t>& grains);
 
-  /// Reads on to the last slice of a wanted grain and makes its mesh: in their order but for those
-  /// that several threads work on. A grain may be read again, which reads the volume from its
-  /// beginning. Throws Error as smoothed_surface does, Cancelled, and MachineRefused where the
-  /// volume cannot be read as it was when its labels were found.
+  /// Reads on to the last slice of a wanted grain and makes its mesh. Read the grains in their
+  /// order, except grains that several threads work on. Reading a grain again reads the volume from
+  /// its beginning. Throws Error as smoothed_surface does, Cancelled, and MachineRefused if the
+  /// volume can no longer be read as it was when its labels were found.
   LabelGrain read(std::size_t grain, const Execution& execution);
 
  private:
@@ -115,13 +115,13 @@ class LabelGrains {
   std::unique_ptr<LabelVolume> volume_;
   std::vector<LabelExtent> labels_;
   std::vector<std::size_t> taken_;
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< of the members below
   std::int32_t next_slice_ = 0;
   bool is_behind_ = false;  ///< at_work_ misses stretches of slices before next_slice_
   std::unordered_map<Label, std::vector<VoxelStretch>> at_work_;
 };
 
-/// What a person has to know of a grain whose label was more than it: sentences.
+/// Returns sentences for the user about a label with several pieces or with pores.
 std::vector<std::string> warnings_of(const LabelGrain& grain);
 
 }  // namespace wscvt

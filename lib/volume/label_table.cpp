@@ -19,7 +19,7 @@ std::string state_text(LabelState state, const LabelOutcome& outcome) {
   return "written";
 }
 
-/// The box of a label's voxels in the volume's coordinates: smallest and largest corner.
+/// Returns the box of a label's voxels in the volume's coordinates: smallest and largest corner.
 std::pair<Vector3, Vector3> box_of(const LabelExtent& label, const VolumeGeometry& geometry) {
   std::pair<Vector3, Vector3> box;
   for (unsigned k = 0; k < 8; ++k) {

@@ -63,7 +63,7 @@ bool is_stack(const std::string& folder) {
   return has_slices;
 }
 
-/// Whether an old VTK file holds a mesh: both have the same ending.
+/// Whether an old VTK file contains a mesh: meshes have the same ending.
 bool holds_mesh(const std::string& path) {
   std::error_code error;
   if (ending_of(path) != ".vtk" || !fs::is_regular_file(path, error)) return false;
@@ -80,7 +80,7 @@ bool holds_mesh(const std::string& path) {
   return false;
 }
 
-/// What is the same for all formats.
+/// Checks common to all formats.
 void check_opened(LabelVolume& volume, const std::string& path) {
   const VolumeGeometry& geometry = volume.geometry();
   for (std::size_t axis = 0; axis < 3; ++axis) {

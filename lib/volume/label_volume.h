@@ -15,55 +15,55 @@
 
 namespace wscvt {
 
-/// What a voxel holds: the number of the grain it belongs to.
+/// Value of a voxel: the number of its grain.
 using Label = std::uint32_t;
 
-/// How many voxels a volume has along x, y and z.
+/// Numbers of voxels of a volume along x, y and z.
 using VoxelCounts = std::array<std::int32_t, 3>;
 
-/// Where the voxels of a volume lie.
+/// Position of the voxels of a volume.
 struct VolumeGeometry {
   VoxelCounts counts = {};
-  /// From lattice coordinates to those of the file: voxel (i, j, k) fills the cell from (i, j, k)
-  /// to (i + 1, j + 1, k + 1). Length.
+  /// From lattice coordinates to the file's coordinates: voxel (i, j, k) fills the cell from (i, j,
+  /// k) to (i + 1, j + 1, k + 1). Length.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Vector3 corner = Vector3::Zero();  ///< of the cell of voxel (0, 0, 0)
-  std::string unit;                  ///< of length, see unit_of; empty: it is not said
-  bool has_size = false;             ///< the file, or who asked, says how large a voxel is
-  /// Along which of the file's axes x, y and z each axis of the lattice runs: voxels may stand in
-  /// another order in the file.
+  std::string unit;                  ///< of length, see unit_of; empty: unknown
+  bool has_size = false;             ///< the file or the user gives the size of a voxel
+  /// The file's axis (x, y, z) of each axis of the lattice: the file may store voxels in another
+  /// order.
   std::array<Eigen::Index, 3> order = {0, 1, 2};
 
   Vector3 point(const Vector3& lattice) const { return axes * lattice + corner; }
   double voxel_volume() const;  ///< length^3
 };
 
-/// The labels of a volume, row by row along x, rows along y, slices along z, as often as wanted
-/// from the beginning. Memory is that of a row and of what the file is unpacked with, a TIFF's
-/// strip, its tiles beside each other or a block, never that of the volume.
+/// The labels of a volume, row by row along x, rows along y, slices along z, readable repeatedly
+/// from the beginning. Memory is a row and the buffer for unpacking, such as a TIFF's strip, a row
+/// of its tiles or a block, never the whole volume.
 class LabelVolume {
  public:
   virtual ~LabelVolume() = default;
 
   const VolumeGeometry& geometry() const { return geometry_; }
 
-  /// What a person should know of how the file was read: sentences.
+  /// Returns sentences for the user about how the file was read.
   const std::vector<std::string>& notes() const { return notes_; }
   void add_note(const std::string& sentence);
 
-  /// What the file calls its labels; empty: it does not say.
+  /// Returns the file's names of labels; empty if it has none.
   const std::map<Label, std::string>& names() const { return names_; }
   void set_names(std::map<Label, std::string> names) { names_ = std::move(names); }
 
-  /// The next row, geometry().counts[0] labels, valid until the next call. Throws
-  /// Error(InputOutput) when the file ends before it, is damaged, or holds a label below 0 or above
+  /// Returns the next row, geometry().counts[0] labels, valid until the next call. Throws
+  /// Error(InputOutput) if the file ends before it, is damaged, or has a label below 0 or above
   /// 4294967295.
   virtual const std::vector<Label>& next_row() = 0;
 
-  /// Rows hold grey values from now on, any numbers, as the codes of grey_code.
+  /// From now on rows contain grey values, any numbers, as the codes of grey_code.
   void read_grey_values() { is_grey_ = true; }
 
-  /// Back to the first row.
+  /// Goes back to the first row.
   virtual void rewind() = 0;
 
  protected:
@@ -77,21 +77,20 @@ class LabelVolume {
   std::map<Label, std::string> names_;
 };
 
-/// A grey value as 32 bits whose order is that of the values, and back. NaN is the least.
+/// Convert a grey value to 32 bits in the order of the values, and back. NaN is the smallest.
 Label grey_code(float value);
 float grey_value(Label code);
 
-/// Whether a name is one of a volume: it ends as the formats below do, or is a folder with TIFF
-/// files and no meshes.
+/// Returns whether a name is a volume's: it has an ending of the formats below, or is a folder with
+/// TIFF files and no meshes.
 bool is_volume(const std::string& path);
 
-/// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The format
-/// follows from the ending; lib/doc/files.md has the table of what is read of each. What was chosen
-/// of it, and a voxel size in place of the file's, is in `choice`.
+/// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The ending
+/// gives the format; lib/doc/files.md has the table of what is read of each. `choice` selects a
+/// part of the file, and may replace its voxel size.
 ///
-/// Throws Error: InputOutput when the file cannot be read, is cut short, of a form that is not
-/// known, or holds more than one volume of which none was chosen; InvalidInput for sizes that are
-/// not above 0.
+/// Throws Error: InputOutput if the file cannot be read, is cut short, has an unknown form, or
+/// contains more than one volume and none was chosen; InvalidInput for sizes that are not above 0.
 std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice = {});
 
 }  // namespace wscvt

@@ -17,7 +17,7 @@ namespace wscvt {
 
 namespace {
 
-/// Packs what it is given, as gzip or zlib.
+/// Packs its input as gzip or zlib.
 class LabelPacker {
  public:
   explicit LabelPacker(bool is_gzip) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK's files from before XML, of structured points:
+// VTK's files from before XML, with structured points:
 // https://docs.vtk.org/en/latest/vtk_file_formats/
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ struct VtkHeader {
 };
 
 VoxelType vtk_type_of(const std::string& name, const std::string& path) {
-  // VTK writes a long with eight bytes, and what is binary with the most significant first.
+  // VTK writes a long with eight bytes, and binary numbers in big-endian order.
   std::string known = lower_case(name);
   std::replace(known.begin(), known.end(), '_', ' ');
   if (known == "char") known = "signed char";
@@ -44,7 +44,7 @@ VoxelType vtk_type_of(const std::string& name, const std::string& path) {
   return type;
 }
 
-/// Where the text goes on after so many numbers.
+/// Returns the position after so many numbers of a text.
 std::uint64_t end_of_numbers(const std::string& path, std::uint64_t begin, std::uint64_t count) {
   const std::unique_ptr<ByteSource> bytes = file_bytes(path, begin);
   std::vector<char> part(1 << 16);
@@ -62,8 +62,7 @@ std::uint64_t end_of_numbers(const std::string& path, std::uint64_t begin, std::
   }
 }
 
-/// Reads keywords and arrays in turn: an array's numbers stand between its line and the next
-/// keyword.
+/// Reads keywords and arrays in turn: an array's numbers are between its line and the next keyword.
 class VtkParser {
  public:
   explicit VtkParser(const std::string& path) : path_(path) { restart(0); }
@@ -166,7 +165,7 @@ class VtkParser {
     add(array);
   }
 
-  /// Notes the array, and goes on behind its numbers.
+  /// Records the array, and continues after its numbers.
   void add(VtkArray array) {
     constexpr std::int64_t most = 1000000;
     if (voxels_ == 0 || array.components < 1 || array.components > most) {

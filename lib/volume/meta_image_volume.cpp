@@ -34,8 +34,8 @@ bool is_true(const std::string& value) {
   return lower == "true" || lower == "t" || lower == "1";
 }
 
-// Fields that are not known are notes of whoever wrote the file: ITK's writer puts the whole
-// dictionary of an image there. All that say where voxels stand and what they are, are known.
+// Unknown fields are the writer's notes: ITK's writer adds an image's whole dictionary. All fields
+// for the position and type of voxels are known.
 void read_field(const std::string& name, const std::string& value, const HeaderFile& file,
                 MetaHeader& header) {
   if (name == "objecttype") {
@@ -75,7 +75,7 @@ void read_field(const std::string& name, const std::string& value, const HeaderF
 
 MetaHeader read_meta_header(HeaderFile& file) {
   MetaHeader header;
-  while (header.data_file.empty()) {  // which is the last
+  while (header.data_file.empty()) {  // the last field
     const std::string line = file.line();
     const std::size_t sign = line.find('=');
     if (line.empty()) continue;
@@ -91,7 +91,7 @@ MetaHeader read_meta_header(HeaderFile& file) {
   return header;
 }
 
-/// Dimensions in the order of the file: channels, x, y, z, and frames of four dimensions.
+/// Returns the dimensions in the file's order: channels, x, y, z, and frames as a fourth dimension.
 std::vector<VolumeAxis> axes_of(const MetaHeader& header, const std::string& path) {
   if (header.sizes.empty()) refuse_volume(path, "does not say how large it is; export it again.");
   if (header.dimensions != static_cast<std::int64_t>(header.sizes.size())) {
@@ -114,7 +114,7 @@ std::vector<VolumeAxis> axes_of(const MetaHeader& header, const std::string& pat
   return axes;
 }
 
-/// The first three of as many numbers as there are dimensions.
+/// Returns the first three numbers of as many as there are dimensions.
 Vector3 vector_of(const std::vector<double>& numbers, const MetaHeader& header,
                   const Vector3& fallback, const std::string& path) {
   if (numbers.empty()) return fallback;
@@ -161,8 +161,7 @@ std::vector<std::string> files_of(const MetaHeader& header, const std::string& p
   if (header.data_file.find('%') == std::string::npos) {
     return {voxel_file_beside(path, header.data_file)};
   }
-  // "s_%03d.raw 1 24 1": as MetaIO reads it, first, last and step, of which the last two may be
-  // left out.
+  // "s_%03d.raw 1 24 1": first, last and step, as MetaIO reads them; the last two are optional.
   TextFields fields(header.data_file);
   const std::string pattern(fields.next());
   std::array<std::int64_t, 3> numbers = {1, header.sizes.back(), 1};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NIfTI. libnifti2 reads the header, of both versions and byte orders, and works out the axes; it
-// reads voxels only whole, so that they are read here, row by row: a volume of 4 gigavoxels would
-// take 8 GB.
+// NIfTI. libnifti2 reads the header, of both versions and byte orders, and computes the axes. It
+// can read voxels only all at once: a volume of 4 gigavoxels would need 8 GB. So they are read
+// here, row by row.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -23,7 +23,7 @@ namespace wscvt {
 
 namespace {
 
-/// What a data type of the header is. NIfTI has codes of its own for them.
+/// Returns the type of a data type code of the header. NIfTI has its own codes.
 VoxelType type_of(int code, const std::string& path) {
   switch (code) {
     case DT_UINT8:
@@ -52,7 +52,7 @@ VoxelType type_of(int code, const std::string& path) {
   }
 }
 
-/// A whole number of a header, with a sign.
+/// Reads a signed whole number from a header.
 std::int64_t number_at(const std::string& head, std::size_t place, std::size_t size, bool big) {
   std::uint64_t value = 0;
   for (std::size_t k = 0; k < size; ++k) {
@@ -63,8 +63,8 @@ std::int64_t number_at(const std::string& head, std::size_t place, std::size_t s
   return static_cast<std::int64_t>(value << spare) >> spare;
 }
 
-/// Refuses what libnifti2 would refuse, which it prints of to the standard error whatever it is
-/// told.
+/// Refuses headers that libnifti2 would refuse, because it always prints this to the standard
+/// error.
 void check_header(const std::string& path) {
   std::unique_ptr<ByteSource> bytes = file_bytes(path, 0);
   if (ending_of(path) == ".gz") bytes = inflated_bytes(std::move(bytes), path);
@@ -99,7 +99,7 @@ struct FreeImage {
 using NiftiImage = std::unique_ptr<nifti_image, FreeImage>;
 
 NiftiImage header_of(const std::string& path) {
-  // The library keeps how much it prints in a global.
+  // The library stores its verbosity in a global.
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
   nifti_set_debug_level(0);
@@ -118,7 +118,7 @@ void set_geometry(const nifti_image& image, const VolumeChoice& choice, const st
                   VolumeGeometry& geometry) {
   geometry.counts = voxel_counts({image.nx, image.ny, image.nz}, path);
   geometry.unit = unit_of_code(image.xyz_units);
-  // sform, qform, or the sizes alone, in the order in which they are to be taken.
+  // sform, qform, or only the sizes, in this order of preference.
   Eigen::Matrix3d axes = Vector3(image.dx, image.dy, image.dz).asDiagonal();
   Vector3 origin = Vector3::Zero();
   if (image.sform_code > 0 || image.qform_code > 0) {
@@ -151,7 +151,7 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
   VolumeGeometry geometry;
   set_geometry(*image, choice, path, geometry);
   VoxelType type = type_of(image->datatype, path);
-  constexpr int msb_first = 2;  // the library keeps its name for it to itself
+  constexpr int msb_first = 2;  // the library does not export its name for it
   type.big_endian = image->byteorder == msb_first;
   const std::int64_t more = std::max<std::int64_t>(1, image->nu) *
                             std::max<std::int64_t>(1, image->nv) *
@@ -166,7 +166,7 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
                          {AxisKind::Channel, more}},
                         choice, path);
   if (ending_of(path) != ".gz") return volume_of_files(geometry, type, data);
-  // The offset is of what is unpacked.
+  // The offset is in the unpacked bytes.
   std::uint64_t wanted = voxel_bytes(geometry.counts, type);
   for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
   check_voxel_bytes(wanted, file_size(path), Packing::Deflate, path);

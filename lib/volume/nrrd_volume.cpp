@@ -24,7 +24,7 @@ struct NrrdHeader {
   bool has_endian = false;
   bool big_endian = false;
   std::vector<std::string> kinds;
-  std::vector<double> spacings;  ///< NaN: of no axis of space
+  std::vector<double> spacings;  ///< NaN for axes that are not space
   std::vector<std::optional<Vector3>> directions;
   Vector3 origin = Vector3::Zero();
   std::vector<std::string> units;
@@ -35,7 +35,7 @@ struct NrrdHeader {
   std::map<std::string, std::string> remarks;  ///< by key and value
 };
 
-/// All texts in quotes.
+/// Returns all texts in quotes.
 std::vector<std::string> quoted_in(const std::string& text) {
   std::vector<std::string> texts;
   for (std::size_t begin = text.find('"'); begin != std::string::npos;) {
@@ -47,7 +47,7 @@ std::vector<std::string> quoted_in(const std::string& text) {
   return texts;
 }
 
-/// "none (1,0,0) (0,1,0) (0,0,1)"
+/// Reads directions, such as "none (1,0,0) (0,1,0) (0,0,1)".
 std::vector<std::optional<Vector3>> directions_in(const std::string& text, const HeaderFile& file) {
   std::vector<std::optional<Vector3>> directions;
   std::size_t place = 0;
@@ -67,7 +67,7 @@ std::vector<std::optional<Vector3>> directions_in(const std::string& text, const
   return directions;
 }
 
-/// Fields that say nothing of where voxels stand and what they are.
+/// Fields that do not affect the position or type of voxels.
 bool is_passed_over(const std::string& name) {
   static const std::array<const char*, 21> names = {"space",
                                                     "space dimension",
@@ -154,7 +154,7 @@ NrrdHeader read_nrrd_header(HeaderFile& file) {
     read_field(lower_case(trimmed(line.substr(0, colon))),
                std::string(trimmed(line.substr(colon + 1))), file, header);
   }
-  // A list is the last field, and the names follow it.
+  // A list is the last field; the file names follow it.
   while (is_list() && !file.is_at_end()) {
     const std::string line = file.line();
     if (!line.empty()) header.list.push_back(line);
@@ -162,8 +162,8 @@ NrrdHeader read_nrrd_header(HeaderFile& file) {
   return header;
 }
 
-/// What each dimension is. By its kind; where there is none, one without a direction in space is
-/// none of space, and of those that are left over the slowest.
+/// Returns the kind of each dimension. Without a kind, a dimension without a direction is not
+/// space; if more than three are left, the slowest are not space either.
 std::vector<VolumeAxis> axes_of(const NrrdHeader& header, const std::string& path) {
   const std::size_t count = header.sizes.size();
   const auto has_all = [&](std::size_t size) { return size == 0 || size == count; };
@@ -228,7 +228,7 @@ void set_geometry(const NrrdHeader& header, const std::vector<VolumeAxis>& axes,
   set_lattice(geometry, lattice, header.origin, choice, path);
 }
 
-/// The names that Slicer gives to the segments of a .seg.nrrd, those of the layer that is taken.
+/// Returns Slicer's names of the segments of a .seg.nrrd, for the selected layer.
 std::map<Label, std::string> segment_names(const NrrdHeader& header, std::int64_t layer) {
   std::map<Label, std::string> names;
   for (const auto& [key, value] : header.remarks) {
@@ -248,7 +248,7 @@ std::map<Label, std::string> segment_names(const NrrdHeader& header, std::int64_
   return names;
 }
 
-/// The place that is taken of the layers of a .seg.nrrd, which are its channels.
+/// Returns the index of the selected layer of a .seg.nrrd; its layers are channels.
 std::int64_t layer_of(const std::vector<VolumeAxis>& axes, const VolumeChoice& choice,
                       const std::string& path) {
   for (const VolumeAxis& axis : axes) {

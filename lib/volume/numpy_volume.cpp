@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NumPy's arrays (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html), alone or
-// in the zip file of savez. The header is a line of Python, which no library of Debian's reads but
-// Python itself; the zip file is read by minizip.
+// NumPy's arrays (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html), single
+// or in the zip file of savez. The header is a line of Python, for which Debian has no library
+// except Python itself; minizip reads the zip file.
 #include <unzip.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct NumpyHeader {
   std::vector<std::int64_t> counts;
 };
 
-/// What stands behind 'key': in a dictionary of Python, without white space.
+/// Returns the value of 'key': in a dictionary of Python, without white space.
 std::string value_in(const std::string& text, const std::string& key, const std::string& path) {
   const std::size_t place = text.find("'" + key + "':");
   if (place == std::string::npos) {
@@ -68,8 +68,8 @@ NumpyHeader numpy_header_of(const std::string& head, const std::string& path) {
   return header;
 }
 
-/// Reads the header, after which `bytes` stand at the voxels. Adds to `offset` the bytes that it
-/// has.
+/// Reads the header, so that `bytes` continue with the voxels. Adds the size of the header to
+/// `offset`.
 NumpyHeader read_header(ByteSource& bytes, std::uint64_t& offset, const std::string& path) {
   std::array<unsigned char, 12> head{};
   const auto read = [&](std::size_t begin, std::size_t count) {
@@ -95,7 +95,7 @@ NumpyHeader read_header(ByteSource& bytes, std::uint64_t& offset, const std::str
   return numpy_header_of(text, path);
 }
 
-/// "<u2", "|b1", ">f8"
+/// Reads a type, such as "<u2", "|b1", ">f8".
 VoxelType numpy_type_of(const std::string& text, const std::string& path) {
   VoxelType type;
   const bool has_order = !text.empty() && std::strchr("<>|=", text.front()) != nullptr;
@@ -140,11 +140,11 @@ class ZipBytes : public ByteSource {
       constexpr std::size_t most = 1 << 20;
       const int got = unzReadCurrentFile(zip_, bytes + filled,
                                          static_cast<unsigned>(std::min(count - filled, most)));
-      if (got == UNZ_PARAMERROR) break;  // closed behind the last byte
+      if (got == UNZ_PARAMERROR) break;  // closed after the last byte
       if (got < 0) refuse_damaged();
       if (got == 0) break;
       filled += static_cast<std::size_t>(got);
-      // Its sum is looked at when the last byte is read.
+      // The checksum is tested after the last byte.
       if (unzeof(zip_) == 1 && unzCloseCurrentFile(zip_) == UNZ_CRCERROR) refuse_damaged();
     }
     return filled;
@@ -177,7 +177,7 @@ class ZipBytes : public ByteSource {
   unzFile zip_ = nullptr;
 };
 
-/// The members of a zip file that are arrays, and the bytes that each says to hold.
+/// Returns the members of a zip file that are arrays, with their stated sizes in bytes.
 std::vector<std::pair<std::string, std::uint64_t>> members_of(const std::string& path) {
   const unzFile zip = unzOpen64(path.c_str());
   if (zip == nullptr) refuse_volume(path, "is no zip file, as .npz files are; save it again.");
@@ -200,7 +200,7 @@ ShapedVolume shaped(const NumpyHeader& header, const VolumeChoice& choice,
   ArrayShape shape;
   shape.counts = header.counts;
   if (header.is_fortran) {
-    // The first dimension is the fastest; which of them is z, y and x stays the same.
+    // The first dimension is the fastest; the order z, y, x of the dimensions stays.
     if (header.counts.size() != 3) {
       refuse_volume(path, "holds an array in Fortran's order of " +
                               std::to_string(header.counts.size()) +

@@ -22,13 +22,13 @@ namespace {
 
 using Attributes = std::map<std::string, std::string>;
 
-/// What the XML says of the pages.
+/// Description of the pages in the XML.
 struct OmeText {
   int images = 0;
   Attributes pixels;  ///< of the first image
   struct Planes {
     Attributes where;  ///< of TiffData
-    std::string file;  ///< empty: this one
+    std::string file;  ///< empty: this file
   };
   std::vector<Planes> planes;
 };
@@ -53,7 +53,7 @@ OmeText ome_text_of(const std::string& xml, const std::string& path) {
   XML_SetUserData(parser, &text);
   XML_SetElementHandler(parser, begin_element, nullptr);
   const XML_Status status = XML_Parse(parser, xml.data(), static_cast<int>(xml.size()), 1);
-  const char* const said = XML_ErrorString(XML_GetErrorCode(parser));  // null: nothing
+  const char* const said = XML_ErrorString(XML_GetErrorCode(parser));  // null: no error
   XML_ParserFree(parser);
   if (status != XML_STATUS_OK) {
     refuse_volume(path, "holds OME's XML that is damaged (" +
@@ -63,7 +63,7 @@ OmeText ome_text_of(const std::string& xml, const std::string& path) {
   return text;
 }
 
-/// A whole number of an attribute, from `least` on.
+/// Returns a whole number of an attribute, at least `least`.
 std::int64_t count_of(const Attributes& attributes, const std::string& key, std::int64_t fallback,
                       std::int64_t least, const std::string& path) {
   const auto found = attributes.find(key);
@@ -77,7 +77,7 @@ std::int64_t count_of(const Attributes& attributes, const std::string& key, std:
   return *number;
 }
 
-/// Lengths of a unit in a metre; nothing for others.
+/// Returns the length of a unit in metres; nothing for unknown units.
 std::optional<double> in_metres(const std::string& unit) {
   static const std::map<std::string, double> units = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3},
                                                       {"cm", 1e-2}, {"m", 1.0},   {"inch", 0.0254}};
@@ -125,7 +125,7 @@ void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayo
   layout.voxel_size = size;
 }
 
-/// The page of each plane, in the order of `layout.axes`.
+/// Computes the page of each plane, in the order of `layout.axes`.
 void read_pages(const OmeText& text, std::int64_t pages, const std::string& path,
                 TiffLayout& layout) {
   std::int64_t planes = 1;
@@ -134,7 +134,7 @@ void read_pages(const OmeText& text, std::int64_t pages, const std::string& path
     planes *= axis.count;
     if (planes > most) refuse_volume(path, "tells of more planes than a file holds.");
   }
-  // A file without TiffData has them in their order.
+  // Without TiffData, the planes are in the order of the file.
   if (text.planes.empty()) {
     if (planes != pages) {
       refuse_volume(path, "has " + std::to_string(pages) + " pages of the " +
@@ -146,7 +146,7 @@ void read_pages(const OmeText& text, std::int64_t pages, const std::string& path
   }
   layout.pages.assign(static_cast<std::size_t>(planes), -1);
   for (const OmeText::Planes& part : text.planes) {
-    // A file may be renamed, but its planes are all in one.
+    // A file may be renamed, but all its planes must be in one file.
     const std::string& other = text.planes.front().file;
     if (part.file != other) {
       refuse_volume(path, "is one of several files: OME's text names " + in_quotes(other) +

@@ -5,7 +5,7 @@
 
 namespace wscvt {
 
-/// The layout that OME's XML tells of, in any order of dimensions; as tiff_layout:
+/// Returns the layout given in OME's XML, in any order of dimensions, as tiff_layout does:
 /// https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html
 TiffLayout layout_of_ome(const std::string& text, std::int64_t pages, std::int64_t samples,
                          const std::string& path);

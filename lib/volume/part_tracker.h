@@ -10,14 +10,14 @@
 
 namespace wscvt {
 
-/// Finds, row by row, which stretches of one label hang together by faces of voxels. Memory is that
-/// of the stretches of two slices.
+/// Finds, row by row, which stretches of one label are connected by faces of voxels. Memory is the
+/// stretches of two slices.
 class PartTracker {
  public:
-  /// Voxels of one label beside each other along x.
+  /// Consecutive voxels of one label along x.
   struct Stretch {
     std::int32_t begin = 0;
-    std::int32_t end = 0;  ///< one behind the last
+    std::int32_t end = 0;  ///< one after the last
     Label label = 0;
     std::uint32_t part = 0;
   };
@@ -27,7 +27,7 @@ class PartTracker {
         below_(static_cast<std::size_t>(counts[1])),
         here_(static_cast<std::size_t>(counts[1])) {}
 
-  /// Back to before the first row.
+  /// Goes back to before the first row.
   void rewind() {
     for (auto* slice : {&below_, &here_}) {
       for (std::vector<Stretch>& row : *slice) row.clear();
@@ -35,10 +35,10 @@ class PartTracker {
     next_ = 0;
   }
 
-  /// Takes the next row, and returns its stretches but for the background's, valid until the next
-  /// call. Each is of the part of a neighbour of its label in the row or the slice before, or of
-  /// what `begin_part(label)` gives where there is none; `link(a, b)` is called where two parts
-  /// meet. The stretches of a slice end with its last row.
+  /// Adds the next row, and returns its stretches without the background's, valid until the next
+  /// call. A stretch gets the part of a neighbour of its label in the previous row or slice, or
+  /// `begin_part(label)` without a neighbour. Calls `link(a, b)` if two parts meet. The stretches
+  /// of a slice end with its last row.
   template <class BeginPart, class Link>
   const std::vector<Stretch>& add_row(const std::vector<Label>& row, const BeginPart& begin_part,
                                       const Link& link) {
@@ -77,8 +77,7 @@ class PartTracker {
     return stretches;
   }
 
-  /// Calls renumber(part) for every stretch of the slice whose rows were taken last, which then is
-  /// of the part that it gives.
+  /// Calls renumber(part) for every stretch of the current slice and sets its part to the result.
   template <class Renumber>
   void renumber_slice(const Renumber& renumber) {
     for (std::vector<Stretch>& row : here_) {
@@ -87,7 +86,7 @@ class PartTracker {
   }
 
  private:
-  /// The stretches of a row beside another, which is gone along once.
+  /// The stretches of a neighbouring row, visited once in order.
   class Neighbours {
    public:
     explicit Neighbours(const std::vector<Stretch>& row) : row_(row) {}
@@ -106,12 +105,12 @@ class PartTracker {
   };
 
   Label background_;
-  std::vector<std::vector<Stretch>> below_;  ///< the slice before
+  std::vector<std::vector<Stretch>> below_;  ///< the previous slice
   std::vector<std::vector<Stretch>> here_;
-  std::size_t next_ = 0;  ///< row of the slice
+  std::size_t next_ = 0;  ///< next row of the slice
 };
 
-/// Sets of numbers that are joined; the smallest of a set stands for it.
+/// Joined sets of numbers; the smallest number represents its set.
 class JoinedNumbers {
  public:
   std::uint32_t add() {

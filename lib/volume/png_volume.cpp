@@ -16,7 +16,7 @@ namespace wscvt {
 
 namespace {
 
-/// What an image says of itself.
+/// Size and type of an image.
 struct PngImage {
   png_uint_32 width = 0;
   png_uint_32 height = 0;
@@ -34,8 +34,8 @@ struct PngImage {
   }
 };
 
-/// One open PNG. libpng leaves its errors by longjmp, over no object of ours: what it calls is in
-/// functions that hold none.
+/// An open PNG. libpng reports errors by longjmp, which must not skip destructors. So the functions
+/// that call libpng have no objects with destructors.
 class PngFile {
  public:
   explicit PngFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "rb")) {
@@ -63,7 +63,7 @@ class PngFile {
            (image_.bits == 16 ? 2 : 1);
   }
 
-  /// Reads a row over what `row` holds, which an interlaced file needs. Throws Error(InputOutput).
+  /// Reads a row over the content of `row`, as an interlaced file needs. Throws Error(InputOutput).
   void read_row(char* row) {
     if (!try_row(row)) {
       refuse_volume(path_, "is cut short or damaged (" + shown(said_) + "); export it again.");
@@ -87,7 +87,7 @@ class PngFile {
     image_.height = png_get_image_height(png_, info_);
     image_.bits = png_get_bit_depth(png_, info_);
     image_.channels = png_get_channels(png_, info_);
-    png_set_packing(png_);  // numbers of less than 8 bits become bytes, as they are
+    png_set_packing(png_);  // numbers of less than 8 bits become bytes with equal values
     image_.passes = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     return true;
@@ -112,7 +112,7 @@ class PngFile {
   char said_[128] = "";
 };
 
-/// Slices that are files.
+/// Slices in separate files.
 class PngStack : public LabelVolume {
  public:
   PngStack(const VolumeGeometry& geometry, const PngImage& image, int channel,
@@ -162,11 +162,11 @@ class PngStack : public LabelVolume {
   void next_slice() {
     file_ = std::make_unique<PngFile>(paths_.at(next_slice_++));
     next_row_ = 0;
-    if (!(file_->image() == image_)) {  // looked at when it was opened; it was changed since
+    if (!(file_->image() == image_)) {  // checked when it was opened, so it has changed since
       refuse_volume(paths_[next_slice_ - 1], "was changed while it was read; call again.");
     }
     if (file_->image().passes == 1) return;
-    // An interlaced image is whole only after its last pass.
+    // An interlaced image is complete only after its last pass.
     slice_.assign(file_->row_bytes() * image_.height, '\0');
     for (int pass = 0; pass < file_->image().passes; ++pass) {
       for (std::size_t y = 0; y < image_.height; ++y) {
@@ -181,7 +181,7 @@ class PngStack : public LabelVolume {
   std::unique_ptr<PngFile> file_;
   std::size_t next_slice_ = 0;
   png_uint_32 next_row_;
-  std::vector<char> slice_;  ///< of an interlaced file all rows, else one
+  std::vector<char> slice_;  ///< all rows of an interlaced file, else one
   std::vector<char> voxels_;
   std::vector<Label> row_;
 };

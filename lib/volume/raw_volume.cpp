@@ -30,7 +30,7 @@ Json description_of(const std::string& path) {
   return description;
 }
 
-/// A key that is not known could be a misspelled one.
+/// Refuses unknown keys, which may be misspelled.
 void check_keys(const Json& description, const std::string& path) {
   for (const auto& [key, value] : description.items()) {
     const auto is_key = [&key = key](const char* known) { return key == known; };
@@ -42,7 +42,7 @@ void check_keys(const Json& description, const std::string& path) {
   }
 }
 
-/// Three numbers; one stands for all of them.
+/// Reads three numbers, or one for all three.
 Vector3 vector_of(const Json& value, const std::string& key, const std::string& path) {
   if (value.is_number()) return Vector3::Constant(value.get<double>());
   Vector3 vector;

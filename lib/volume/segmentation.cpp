@@ -16,7 +16,7 @@ namespace wscvt {
 
 namespace {
 
-/// Labels that are held.
+/// Labels in memory.
 class HeldVolume : public LabelVolume {
  public:
   HeldVolume(const VolumeGeometry& geometry, std::vector<Label> labels)
@@ -36,7 +36,7 @@ class HeldVolume : public LabelVolume {
   std::size_t next_ = 0;
 };
 
-/// A volume whose labels 0, 1, 2, ... have other numbers.
+/// Maps the labels 0, 1, 2, ... of a volume to other numbers.
 class RenumberedVolume : public LabelVolume {
  public:
   RenumberedVolume(std::unique_ptr<LabelVolume> volume, std::vector<Label> numbers)
@@ -71,16 +71,16 @@ std::size_t voxels_of(const VoxelCounts& counts) {
          static_cast<std::size_t>(counts[2]);
 }
 
-/// What the grey values of a volume are like; those that are not finite are looked over.
+/// Statistics of the grey values of a volume; values that are not finite are ignored.
 struct GreyRange {
   float least = std::numeric_limits<float>::max();
   float largest = std::numeric_limits<float>::lowest();
   bool are_two = true;
   bool are_whole = true;
-  /// Between these lie all but a thousandth at each end, and a quarter of what lies between beyond.
+  /// Range of all values but a thousandth at each end, widened by a quarter of it at both ends.
   float lower = 0.0F;
   float upper = 0.0F;
-  double equal_neighbours = 0.0;  ///< share of the neighbours along x that are equal
+  double equal_neighbours = 0.0;  ///< fraction of equal neighbours along x
 };
 
 GreyRange range_of(LabelVolume& volume, const Execution& execution) {
@@ -95,7 +95,7 @@ GreyRange range_of(LabelVolume& volume, const Execution& execution) {
       const float value = grey_value(code);
       if (!std::isfinite(value)) continue;
       if (value == before) ++equal;
-      constexpr std::uint64_t sampled = 61;  // does not go with the rows
+      constexpr std::uint64_t sampled = 61;  // no common factor with usual row lengths
       if (count++ % sampled == 0) sample.push_back(value);
       if (value == before) continue;
       before = value;
@@ -118,14 +118,14 @@ GreyRange range_of(LabelVolume& volume, const Execution& execution) {
   std::sort(sample.begin(), sample.end());
   const float first = sample[sample.size() / 1000];
   const float last = sample[sample.size() - 1 - sample.size() / 1000];
-  // All but a thousandth may be of one value.
+  // All but a thousandth may have one value.
   const float beyond = first < last ? 0.25F * (last - first) : range.largest - range.least;
   range.lower = std::max(range.least, first - beyond);
   range.upper = std::min(range.largest, last + beyond);
   return range;
 }
 
-/// The voxels of which `is_material` holds, as 1.
+/// Returns a mask of the voxels for which `is_material` is true.
 template <class IsMaterial>
 std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& execution,
                                   const IsMaterial& is_material) {
@@ -137,13 +137,14 @@ std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& executio
   return mask;
 }
 
-/// The material among grey values; sets `threshold` to what parted them, if it was not given.
+/// Returns the material among grey values; sets `threshold` to the computed one if it was not
+/// given.
 std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                       std::optional<double>& threshold,
                                       const Execution& execution) {
   constexpr double most = std::numeric_limits<std::uint16_t>::max();
-  // Whole numbers of 16 bits stand for themselves; of others a few that are far off do not take the
-  // steps from the rest.
+  // Whole numbers of 16 bits are used as they are. Other values are quantized; a few outliers must
+  // not widen the steps.
   const bool is_short = range.are_whole && double{range.largest} - range.least <= most;
   const double base = is_short ? range.least : range.lower;
   const double step = is_short ? 1.0 : (range.upper - base) / most;
@@ -151,7 +152,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   grey.reserve(voxels_of(scan.geometry().counts));
   for_each_row(scan, execution.part(0.0, 0.2), [&](const std::vector<Label>& row) {
     for (const Label code : row) {
-      // What is no number lies outside of what was scanned.
+      // NaN lies outside the scanned region.
       const float value = code == 0 ? range.least : grey_value(code);
       grey.push_back(
           static_cast<std::uint16_t>(std::clamp(std::round((value - base) / step), 0.0, most)));
@@ -177,7 +178,7 @@ std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
   return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
 }
 
-/// Its parts, those that touch separated.
+/// Returns the parts of a mask, with touching parts separated.
 std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
                                            const VolumeGeometry& geometry, double depth,
                                            const Execution& execution) {
@@ -190,7 +191,7 @@ std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
                   execution.part(0.9, 1.0));
 }
 
-/// Finds the grains, numbered from 1, and gives one number more to all that are too small.
+/// Numbers the grains from 1, and gives one more number to all that are too small.
 void drop_small(Segmentation& result, std::int64_t smallest, const Execution& execution) {
   const std::vector<LabelExtent> all = label_census(*result.labels, 0, execution);
   std::vector<Label> numbers(all.size() + 1, 0);  // parts are numbered without gaps
@@ -215,7 +216,8 @@ void drop_small(Segmentation& result, std::int64_t smallest, const Execution& ex
   result.labels = std::make_unique<RenumberedVolume>(std::move(result.labels), std::move(numbers));
 }
 
-/// What `work` gives. Throws MachineRefused, which says how much was needed, for want of memory.
+/// Returns the result of `work`. If memory is insufficient, throws MachineRefused with the amount
+/// needed.
 template <class Work>
 auto with_memory(const VoxelCounts& counts, const Work& work) {
   try {

@@ -14,16 +14,16 @@
 
 namespace wscvt {
 
-// From grey values, or a mask, to labelled grains. All of a volume is held, 25 bytes a voxel at the
-// most; the result is the same on any number of threads.
+// From grey values, or a mask, to labelled grains. The whole volume is in memory, at most 25 bytes
+// per voxel. The result does not depend on the number of threads.
 
 struct SegmentationOptions {
-  /// The grey value from which on a voxel is material; empty: see level_between_peaks.
+  /// Smallest grey value of material; empty: see level_between_peaks.
   std::optional<double> threshold;
   /// See separate_option; a voxel's edge is the cube root of its volume. Steps of voxels make false
-  /// maxima of up to half a voxel, and true necks of grains in contact begin a little above that.
+  /// maxima of up to half a voxel. True necks between touching grains begin a little above.
   double separate = 0.75;
-  /// Voxels of the smallest grain that is kept: what is 6 voxels across has no shape to measure.
+  /// Voxels of the smallest grain to keep: a grain of 6 voxels across has no measurable shape.
   std::int64_t smallest = 100;
 };
 
@@ -43,31 +43,32 @@ inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
     1,          std::numeric_limits<std::int64_t>::max(),
     Ends::Both, "smaller ones are dropped"};
 
-/// What came of a volume.
+/// Result of segment.
 struct Segmentation {
-  /// Grains from 1, each of one part, in the order in which they begin; 0 between them; one more
-  /// than grains where parts were dropped. May be read as often as wanted, see LabelVolume.
+  /// Grains from 1, each of one part, in the order in which they begin; 0 between them; dropped
+  /// parts have the number of grains plus 1. Readable repeatedly, see LabelVolume.
   std::unique_ptr<LabelVolume> labels;
   std::vector<LabelExtent> grains;  ///< by their labels
-  bool is_mask = false;             ///< it has two values, and was neither smoothed nor parted
+  bool is_mask = false;             ///< two values only: not smoothed, no threshold computed
   bool is_flat = false;             ///< most neighbours are equal, as in a volume of labels
-  double threshold = 0.0;           ///< that was taken
+  double threshold = 0.0;           ///< as used
   std::uint64_t voxels = 0;         ///< of the volume
-  std::uint64_t material = 0;       ///< voxels of grains, those that were dropped too
+  std::uint64_t material = 0;       ///< voxels of grains, including dropped ones
   std::uint64_t dropped = 0;        ///< voxels of grains smaller than the smallest
   std::uint64_t filled = 0;         ///< voxels of holes, which count as material
 };
 
-/// Reads a scan, which gives grey values from then on (see LabelVolume) and may be read again: the
-/// median of each voxel and its 26 neighbours; the threshold; holes inside the material filled; its
-/// parts separated. A volume of two values is a mask, whose larger value is the material. Throws
-/// Error: InvalidInput for options out of range, without ITK, for a volume of one value, and where
-/// no grain is left; Cancelled, and what the volume throws.
+/// Segments a scan, which gives grey values from then on (see LabelVolume) and may be read again:
+/// the median of each voxel and its 26 neighbours, the threshold, holes in the material filled,
+/// touching parts separated. A volume of two values is a mask; the larger value is the material.
+/// Throws Error: InvalidInput for options out of range, without ITK, for a volume of one value, and
+/// if no grain is left; Cancelled, and what the volume throws.
 Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
                      const Execution& execution);
 
-/// The parts of a mask, all that is not background, as grains that touch are separated by segment:
-/// labels from 1, none left out. Throws as segment does, and for a volume of several labels.
+/// Separates touching grains of a mask, all that is not background, as segment does. Returns its
+/// parts with labels from 1, without dropping any. Throws as segment does, and for a volume of
+/// several labels.
 std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double depth,
                                        const Execution& execution);
 

@@ -17,7 +17,7 @@ namespace wscvt {
 
 namespace {
 
-/// A slice across an axis: the values of the scan and the labels, rows along `down`.
+/// A slice across an axis: grey values and labels, rows along `down`.
 struct ShownSlice {
   std::size_t axis;
   std::size_t right;
@@ -27,7 +27,7 @@ struct ShownSlice {
   std::vector<Label> labels;
 };
 
-/// Reads the slices' parts of each row of a volume, into the member of each that `of` gives.
+/// Reads the slices' parts of each row of a volume into the member `of` of each slice.
 void read_slices(LabelVolume& volume, std::vector<ShownSlice>& slices,
                  std::vector<Label> ShownSlice::*of, const Execution& execution) {
   const VoxelCounts& counts = volume.geometry().counts;
@@ -48,7 +48,7 @@ void read_slices(LabelVolume& volume, std::vector<ShownSlice>& slices,
   }
 }
 
-/// The values between which a picture goes from black to white: all but a few of each end.
+/// Returns the values shown as black and white: all but a few at each end.
 std::pair<double, double> shown_range(const std::vector<ShownSlice>& slices) {
   std::vector<double> values;
   for (const ShownSlice& slice : slices) {
@@ -118,7 +118,7 @@ double share_of(std::uint64_t part, std::uint64_t all) {
   return static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// What hints at a segmentation that is wrong: sentences.
+/// Returns sentences about signs of a wrong segmentation.
 std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   std::vector<std::string> doubts;
   if (segmentation.is_flat) {

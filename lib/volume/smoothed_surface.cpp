@@ -23,7 +23,7 @@ Edge edge_of(const VoxelFace& face, std::size_t k) {
   return std::minmax(face[k], face[(k + 1) % 4]);
 }
 
-/// The vertices that edges of faces lead to, of every vertex. Each edge is in two faces, once in
+/// Returns the neighbours of every vertex along edges of faces. Each edge is in two faces, once in
 /// either direction.
 Groups neighbours_of(const VoxelSurface& surface) {
   Groups groups = counting_sort(4 * surface.faces.size(), surface.corners.size(),
@@ -36,7 +36,7 @@ Groups neighbours_of(const VoxelSurface& surface) {
   return groups;
 }
 
-/// Edges that have both their vertices in common with another one.
+/// Returns edges that share both their vertices with another edge.
 std::set<Edge> doubled_edges(const Groups& neighbours) {
   std::set<Edge> doubled;
   std::vector<std::int32_t> sorted;
@@ -54,9 +54,9 @@ std::set<Edge> doubled_edges(const Groups& neighbours) {
   return doubled;
 }
 
-/// Diffusion on the lattice's edges. What moves is how far each vertex is from its corner of the
-/// lattice, at most half a voxel: single precision keeps a ten-millionth of that, and takes a third
-/// of the time of places in double precision.
+/// Diffusion along the lattice's edges. It stores each vertex's displacement from its corner of the
+/// lattice, at most half a voxel. Single precision keeps a ten-millionth of it, and takes a third
+/// of the time of positions in double precision.
 class Diffusion {
  public:
   Diffusion(const std::vector<VoxelCounts>& corners, const Groups& neighbours)
@@ -78,7 +78,7 @@ class Diffusion {
     }
   }
 
-  /// One step, the vertices kept in their cells.
+  /// Makes one step and keeps the vertices in their cells.
   void run(float step) {
     const Four half_a_voxel = Four::Constant(0.5F);
     for (std::size_t v = 0; v < away_.size(); ++v) {
@@ -92,20 +92,20 @@ class Diffusion {
     away_.swap(moved_);
   }
 
-  /// How far a vertex is from its corner.
+  /// Returns the displacement of a vertex from its corner.
   Vector3 away(std::size_t vertex) const { return away_[vertex].head<3>().cast<double>(); }
 
  private:
-  using Four = Eigen::Array4f;  ///< three coordinates, for which the processor has no operations
+  using Four = Eigen::Array4f;  ///< three coordinates; processors have no operations for three
 
   const Groups& neighbours_;
   std::vector<Four> away_;
   std::vector<Four> moved_;
-  /// The mean of the neighbours' corners, from the own one; the last: 1 over their number.
+  /// mean of the neighbours' corners relative to the own; last: 1 / their number
   std::vector<Four> mean_;
 };
 
-/// The voxel inside a face; twice its middle, in whole numbers.
+/// Returns the voxel inside a face: twice its middle, in whole numbers.
 std::tuple<int, int, int> voxel_inside(const VoxelSurface& surface, const VoxelFace& face) {
   std::array<VoxelCounts, 4> corners{};
   for (std::size_t k = 0; k < 4; ++k) corners[k] = surface.corners[index(face[k])];
@@ -120,7 +120,7 @@ std::tuple<int, int, int> voxel_inside(const VoxelSurface& surface, const VoxelF
   return {middle[0], middle[1], middle[2]};
 }
 
-/// Makes triangles of faces.
+/// Splits faces into triangles.
 class FaceSplitter {
  public:
   FaceSplitter(const VoxelSurface& surface, const std::set<Edge>& doubled, IndexedMesh& mesh)
@@ -140,7 +140,7 @@ class FaceSplitter {
         round.push_back(middles_.at({edge_of(face, k), voxel_inside(surface_, face)}));
       }
       if (round.size() > 4) {
-        // A fan about a middle, which no other face's triangles share an edge from within.
+        // A fan about a middle: its inner edges are in no other face's triangles.
         std::rotate(round.begin(), round.begin() + static_cast<std::ptrdiff_t>(first_middle),
                     round.end());
       } else if (is_longer(face[0], face[2], face[1], face[3])) {
@@ -158,7 +158,8 @@ class FaceSplitter {
            (mesh_.points[index(c)] - mesh_.points[index(d)]).squaredNorm();
   }
 
-  /// The middle of a doubled edge is drawn to its own two faces, away from the other edge's.
+  /// Adds the middles of doubled edges, moved to each edge's own two faces and away from the other
+  /// edge.
   void add_middles() {
     for (const VoxelFace& face : surface_.faces) {
       for (std::size_t k = 0; k < 4; ++k) {
@@ -168,7 +169,7 @@ class FaceSplitter {
             middles_.emplace(std::pair(edge, voxel_inside(surface_, face)),
                              static_cast<std::int32_t>(mesh_.points.size()));
         if (is_new) mesh_.points.emplace_back(Vector3::Zero());
-        // An eighth of the edge's two and of the faces' four others, from both faces.
+        // Both faces add an eighth of each of their vertices; the edge's two vertices are in both.
         Vector3& middle = mesh_.points[index(place->second)];
         for (const std::int32_t vertex : face) middle += mesh_.points[index(vertex)] / 8.0;
       }
@@ -183,7 +184,7 @@ class FaceSplitter {
 
 /// Scales the mesh about its centroid to a volume.
 void restore_volume(IndexedMesh& mesh, double volume) {
-  // About a vertex, because the sum over cones from afar loses digits.
+  // About a vertex, because cones from a distant point lose digits.
   const Vector3 start = mesh.points.front();
   const MeshSums sums = mesh_sums(mesh.points, mesh.triangles, start, Execution(1));
   constexpr double least_share = 0.1;
@@ -201,8 +202,7 @@ void restore_volume(IndexedMesh& mesh, double volume) {
 
 IndexedMesh smoothed_surface(const VoxelSurface& surface, int passes,
                              const VolumeGeometry& geometry) {
-  // Taubin's: what varies more slowly than the pass band of 0.1 stays, as 1 / step + 1 / back =
-  // 0.1.
+  // Taubin's pass band of 0.1, as 1 / step + 1 / back = 0.1: slower variations stay.
   constexpr float step = 0.6307F;
   constexpr float back = -0.6732F;
   const Groups neighbours = neighbours_of(surface);
@@ -221,7 +221,7 @@ IndexedMesh smoothed_surface(const VoxelSurface& surface, int passes,
   FaceSplitter(surface, doubled, mesh).run();
   restore_volume(mesh, static_cast<double>(surface.enclosed));
   for (Vector3& point : mesh.points) point = geometry.point(point);
-  if (geometry.axes.determinant() < 0.0) {  // axes of a left hand turn the faces inside out
+  if (geometry.axes.determinant() < 0.0) {  // left-handed axes turn the faces inside out
     for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   }
   return mesh;

@@ -12,7 +12,7 @@
 namespace wscvt {
 
 TiffFile::TiffFile(const std::string& path) : path_(path) {
-  // A strip that a damaged file claims to be larger than what it could unpack to is refused.
+  // Refuses strips for which a damaged file claims more than they could unpack to.
   most_ = std::min<std::uint64_t>(1U << 30, 1100 * file_size(path) + (1 << 20));
   TIFFOpenOptions* const options = TIFFOpenOptionsAlloc();
   if (options == nullptr) throw std::bad_alloc();

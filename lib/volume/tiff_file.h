@@ -10,10 +10,10 @@
 
 namespace wscvt {
 
-/// One open TIFF. What libtiff says of an error is kept for the sentence.
+/// An open TIFF. Errors of libtiff are kept for the message.
 class TiffFile {
  public:
-  /// Throws Error(InputOutput) for what is no TIFF.
+  /// Throws Error(InputOutput) for a file that is no TIFF.
   explicit TiffFile(const std::string& path);
   TiffFile(const TiffFile&) = delete;
   TiffFile& operator=(const TiffFile&) = delete;
@@ -22,17 +22,17 @@ class TiffFile {
   TIFF* get() const { return tiff_; }
   const std::string& path() const { return path_; }
 
-  /// The most that a strip or tile of the file could be unpacked to.
+  /// Returns the largest possible size of an unpacked strip or tile of the file.
   std::uint64_t most_bytes() const { return most_; }
 
-  /// How many there are. A file that was cut has lost the way to the others, and libtiff ends
-  /// there: throws Error(InputOutput).
+  /// Returns the number of pages. Throws Error(InputOutput) for a file that was cut, because
+  /// libtiff cannot reach its other pages.
   std::int64_t pages() const;
 
-  /// The text that the program which wrote the file left on the first page; empty: none.
+  /// Returns the text that the writing program left on the first page; empty if there is none.
   std::string description() const;
 
-  /// Throws Error(InputOutput): "path" + what, and what libtiff said.
+  /// Throws Error(InputOutput): "path" + what, and libtiff's error.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

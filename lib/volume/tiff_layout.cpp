@@ -22,12 +22,12 @@ std::int64_t product_of(const std::vector<VolumeAxis>& axes) {
   return product;
 }
 
-/// What ImageJ writes into its stacks: lines of "key=value".
+/// ImageJ's text of a stack: lines of "key=value".
 class ImageJText {
  public:
   explicit ImageJText(const std::string& text) : text_("\n" + text) {}
 
-  /// Empty where there is none.
+  /// Returns a value; empty if there is none.
   std::string value(const std::string& key) const {
     const std::size_t place = text_.find("\n" + key + "=");
     if (place == std::string::npos) return "";
@@ -59,7 +59,7 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
                  {AxisKind::Frame, text.count("frames")}};
   const std::int64_t images = text.value("images").empty() ? pages : text.count("images");
   const std::int64_t product = product_of(layout.axes);
-  // A stack without dimensions is one of slices.
+  // A stack without dimensions has slices.
   if (product == 1) layout.axes = {{AxisKind::Space, images}};
   if (product != 1 && product != images) {
     refuse_volume(path, "has " + std::to_string(images) + " images, and ImageJ noted " +
@@ -81,7 +81,7 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   const std::string unit = text.value("unit");
   layout.unit = unit_of(unit);
   if (layout.unit.empty()) return layout;
-  // ImageJ writes no spacing of 1, and reads none as 1.
+  // ImageJ omits a spacing of 1, and reads a missing spacing as 1.
   const std::optional<double> spacing = number_in(text.value("spacing"));
   layout.voxel_size = Vector3::Constant(spacing ? std::abs(*spacing) : 1.0);
   if (!spacing) {
@@ -91,8 +91,8 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   return layout;
 }
 
-/// tifffile's text: {"shape": [2, 24, 28, 36], "axes": "CZYX"}, the last dimensions those of a
-/// page.
+/// Reads tifffile's text: {"shape": [2, 24, 28, 36], "axes": "CZYX"}; the last dimensions are the
+/// page's.
 TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t samples,
                               const std::string& path) {
   TiffLayout layout;
@@ -124,7 +124,7 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t
   for (std::size_t k = slower; k-- > 0;) {
     const char letter = letters.empty() ? '?' : letters[k];
     VolumeAxis axis = {AxisKind::Frame, counts[k]};
-    // Without letters the dimension next to the page's is that of slices, but for those of one.
+    // Without letters, the dimension before the page's is the slices', except dimensions of one.
     if (letter == 'Z' || ((letter == '?' || letter == 'Q' || letter == 'I') && !has_space &&
                           (counts[k] > 1 || k == 0))) {
       axis.kind = AxisKind::Space;

@@ -11,27 +11,26 @@
 
 namespace wscvt {
 
-/// What the pages of a TIFF are, which TIFF itself does not say: ImageJ, OME and tifffile write it
-/// into the text of the first page.
+/// Meaning of the pages of a TIFF. TIFF itself does not define it; ImageJ, OME and tifffile write
+/// it into the text of the first page.
 struct TiffLayout {
-  /// Dimensions of the pages, the one that changes from page to page first: slices are Space.
+  /// Dimensions of the pages, the fastest first: slices are Space.
   std::vector<VolumeAxis> axes;
-  /// The page of each place in `axes`; empty: they follow each other.
+  /// The page of each position in `axes`; empty: they are consecutive.
   std::vector<std::int64_t> pages;
-  std::int64_t samples = 1;  ///< numbers a voxel, of the same page
-  /// Of a voxel; not above 0 where it is not said. ImageJ's is along z, x and y are the
-  /// resolution's.
+  std::int64_t samples = 1;  ///< numbers per voxel, on one page
+  /// Not above 0 if unknown. ImageJ's is along z; x and y come from the resolution.
   Vector3 voxel_size = Vector3::Zero();
   std::string unit;
-  /// All voxels stand in one block behind the only page.
+  /// All voxels are one block after the only page.
   bool may_be_one_block = false;
-  std::string writer;  ///< for sentences; empty: the file says nothing of its pages
+  std::string writer;  ///< for messages; empty: the file has no description of its pages
   std::vector<std::string> notes;
 };
 
-/// Reads what a file `path` with so many pages, and `samples` numbers a voxel, says in its first
-/// page's text. Throws Error(InputOutput), naming the file, where that contradicts the pages, or
-/// tells of dimensions or files that are not known.
+/// Reads the layout of a file `path` with `pages` pages and `samples` numbers per voxel from its
+/// first page's text. Throws Error(InputOutput), naming the file, if the text contradicts the
+/// pages, or has unknown dimensions or files.
 TiffLayout tiff_layout(const std::string& text, std::int64_t pages, std::int64_t samples,
                        const std::string& path);
 

@@ -23,14 +23,14 @@ namespace wscvt {
 
 namespace {
 
-/// What a page says of itself.
+/// Size and type of a page.
 struct Page {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  int bits = 8;            ///< of a number: 1, 2, 4, or those of the type
-  VoxelType type;          ///< of numbers of less than 8 bits: bytes
-  int samples = 1;         ///< numbers a voxel
-  bool is_planar = false;  ///< one sample stands behind the other, not beside it
+  int bits = 8;            ///< of a number: 1, 2, 4, or the type's
+  VoxelType type;          ///< bytes for numbers of less than 8 bits
+  int samples = 1;         ///< numbers per voxel
+  bool is_planar = false;  ///< samples follow each other, not interleaved
   bool shows_0_as_white = false;
 
   bool operator==(const Page& other) const {
@@ -100,7 +100,7 @@ struct SlicePage {
 /// Slices that are pages of one file, or files of one page.
 class TiffStack : public LabelVolume {
  public:
-  /// `sample`: the one that is taken of each voxel's.
+  /// `sample`: number of the selected sample of each voxel.
   TiffStack(const VolumeGeometry& geometry, const Page& page, int sample,
             std::vector<std::string> files, std::vector<SlicePage> slices)
       : LabelVolume(geometry),
@@ -137,7 +137,7 @@ class TiffStack : public LabelVolume {
       file_at_ = slice.file;
       page_at_ = 0;
     }
-    // Pages are a chain: it is gone along, and begun again where it has to be.
+    // Pages are a linked list: followed forwards, and restarted if necessary.
     bool is_found = true;
     if (slice.page < page_at_) {
       is_found = TIFFSetDirectory(file_->get(), static_cast<tdir_t>(slice.page)) != 0;
@@ -165,7 +165,7 @@ class TiffStack : public LabelVolume {
     if (TIFFIsTiled(file_->get()) != 0) {
       TIFFGetField(file_->get(), TIFFTAG_TILEWIDTH, &tile_width_);
       TIFFGetField(file_->get(), TIFFTAG_TILELENGTH, &rows);
-      // A tile hangs over the page's rim, so that it can be larger than the page.
+      // A tile may extend beyond the page, so it can be larger than the page.
       check_bytes(std::uint64_t{rows} * tile_width_);
     } else {
       TIFFGetFieldDefaulted(file_->get(), TIFFTAG_ROWSPERSTRIP, &rows);
@@ -201,7 +201,7 @@ class TiffStack : public LabelVolume {
     }
   }
 
-  /// Those beside each other that hold the next rows.
+  /// Reads the tiles, side by side, of the next rows.
   void read_tiles(std::uint16_t plane) {
     const tmsize_t tile_bytes = TIFFTileSize(file_->get());
     const auto tile_row_bytes = static_cast<std::size_t>(TIFFTileRowSize(file_->get()));
@@ -222,7 +222,7 @@ class TiffStack : public LabelVolume {
     }
   }
 
-  /// The numbers that are taken of a row, byte after byte.
+  /// Extracts the selected numbers of a row, byte after byte.
   void unpack_row(const char* packed) {
     const auto size = static_cast<std::size_t>(page_.type.bytes);
     voxels_.resize(size * page_.width);
@@ -252,8 +252,8 @@ class TiffStack : public LabelVolume {
   std::uint32_t page_at_ = 0;
   std::size_t next_slice_ = 0;
   std::uint32_t next_row_;
-  // A band is what the file unpacks at once: the rows of a strip, or of the tiles beside each
-  // other.
+  // A band is the part that the file unpacks at once: the rows of a strip, or of tiles side by
+  // side.
   std::uint32_t band_rows_ = 1;
   std::uint32_t tile_width_ = 0;  // 0: strips
   std::size_t row_bytes_ = 0;     // of a band
@@ -263,8 +263,8 @@ class TiffStack : public LabelVolume {
   std::vector<Label> row_;
 };
 
-/// The size of a voxel along x and y by the resolution of a page, in centimetres where the page has
-/// a unit; nothing where it has none.
+/// Returns the size of a voxel along x and y from the resolution of a page, in centimetres if the
+/// page has a unit; nothing without a resolution.
 std::optional<Vector3> voxel_of_resolution(const TiffFile& file) {
   float across = 0.0F;
   float down = 0.0F;
@@ -275,13 +275,13 @@ std::optional<Vector3> voxel_of_resolution(const TiffFile& file) {
     return std::nullopt;
   }
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
-  // Stored as fractions, which libtiff gives as float; ImageJ's are of six digits.
+  // Stored as fractions, which libtiff returns as float; ImageJ's have six digits.
   Vector3 size(1.0 / static_cast<double>(across), 1.0 / static_cast<double>(down), 0.0);
   if (unit == RESUNIT_INCH) size *= 2.54;
   return size;
 }
 
-/// Sets the lattice by what ImageJ or OME wrote, or by the page's resolution.
+/// Sets the lattice from the text of ImageJ or OME, or from the page's resolution.
 void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, TiffLayout& layout,
                          const VolumeChoice& choice) {
   const std::optional<Vector3> resolution = voxel_of_resolution(file);
@@ -289,11 +289,11 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, TiffLay
   std::uint16_t unit = RESUNIT_INCH;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
   if (layout.writer == "ImageJ" && size.z() > 0.0 && resolution) {
-    // In ImageJ's unit, whatever the page's.
+    // In ImageJ's unit, not the page's.
     size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
     size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();
   } else if (layout.writer.empty() && resolution && unit != RESUNIT_NONE) {
-    // Screens and printers have up to 1200 dots an inch, 0.021 mm; a finer one is of an instrument.
+    // Screens and printers have up to 1200 dots per inch, 0.021 mm; a finer one is an instrument's.
     constexpr double finest_dot_cm = 2.54 / 1200.0;
     if (resolution->x() < 0.999 * finest_dot_cm && resolution->y() < 0.999 * finest_dot_cm) {
       size = 10.0 * Vector3(resolution->x(), resolution->y(), resolution->x());
@@ -313,7 +313,7 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, TiffLay
   set_lattice(geometry, size.asDiagonal(), 0.5 * size, choice, file.path());
 }
 
-/// Where each slice is that is taken of a file of pages.
+/// Returns the positions of the selected slices in a file of pages.
 std::vector<SlicePage> slices_of(const TiffLayout& layout,
                                  const std::vector<std::int64_t>& places) {
   std::vector<SlicePage> slices;
@@ -335,8 +335,7 @@ std::vector<SlicePage> slices_of(const TiffLayout& layout,
   return slices;
 }
 
-/// Whether a file's dimensions hold more than one channel besides those of a page, which are then
-/// told apart.
+/// Returns the channels in a file's dimensions or in its voxels; refuses a file with both.
 VolumeAxis channels_of(const TiffLayout& layout, const std::string& path) {
   VolumeAxis channels = {AxisKind::Channel, layout.samples};
   for (const VolumeAxis& axis : layout.axes) {
@@ -355,7 +354,7 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
                                              const VolumeChoice& choice) {
   const std::string& path = file.path();
   TiffLayout layout = tiff_layout(file.description(), file.pages(), page.samples, path);
-  // Each kind of dimension is one choice.
+  // Each kind of dimension is selected once.
   const std::int64_t channel = chosen_place(channels_of(layout, path), choice, path);
   VolumeAxis frames = {AxisKind::Frame, 1};
   std::vector<std::int64_t> places;
@@ -384,7 +383,7 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
   set_lattice_of_tiff(geometry, file, layout, choice);
   std::unique_ptr<LabelVolume> volume;
   if (layout.may_be_one_block) {
-    // Above 4 GiB ImageJ writes one page and the voxels of all behind it, as they are.
+    // Above 4 GiB, ImageJ writes one page, then all voxels uncompressed.
     std::uint16_t compression = COMPRESSION_NONE;
     TIFFGetFieldDefaulted(file.get(), TIFFTAG_COMPRESSION, &compression);
     std::uint64_t* offsets = nullptr;
@@ -440,7 +439,7 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
   VolumeGeometry geometry;
   geometry.counts = voxel_counts({page.width, page.height, static_cast<std::int64_t>(pages.size())},
                                  slices.folder);
-  // The text of one slice is of no stack, but the resolution is its own.
+  // The text of a single slice describes no stack, but its resolution is valid.
   TiffLayout layout;
   set_lattice_of_tiff(geometry, first, layout, choice);
   std::unique_ptr<LabelVolume> volume = std::make_unique<TiffStack>(

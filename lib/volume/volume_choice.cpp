@@ -12,7 +12,7 @@ namespace wscvt {
 
 namespace {
 
-/// All names of a unit, the one that is shown first, in lower case.
+/// Returns all names of each unit in lower case, the displayed name first.
 const std::vector<std::vector<std::string>>& unit_names() {
   static const std::vector<std::vector<std::string>> rows = {
       {"um", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "\\u00b5m", "micron", "microns", "micrometer",
@@ -27,7 +27,7 @@ const std::vector<std::vector<std::string>>& unit_names() {
   return rows;
 }
 
-/// The row of a unit; null: it is not known.
+/// Returns the row of a unit; null if it is unknown.
 const std::vector<std::string>* unit_row_of(const std::string& text) {
   const std::string lower = lower_case(text);
   for (const std::vector<std::string>& row : unit_names()) {
@@ -98,7 +98,7 @@ std::vector<BlockPick> picks_of(const std::vector<VolumeAxis>& axes, const Volum
     const std::int64_t place = chosen_place(axis, choice, path);
     if (axis.count > 1) picks.push_back({block, axis.count, place});
   }
-  // What was chosen has to be there: of a file without channels only the first is.
+  // The selection must exist: a file without channels has only the first.
   for (const AxisKind kind : {AxisKind::Channel, AxisKind::Frame}) {
     const bool has_axis = std::any_of(axes.begin(), axes.end(),
                                       [&](const VolumeAxis& axis) { return axis.kind == kind; });

@@ -23,7 +23,7 @@ class VolumeOfParts : public LabelVolume {
   }
 
   const std::vector<Label>& next_row() override {
-    // The numbers come in the same order as when parts were joined.
+    // The numbers come in the order in which parts were joined before.
     const auto& stretches = tracker_.add_row(
         volume_->next_row(), [&](Label) { return next_part_++; },
         [](std::uint32_t, std::uint32_t) {});
@@ -71,7 +71,7 @@ class VolumeOfParts : public LabelVolume {
 
   std::unique_ptr<LabelVolume> volume_;
   PartTracker tracker_;
-  std::vector<Label> numbers_;  ///< of each part as it began
+  std::vector<Label> numbers_;  ///< number of each part at its beginning
   std::uint32_t next_part_ = 0;
   std::vector<Label> row_;
 };

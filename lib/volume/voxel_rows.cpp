@@ -20,7 +20,7 @@ namespace wscvt {
 
 namespace {
 
-/// All names of one type.
+/// All names of a type.
 struct TypeNames {
   VoxelType type;
   std::vector<std::string_view> names;
@@ -113,7 +113,7 @@ class VolumeOfBytes : public LabelVolume {
       : LabelVolume(geometry), type_(type), bytes_(std::move(bytes)), path_(std::move(path)) {}
 
   const std::vector<Label>& next_row() override {
-    // Made here, not before: a count that a packed file claims falsely is found by then.
+    // Allocated here, after the checks that detect a false count in a packed file.
     const auto count = static_cast<std::size_t>(geometry().counts[0]);
     row_.resize(count);
     packed_.resize(count * static_cast<std::size_t>(type_.bytes));
@@ -205,7 +205,7 @@ std::uint64_t voxel_bytes(const VoxelCounts& counts, const VoxelType& type) {
 void check_voxel_bytes(std::uint64_t wanted, std::uint64_t left, Packing packing,
                        const std::string& path) {
   std::uint64_t least = wanted;
-  if (packing == Packing::Deflate) least = wanted / 1100;   // makes at best one byte of 1032
+  if (packing == Packing::Deflate) least = wanted / 1100;   // at best one byte for 1032
   if (packing == Packing::Bzip2) least = wanted / 1000000;  // 900 kB of equal bytes take 40
   if (packing == Packing::Text) least = wanted / sizeof(double) * 2 - 1;  // a digit and a blank
   if (least <= left) return;
@@ -248,7 +248,7 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
     const std::uint64_t size = file_size(path);
     const std::uint64_t offset = data.at_end ? size - std::min(size, part) : data.offset;
     const std::uint64_t left = size - std::min(size, offset);
-    // ITK and others have written packed voxels without saying so.
+    // ITK and others have written packed voxels without declaring it.
     if (packing == Packing::None && left < part && begins_packed(path, offset)) {
       packing = Packing::Deflate;
     }
@@ -286,7 +286,7 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
 }
 
 std::string voxel_file_beside(const std::string& header, const std::string& name) {
-  // A NUL would end it, and name another file.
+  // A NUL would cut the name, which would be another file.
   if (std::any_of(name.begin(), name.end(),
                   [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; })) {
     refuse_volume(header, "names the file " + in_quotes(name) +

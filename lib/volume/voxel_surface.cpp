@@ -15,10 +15,10 @@ namespace wscvt {
 
 namespace {
 
-// Eight voxels meet in a corner of the lattice. Voxel dx + 2 dy + 4 dz of them lies before the
-// corner along an axis where its bit is 0, and behind it where it is 1. Twelve faces meet there:
-// face `place` + 4 axis lies between the two voxels that differ in the bit of the axis, `place`
-// being their other two bits.
+// Eight voxels meet in a corner of the lattice. Voxel dx + 2 dy + 4 dz is before the corner along
+// an axis if its bit is 0, and after it if the bit is 1. Twelve faces meet there: face `place` + 4
+// axis is between the two voxels that differ in the axis's bit, and `place` is their other two
+// bits.
 
 constexpr std::size_t faces_at_a_corner = 12;
 
@@ -26,7 +26,7 @@ std::size_t face_at(std::size_t axis, std::size_t bit_b, std::size_t bit_c) {
   return 4 * axis + bit_b + 2 * bit_c;
 }
 
-/// How the faces about a corner make rings, for one pattern of voxels inside.
+/// The rings of the faces about a corner, for one pattern of voxels inside.
 struct CornerRings {
   std::array<std::uint8_t, faces_at_a_corner> ring_of_face = {};
   std::uint8_t rings = 0;
@@ -35,14 +35,14 @@ struct CornerRings {
 CornerRings rings_of(unsigned inside) {
   const auto is_inside = [&](std::size_t voxel) { return (inside >> voxel & 1U) != 0; };
   boost::disjoint_sets_with_storage<> linked(faces_at_a_corner);
-  // Six edges leave the corner, and four voxels lie about each.
+  // Six edges meet in the corner, each with four voxels around it.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t b = (axis + 1) % 3;
     const std::size_t c = (axis + 2) % 3;
     for (std::size_t side = 0; side < 2; ++side) {
       struct Turn {
         std::size_t face;
-        bool here;  ///< the voxel before the face, going round
+        bool here;  ///< the voxel before the face, in the order around the edge
         bool there;
       };
       constexpr std::size_t round[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -54,7 +54,7 @@ CornerRings rings_of(unsigned inside) {
         const auto voxel = [&](const std::size_t(&bits)[2]) {
           return side << axis | bits[0] << b | bits[1] << c;
         };
-        // From here to there one bit changes: the face lies across that axis.
+        // From here to there one bit changes: the face is across that axis.
         const bool across_b = here[0] != there[0];
         const std::size_t face = across_b ? face_at(b, here[1], side)   // axes after b: c, axis
                                           : face_at(c, side, here[0]);  // axes after c: axis, b
@@ -64,7 +64,7 @@ CornerRings rings_of(unsigned inside) {
       if (faces.size() == 2) {
         linked.union_set(turns[faces[0]].face, turns[faces[1]].face);
       } else if (faces.size() == 4) {
-        // Two voxels touch in the edge alone: each keeps its own two faces, those on both sides.
+        // Two voxels touch only in the edge: each keeps its own two faces.
         for (std::size_t k = 0; k < 4; ++k) {
           if (!turns[k].there) continue;
           linked.union_set(turns[k].face, turns[(k + 1) % 4].face);
@@ -121,7 +121,7 @@ Box box_of(const std::vector<VoxelStretch>& stretches) {
   return box;
 }
 
-/// Goes through the slices of a label's box and makes all faces between it and what is not.
+/// Makes all faces between a label and other voxels, slice by slice of its box.
 class FaceMaker {
  public:
   FaceMaker(const std::vector<VoxelStretch>& stretches, VoxelSurface& surface)
@@ -144,7 +144,7 @@ class FaceMaker {
       fill_slice(z);
       std::swap(bottom_, top_);
       fill_layer(z);
-      // The layer at z is the top of slice z - 1, and the one before is its bottom.
+      // The layer at z is the top of slice z - 1; the previous layer is its bottom.
       make_faces_across_z();
       if (z > box_.begin[2]) {
         make_faces_within(0);
@@ -158,7 +158,7 @@ class FaceMaker {
 
   /// The corners between two slices.
   struct Layer {
-    std::vector<std::uint8_t> inside;  ///< pattern of the eight voxels about each
+    std::vector<std::uint8_t> inside;  ///< pattern of the eight voxels about each corner
     std::vector<std::int32_t> first_vertex;
   };
 
@@ -180,8 +180,8 @@ class FaceMaker {
   void fill_layer(std::int32_t z) {
     const std::array<CornerRings, 256>& rings = all_corner_rings();
     for (std::size_t j = 0; j <= height_; ++j) {
-      // Of the four voxels before or behind the corner along x, two in each slice; `before` is one
-      // row earlier.
+      // Of the four voxels before or after the corner along x, two are in each slice; `before` is
+      // one row earlier.
       const std::size_t before = j * (width_ + 2);
       const std::size_t behind = before + width_ + 2;
       const auto four_at = [&](std::size_t i) {
@@ -204,7 +204,7 @@ class FaceMaker {
     }
   }
 
-  /// The vertex of a face at one of its corners.
+  /// Returns the vertex of a face at one of its corners.
   static std::int32_t vertex(const Layer& layer, std::size_t corner, std::size_t face) {
     const CornerRings& rings = all_corner_rings()[layer.inside[corner]];
     return layer.first_vertex[corner] + rings.ring_of_face[face];
@@ -221,13 +221,13 @@ class FaceMaker {
     surface_.faces.push_back(face);
   }
 
-  /// Faces between the two slices.
+  /// Makes the faces between the two slices.
   void make_faces_across_z() {
     for (std::size_t j = 0; j < height_; ++j) {
       if (std::memcmp(&below_[voxel(0, j)], &here_[voxel(0, j)], width_) == 0) continue;
       for (std::size_t i = 0; i < width_; ++i) {
         if (below_[voxel(i, j)] == here_[voxel(i, j)]) continue;
-        // The voxels lie behind their first corner, and before the others: bits 1 and 0.
+        // The voxels are after their first corner, and before the others: bits 1 and 0.
         add({vertex(top_, corner(i, j), face_at(2, 1, 1)),
              vertex(top_, corner(i + 1, j), face_at(2, 0, 1)),
              vertex(top_, corner(i + 1, j + 1), face_at(2, 0, 0)),
@@ -237,7 +237,7 @@ class FaceMaker {
     }
   }
 
-  /// Faces across x or y in the slice between the two layers, which is `below_` by now.
+  /// Makes faces across x or y in the slice between the two layers, which is now `below_`.
   void make_faces_within(std::size_t axis) {
     const std::size_t step = axis == 0 ? 1 : width_ + 2;
     const std::size_t last_i = axis == 0 ? width_ + 1 : width_;
@@ -270,14 +270,14 @@ class FaceMaker {
   Box box_;
   std::size_t width_;
   std::size_t height_;
-  std::size_t next_ = 0;  ///< of the stretches
+  std::size_t next_ = 0;  ///< index into the stretches
   Slice below_;
   Slice here_;
   Layer bottom_;
   Layer top_;
 };
 
-/// Which part of the surface each vertex is of.
+/// Returns the part of the surface of each vertex.
 std::vector<std::int32_t> parts_of(const VoxelSurface& surface) {
   boost::disjoint_sets_with_storage<> linked(surface.corners.size());
   for (const VoxelFace& face : surface.faces) {
@@ -285,23 +285,23 @@ std::vector<std::int32_t> parts_of(const VoxelSurface& surface) {
   }
   std::vector<std::int32_t> parts(surface.corners.size());
   std::iota(parts.begin(), parts.end(), 0);
-  // Its first vertex stands for a part, so that of two as large the first is kept.
+  // A part is represented by its first vertex, so of two equally large parts the first is kept.
   linked.normalize_sets(parts.begin(), parts.end());
   for (std::int32_t& part : parts) part = static_cast<std::int32_t>(linked.find_set(index(part)));
   return parts;
 }
 
-/// Keeps the part of largest volume. The others are outer surfaces of other pieces, of volumes
-/// above 0, and those of pores, below.
+/// Keeps the part of largest volume. The others are outer surfaces of other pieces, with volumes
+/// above 0, and surfaces of pores, below 0.
 void keep_largest(VoxelSurface& surface) {
   const std::vector<std::int32_t> part = parts_of(surface);
-  // The divergence theorem in whole numbers: faces across x, by their x.
+  // The divergence theorem in whole numbers: faces across x, multiplied by their x.
   std::vector<std::int64_t> volumes(part.size(), 0);
   for (const VoxelFace& face : surface.faces) {
     const auto corner = [&](std::size_t k) -> const VoxelCounts& {
       return surface.corners[static_cast<std::size_t>(face[k])];
     };
-    // The normal's x: of the edges from the first corner, in y and z.
+    // The normal's x, from the edges at the first corner, in y and z.
     const std::int64_t normal =
         std::int64_t{corner(1)[1] - corner(0)[1]} * (corner(3)[2] - corner(0)[2]) -
         std::int64_t{corner(1)[2] - corner(0)[2]} * (corner(3)[1] - corner(0)[1]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VTK's XML ImageData. Not by VTK itself: its development package brings 239 packages and 275 MB
-// to a bare Debian 12, its library 100 MB to whoever only runs the program. ITK, 47 packages and 40
-// MB, reads no .vti, and NRRD and TIFF only whole.
+// VTK's XML ImageData. Not read by VTK itself: its development package brings 239 packages and 275
+// MB to a bare Debian 12, its library 100 MB to users of the program. ITK, 47 packages and 40 MB,
+// reads no .vti, and reads NRRD and TIFF only whole.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -33,21 +33,21 @@ using Attributes = std::map<std::string, std::string>;
 struct VtiArray {
   Attributes attributes;
   bool of_cells = false;
-  std::uint64_t data = 0;  ///< the byte after its tag
+  std::uint64_t data = 0;  ///< the byte after the tag
 };
 
-/// What the XML about the voxels says.
+/// Description of the voxels in the XML.
 struct VtiHeader {
   Attributes file;   ///< of VTKFile
   Attributes image;  ///< of ImageData
   Attributes piece;  ///< of the first Piece
   std::vector<VtiArray> arrays;
   Attributes appended;         ///< of AppendedData
-  std::uint64_t appendix = 0;  ///< the byte after its tag
+  std::uint64_t appendix = 0;  ///< the byte after the tag
 };
 
-// Where a parser is: its line, and the byte behind what it is at. Expat 2.9 has other names for
-// them, and warns of the old ones.
+// Line of a parser, and the byte after its current position. Expat 2.9 has new names for them, and
+// warns of the old ones.
 #if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
 std::uint64_t line_of(XML_Parser parser) { return XML_GetCurrentLineNumber64(parser); }
 std::uint64_t end_of(XML_Parser parser) {
@@ -85,8 +85,7 @@ class VtiParser {
       if (is_done_ || is_last) break;
       if (status != XML_STATUS_OK) fail();
     }
-    // What is wrong behind the arrays is found where it is read; a file that was cut has arrays
-    // too.
+    // Errors after the arrays are found when they are read; a file that was cut has arrays too.
     if (header_.arrays.empty()) {
       if (XML_GetErrorCode(parser_) != XML_ERROR_NONE && !is_done_) fail();
       refuse_volume(path_, "holds no array of labels; export it again.");
@@ -125,7 +124,7 @@ class VtiParser {
     } else if (name == "AppendedData") {
       header_.appended = attributes;
       header_.appendix = end_of(parser_);
-      is_done_ = true;  // what follows need be no XML
+      is_done_ = true;  // the rest may not be XML
       XML_StopParser(parser_, XML_FALSE);
     }
   }
@@ -137,10 +136,10 @@ class VtiParser {
   bool is_done_ = false;
 };
 
-/// What packs the blocks of an array.
+/// Compression of the blocks of an array.
 enum class Packer { None, ZLib, Lz4 };
 
-/// What stands behind the lengths that VTK puts before an array.
+/// Bytes after the lengths that VTK writes before an array.
 class VtkArrayBytes : public ByteSource {
  public:
   VtkArrayBytes(std::unique_ptr<ByteSource> bytes, std::uint64_t wanted, const VoxelType& length,
@@ -210,7 +209,7 @@ class VtkArrayBytes : public ByteSource {
     const bool is_last = next_block_ + 1 == packed_sizes_.size();
     const std::uint64_t size = is_last && last_ != 0 ? last_ : block_;
     const std::uint64_t packed_size = packed_sizes_[next_block_++];
-    // What no packing can reach is not made room for.
+    // Allocates no more than any compression can reach.
     constexpr std::uint64_t most_packed = 1100;
     constexpr std::uint64_t most_block = std::uint64_t{1} << 30;
     if (packed_size > most_block || size > most_block || size > packed_size * most_packed) refuse();
@@ -247,13 +246,13 @@ class VtkArrayBytes : public ByteSource {
   VoxelType length_;
   Packer packer_;
   std::string path_;
-  std::uint64_t block_ = 0;  ///< bytes of a block, but for the last
-  std::uint64_t last_ = 0;   ///< of the last; 0: as the others
+  std::uint64_t block_ = 0;  ///< bytes of every block but the last
+  std::uint64_t last_ = 0;   ///< bytes of the last block; 0: as the others
   std::vector<std::uint64_t> packed_sizes_;
   std::size_t next_block_ = 0;
   std::vector<char> packed_;
   std::vector<char> made_;
-  std::size_t next_ = 0;  ///< of made_
+  std::size_t next_ = 0;  ///< position in made_
 };
 
 std::string value_of(const Attributes& attributes, const std::string& key,
@@ -277,7 +276,7 @@ std::array<double, Count> numbers_of(const Attributes& attributes, const std::st
   return numbers;
 }
 
-/// Where the first and last points are along each axis: x0 x1 y0 y1 z0 z1.
+/// Returns the first and last points along each axis: x0 x1 y0 y1 z0 z1.
 std::array<std::int64_t, 6> extent_of(const VtiHeader& header, const std::string& path) {
   std::array<std::int64_t, 6> extent{};
   const std::string whole = value_of(header.image, "WholeExtent", "");
@@ -324,7 +323,7 @@ VolumeGeometry geometry_of(const VtiHeader& header, bool of_cells, const VolumeC
   return geometry;
 }
 
-/// The byte at which the appended data begin: after white space and a "_".
+/// Returns the first byte of the appended data: after white space and a "_".
 std::uint64_t begin_of_appended(const std::string& path, std::uint64_t data) {
   const std::unique_ptr<ByteSource> bytes = file_bytes(path, data);
   constexpr std::uint64_t most_white_space = 1000;

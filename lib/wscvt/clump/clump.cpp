@@ -29,7 +29,7 @@ MassError mass_error(const MassProperties& mass, const ShapeDescriptors& grain, 
           inertia_error_percent(value, grain)};
 }
 
-/// Of spheres that each count whole.
+/// Sums spheres, overlaps counted repeatedly.
 MassProperties summed_mass(const std::vector<Sphere>& spheres) {
   MassProperties mass;
   for (const Sphere& sphere : spheres) {
@@ -88,7 +88,7 @@ double intersection_over_union(const IndexedMesh& grain, const std::vector<Spher
   return static_cast<double>(both) / static_cast<double>(either);
 }
 
-/// Groups of spheres of which each touches another one of its group.
+/// Returns the number of groups of connected spheres.
 std::size_t group_count(const std::vector<Sphere>& spheres) {
   std::vector<char> seen(spheres.size(), 0);
   std::size_t groups = 0;
@@ -142,7 +142,7 @@ void add_warnings(ClumpResult& result) {
   }
 }
 
-/// First contact of remeshes as the option asks for.
+/// Returns the error of first contact of remeshes, if the option asks for it.
 ContactError remesh_contact(const IndexedMesh& grain, const UnitFrame& frame, int nodes,
                             double reach, const std::vector<double>& scan,
                             const Execution& execution) {
@@ -153,7 +153,7 @@ ContactError remesh_contact(const IndexedMesh& grain, const UnitFrame& frame, in
   return contact_error(ContactHeights(mesh, reach, execution).distances(execution), scan);
 }
 
-/// What is measured in the unit frame.
+/// Measures the errors of the spheres in the unit frame.
 void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const UnitFrame& frame,
              ClumpResult& result, const Execution& execution) {
   constexpr std::size_t samples = 20000;
@@ -168,7 +168,7 @@ void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const 
   for (const Sphere& sphere : spheres) {
     reach = std::max(reach, sphere.centre.norm() + sphere.radius);
   }
-  reach *= 1.2;  // a remesh of few nodes reaches farther
+  reach *= 1.2;  // a remesh of few nodes extends farther
   execution.report(0.5, "Measuring the clump");
   const std::vector<double> scan = ContactHeights(unit, reach, execution).distances(execution);
   result.contact =
@@ -212,7 +212,7 @@ ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Exec
   const IndexedMesh unit = frame.to_unit(result.repaired_scan);
   FittedSpheres fitted = fit_spheres(unit, options, execution.part(0.15, 0.8));
   measure(unit, fitted.spheres, frame, result, execution.part(0.8, 1.0));
-  // Rounding must not push a sphere out that touches the surface from within.
+  // Rounding must not push a sphere outside that touches the surface from within.
   const double shrink = options.inside ? 1.0 - 1e-9 : 1.0;
   for (const Sphere& sphere : fitted.spheres) {
     result.spheres.push_back({frame.to_scan(sphere.centre), shrink * frame.radius * sphere.radius});

@@ -16,35 +16,34 @@
 
 namespace wscvt {
 
-/// How far mass properties lie from the grain's.
+/// Errors of mass properties against the grain's.
 struct MassError {
   double volume_percent = 0.0;    ///< 100 (volume / the grain's - 1)
   double centroid_percent = 0.0;  ///< distance of the centroids, in % of the equivalent radius
   double inertia_percent = 0.0;   ///< see inertia_error_percent
 };
 
-/// Mass properties at unit density that an engine may take in place of the grain's, and their
-/// error.
+/// Mass properties at unit density that an engine may use for the grain, and their error.
 struct SphereMass {
   MassProperties mass;
   MassError error;
 };
 
-/// A clump and what it is worth, in the scan's units and coordinates.
+/// A clump and its errors, in the scan's units and coordinates.
 struct ClumpResult {
   std::vector<Sphere> spheres;
   double equivalent_radius = 0.0;  ///< of the grain
   double rms_distance = 0.0;       ///< from scan to clump, see union_distance; length
-  double largest_distance = 0.0;   ///< the same; length
-  /// Volume that grain and union of the spheres share / volume of both together, from 60,000 points
-  /// of a grid.
+  double largest_distance = 0.0;   ///< from scan to clump; length
+  /// Volume of the intersection of grain and clump / volume of their union, from 60,000 points of a
+  /// grid.
   double intersection_over_union = 0.0;
-  std::vector<ClumpStage> stages;              ///< how the error fell with the number of spheres
+  std::vector<ClumpStage> stages;              ///< error for each number of spheres
   ContactError contact;                        ///< first contact of two such clumps
   std::optional<ContactError> remesh_contact;  ///< of two remeshes; if asked for
   SphereMass united;                           ///< of the union of the spheres
-  SphereMass summed;      ///< of the spheres, where those overlap more than once
-  MeshCheckReport input;  ///< what of the scan was repaired, and its measures
+  SphereMass summed;      ///< of the sum of the spheres; overlaps count repeatedly
+  MeshCheckReport input;  ///< repairs of the scan, and its measures
   ShapeDescriptors
       original;  ///< of the repaired scan: the mass properties that a clump should have
   IndexedMesh repaired_scan;
@@ -53,12 +52,12 @@ struct ClumpResult {
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// Makes a clump of a scan, which is repaired as remesh() does. Its error of first contact, of 992
-/// random pairs of poses that are always the same, is the number to choose K by.
+/// Makes a clump of a scan, which is repaired as in remesh(). Choose K by its error of first
+/// contact, which is measured over 992 random but fixed pairs of poses.
 ///
 /// Invariant: a scan that is moved, turned or scaled gives the same clump, moved, turned or scaled,
-/// but for rounding. The same bits on any number of threads. Throws Error as check_clump_options,
-/// repair_scan and fit_spheres do.
+/// but for rounding. The result does not depend on the number of threads. Throws Error as
+/// check_clump_options, repair_scan and fit_spheres do.
 ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Execution& execution);
 
 }  // namespace wscvt

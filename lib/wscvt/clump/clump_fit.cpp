@@ -19,18 +19,17 @@ namespace wscvt {
 
 namespace {
 
-constexpr double held_weight = 8.0;  ///< of what bulges out, while spheres are added
+constexpr double held_weight = 8.0;  ///< of spheres that bulge out, while spheres are added
 constexpr std::size_t most_candidates = 3000;
-constexpr std::size_t judged = 20000;  ///< samples that errors are told of
+constexpr std::size_t judged = 20000;  ///< samples for the reported errors
 constexpr std::size_t depth_samples = 40000;
 constexpr double least_radius = 1e-3;
-/// A sphere may be so many times as large as the largest inscribed one. Without a limit the face of
-/// a thin plate is nearly a part of a sphere that holds everything on one side of it.
+/// Largest radius of a sphere / radius of the largest inscribed sphere. Without a limit, the face
+/// of a thin plate would become part of a sphere that contains everything on one side of it.
 constexpr double most_bulge = 2.0;
 constexpr const char* stage_name = "Fitting spheres";
 
-/// Points of a grid, those inside of the mesh and those outside: some 2,000 inside of a body as
-/// thick as wide.
+/// Points of a grid, inside and outside the mesh: some 2,000 inside a body as thick as wide.
 struct GridPoints {
   std::vector<Vector3> inside;
   std::vector<Vector3> outside;
@@ -45,7 +44,7 @@ GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
       high = high.cwiseMax(mesh.points[static_cast<std::size_t>(v)]);
     }
   }
-  // A long body of equivalent radius 1 is thin, but its box may be large where it lies askew in it.
+  // A long body of equivalent radius 1 is thin, but its box may be large if it is inclined.
   constexpr double most_points = 20000.0;
   const double step = std::max(spacing, std::cbrt((high - low).prod() / most_points));
   const Vector3 middle = 0.5 * (low + high);
@@ -64,7 +63,7 @@ GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
   return points;
 }
 
-/// A fit that grows.
+/// A fit to which spheres are added.
 class Growth {
  public:
   Growth(const IndexedMesh& grain, const ClumpOptions& options, const Execution& execution)
@@ -119,7 +118,7 @@ class Growth {
     const bool is_target = options_.max_error_percent > 0.0;
     const auto count =
         static_cast<std::size_t>(is_target ? options_.most_spheres : options_.sphere_count);
-    // Four unknowns a sphere, and none of them may follow single samples.
+    // A sphere has four unknowns, and none of them may follow single samples.
     const std::vector<SurfaceSample> samples =
         surface_samples(grain, std::max<std::size_t>(4000, 80 * count));
     std::vector<Vector3> points;
@@ -153,8 +152,8 @@ class Growth {
     }
   }
 
-  /// Between the samples that depths are measured by the surface may be nearer: a sphere that is
-  /// taken back from it must not become too small.
+  /// Returns the smallest radius during the fit. Between the samples of the depths the surface may
+  /// be nearer, and a sphere that is shrunk to it must not become too small.
   double smallest_in_fit(const IndexedMesh& grain) const {
     if (!options_.inside || options_.smallest_radius_percent == 0.0) return smallest_;
     double area = 0.0;
@@ -164,9 +163,8 @@ class Growth {
     return std::sqrt(smallest_ * smallest_ + area / depth_samples);
   }
 
-  /// Adds the candidate that lowers the energy most. What a candidate gains nearly always falls as
-  /// spheres are added, so that of many spheres only those of the largest gains are judged again,
-  /// and all of them now and then.
+  /// Adds the candidate that lowers the energy most. Gains nearly always fall as spheres are added.
+  /// So usually only the candidates with the largest gains are evaluated again, and sometimes all.
   bool add_sphere() {
     if (candidates_.empty()) return false;
     const std::size_t count = fit_.spheres().size();
@@ -195,8 +193,8 @@ class Growth {
     return true;
   }
 
-  /// Takes the spheres back to the surface between the samples, and leaves out those that are too
-  /// small after that.
+  /// Shrinks the spheres to the surface between the samples, and drops spheres that are then too
+  /// small.
   void keep_inside(std::vector<Sphere>& spheres) const {
     for (Sphere& sphere : spheres) {
       sphere.radius = surface_.contains(sphere.centre) ? surface_.distance(sphere.centre) : 0.0;
@@ -206,8 +204,8 @@ class Growth {
                   spheres.end());
   }
 
-  /// Takes out the spheres that matter least and adds as many, one at first and one more after each
-  /// time that did not help.
+  /// Removes the spheres that matter least and adds as many: one at first, and one more after each
+  /// failure.
   void relocate() {
     constexpr int most_failures = 4;
     constexpr int most_moves = 40;
@@ -226,7 +224,7 @@ class Growth {
     }
   }
 
-  /// The weight of what bulges out let down to that of gaps.
+  /// Reduces the weight of spheres that bulge out to the weight of gaps.
   SphereFit let_down(SphereFit fit) const {
     for (double weight = 0.5 * held_weight; weight >= 1.0; weight *= 0.5) {
       fit.set_inner_weight(weight);
@@ -244,10 +242,10 @@ class Growth {
   double smallest_;  ///< radius
   MeshDistance surface_;
   std::vector<Vector3> judged_;
-  PointBlocks depths_;  ///< of the surface, if spheres must lie inside
+  PointBlocks depths_;  ///< of the surface, if spheres must be inside
   std::vector<Sphere> candidates_;
-  std::vector<double> gains_;     ///< what each candidate took from the energy when last judged
-  std::size_t next_judging_ = 0;  ///< number of spheres at which all are judged again
+  std::vector<double> gains_;     ///< energy that each candidate saved when last evaluated
+  std::size_t next_judging_ = 0;  ///< number of spheres at which all are evaluated again
   SphereFit fit_;
 };
 

@@ -13,11 +13,11 @@ namespace wscvt {
 
 namespace {
 
-constexpr double passing = -1e20;  ///< below it bodies pass each other
-constexpr float nothing = -1e30F;  ///< of a height where there is no body
+constexpr double passing = -1e20;  ///< below it, bodies pass each other
+constexpr float nothing = -1e30F;  ///< height without a body
 
-/// Evenly over all turns (Shoemake 1992), from the generator's bits alone: the standard leaves its
-/// distributions to the library.
+/// Returns uniform random rotations (Shoemake 1992). Uses only the generator's bits, because the
+/// standard does not fix the results of its distributions.
 std::vector<Eigen::Matrix3d> random_turns(int count) {
   std::mt19937_64 random(1);
   const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
@@ -35,7 +35,7 @@ std::vector<Eigen::Matrix3d> random_turns(int count) {
   return turns;
 }
 
-/// The pixels whose middles lie between two places along an axis; places in pixels.
+/// The pixels with their centres between two positions along an axis; positions in pixels.
 struct PixelSpan {
   int first;
   int last;
@@ -147,7 +147,7 @@ std::vector<double> ContactHeights::distances(const Execution& execution) const 
       const std::size_t above = (below + 1 + pair % (count - 1)) % count;
       const float* const top = maps_[below].top.data();
       const float* const bottom = maps_[above].bottom.data();
-      // Eight largest values, which the compiler compares at once.
+      // Eight maxima, which the compiler updates at once.
       std::array<float, 8> largest;
       largest.fill(nothing);
       for (std::size_t i = 0; i < maps_[below].top.size(); i += largest.size()) {

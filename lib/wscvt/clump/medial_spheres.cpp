@@ -19,7 +19,7 @@ Sphere shrunk(const SurfaceSample& sample, const PointBlocks& blocks, double lar
   for (int step = 0; step < most_steps; ++step) {
     const Vector3 centre = sample.point - radius * sample.normal;
     const Vector3& nearest = blocks.points()[blocks.nearest(centre)];
-    // The sample itself is nearest, or a point as near.
+    // The sample itself is nearest, or a point equally near.
     if ((nearest - centre).norm() >= radius * (1.0 - tolerance)) break;
     const Vector3 chord = sample.point - nearest;
     const double reach = sample.normal.dot(chord);

@@ -10,22 +10,22 @@
 
 namespace wscvt {
 
-/// A point of a surface and the unit normal there, outward.
+/// A point of a surface and its unit outward normal.
 struct SurfaceSample {
   Vector3 point = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();
 };
 
-/// `count` samples spread evenly by area, with the normals of their faces (see
-/// area_uniform_places). Throws the same.
+/// Returns `count` samples evenly distributed by area, with the normals of their faces. Throws
+/// Error as area_uniform_places does.
 std::vector<SurfaceSample> surface_samples(const IndexedMesh& mesh, std::size_t count);
 
-/// For every `step`-th sample the largest sphere inside the surface that touches it there, found by
-/// shrinking one of radius `largest` until no sample lies within it (Ma, Bae and Choi 2012, "3D
-/// medial axis point approximation using nearest neighbors and the normal field", Vis. Comput. 28,
-/// 7-19). The centres lie on the medial axis of thin and of hollow bodies too. Between samples the
-/// surface may come as near as their spacing says. Samples stand for the surface because exact
-/// distances take the longest at centres of spheres, which have all faces at one distance.
+/// For every `step`-th sample, returns the largest sphere inside the surface that touches it there.
+/// A sphere of radius `largest` is shrunk until no sample lies within it (Ma, Bae and Choi 2012,
+/// "3D medial axis point approximation using nearest neighbors and the normal field", Vis. Comput.
+/// 28, 7-19). The centres lie on the medial axis, also in thin and hollow bodies. Between samples
+/// the surface may come nearer, depending on their spacing. Samples replace the surface because
+/// exact distances are slowest at centres of spheres, which are equally far from all faces.
 std::vector<Sphere> medial_spheres(const std::vector<SurfaceSample>& samples, std::size_t step,
                                    double largest, const Execution& execution);
 

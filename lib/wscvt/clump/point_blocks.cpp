@@ -29,7 +29,7 @@ void PointBlocks::split(std::size_t begin, std::size_t end) {
     for (auto p = at(begin); p != at(end); ++p) {
       block.radius = std::max(block.radius, (*p - block.centre).norm());
     }
-    // What rounding may take from a distance to the block.
+    // Bound of the rounding in a distance to the block.
     constexpr double slack = 1e-12;
     block.radius += slack * (high - low).norm();
     blocks_.push_back(block);
@@ -37,7 +37,7 @@ void PointBlocks::split(std::size_t begin, std::size_t end) {
   }
   int axis = 0;
   (high - low).maxCoeff(&axis);
-  // Sorted, and by all coordinates: a partial order would be each library's own.
+  // Sorted by all coordinates: a partial order would depend on the library.
   std::sort(at(begin), at(end), [axis](const Vector3& a, const Vector3& b) {
     const int next = (axis + 1) % 3;
     const int last = (axis + 2) % 3;
@@ -52,7 +52,7 @@ std::size_t PointBlocks::nearest(const Vector3& to) const {
   const auto reach = [&](const PointBlock& block) {
     return (block.centre - to).norm() - block.radius;
   };
-  // The block that may hold it first: it leaves few others.
+  // Starts with the most likely block, so that few others remain.
   const PointBlock* first = &blocks_.front();
   double least_reach = std::numeric_limits<double>::infinity();
   for (const PointBlock& block : blocks_) {

@@ -8,7 +8,7 @@
 
 namespace wscvt {
 
-/// Points beside each other, by their places, in a ball.
+/// A range of neighbouring points, with a ball that contains them.
 struct PointBlock {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -16,8 +16,8 @@ struct PointBlock {
   double radius = 0.0;
 };
 
-/// Points in blocks of at most 32, so that a search passes over those that are far. The order of
-/// the points is another one than was given, and the same for every library.
+/// Points in blocks of at most 32, so that a search skips distant blocks. The points are reordered,
+/// in an order that does not depend on the standard library.
 class PointBlocks {
  public:
   explicit PointBlocks(std::vector<Vector3> points);
@@ -25,7 +25,7 @@ class PointBlocks {
   const std::vector<Vector3>& points() const { return points_; }
   const std::vector<PointBlock>& blocks() const { return blocks_; }
 
-  /// Index of the nearest point; the first of equals. There must be one.
+  /// Returns the index of the nearest point, the first of equals. There must be at least one point.
   std::size_t nearest(const Vector3& to) const;
 
  private:

@@ -7,7 +7,7 @@ namespace wscvt {
 
 namespace {
 
-/// A remesh of few nodes reaches farther than the scan.
+/// A remesh of few nodes extends farther than the scan.
 constexpr double room = 1.2;
 
 }  // namespace

@@ -10,15 +10,15 @@
 
 namespace wscvt {
 
-/// First contact of two copies of a scan, against which that of remeshes is measured: over 992
-/// pairs of poses that are always the same.
+/// First contact of two copies of a scan, the reference for remeshes, over 992 random but fixed
+/// pairs of poses.
 class ScanContacts {
  public:
   /// The scan is closed and outward, in any unit; `shape` has its descriptors.
   ScanContacts(const IndexedMesh& scan, const ShapeDescriptors& shape, const Execution& execution);
 
-  /// The error of two copies of a remesh in the scan's coordinates. A scan and a remesh that are
-  /// moved, turned or scaled together have the same error, but for rounding.
+  /// Returns the error of two copies of a remesh in the scan's coordinates. If scan and remesh are
+  /// moved, turned or scaled together, the error stays the same, but for rounding.
   ContactError error_of(const IndexedMesh& remesh, const Execution& execution) const;
 
  private:

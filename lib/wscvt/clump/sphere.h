@@ -10,7 +10,7 @@ struct Sphere {
   Vector3 centre = Vector3::Zero();
   double radius = 0.0;
 
-  /// Distance of `point` to the sphere's surface, negative inside.
+  /// Returns the distance of `point` to the sphere's surface, negative inside.
   double distance(const Vector3& point) const { return (point - centre).norm() - radius; }
 };
 

@@ -8,8 +8,8 @@ namespace wscvt {
 
 namespace {
 
-constexpr double far_away = 1e6;  ///< of a sphere that there is not, in equivalent radii
-/// What rounding may take from a block's reach.
+constexpr double far_away = 1e6;  ///< distance to a missing sphere, in equivalent radii
+/// Bound of the rounding in a block's reach.
 constexpr double slack = 1e-9;
 
 }  // namespace
@@ -44,7 +44,7 @@ void SphereFit::append(const std::vector<Vector3>& points, Kind kind) {
   }
 }
 
-/// What a block tells of its samples.
+/// Updates a block's summary of its samples.
 void SphereFit::update(Block& block) {
   block.most_first = -far_away;
   block.most_second = -far_away;
@@ -65,7 +65,7 @@ void SphereFit::add_up() {
 double SphereFit::energy_with(const Sphere& sphere) const {
   double change = 0.0;
   for (const Block& block : blocks_) {
-    // What is inside costs nothing once a sphere holds it, and what is outside until one does.
+    // Inside samples cost nothing once a sphere contains them; outside samples until one does.
     const double most = block.kind == Kind::Outside ? 0.0 : block.most_first;
     if ((block.kind == Kind::Inside && most <= 0.0) || block.reach(sphere) >= most) continue;
     double sum = 0.0;
@@ -98,7 +98,7 @@ void SphereFit::find_nearest(std::size_t i) {
   second_[i] = second;
 }
 
-/// The two nearest of a sample, after the sphere `own` came to lie at that distance.
+/// Updates the two nearest spheres of a sample after the sphere `own` moved to this distance.
 void SphereFit::move_nearest(std::size_t i, std::int32_t own, double distance) {
   Nearest& nearest = nearest_[i];
   if (nearest.first == own) {
@@ -179,7 +179,7 @@ void SphereFit::remove(std::size_t k) {
   add_up();
 }
 
-/// Changes the sphere if that lowers the energy.
+/// Changes the sphere if this lowers the energy.
 bool SphereFit::try_sphere(std::size_t k, const Sphere& sphere) {
   const auto own = static_cast<std::int32_t>(k);
   double change = 0.0;
@@ -200,8 +200,8 @@ bool SphereFit::try_sphere(std::size_t k, const Sphere& sphere) {
   return true;
 }
 
-/// A Gauss-Newton step of the samples that are nearest to the sphere. `radius_follows`: the radius
-/// is the centre's depth and no unknown of its own. False where too few samples tell of it.
+/// Makes a Gauss-Newton step for the samples nearest to the sphere. `radius_follows`: the radius is
+/// the centre's depth, not an unknown. False if too few samples depend on the sphere.
 bool SphereFit::gauss_newton(std::size_t k, bool radius_follows, Sphere& moved) const {
   const auto own = static_cast<std::int32_t>(k);
   const Sphere& sphere = spheres_[k];
@@ -258,10 +258,10 @@ void SphereFit::improve_freely(std::size_t k) {
   steps_[k].rests = true;
 }
 
-/// Where the radius is the depth of the centre it has kinks on the medial axis, where centres come
-/// to lie: beside Gauss-Newton steps along the axes are tried.
+/// Centres come to lie on the medial axis, where the radius as the centre's depth has kinks. So
+/// steps along the axes are tried beside Gauss-Newton steps.
 void SphereFit::improve_inside(std::size_t k) {
-  constexpr double longest = 0.9;  // over the radius: a centre that moves less stays inside
+  constexpr double longest = 0.9;  // over the radius: after smaller moves the centre stays inside
   const auto try_move = [&](Vector3 move) {
     const Sphere before = spheres_[k];
     if (move.norm() > longest * before.radius) move *= longest * before.radius / move.norm();

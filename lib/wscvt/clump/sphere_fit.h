@@ -13,22 +13,21 @@
 namespace wscvt {
 
 /// Spheres whose union is fitted to samples of a body. The residual of a sample is its distance to
-/// the nearest of the spheres' surfaces, as of a union: the least over the spheres of |p - c| - r.
-/// Samples of the surface are to have the residual 0; samples of the inside 0 or less, so that no
-/// hollow is left between the spheres; samples of the outside 0 or more, since a sphere may touch
-/// the surface from outside. The energy is the sum of the squares over the number of
-/// surface samples.
+/// the union: the minimum of |p - c| - r over the spheres. Samples on the surface should have the
+/// residual 0. Samples inside should have 0 or less, so that no hollow is left between the spheres.
+/// Samples outside should have 0 or more, because a sphere may touch the surface from outside. The
+/// energy is the sum of the squares over the number of surface samples.
 ///
-/// Samples lie in blocks of neighbours. A sphere that moves visits only the blocks that it may be
-/// near to, so that a step costs the less the more spheres there are.
+/// Samples are stored in blocks of neighbours. A sphere that moves visits only the blocks near it,
+/// so a step is cheaper with more spheres.
 ///
-/// Lengths are in equivalent radii about the centroid. One fit is the work of one thread.
+/// Lengths are in equivalent radii about the centroid. Each fit runs on one thread.
 class SphereFit {
  public:
   struct Limits {
     double smallest_radius = 0.0;                                     ///< no sphere becomes smaller
     double largest_radius = std::numeric_limits<double>::infinity();  ///< nor larger, freely
-    /// Of the surface, if spheres must lie inside: a radius is the depth of the centre below them.
+    /// Of the surface, if spheres must be inside: a radius is then the centre's distance to them.
     const PointBlocks* depths = nullptr;
   };
 
@@ -38,18 +37,18 @@ class SphereFit {
   const std::vector<Sphere>& spheres() const { return spheres_; }
   double energy() const { return energy_; }
 
-  /// The energy that it would have with one sphere more.
+  /// Returns the energy with one more sphere.
   double energy_with(const Sphere& sphere) const;
   void add(const Sphere& sphere);
 
-  /// The sphere without which the energy rises least. There must be two or more.
+  /// Returns the sphere whose removal raises the energy least. There must be two or more.
   std::size_t least_needed() const;
   void remove(std::size_t k);
 
-  /// How much more the squares of residuals below 0 count, of samples that a sphere hides; at first
-  /// 1. Weights above 1 keep the spheres within the body, and that leaves room for more of them: a
-  /// sphere that bulges out on one side and stays within on the other is at rest, and no sphere
-  /// more lowers its energy.
+  /// Sets the weight of squared residuals below 0, of samples within a sphere; at first 1. Weights
+  /// above 1 keep the spheres within the body, which leaves room for more spheres. Otherwise a
+  /// sphere that bulges out on one side and stays within on the other is at rest, and no additional
+  /// sphere lowers the energy.
   void set_inner_weight(double weight);
 
   /// Improves each sphere in turn by one step; the energy never rises.
@@ -57,26 +56,26 @@ class SphereFit {
 
  private:
   enum class Kind { Surface, Inside, Outside };
-  /// Samples of one kind beside each other.
+  /// Neighbouring samples of one kind.
   struct Block : PointBlock {
     Kind kind = Kind::Surface;
-    double most_first = 0.0;   ///< the largest distance to a nearest sphere
-    double most_second = 0.0;  ///< and to a second one
+    double most_first = 0.0;   ///< largest distance to a nearest sphere
+    double most_second = 0.0;  ///< largest distance to a second nearest sphere
     double cost = 0.0;
 
-    /// No sample is nearer to the sphere.
+    /// Lower bound of the samples' distances to the sphere.
     double reach(const Sphere& sphere) const { return sphere.distance(centre) - radius; }
   };
-  /// The two nearest spheres of a sample; distances as of a union.
+  /// The two nearest spheres of a sample; distances as to a union.
   struct Nearest {
     std::int32_t first = -1;
     std::int32_t second = -1;
   };
-  /// How a sphere is changed.
+  /// Step control of a sphere.
   struct Steps {
     double damping = 0.01;  ///< of Gauss-Newton, per sample
-    double length = 0.1;    ///< of steps of a sphere that must lie inside, over its radius
-    bool rests = false;     ///< no step helps, until a sample gets another nearest sphere
+    double length = 0.1;    ///< of steps of a sphere that must be inside, over its radius
+    bool rests = false;     ///< no step helps until a sample gets another nearest sphere
   };
 
   double cost(Kind kind, double distance) const {

@@ -51,8 +51,8 @@ class UnionGrid {
                                         static_cast<double>(c[2]));
   }
 
-  /// Where the way from a point within the union to one outside first leaves it. Never at an end,
-  /// so that no two vertices of the mesh come together.
+  /// Returns the point at which the way from a point in the union to one outside first leaves it.
+  /// Never at an end, so that no two vertices of the mesh coincide.
   Vector3 exit(const Vector3& from, const Vector3& to) const {
     constexpr double margin = 1e-3;
     const Vector3 way = to - from;
@@ -61,7 +61,7 @@ class UnionGrid {
       moved = false;
       for (const Sphere& sphere : spheres_) {
         const Vector3 at = from + come * way - sphere.centre;
-        // As far in as rounding, the point lies on this sphere.
+        // Within rounding, the point lies on this sphere.
         if (at.squaredNorm() >= sphere.radius * sphere.radius * (1.0 - 1e-12)) continue;
         const double half = at.dot(way) / way.squaredNorm();
         const double rest = (at.squaredNorm() - sphere.radius * sphere.radius) / way.squaredNorm();
@@ -106,9 +106,9 @@ class UnionGrid {
   std::vector<double> values_;
 };
 
-/// The surface between the points of a grid that lie within the union and those that do not: each
-/// cell is cut into six tetrahedra about its diagonal (Kuhn), whose faces fit those of its
-/// neighbours, and a tetrahedron is crossed by no, one or two triangles.
+/// The surface between the grid points inside the union and outside. Each cell is cut into six
+/// tetrahedra about its diagonal (Kuhn), whose faces match their neighbours'. A tetrahedron
+/// contains no, one or two triangles.
 class Tetrahedra {
  public:
   explicit Tetrahedra(const UnionGrid& grid) : grid_(grid) {}
@@ -124,7 +124,7 @@ class Tetrahedra {
           ++corners[c][static_cast<std::size_t>(axes[path][step])];
         }
       }
-      // Of odd paths the tetrahedron is turned over.
+      // Odd paths turn the tetrahedron over.
       if (path >= 3) std::swap(corners[1], corners[2]);
       cut(corners);
     }

@@ -9,7 +9,7 @@
 
 namespace wscvt {
 
-/// From a grain's coordinates to its principal axes about the centroid, in equivalent radii.
+/// Converts a grain's coordinates to its principal axes about the centroid, in equivalent radii.
 struct UnitFrame {
   Vector3 centroid;
   Eigen::Matrix3d axes;  ///< columns: the principal axes

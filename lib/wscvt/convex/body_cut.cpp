@@ -21,7 +21,7 @@ std::uint64_t edge_key(std::int32_t a, std::int32_t b) {
          static_cast<std::uint32_t>(b);
 }
 
-/// Twice the area of closed loops, along their normal.
+/// Returns twice the area of closed loops, along their normal.
 Vector3 doubled_area(const std::vector<Vector3>& points, const SolidEdge* first,
                      const SolidEdge* last) {
   const Vector3& origin = points[(*first)[0]];
@@ -32,7 +32,7 @@ Vector3 doubled_area(const std::vector<Vector3>& points, const SolidEdge* first,
   return sum;
 }
 
-/// The two coordinates across which a face with this normal is seen widest.
+/// Returns the two coordinates in which a face with this normal has the largest projection.
 std::array<int, 2> plane_axes(const Vector3& normal) {
   int dropped = 0;
   normal.cwiseAbs().maxCoeff(&dropped);
@@ -52,7 +52,7 @@ bool loop_holds(const std::vector<Vector3>& points, const std::vector<SolidEdge>
   return inside;
 }
 
-/// Closed loops of directed edges, in the order of their first edges.
+/// Returns closed loops of directed edges, in the order of their first edges.
 std::vector<std::vector<SolidEdge>> loops_of(const std::vector<SolidEdge>& edges) {
   std::unordered_map<std::int32_t, std::size_t> starting;
   for (std::size_t e = 0; e < edges.size(); ++e) starting[edges[e][0]] = e;
@@ -71,21 +71,21 @@ std::vector<std::vector<SolidEdge>> loops_of(const std::vector<SolidEdge>& edges
 
 }  // namespace
 
-/// What one side of a plane holds, in numbers of the old points and of the crossings behind them.
+/// One side of a plane, with numbers of the old points, then of the crossings.
 struct CutSolid::Side {
   std::vector<Edge> edges;
   std::vector<Face> faces;
-  std::vector<Edge> face;  ///< edges of the face that is made
+  std::vector<Edge> face;  ///< edges of the current face
   std::vector<Edge> cap;   ///< edges of the new face in the plane
 
-  /// A face of one loop, or of an outer one and holes.
+  /// Adds a face of one loop, or of an outer loop and holes.
   void add_face(const std::vector<Edge>& of_face, const Vector3& normal, bool is_cap) {
     const std::size_t first = edges.size();
     edges.insert(edges.end(), of_face.begin(), of_face.end());
     faces.push_back({normal, first, edges.size(), is_cap});
   }
 
-  /// Edges of a plane's faces: each outer loop is a face, with the holes in it.
+  /// Adds a plane's faces from their edges: each outer loop is a face, with the holes in it.
   void add_caps(const std::vector<Vector3>& points, const std::vector<Edge>& of_caps,
                 const Vector3& normal) {
     std::vector<std::vector<Edge>> loops = loops_of(of_caps);
@@ -104,7 +104,7 @@ struct CutSolid::Side {
         if (loop_holds(points, loops[o], points[loops[k].front()[0]], plane_axes(normal)))
           outer = o;
       }
-      // A hole in nothing is a loop without area, turned by rounding: a face like another.
+      // A hole outside all loops is a loop without area, turned by rounding: a normal face.
       if (outer == loops.size()) continue;
       holes[outer].insert(holes[outer].end(), loops[k].begin(), loops[k].end());
       loops[k].clear();
@@ -150,7 +150,7 @@ void CutSolid::append_pieces(const std::vector<Vector3>& points, const Side& sid
   for (const Face& face : side.faces) {
     const std::int32_t start = side.edges[face.first][0];
     for (std::size_t e = face.first; e < face.last; ++e) {
-      // A face with holes connects what lies about it.
+      // A face with holes connects the parts around it.
       parent[root(side.edges[e][0])] = root(face.is_cap ? start : side.edges[e][1]);
     }
   }
@@ -215,7 +215,7 @@ SolidCut CutSolid::cut(const CutPlane& plane, double on_plane) const {
 
   Side above;
   Side below;
-  std::vector<std::int32_t> down;  // where a face's edges go below
+  std::vector<std::int32_t> down;  // points at which a face's edges go below
   std::vector<std::int32_t> up;
   for (const Face& face : faces_) {
     above.face.clear();

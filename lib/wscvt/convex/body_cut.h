@@ -18,24 +18,24 @@ struct CutPlane {
 
 struct SolidCut;
 
-/// A solid that planes cut. Its faces are planar, of any number of corners and with holes, so that
-/// a cut changes only the faces it crosses. Edges and faces are matched by their numbers, never by
-/// coordinates: rounding moves points, and cannot open the solid.
+/// A solid that planes cut. Its faces are planar, with any number of corners and with holes, so a
+/// cut changes only the faces it crosses. Edges and faces are matched by numbers, never by
+/// coordinates, so rounding moves points but cannot open the solid.
 class CutSolid {
  public:
   using Edge = std::array<std::int32_t, 2>;
 
-  /// Of a closed outward mesh. Throws Error(InvalidInput) if a triangle has no neighbour.
+  /// Reads a closed outward mesh. Throws Error(InvalidInput) if a triangle has no neighbour.
   explicit CutSolid(const IndexedMesh& mesh);
 
   const std::vector<Vector3>& points() const { return points_; }
   double volume() const { return volume_; }  ///< length^3
 
-  /// The connected pieces on both sides of a plane. Points nearer to it than `on_plane` (length)
-  /// count as below. Pieces smaller than 1e-12 of the solid are left out. Deterministic.
+  /// Returns the connected pieces on both sides of a plane. Points nearer to it than `on_plane`
+  /// (length) count as below. Omits pieces smaller than 1e-12 of the solid. Deterministic.
   SolidCut cut(const CutPlane& plane, double on_plane) const;
 
-  /// Edges that the solid bends inward at, with the outward normals of their two faces.
+  /// An edge at which the solid bends inward, with the outward normals of its two faces.
   struct ReflexEdge {
     Edge edge{};
     Vector3 first;
@@ -44,11 +44,11 @@ class CutSolid {
   std::vector<ReflexEdge> reflex_edges() const;
 
  private:
-  /// Directed edges, counter-clockwise seen from outside; those about a hole clockwise.
+  /// Directed edges, counter-clockwise seen from outside; clockwise about a hole.
   struct Face {
     Vector3 normal = Vector3::Zero();  ///< unit; zero of a face without area
     std::size_t first = 0;             ///< of its edges
-    std::size_t last = 0;              ///< one behind the last
+    std::size_t last = 0;              ///< one after the last
     bool is_cap = false;               ///< may have more than one loop
   };
   struct Side;

@@ -30,7 +30,7 @@ ConvexBody body_of(IndexedMesh hull) {
     body.volume +=
         six_volumes(hull.points[a] - middle, hull.points[b] - middle, hull.points[c] - middle) /
         6.0;
-    // The normal of a needle is that of its rounding; its neighbours bound the body there.
+    // The normal of a needle is only rounding; its neighbours bound the body there.
     constexpr double thinnest = 1e-6;
     const double longest = std::max({(hull.points[b] - hull.points[a]).squaredNorm(),
                                      (hull.points[c] - hull.points[b]).squaredNorm(),
@@ -51,7 +51,7 @@ ConvexBody convex_body(const std::vector<Vector3>& points) {
   if (points.size() < 4) return {};
   const std::vector<Triangle> triangles = convex_hull_triangles(points);
   if (triangles.empty()) return {};
-  // Only the points that the triangles name.
+  // Only the points that the triangles use.
   std::vector<std::int32_t> number(points.size(), -1);
   IndexedMesh hull;
   for (Triangle t : triangles) {
@@ -69,7 +69,7 @@ ConvexBody convex_body(const std::vector<Vector3>& points) {
 
 namespace {
 
-/// Adds the point farthest from those that span less than a space so far.
+/// Adds the point farthest from the span of the chosen points.
 void add_spanning_point(const std::vector<Vector3>& points, std::vector<Vector3>& chosen) {
   std::size_t best = 0;
   double most = -1.0;
@@ -95,11 +95,11 @@ ConvexBody with_fewer_faces(const ConvexBody& body, int faces) {
   const std::vector<Vector3>& points = body.hull.points;
   std::vector<Vector3> chosen = {points.front()};
   add_spanning_point(points, chosen);
-  chosen.erase(chosen.begin());  // the point farthest from an arbitrary one is an end
+  chosen.erase(chosen.begin());  // the farthest point from an arbitrary one is an extreme point
   for (int k = 0; k < 3; ++k) add_spanning_point(points, chosen);
   ConvexBody result = convex_body(chosen);
   if (result.empty()) return body;
-  // A closed body of triangles with V points has 2 V - 4 faces.
+  // A closed triangle mesh with V points has 2 V - 4 faces.
   while (2 * (result.hull.points.size() + 1) - 4 <= static_cast<std::size_t>(faces)) {
     std::size_t best = 0;
     double most = -1.0;
@@ -114,7 +114,7 @@ ConvexBody with_fewer_faces(const ConvexBody& body, int faces) {
     chosen = result.hull.points;
     chosen.push_back(points[best]);
     result = convex_body(chosen);
-    if (result.hull.points.size() == before) break;  // the point lies in a face, but for rounding
+    if (result.hull.points.size() == before) break;  // within rounding, the point lies in a face
   }
   return result;
 }

@@ -25,7 +25,7 @@ void check_options(const ConvexOptions& options) {
 
 namespace {
 
-/// Joins groups two by two.
+/// Joins groups in pairs.
 class Joining {
  public:
   Joining(std::vector<PieceGroup> groups, const HullCost& cost, const Execution& execution)
@@ -38,7 +38,7 @@ class Joining {
     measure(0);
   }
 
-  /// Until there are no more than `count`, and no pair that is convex within the tolerance.
+  /// Joins until there are at most `count` groups, and no pair that is convex within the tolerance.
   std::vector<PieceGroup> run(std::size_t count) {
     std::size_t left = groups_.size();
     for (; !pairs_.empty(); --left) {
@@ -61,7 +61,7 @@ class Joining {
   struct Pair {
     std::size_t first = 0;
     std::size_t second = 0;
-    double cost = 0.0;  ///< of the common hull, beyond the costs of the two
+    double cost = 0.0;  ///< of the common hull, less the costs of the two
     bool is_convex = false;
   };
 
@@ -71,7 +71,7 @@ class Joining {
     return box;
   }
 
-  /// Unless the two can't touch.
+  /// Adds a pair, unless the two cannot touch.
   void add_pair(std::size_t first, std::size_t second) {
     const double margin = 1e-6 * boxes_[first].diagonal().norm();
     if (boxes_[first].exteriorDistance(boxes_[second]) > margin) return;
@@ -86,7 +86,7 @@ class Joining {
   }
 
   void measure(std::size_t first_pair) {
-    // A hull may also hold too much within the grain, where other parts are.
+    // A hull may also contain too much inside the grain, in other parts.
     constexpr double most_excess = 0.02;
     execution_.report(0.0, "Joining convex parts");
     execution_.parallel_for(pairs_.size() - first_pair, 1, [&](std::size_t begin, std::size_t end) {
@@ -112,7 +112,7 @@ class Joining {
     one.pieces.insert(one.pieces.end(), two.pieces.begin(), two.pieces.end());
     two = PieceGroup();
     boxes_[pair.first] = box_of(one);
-    // Pairs of either of the two go; those of the new one come.
+    // Replaces the pairs of the two by pairs of the new group.
     const auto is_gone = [&](const Pair& other) {
       for (const std::size_t gone : {pair.first, pair.second}) {
         if (other.first == gone || other.second == gone) return true;
@@ -137,7 +137,7 @@ class Joining {
 
 std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& scan,
                                   const ConvexOptions& options, const Execution& execution) {
-  // A sixtieth of a grain is some per cent of its radius: the size of the distances.
+  // A sixtieth of a grain is some per cent of its radius: the scale of the distances.
   constexpr int cells = 60;
   constexpr std::size_t pieces_a_part = 2;
   const ShapeDescriptors shape = describe_shape(mesh, execution.part(0.0, 0.0));
@@ -151,7 +151,7 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
   tree.cut(pieces_a_part * count, 1.0, execution.part(0.1, 0.3));
   std::vector<PieceGroup> groups =
       Joining(tree.groups(), cost, execution.part(0.3, 0.35)).run(count);
-  // Costs themselves are best for some grains, their squares for others.
+  // Costs themselves are best for some grains, squared costs for others.
   CutTree even_tree(mesh, axes, cost);
   even_tree.cut(pieces_a_part * count, 2.0, execution.part(0.35, 0.5));
   std::vector<PieceGroup> even_groups =
@@ -161,7 +161,7 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
     std::swap(groups, even_groups);
   }
   tree.move_planes(groups, execution.part(0.55, 0.7));
-  // The planes moved: other pieces may go together now.
+  // The planes moved, so other pieces may now be joined.
   std::vector<PieceGroup> again =
       Joining(tree.groups(), cost, execution.part(0.7, 0.75)).run(count);
   if (total_cost(again) < total_cost(groups)) {
@@ -169,7 +169,7 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
     tree.move_planes(groups, execution.part(0.75, 0.85));
   }
   if (!scan.triangles.empty()) groups = tree.groups_of(scan, groups, execution.part(0.85, 0.9));
-  // Hulls of the scan may need fewer parts than those of the mesh, whose edges are rounder.
+  // The scan's hulls may need fewer parts than the mesh's, whose edges are rounder.
   groups = Joining(std::move(groups), cost, execution.part(0.9, 0.95)).run(count);
   std::vector<ConvexBody> bodies;
   for (PieceGroup& group : groups) bodies.push_back(std::move(group.body));

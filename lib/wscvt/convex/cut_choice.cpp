@@ -24,7 +24,7 @@ double HullCost::distance(const ConvexBody& body) const {
     const Vector3 u = hull.points[b] - p;
     const Vector3 v = hull.points[c] - p;
     const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
-    // A face as small as the grid's cells lies on the surface, or nearly so.
+    // A face as small as the grid's cells is on the surface, or almost.
     const int steps = std::min(most_steps, static_cast<int>(std::ceil(longest / step)));
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; i + j <= steps; ++j) {
@@ -46,8 +46,8 @@ double HullCost::operator()(const ConvexBody& body, double volume) const {
 
 namespace {
 
-/// The powers of the costs of the hulls of a cut's pieces, added; without distances the costs are
-/// the volumes beyond the pieces'. Infinite if the plane misses the piece.
+/// Returns the sum of the powers of the costs of the hulls of a cut's pieces. Without distances, a
+/// cost is the hull's volume less the pieces'. Infinite if the plane misses the piece.
 double cut_cost(const CutSolid& solid, const CutPlane& plane, const HullCost& hull_cost,
                 double power, bool with_distances) {
   const SolidCut cut = solid.cut(plane, hull_cost.on_plane());
@@ -85,7 +85,7 @@ void add_slices(const ConvexBody& body, const Eigen::Matrix3d& axes,
   }
 }
 
-/// Planes in many directions through the deepest points below the hull, which lie apart.
+/// Adds planes in many directions through the deepest points below the hull that are apart.
 void add_dent_cuts(const CutSolid& solid, const ConvexBody& body, const Eigen::Matrix3d& axes,
                    std::vector<CutPlane>& planes) {
   constexpr int dents = 3;
@@ -108,15 +108,15 @@ void add_dent_cuts(const CutSolid& solid, const ConvexBody& body, const Eigen::M
     }
     if (!(most > 0.0)) return;
     chosen.push_back(points[deepest]);
-    // Half of the 26 directions of a cube's faces, edges and corners.
+    // Half of the 26 directions to a cube's faces, edges and corners.
     for (int k = 14; k < 27; ++k) {
       add_plane(axes * Vector3(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1), points[deepest], planes);
     }
   }
 }
 
-/// Planes along the edges at which the body bends inward most, far below the hull: those of the two
-/// faces, and the one between.
+/// Adds planes along the edges at which the body bends inward most, far below the hull: the planes
+/// of both faces, and the plane between.
 void add_edge_cuts(const CutSolid& solid, const ConvexBody& body, std::vector<CutPlane>& planes) {
   constexpr std::size_t most_edges = 8;
   const std::vector<Vector3>& p = solid.points();
@@ -127,7 +127,7 @@ void add_edge_cuts(const CutSolid& solid, const ConvexBody& body, std::vector<Cu
   std::vector<Weighted> reflexes;
   for (const CutSolid::ReflexEdge& reflex : solid.reflex_edges()) {
     const auto& [a, b] = reflex.edge;
-    // Some degrees: less is a curved surface, whose dents have planes of their own.
+    // Some degrees: less is a curved surface, whose dents get their own planes.
     const double sine = reflex.first.cross(reflex.second).norm();
     if (!(sine > 0.15)) continue;
     const double depth = std::max(0.0, -body.excess(0.5 * (p[a] + p[b])));
@@ -145,7 +145,7 @@ void add_edge_cuts(const CutSolid& solid, const ConvexBody& body, std::vector<Cu
   }
 }
 
-/// The first planes, as many as are wanted, the lowest score first; those without a finite one go.
+/// Returns the first `wanted` planes by ascending score, without planes of infinite score.
 template <class Score>
 std::vector<CutPlane> sorted_by(const std::vector<CutPlane>& planes, std::size_t wanted,
                                 const Execution& execution, const Score& score) {
@@ -173,7 +173,7 @@ std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
   add_edge_cuts(solid, body, planes);
   add_slices(body, axes, planes);
   add_dent_cuts(solid, body, axes, planes);
-  // Those that leave the least volume too much, and of them those that come nearest.
+  // First the planes with the least excess volume, then the nearest of them.
   constexpr std::size_t measured = 24;
   planes = sorted_by(planes, planes.size(), execution, [&](const CutPlane& plane) {
     return cut_cost(solid, plane, cost, power, false);

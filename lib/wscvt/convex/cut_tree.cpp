@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t no_group = std::numeric_limits<std::size_t>::max();
 
-/// The plane shifted both ways, and turned both ways about two axes through its point nearest to
-/// the middle of the points; by `step` at a distance of `size`.
+/// Returns the plane shifted both ways, and turned both ways about two axes through its point
+/// nearest to the middle of the points; by `step` at a distance of `size`.
 std::array<CutPlane, 6> moved_planes(const CutPlane& plane, const std::vector<Vector3>& points,
                                      double size, double step) {
   Vector3 pivot = Vector3::Zero();
@@ -55,7 +55,7 @@ void CutTree::add_node(CutSolid solid) {
 }
 
 void CutTree::cut(std::size_t count, double power, const Execution& execution) {
-  std::vector<double> costs;  // zero of nodes that are not to be cut
+  std::vector<double> costs;  // zero for nodes that must not be cut
   for (std::size_t pieces = 1; pieces < count;) {
     execution.report(static_cast<double>(pieces) / static_cast<double>(count),
                      "Cutting into convex parts");
@@ -81,7 +81,7 @@ void CutTree::cut(std::size_t count, double power, const Execution& execution) {
       nodes_[n].below.push_back(nodes_.size());
       add_node(std::move(solid));
     }
-    // Crumbs of a rough surface, each some thousandths of a part, are no pieces to join parts of.
+    // Crumbs of a rough surface, each some thousandths of a part, are useless as pieces.
     const double crumb = 0.01 * nodes_.front().solid.volume() / static_cast<double>(count);
     pieces = 0;
     for (const Node& node : nodes_)
@@ -108,7 +108,7 @@ std::vector<std::size_t> CutTree::group_of_nodes(const std::vector<PieceGroup>& 
   return group_of;
 }
 
-/// False if the solid falls into other pieces than before.
+/// Returns false if the solid falls into other pieces than before.
 bool CutTree::cut_again(std::size_t node, CutSolid solid, const CutPlane& plane,
                         Solids& solids) const {
   const Node& old = nodes_[node];
@@ -128,11 +128,11 @@ bool CutTree::cut_again(std::size_t node, CutSolid solid, const CutPlane& plane,
   return true;
 }
 
-/// A plane moved, and what follows.
+/// A moved plane and its consequences.
 struct CutTree::Trial {
   Solids solids;                                           ///< of nodes
-  std::vector<std::pair<std::size_t, PieceGroup>> groups;  ///< those that changed
-  double gain = 0.0;                                       ///< what the groups cost less
+  std::vector<std::pair<std::size_t, PieceGroup>> groups;  ///< the changed groups
+  double gain = 0.0;                                       ///< decrease of the groups' cost
 };
 
 CutTree::Trial CutTree::trial(std::size_t node, const CutPlane& plane,
@@ -167,7 +167,7 @@ CutTree::Trial CutTree::trial(std::size_t node, const CutPlane& plane,
   return result;
 }
 
-/// False if no move gains anything.
+/// Returns false if no move is a gain.
 bool CutTree::move_plane(std::size_t node, double step, std::vector<PieceGroup>& groups,
                          const std::vector<std::size_t>& group_of, const Execution& execution) {
   constexpr double least_gain = 1e-5;
@@ -192,7 +192,7 @@ bool CutTree::move_plane(std::size_t node, double step, std::vector<PieceGroup>&
 
 void CutTree::move_planes(std::vector<PieceGroup>& groups, const Execution& execution) {
   constexpr int most_sweeps = 12;
-  constexpr double first_step = 0.15;  // of the cubic root of the grain's volume
+  constexpr double first_step = 0.15;  // of the cube root of the grain's volume
   constexpr double last_step = 0.005;
   const std::vector<std::size_t> group_of = group_of_nodes(groups);
   const double size = std::cbrt(nodes_.front().solid.volume());
@@ -227,7 +227,7 @@ void CutTree::collect(std::size_t node, const CutSolid& solid,
   const auto go_on = [&](const std::vector<std::size_t>& children,
                          const std::vector<CutSolid>& side) {
     for (const CutSolid& part : side) {
-      // Another mesh may fall into other pieces; each goes with the piece that it lies in.
+      // Another mesh may fall into other pieces; each joins the piece in which it lies.
       std::size_t nearest = children.front();
       double least = std::numeric_limits<double>::infinity();
       for (const std::size_t child : children) {
@@ -243,7 +243,7 @@ void CutTree::collect(std::size_t node, const CutSolid& solid,
       collect(nearest, part, group_of, groups, points, execution);
     }
   };
-  // A plane that misses this mesh leaves all of it on one side.
+  // If a plane misses this mesh, all of it is on one side.
   if (cut.above.empty() && cut.below.empty()) {
     double height = 0.0;
     for (const Vector3& p : solid.points()) height += old.plane.normal.dot(p) - old.plane.offset;

@@ -11,7 +11,7 @@
 
 namespace wscvt {
 
-/// Pieces that one part stands for.
+/// The pieces of one part.
 struct PieceGroup {
   std::vector<std::size_t> pieces;  ///< numbers of pieces of a CutTree
   ConvexBody body;                  ///< the hull of all of them
@@ -19,22 +19,22 @@ struct PieceGroup {
   double cost = 0.0;                ///< see HullCost
 };
 
-/// What the parts cost together.
+/// Returns the sum of the costs of the parts.
 double total_cost(const std::vector<PieceGroup>& groups);
 
-/// A grain cut by planes. Each plane cuts a piece that the planes before it left. A plane can be
-/// moved later: the cuts behind it are then made again.
+/// A grain cut by planes. Each plane cuts a piece left by earlier planes. If a plane is moved
+/// later, the cuts after it are made again.
 class CutTree {
  public:
   /// `mesh`: see convex_parts. `axes` has the axes of the grain as columns.
   CutTree(const IndexedMesh& mesh, const Eigen::Matrix3d& axes, const HullCost& cost);
 
-  /// Cuts the piece of the highest cost, again and again, until `count` pieces are there, or few
-  /// more; crumbs are not counted. Pieces whose hull is within the tolerance of the grain are not
-  /// cut. `power`: see best_cuts.
+  /// Cuts the piece of the highest cost repeatedly until there are `count` pieces, or few more;
+  /// crumbs do not count. Does not cut pieces whose hull is within the tolerance of the grain.
+  /// `power`: see best_cuts.
   void cut(std::size_t count, double power, const Execution& execution);
 
-  /// One group per piece. Pieces in a plane are left out.
+  /// Returns one group per piece. Omits flat pieces.
   std::vector<PieceGroup> groups() const;
 
   /// Moves and turns the planes as long as the total cost of the groups decreases.
@@ -50,7 +50,7 @@ class CutTree {
   struct Node {
     CutSolid solid;
     ConvexBody body;
-    CutPlane plane;                  ///< that cuts it
+    CutPlane plane;                  ///< cuts the solid
     std::vector<std::size_t> above;  ///< pieces above the plane
     std::vector<std::size_t> below;
     bool is_piece() const { return above.empty(); }

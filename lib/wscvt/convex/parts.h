@@ -13,7 +13,7 @@
 
 namespace wscvt {
 
-/// Convex parts beside the grain that they stand for, in the scan's units and coordinates.
+/// Convex parts and their grain, in the scan's units and coordinates.
 struct PartsResult {
   ConvexParts parts;
   PartsMeasures measures;
@@ -22,10 +22,10 @@ struct PartsResult {
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// Takes a scan, which is repaired as remesh() does, apart into convex parts: convex_parts chooses
-/// the cuts on a remesh with `remesh_options`, of which convex_node_count nodes are enough, and
-/// makes the parts of the scan; measure_parts says how well they stand for it. The same bits on any
-/// number of threads. Throws Error as remesh and convex_parts do.
+/// Makes convex parts of a scan, which is repaired as in remesh(). convex_parts chooses the cuts on
+/// a remesh with `remesh_options`, for which convex_node_count nodes are enough, and makes the
+/// parts of the scan. measure_parts measures their errors. The result does not depend on the number
+/// of threads. Throws Error as remesh and convex_parts do.
 PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const ConvexOptions& options,
                        const Execution& execution = Execution());
 

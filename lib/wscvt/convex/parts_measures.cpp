@@ -27,7 +27,7 @@ struct Box {
   }
 };
 
-/// The parts with what tells quickly that a point lies in none.
+/// The parts, with a quick test for points outside all parts.
 class Union {
  public:
   explicit Union(const ConvexParts& parts) {
@@ -44,7 +44,7 @@ class Union {
   const std::vector<ConvexBody>& bodies() const { return bodies_; }
   const Box& box() const { return box_; }
 
-  /// How many parts hold the point.
+  /// Returns the number of parts that contain the point.
   int count(const Vector3& point) const {
     int count = 0;
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -89,7 +89,7 @@ std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
     const Vector3 normal =
         doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).normalized();
     const Vector3 point = point_at(mesh, place);
-    // Beyond a face that two parts share lies the other one.
+    // The other part lies beyond a face that two parts share.
     if (all.count(point + beyond * normal) == 0) points.push_back(point);
   }
   return points;

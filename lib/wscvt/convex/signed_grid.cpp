@@ -26,14 +26,14 @@ SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& exec
     for (std::size_t row = begin; row < end; ++row) {
       const int j = static_cast<int>(row) % counts_[1];
       const int k = static_cast<int>(row) / counts_[1];
-      // The first point of a row lies outside the box.
+      // The first point of a row is outside the box.
       double sign = 1.0;
       double before = 0.0;
       for (int i = 0; i < counts_[0]; ++i) {
         const Vector3 point = origin_ + spacing_ * Vector3(i, j, k);
         const double length = distance_.distance(point);
-        // Two points with the surface between them are no farther from it, together, than from each
-        // other, but for rounding.
+        // Two grid neighbours on opposite sides have distances that sum to at most their spacing,
+        // but for rounding.
         if (i > 0 && before + length <= (1.0 + 1e-9) * spacing_)
           sign = distance_.contains(point) ? -1.0 : 1.0;
         values_[index(i, j, k)] = sign * length;
@@ -44,7 +44,7 @@ SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& exec
 }
 
 double SignedGrid::distance_beyond(double least, const Vector3& point) const {
-  // Of a point that the grid takes for an outer one by its error the distance is as small.
+  // If the grid takes a point for an outer one by its error, the distance is as small.
   return at(point) > least ? std::max(least, distance_.distance(point)) : least;
 }
 

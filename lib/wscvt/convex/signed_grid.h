@@ -11,19 +11,20 @@
 
 namespace wscvt {
 
-/// Signed distances to a closed outward mesh at the points of a grid, and between them by linear
-/// interpolation: a hundred times as fast as the distance itself, and as good as the grid is fine.
+/// Signed distances to a closed outward mesh at the points of a grid, with linear interpolation
+/// between them: a hundred times as fast as the exact distance, with the resolution of the grid.
 class SignedGrid {
  public:
-  /// `cells` of them along the longest side of the box about the mesh, 1 or more. Throws
+  /// `cells`: number of cells along the longest side of the mesh's box, 1 or more. Throws
   /// Error(Cancelled).
   SignedGrid(const IndexedMesh& mesh, int cells, const Execution& execution);
 
-  /// Positive outside; length. Outside the grid the value at its nearest point.
+  /// Returns the distance, positive outside; length. Outside the grid, the value at the grid's
+  /// nearest point.
   double at(const Vector3& point) const;
 
-  /// The larger of `least` and the distance of a point outside the mesh; length. Takes the exact
-  /// distance where the grid's is larger than `least`.
+  /// Returns the larger of `least` and the distance of a point outside the mesh; length. Computes
+  /// the exact distance if the grid's is larger than `least`.
   double distance_beyond(double least, const Vector3& point) const;
 
   double spacing() const { return spacing_; }

@@ -20,7 +20,7 @@ namespace wscvt {
 
 namespace {
 
-/// A clump as a file holds it.
+/// A clump in the frame of a file.
 struct FramedClump {
   std::vector<Sphere> spheres;
   MassProperties mass;  ///< the grain's
@@ -63,7 +63,7 @@ std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-/// The name of a fix in LIGGGHTS, which takes letters, digits and underscores.
+/// Returns the name of a fix in LIGGGHTS, which may have letters, digits and underscores.
 std::string liggghts_name(const std::string& path) {
   std::string name = "clump_" + name_of(path);
   name.resize(name.size() - std::string(".multisphere").size());
@@ -74,7 +74,8 @@ std::string liggghts_name(const std::string& path) {
   return name;
 }
 
-/// A prime above 10,000 that differs between names: LIGGGHTS refuses two templates with one seed.
+/// Returns a prime above 10,000 that differs between names: LIGGGHTS refuses two templates with one
+/// seed.
 int liggghts_seed(const std::string& name) {
   std::uint32_t hash = 2166136261U;  // FNV-1a
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
@@ -168,8 +169,8 @@ std::string pfc_command(const FramedClump& clump, const std::string& path) {
          numbers(moments(clump), " ") + " 0 0 0\n";
 }
 
-/// LAMMPS adds up the masses of atoms for the energies that it prints, and takes the body's mass
-/// and moments from the head of the file.
+/// LAMMPS adds the masses of atoms for the energies that it prints, but uses the body's mass and
+/// moments from the head of the file.
 std::string lammps_molecule(const FramedClump& clump, double density) {
   const std::vector<Sphere>& spheres = clump.spheres;
   double cubes = 0.0;
@@ -193,13 +194,13 @@ std::string lammps_molecule(const FramedClump& clump, double density) {
          diameters + "\nMasses\n\n" + masses;
 }
 
-/// As the reader of MercuryDPM's Clump driver takes a clump; readers before 2024 look for these
-/// names in small letters.
+/// Writes the format of MercuryDPM's Clump driver; readers before 2024 need these names in small
+/// letters.
 void write_mercury(const std::string& path, const FramedClump& clump) {
   const std::filesystem::path folder(path);
   std::error_code error;
   for (const char* part : {"Clump", "Inertia"}) {
-    std::filesystem::create_directories(folder / part, error);  // writing tells
+    std::filesystem::create_directories(folder / part, error);  // writing reports errors
   }
   const std::vector<double> m = moments(clump);
   write_file((folder / "Clump/Clump.txt").string(), rows_of(clump.spheres, ","));
@@ -217,7 +218,7 @@ bool ends_with(const std::string& path, const std::string& ending) {
   });
 }
 
-/// The longest of the endings; empty for none.
+/// Returns the longest matching ending; empty if there is none.
 std::string clump_ending(const std::string& path) {
   std::string found;
   for (const std::string& ending : clump_endings()) {
@@ -284,7 +285,7 @@ namespace {
 
 constexpr const char* header = "x,y,z,r";
 
-/// A line without its end.
+/// Reads a line without its end.
 bool next_line(std::istream& stream, std::string& line) {
   if (!std::getline(stream, line)) return false;
   if (!line.empty() && line.back() == '\r') line.pop_back();

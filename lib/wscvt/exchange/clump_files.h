@@ -20,8 +20,8 @@ namespace wscvt {
 //   .p3dat        PFC: the command "clump template create"
 //   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
 // All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
-// is diagonal, and hold the grain's mass properties: at unit density, but .molecule at a density
-// that is given, because LAMMPS cannot change it.
+// is diagonal. They contain the grain's mass properties at unit density; .molecule at the chosen
+// density, because LAMMPS cannot change it.
 
 /// Density of the grain in a .molecule file.
 inline constexpr NumberOption<double> clump_density_option = {
@@ -33,16 +33,16 @@ inline constexpr NumberOption<double> clump_density_option = {
     "mass of a unit of volume in .molecule; for the other formats the engine's "
     "script gives it"};
 
-/// The endings, as above.
+/// Returns the endings above.
 const std::vector<std::string>& clump_endings();
 
-/// Whether a name has one of the endings, in either case.
+/// Returns whether a name has one of the endings, in either case.
 bool is_clump_name(const std::string& path);
 
-/// Throws Error(InvalidInput), with the endings, for another one.
+/// Throws Error(InvalidInput), with the endings, for another ending.
 void check_clump_path(const std::string& path);
 
-/// The files that one path makes, itself among them.
+/// Returns the files that are written for one path, including itself.
 std::vector<std::string> files_of_clump(const std::string& path);
 
 /// Writes the clump. Throws Error: InvalidInput for another ending or a density out of range,
@@ -50,11 +50,12 @@ std::vector<std::string> files_of_clump(const std::string& path);
 void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
                  double density = 1.0);
 
-/// Whether a file is a table of spheres: its first line is x,y,z,r. False where it cannot be read.
+/// Returns whether a file is a table of spheres: its first line is x,y,z,r. False if it cannot be
+/// read.
 bool is_clump_file(const std::string& path);
 
-/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for another
-/// content; InputOutput.
+/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for other content;
+/// InputOutput.
 std::vector<Sphere> read_clump(const std::string& path);
 
 }  // namespace wscvt

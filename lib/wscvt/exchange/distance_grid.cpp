@@ -16,8 +16,7 @@ namespace wscvt {
 
 namespace {
 
-/// Cells between the surface's box and the edge of the grid: room for what reads gradients or
-/// interpolates there.
+/// Cells between the surface's box and the edge of the grid: room for interpolation and gradients.
 constexpr double margin = 4.0;
 
 std::array<unsigned char, 8> bytes_of(double value) {
@@ -31,7 +30,7 @@ void append(std::string& text, double value) {
   text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-/// Where the points of a mesh lie.
+/// Bounding box of a mesh's points.
 struct Box {
   Vector3 lowest;
   Vector3 highest;
@@ -72,11 +71,11 @@ double point_count(const Box& box, const GridOptions& options) {
   return points;
 }
 
-/// The spacing, or a larger one with which the grid has no more points than may be.
+/// Returns the spacing, or a larger one if the grid would have too many points.
 double affordable_spacing(const Box& box, GridOptions options) {
   for (double points = point_count(box, options); !(points <= most_grid_points);
        points = point_count(box, options)) {
-    // Of bodies with three long axes; on others it takes a few steps more.
+    // Exact for bodies with three long axes; others need a few more steps.
     options.spacing *= std::max(1.001, std::min(1e6, std::cbrt(points / most_grid_points)));
   }
   return options.spacing;
@@ -112,11 +111,11 @@ double grid_spacing(const IndexedMesh& closed, const GridOptions& options,
 
 namespace {
 
-/// A grid about the mesh, without its values.
+/// Returns a grid about the mesh, without values.
 DistanceGrid empty_grid(const IndexedMesh& mesh, GridOptions options, const Execution& execution) {
   const Box box = box_of(mesh);
   options.spacing = grid_spacing(mesh, options, execution);
-  // A remesh may reach a little farther than the scan that check_grid saw.
+  // A remesh may extend a little farther than the scan in check_grid.
   if (!(point_count(box, options) <= 1.1 * most_grid_points)) refuse_grid(box, options);
   DistanceGrid grid;
   grid.spacing = options.spacing;
@@ -147,7 +146,7 @@ DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options
   DistanceGrid grid = empty_grid(closed, options, execution);
   const MeshDistance surface(closed, execution);
   const std::size_t row = grid.counts[2];
-  // A layer at a time, so that the work can be cancelled between them.
+  // One layer at a time, so that the work can be cancelled.
   for (std::size_t i = 0; i < grid.counts[0]; ++i) {
     execution.report(static_cast<double>(i) / static_cast<double>(grid.counts[0]), stage);
     execution.parallel_for(grid.counts[1], 1, [&](std::size_t begin, std::size_t end) {
@@ -158,8 +157,8 @@ DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options
                              static_cast<double>(k));
           const Vector3 point = grid.origin + grid.spacing * step;
           const double distance = surface.distance(point);
-          // Where the surface crosses the edge to the point before, the two distances to the
-          // crossing add up to the edge: where theirs are more, the side is the same.
+          // If the surface crosses the edge to the previous point, both distances sum to at most
+          // the edge. If they sum to more, both points are on one side.
           const bool same_side =
               k > 0 && std::abs(values[k - 1]) + distance > (1.0 + 1e-9) * grid.spacing;
           const bool inside = same_side ? values[k - 1] < 0.0 : surface.contains(point);
@@ -176,8 +175,8 @@ std::string grid_npy(const DistanceGrid& grid) {
   std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
                        std::to_string(grid.counts[0]) + ", " + std::to_string(grid.counts[1]) +
                        ", " + std::to_string(grid.counts[2]) + "), }";
-  // Magic, version and length take ten bytes, a line end closes the header, and the numbers begin
-  // at a multiple of 64.
+  // Magic, version and length are ten bytes, a line end closes the header, and the numbers begin at
+  // a multiple of 64.
   constexpr std::size_t before = 10;
   header.append(63 - (before + header.size()) % 64, ' ');
   header += '\n';

@@ -22,36 +22,38 @@ struct DistanceGrid {
   std::vector<double> values;
 };
 
-/// Points of a grid: 160 MB of distances, which take minutes.
+/// Largest number of points of a grid: 160 MB of distances, which take minutes.
 inline constexpr double most_grid_points = 2e7;
 
-/// The spacing of a grid about the mesh: that of the options, or their default of it. Throws
+/// Returns the spacing of a grid about the mesh: the options' value, or its default. Throws
 /// Error(InvalidInput) for a mesh without faces or volume.
 double grid_spacing(const IndexedMesh& closed, const GridOptions& options,
                     const Execution& execution);
 
-/// Throws Error(InvalidInput), naming the option, for a spacing that takes more than
-/// most_grid_points about the mesh. The spacing 0 never does.
+/// Throws Error(InvalidInput), naming the option, if the spacing needs more than most_grid_points
+/// about the mesh. Spacing 0 never throws.
 void check_grid(const IndexedMesh& closed, const GridOptions& options);
 
-/// Distances are exact at the points (see MeshDistance), and so is their sign, which is that of a
-/// ray's crossings or, where the surface lies too far to come between, of a point beside. The grid
-/// starts at a multiple of the spacing, so that grids of one body fit each other.
+/// Computes exact distances at the points of a grid (see MeshDistance). The sign is also exact:
+/// from the crossings of a ray or, if the surface is too far to lie between, from a neighbouring
+/// point. The grid starts at a multiple of the spacing, so that grids of one body are aligned.
 ///
 /// Throws Error(InvalidInput) for a mesh without faces or volume, for options out of range and for
 /// grids of more than 1.1 most_grid_points, Error(Cancelled).
 DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options,
                            const Execution& execution);
 
-/// The bytes of a NumPy file (.npy, version 1.0): doubles, little-endian, [x][y][z] in C's order.
+/// Returns the bytes of a NumPy file (.npy, version 1.0): doubles, little-endian, [x][y][z] in C
+/// order.
 std::string grid_npy(const DistanceGrid& grid);
 
-/// The bytes of VTK's XML ImageData (.vti), for ParaView: the array "distance", appended raw.
+/// Returns the bytes of VTK's XML ImageData (.vti), for ParaView: the array "distance", appended
+/// raw.
 std::string grid_vti(const DistanceGrid& grid);
 
-/// A level set of NetDEM as one of its published examples has it (apaam/examples,
+/// Returns a level set for NetDEM, in the format of a published example (apaam/examples,
 /// netdem/data/ls_shape.json): corner, spacing, dim and signed_distance_table[x][y][z], positive
-/// inside. Not tried: NetDEM is not to be had.
+/// inside. Not tested: NetDEM is not available.
 std::string grid_netdem(const DistanceGrid& grid);
 
 }  // namespace wscvt

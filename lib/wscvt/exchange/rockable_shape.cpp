@@ -46,7 +46,7 @@ std::string rockable_shape(const std::string& name, const NodeTable& nodes,
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t from = t[k];
       const std::int32_t to = t[(k + 1) % 3];
-      if (from > to) continue;  // once: the triangle beside has it the other way round
+      if (from > to) continue;  // once: the neighbouring triangle has it the other way round
       edges += std::to_string(from) + " " + std::to_string(to) + "\n";
       ++edge_count;
     }

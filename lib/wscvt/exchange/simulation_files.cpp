@@ -19,7 +19,7 @@ namespace wscvt {
 
 namespace {
 
-/// A file's name as a word of its own.
+/// Returns a file's name as one word.
 std::string word_of(const std::string& path) {
   std::string word = std::filesystem::path(path).stem().string();
   std::replace_if(

@@ -61,8 +61,8 @@ thermo 5000
 run 100000
 )";
 
-/// Grains in the order of their diameters, with the mass up to each. The first grain's own mass
-/// counts from its diameter on.
+/// Diameters of grains in ascending order, with the mass up to each. The first grain's mass counts
+/// from its diameter on.
 class CumulativeMass {
  public:
   explicit CumulativeMass(std::vector<double> diameters) : diameters_(std::move(diameters)) {
@@ -102,7 +102,7 @@ std::string size_curve_csv(std::vector<double> diameters) {
   double last = 0.0;
   for (int percent = 0; percent <= 100; percent += percent_step) {
     double diameter = curve.diameter(0.01 * percent);
-    // Of grains of one size the curve has two points all the same.
+    // For grains of one size the curve still needs two points.
     if (percent > 0 && !(diameter > last)) diameter = last * (1.0 + 1e-9);
     last = diameter;
     table += csv_record({format_exact(diameter), format_exact(percent)});
@@ -145,7 +145,7 @@ std::string liggghts_template_input(const std::vector<ClumpTemplate>& templates,
     if (!(one.weight_by_mass > 0.0)) continue;
     for (const double diameter : diameters) {
       const std::string name = "t" + std::to_string(++count);
-      seed = next_prime(seed);  // LIGGGHTS wants another prime above 10,000 for each template
+      seed = next_prime(seed);  // LIGGGHTS needs another prime above 10,000 for each template
       input += "fix " + name + " all particletemplate/multisphere " + std::to_string(seed) +
                " atom_type 1 density " + "constant 2650 nspheres " + std::to_string(one.spheres) +
                " ntry 200000 spheres file " + one.file + " scale " + format_typed(diameter) +

@@ -13,22 +13,22 @@ namespace wscvt {
 
 namespace {
 
-/// Merges below this many squares of the mean cell are cheap: a sweep of them halves the vertices.
+/// Merges below this many squares of the mean cell are cheap; a sweep of them halves the vertices.
 constexpr double cheap_merge = 0.8;
-/// A sweep that nears its end merges less eagerly, in squares of the cells wanted.
+/// Limit for a sweep near its end, in squares of the wanted cells.
 constexpr double last_merge = 0.15;
-/// Beyond this degree a merge is dearer by `degree_price` a square of the degree above it.
+/// Above this degree, a merge costs `degree_price` more per square of the excess degree.
 constexpr int high_degree = 7;
 constexpr double degree_price = 0.05;
-/// No merge makes more edges at a vertex.
+/// Largest degree after a merge.
 constexpr int most_degree = 12;
-/// By how much of a cell the area that stands against the surface may grow with a merge.
+/// How much area facing against the surface a merge may add, in cells.
 constexpr double turned_allowance = 1e-3;
-/// Faces with an edge whose square is above this share of a cell keep their angles.
+/// Faces with an edge whose square is above this fraction of a cell keep their angles.
 constexpr double large_face = 0.1;
 /// Square of the sine of 2 degrees: the smallest angle of a large face.
 constexpr double least_squared_sine = 0.0012;
-/// The heap is made anew, with flips before, whenever this share of the vertices is left.
+/// The heap is rebuilt, after flips, each time this fraction of the vertices is left.
 constexpr double heap_share = 0.85;
 
 }  // namespace
@@ -112,7 +112,7 @@ Coarsening::FanShape Coarsening::shape_of(std::int32_t v, std::int32_t w, double
     mesh_.around(i, [&, i = i, j = j](std::int32_t h) {
       const std::int32_t a = mesh_.target(h);
       const std::int32_t b = mesh_.apex(h);
-      if (i == w && (a == j || b == j)) return;  // seen about the first already
+      if (i == w && (a == j || b == j)) return;  // already added about the first
       add_face(shape, mesh_.points[a] - mesh_.points[i], mesh_.points[b] - mesh_.points[i],
                vectors_[a] + vectors_[b] + vectors_[i], large);
     });
@@ -137,7 +137,7 @@ Coarsening::FanShape Coarsening::shape_merged(std::int32_t v, std::int32_t w, do
 }
 
 bool Coarsening::possible(std::int32_t v, std::int32_t w) {
-  // Degrees add up less the two ends and the two common neighbours' double edges.
+  // The degrees add, less the two ends and the two common neighbours' double edges.
   if (alive_ <= 4) return false;
   if (!ignores_shapes_ && mesh_.degrees[v] + mesh_.degrees[w] - 4 > most_degree) return false;
   if (!common_neighbours_allow(v, w)) return false;
@@ -206,14 +206,14 @@ int Coarsening::sweep(int least) {
   return before - alive_;
 }
 
-/// Merges in the order of their costs; those that changed since are passed over.
+/// Merges in the order of their costs. Outdated merges are skipped.
 class Coarsening::Queue {
  public:
   explicit Queue(Coarsening& owner) : owner_(owner), times_(owner.mesh_.points.size(), 0) {
     for (std::size_t v = 0; v < times_.size(); ++v) push(static_cast<std::int32_t>(v));
   }
 
-  /// Enters the cheapest merge that is possible at a vertex, in place of the one entered before.
+  /// Enters the cheapest possible merge at a vertex, and replaces its earlier one.
   void push(std::int32_t v) {
     ++times_[v];
     Merge best = {1e300, v, -1, times_[v]};
@@ -227,7 +227,7 @@ class Coarsening::Queue {
     if (best.w >= 0) queue_.push(best);
   }
 
-  /// Makes the cheapest merge; false when there is none.
+  /// Makes the cheapest merge; returns false if there is none.
   bool merge_one() {
     while (!queue_.empty()) {
       const Merge next = queue_.top();

@@ -10,40 +10,40 @@
 namespace wscvt {
 
 /// A closed surface coarsened on its own triangles by merging vertices: Ward's clusters (Ward 1963,
-/// J. Am. Stat. Assoc. 58, 236). A vertex stands for a cluster of the scan's vertices, is their
-/// centroid, and the next merge is the one that adds least to the sum of their squared distances
-/// from it; that of points spread over a surface comes near a centroidal Voronoi tessellation.
+/// J. Am. Stat. Assoc. 58, 236). A vertex represents a cluster of the scan's vertices and is their
+/// centroid. The next merge adds least to the sum of their squared distances from it. For points
+/// distributed over a surface, this is close to a centroidal Voronoi tessellation.
 ///
-/// Masses are areas, or areas times the square of a wanted density of nodes: the cells of an
-/// optimal quantizer in the plane are then as dense as wanted (Gersho 1979, IEEE Trans. Inf. Theory
-/// 25, 373).
+/// Masses are areas, or areas times the square of the wanted density of nodes. The cells of an
+/// optimal quantizer in the plane then have the wanted density (Gersho 1979, IEEE Trans. Inf.
+/// Theory 25, 373).
 ///
 /// Never merges across a handle or from sheet to sheet, so that the genus stays. Copyable: a search
-/// for a number of nodes goes on from one.
+/// for a number of nodes continues from a copy.
 class Coarsening {
  public:
-  /// `density`: of nodes wanted at each vertex, mean over the surface 1; empty for the same
-  /// everywhere.
+  /// `density`: wanted density of nodes at each vertex, mean over the surface 1; empty: uniform.
   Coarsening(EditMesh scan, const std::vector<double>& density);
 
   const EditMesh& mesh() const { return mesh_; }
   std::size_t size() const { return static_cast<std::size_t>(alive_); }
-  /// Area, mass and vector area of what each vertex stands for.
+  /// Area, mass and vector area of each vertex's cluster.
   const std::vector<double>& areas() const { return areas_; }
   const std::vector<double>& masses() const { return masses_; }
   const std::vector<Vector3>& vectors() const { return vectors_; }
 
-  /// Merges whatever is cheap, which about halves the vertices, but leaves `least` of them; then
-  /// flips to Delaunay. Returns how many were merged.
+  /// Merges cheap pairs, which about halves the vertices but leaves at least `least`, then flips to
+  /// Delaunay. Returns the number of merges.
   int sweep(int least);
-  /// Merges the cheapest first until `count` vertices are left. Returns whether it came there.
+  /// Merges the cheapest pairs until `count` vertices are left. Returns whether it succeeded.
   bool reduce(int count, const Execution& execution);
-  /// Merges from now on ask no more of shapes than that the surface stays a manifold: the last
-  /// resort for few nodes.
+  /// Later merges only keep the surface a manifold, whatever the shapes: the last resort for few
+  /// nodes.
   void ignore_shapes() { ignores_shapes_ = true; }
-  /// Which vertex now stands for that of the mesh as it was when this was made, or since `forget`.
+  /// Returns the vertex that now represents a vertex of the mesh as it was at construction or at
+  /// the last `forget`.
   std::int32_t cluster_of(std::int32_t vertex) const;
-  /// Counts vertices from those of now on.
+  /// Numbers of cluster_of refer to the current vertices from now on.
   void forget() { maps_.clear(); }
 
  private:
@@ -60,7 +60,7 @@ class Coarsening {
   bool possible(std::int32_t v, std::int32_t w);
   bool common_neighbours_allow(std::int32_t v, std::int32_t w);
   struct FanShape {
-    double turned = 0.0;  ///< area that stands against its vectors
+    double turned = 0.0;  ///< area that faces against its vectors
     double least_squared_sine = 1.0;
   };
   FanShape shape_of(std::int32_t v, std::int32_t w, double large) const;
@@ -76,8 +76,8 @@ class Coarsening {
   std::vector<double> areas_;
   std::vector<double> masses_;
   std::vector<Vector3> vectors_;
-  std::vector<std::int32_t> into_;  ///< what a merged vertex went into; -1 for the others
-  std::vector<char> free_;          ///< triangles that a merge left
+  std::vector<std::int32_t> into_;  ///< target of a merged vertex; -1 for the others
+  std::vector<char> free_;          ///< triangles freed by a merge
   std::vector<std::int32_t> marks_;
   std::int32_t mark_ = 0;
   std::vector<std::vector<std::int32_t>> maps_;  ///< of each compaction: old vertex to new

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/nodes/contact_fit.h"
 
-// CGAL 6 calls some of these headers otherwise, and CGAL 5 has them under these names.
+// CGAL 6 renamed some of these headers; CGAL 5 has only these names.
 #define CGAL_NO_DEPRECATION_WARNINGS
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
@@ -29,14 +29,13 @@ constexpr std::size_t contact_block = 1024;
 constexpr std::size_t balls_per_node = 60;
 constexpr std::size_t most_balls = 120000;
 constexpr int steps = 30;
-/// Share of a Gauss-Newton step that is taken: nodes beside take over balls while it is made.
+/// Fraction of a Gauss-Newton step that is used, because neighbouring nodes take over balls.
 constexpr double step_share = 0.6;
-/// Damping along the surface, where balls on all sides leave a node's place open; of the weight of
-/// its balls.
+/// Damping along the surface, where balls on all sides do not fix a node; of its balls' weight.
 constexpr double damping = 0.02;
 /// Longest step, in node distances.
 constexpr double longest_step = 0.2;
-/// Cosine of the angle by which a triangle may turn from where it was.
+/// Smallest cosine of the angle between a triangle's normal and its normal at the start.
 constexpr double smallest_turn_cosine = 0.35;
 
 /// A ball that touches the grain from outside.
@@ -45,8 +44,9 @@ struct Ball {
   double radius;
 };
 
-/// Centres spread over the surface at `radius` from the grain. Where that surface passes through
-/// the grain or another part's reach, as above hollows narrower than the ball, no ball fits.
+/// Returns balls with centres evenly distributed over the surface at `radius` from the grain.
+/// Leaves out centres inside the grain or nearer to another part, as above hollows narrower than
+/// the ball.
 std::vector<Ball> touching_balls(const IndexedMesh& grain, const MeshDistance& surface,
                                  double radius, std::size_t count, const Execution& execution) {
   IndexedMesh offset = grain;
@@ -57,7 +57,7 @@ std::vector<Ball> touching_balls(const IndexedMesh& grain, const MeshDistance& s
   std::vector<char> outside(centres.size(), 0);
   execution.parallel_for(centres.size(), contact_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      // Chords of the offset surface lie a little deeper than its vertices.
+      // Chords of the offset surface are a little deeper than its vertices.
       constexpr double smallest_share = 0.97;
       outside[i] = distances[i] > smallest_share * radius && !surface.contains(centres[i]) ? 1 : 0;
     }
@@ -76,7 +76,7 @@ using SearchTraits =
     CGAL::Search_traits_adapter<NumberedPoint, PointOf, CGAL::Search_traits_3<SearchKernel>>;
 using NearestSearch = CGAL::Orthogonal_k_neighbor_search<SearchTraits>;
 
-/// The node nearest to each ball's centre.
+/// Returns the node nearest to each ball's centre.
 std::vector<std::size_t> nearest_nodes(const std::vector<Vector3>& nodes,
                                        const std::vector<Ball>& balls, const Execution& execution) {
   std::vector<NumberedPoint> points;
@@ -85,7 +85,7 @@ std::vector<std::size_t> nearest_nodes(const std::vector<Vector3>& nodes,
     points.emplace_back(SearchKernel::Point_3(nodes[i].x(), nodes[i].y(), nodes[i].z()), i);
   }
   NearestSearch::Tree tree(points.begin(), points.end());
-  tree.build();  // now, not at the first query, which may come from several threads
+  tree.build();  // now, because several threads may make the first query
   std::vector<std::size_t> nearest(balls.size());
   execution.parallel_for(balls.size(), contact_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -97,14 +97,14 @@ std::vector<std::size_t> nearest_nodes(const std::vector<Vector3>& nodes,
   return nearest;
 }
 
-/// What the balls of a node ask of it.
+/// Equations of a node for the gaps of its balls.
 struct NodeEquations {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Vector3 right_side = Vector3::Zero();
   std::size_t balls = 0;
 };
 
-/// The sum of squares of the gaps, and the equations of the step that lowers it.
+/// Returns the sum of squares of the gaps, and the equations of the step that lowers it.
 double gaps(const std::vector<Vector3>& nodes, const std::vector<Ball>& balls,
             const std::vector<std::size_t>& nearest, std::vector<NodeEquations>& equations) {
   equations.assign(nodes.size(), {});
@@ -134,7 +134,7 @@ class TriangleGuard {
     }
   }
 
-  /// Takes back the steps about triangles that they would turn over, until there are none.
+  /// Undoes the steps at triangles that would turn over, until no triangle does.
   void hold_back(const std::vector<Vector3>& nodes, std::vector<Vector3>& moved) const {
     for (bool any = true; any;) {
       any = false;

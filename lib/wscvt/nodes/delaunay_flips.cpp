@@ -7,16 +7,16 @@ namespace wscvt {
 
 namespace {
 
-/// Edges bent to less than this cosine may not be bent much further by a flip: 73 degrees.
+/// Edges below this cosine of their normals are sharp: 73 degrees.
 constexpr double sharp_bend = 0.3;
-/// By how much of a cosine a flip may sharpen a bend that is sharp already.
+/// A flip of a sharp edge must flatten it by this much; other flips may sharpen by as much.
 constexpr double bend_margin = 0.1;
-/// Faces of less agreement stand as walls.
+/// Faces of less agreement are walls.
 constexpr double wall_agreement = 0.5;
 /// Smallest angle of a face that closes a notch: 15 degrees.
 constexpr double wall_sharpness = 0.966;
 
-/// Two triangles abc and bad about the edge ab, of unit normals, and those that a flip makes.
+/// Two triangles abc and bad about the edge ab, with unit normals, before and after a flip.
 struct FlipShape {
   double agreement_before;
   double agreement_after;
@@ -94,7 +94,7 @@ int flip_to_delaunay(EditMesh& mesh, const std::vector<Vector3>& outward) {
       if (static_cast<std::int32_t>(face_of(mesh.opposite[h])) < t) continue;
       if (!try_flip(mesh, outward, h)) continue;
       ++flipped;
-      break;  // the triangle's other edges are of the next pass
+      break;  // the next pass does the triangle's other edges
     }
   }
   return flipped;

@@ -56,7 +56,7 @@ std::array<std::int32_t, 2> EditMesh::collapse(std::int32_t h) {
   const std::int32_t v = origin(h);
   const std::int32_t w = target(h);
   const std::int32_t degree = degrees[v];
-  // From here on the half-edges that leave v leave w; those of the two triangles are free.
+  // From here on the half-edges from v start at w; the half-edges of the two triangles are free.
   std::int32_t leaving = h;
   do {
     const std::int32_t next = opposite[previous_half_edge(leaving)];

@@ -13,9 +13,9 @@
 
 namespace wscvt {
 
-/// A closed, oriented 2-manifold that is edited: its edges are flipped, its vertices merged and
-/// put on edges. Every edit keeps it closed, oriented and of the same genus where the caller has
-/// asked `joined` and counted degrees as the edit says. Half-edges are those of half_edges.h.
+/// A closed, oriented 2-manifold for editing: edges are flipped, vertices merged and put on edges.
+/// Every edit keeps it closed, oriented and of the same genus if the caller has checked `joined`
+/// and the degrees as the edit requires. Half-edges are defined in half_edges.h.
 struct EditMesh {
   std::vector<Vector3> points;
   std::vector<Triangle> triangles;
@@ -24,7 +24,7 @@ struct EditMesh {
   std::vector<std::int32_t> degrees;   ///< edges at each vertex
 
   EditMesh() = default;
-  /// Links a closed, oriented 2-manifold whose vertices all have triangles, which is not checked.
+  /// Links a closed, oriented 2-manifold in which every vertex has a triangle; this is not checked.
   EditMesh(std::vector<Vector3> mesh_points, std::vector<Triangle> mesh_triangles,
            const Execution& execution);
 
@@ -33,15 +33,15 @@ struct EditMesh {
 
   std::int32_t origin(std::int32_t h) const { return origin_of(triangles, h); }
   std::int32_t target(std::int32_t h) const { return target_of(triangles, h); }
-  /// The corner of the half-edge's triangle that lies opposite to it.
+  /// Returns the corner of the half-edge's triangle opposite to it.
   std::int32_t apex(std::int32_t h) const { return origin(previous_half_edge(h)); }
 
-  /// The normal of a triangle, outward, as long as twice its area.
+  /// Returns the outward normal of a triangle, with the length of twice its area.
   Vector3 normal(std::size_t t) const {
     const auto& [a, b, c] = triangles[t];
     return doubled_area_normal(points[a], points[b], points[c]);
   }
-  /// Cosine of a triangle's smallest angle.
+  /// Returns the cosine of a triangle's smallest angle.
   double sharpness(std::size_t t) const {
     const auto& [a, b, c] = triangles[t];
     return largest_corner_cosine(points[a], points[b], points[c]);
@@ -53,21 +53,21 @@ struct EditMesh {
     visit_outgoing(opposite, first[index(v)], visit);
   }
 
-  /// Whether an edge joins two vertices.
+  /// Returns whether an edge joins two vertices.
   bool joined(std::int32_t a, std::int32_t b) const;
 
   /// Replaces an edge by the other diagonal of its two triangles (flip_edge of half_edges.h). The
-  /// ends of the new edge must not be joined yet, nor one vertex; those of the old one need a
-  /// degree above 3.
+  /// ends of the new edge must be two vertices that are not joined yet; the ends of the old edge
+  /// need a degree above 3.
   void flip(std::int32_t h);
 
-  /// Merges the vertex that a half-edge starts at into the one that it ends at, whose place it does
-  /// not change. The two must have two common neighbours only, each of a degree above 3. Returns
-  /// the two triangles that are free now; the vertex has no triangle any more.
+  /// Merges the origin of a half-edge into its target, which does not move. The two must have
+  /// exactly two common neighbours, each of a degree above 3. Returns the two triangles that are
+  /// now free; the origin has no triangle any more.
   std::array<std::int32_t, 2> collapse(std::int32_t h);
 
-  /// Puts a vertex without triangles on an edge, whose two triangles become four, the other two in
-  /// the `free` places.
+  /// Puts a vertex without triangles on an edge. Its two triangles become four; the new two use the
+  /// `free` indices.
   void put_on_edge(std::int32_t v, std::int32_t h, const std::array<std::int32_t, 2>& free);
 
  private:
@@ -77,10 +77,10 @@ struct EditMesh {
   }
 };
 
-/// Mean length of the edges; they are at least one.
+/// Returns the mean length of the edges; there must be at least one.
 double mean_edge_length(const EditMesh& mesh);
 
-/// Mean over the triangles of the ratio of the longest to the shortest edge.
+/// Returns the mean over the triangles of longest / shortest edge.
 double mean_edge_ratio(const EditMesh& mesh);
 
 }  // namespace wscvt

@@ -9,9 +9,9 @@
 
 namespace wscvt {
 
-/// A remesh's error against the original by a measure, in %, >= 0. `distances` between the two are
-/// needed for Distance only and are lengths like the descriptors'. Throws Error(InvalidInput) when
-/// they are needed and missing.
+/// Returns a remesh's error against the scan by a measure, in %, >= 0. `distances` between the two
+/// are needed for Distance only, in the descriptors' unit. Throws Error(InvalidInput) if they are
+/// needed and missing.
 double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
                      const ShapeDescriptors& original,
                      const std::optional<MeshDistances>& distances);

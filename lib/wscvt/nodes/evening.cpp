@@ -13,37 +13,36 @@ namespace wscvt {
 
 namespace {
 
-/// Share of the step before that is made again.
+/// Fraction of the previous step that is repeated.
 constexpr double momentum = 0.95;
-/// No step is longer, in mean edges.
+/// Longest step, in mean edges.
 constexpr double longest_evening_step = 0.3;
 /// How far nodes at a rim are pushed out, in mean edges.
 constexpr double rim_push = 0.5;
-/// Length of the sum of a star's area vectors over its area: below `rim_begins` the star bends over
-/// a rim, and is one wholly at `rim_begins - rim_width`.
+/// Length of the sum of a star's area vectors over its area. Below `rim_begins` the star bends over
+/// a rim; at `rim_begins - rim_width` the push is complete.
 constexpr double rim_begins = 0.75;
 constexpr double rim_width = 0.3;
-/// A cell that seems smaller than this share of the mean counts as that: obtuse triangles take
-/// area away.
+/// Smaller cells count as this fraction of the mean, because obtuse triangles reduce the area.
 constexpr double least_cell = 0.3;
-/// No barycentric weight of a circumcentre below this: farther out the cell would turn over.
+/// Smallest barycentric weight of a circumcentre; farther out the cell would turn over.
 constexpr double least_circumcentre_weight = -0.5;
-/// A face may turn by a step to this cosine at most, 72 degrees, and no corner below 10 degrees.
+/// Smallest cosine of a face's turn by a step, 72 degrees; no corner falls below 10 degrees.
 constexpr double most_turn = 0.3;
 constexpr double sharpest_corner = 0.985;
 constexpr std::size_t evened_block = 512;
 constexpr std::size_t cell_block = 1024;
-/// How often the normals of the surface are smoothed before faces are held against them.
+/// Number of smoothings of the surface's normals, against which faces are checked.
 constexpr int normal_rounds = 3;
 
-/// The part of a Voronoi cell that lies in one triangle, at one corner.
+/// The part of a Voronoi cell in one triangle, at one corner.
 struct CellPart {
   double mass = 0.0;  ///< area, or area times density squared
   double area = 0.0;
   Vector3 moment = Vector3::Zero();  ///< of the mass about the corner
 };
 
-/// Point of a triangle with barycentric weights, and what is interpolated there.
+/// Point of a triangle with barycentric weights, and interpolated values.
 struct WeightedPoint {
   Vector3 position;
   double density;  ///< of mass
@@ -90,8 +89,8 @@ std::array<CellPart, 3> cell_parts(const std::array<Vector3, 3>& x,
   return parts;
 }
 
-/// Outward vectors at the surface's vertices: mean normals, smoothed over their rings, so that one
-/// rough face says nothing.
+/// Outward vectors at the surface's vertices: mean normals, smoothed over their rings, so that a
+/// single rough face has little effect.
 std::vector<Vector3> smoothed_vectors(const EditMesh& mesh, const Execution& execution) {
   std::vector<Vector3> vectors(mesh.points.size(), Vector3::Zero());
   std::vector<double> areas(mesh.points.size(), 0.0);
@@ -178,7 +177,7 @@ class Evening {
     return nearest.point(surface_.mesh.points[a], surface_.mesh.points[b], surface_.mesh.points[c]);
   }
 
-  /// Outward vectors and densities where the nodes are.
+  /// Reads outward vectors and densities at the nodes.
   void read_surface() {
     for_nodes([&](std::size_t i) {
       const auto& [a, b, c] = surface_.mesh.triangles[places_[i]];
@@ -206,7 +205,7 @@ class Evening {
     });
   }
 
-  /// The step and the push of every node.
+  /// Computes the step and the push of every node.
   void plan(double share_of_last) {
     measure_cells();
     double area = 0.0;
@@ -254,7 +253,7 @@ class Evening {
     return sharpness > sharpest_corner && sharpness > largest_corner_cosine(old[a], old[b], old[c]);
   }
 
-  /// Steps, halved and in the end given up at the nodes of faces that they would spoil.
+  /// Moves the nodes. Halves the steps at faces that they would spoil, and finally drops them.
   void move() {
     constexpr int most_tries = 6;
     constexpr int halvings = 4;
@@ -303,7 +302,7 @@ class Evening {
   double edge_ = 0.0;
   std::vector<Vector3> previous_;
   std::vector<Vector3> outward_;
-  std::vector<double> mass_density_;  ///< square of the density of nodes wanted
+  std::vector<double> mass_density_;  ///< square of the wanted density of nodes
   std::vector<Vector3> steps_;
   std::vector<Vector3> pushes_;
   std::vector<double> shares_;

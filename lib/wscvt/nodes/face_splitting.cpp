@@ -40,7 +40,7 @@ std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double
   while (!edges.empty()) {
     const LongEdge edge = edges.top();
     edges.pop();
-    // Splits nearby name half-edges anew.
+    // Splits nearby renumber half-edges.
     if (mesh.origin(edge.half_edge) != edge.from || mesh.target(edge.half_edge) != edge.to) {
       continue;
     }

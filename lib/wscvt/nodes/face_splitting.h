@@ -10,11 +10,11 @@
 
 namespace wscvt {
 
-/// Splits the edges longer than `length` at their middles, the longest first, until none is: the
-/// same surface with smaller faces, for a scan that has fewer vertices than nodes are wanted.
+/// Splits edges longer than `length` > 0 at their midpoints, the longest first, until there are
+/// none: the same surface with smaller faces, for a scan with fewer vertices than wanted nodes.
 /// Halving the longest edge of a triangle bounds its angles from below (Rivara 1984, Int. J. Numer.
-/// Methods Eng. 20, 745). Returns the ends of the edge that each new vertex lies on, in order; they
-/// may be new ones themselves. `length` > 0.
+/// Methods Eng. 20, 745). Returns the ends of each new vertex's edge, in order; they may be new
+/// vertices themselves.
 std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double length,
                                                           const Execution& execution);
 

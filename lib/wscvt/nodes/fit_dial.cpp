@@ -9,8 +9,8 @@
 namespace wscvt {
 
 FitDial fit_dial(double ratio) {
-  // How far beyond the evenest that the optimiser keeps at no loss of distance, and how far into
-  // the close end, where a fit is heated again.
+  // x: distance from the evenest ratio that costs no distance; close: position in the close range,
+  // in which a fit is led several times.
   const double x = std::max(0.0, ratio - default_edge_ratio);
   const double close = std::clamp((x - 0.2) / 0.2, 0.0, 1.0);
   FitDial dial;

@@ -3,24 +3,24 @@
 
 namespace wscvt {
 
-/// All that a fit of nodes turns with the wanted mean edge ratio, from even triangles to a close
-/// surface. Found by measuring six grains at 1000 nodes.
+/// All settings of the fit that depend on the wanted mean edge ratio, from even triangles to a
+/// close surface. Found by measuring six grains at 1000 nodes.
 struct FitDial {
   double ratio = 0.0;  ///< wanted mean ratio of longest to shortest edge
   int samples_a_node = 0;
   int rounds = 0;
-  int late_rounds = 0;            ///< the last of them, which keep the least angle
+  int late_rounds = 0;            ///< the last rounds, which keep the least angle
   double least_angle = 0.0;       ///< degrees, kept by the late rounds
-  double early_angle = 0.0;       ///< kept by those before
-  double start_evenness = 0.0;    ///< evenness where the first rounds lead to
-  double lead_rounds = 0.0;       ///< how many rounds lead there
-  int heats = 1;                  ///< how often these begin anew
-  double first_steering = 0.0;    ///< round from which the evenness is led by the ratio
-  double ratio_slope = 0.0;       ///< by how much the ratio falls as the evenness grows e times
-  double plain_springs = 1.0;     ///< share of the springs that pull edges to their rest lengths
-  double triangle_springs = 0.0;  ///< of those that pull a triangle's edges to each other
+  double early_angle = 0.0;       ///< kept by the earlier rounds
+  double start_evenness = 0.0;    ///< evenness that the first rounds lead to
+  double lead_rounds = 0.0;       ///< number of rounds that lead there
+  int heats = 1;                  ///< number of such leads, one after the other
+  double first_steering = 0.0;    ///< round from which the ratio controls the evenness
+  double ratio_slope = 0.0;       ///< fall of the ratio as the evenness grows by a factor e
+  double plain_springs = 1.0;     ///< fraction of the springs that pull edges to their rest lengths
+  double triangle_springs = 0.0;  ///< of springs between a triangle's edges
   double damping = 0.0;           ///< of steps
-  bool polishes = false;          ///< whether nodes are moved one by one after a round
+  bool polishes = false;          ///< whether single nodes are moved after a round
 };
 
 /// `ratio` in [least_edge_ratio, most_edge_ratio], which is not checked.

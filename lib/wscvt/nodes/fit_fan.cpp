@@ -10,20 +10,20 @@ namespace wscvt {
 
 namespace {
 
-/// Keeps the 3 by 3 system solvable where a fan has few samples.
+/// Keeps the 3 by 3 system solvable for a fan with few samples.
 constexpr double fan_damping = 1e-3;
-/// As in the step of all nodes: samples beyond a rim pull along the triangle.
+/// As in the step of all nodes, samples beyond a rim pull along the triangle.
 constexpr double fan_rim_pull = 2.0;
-/// A node needs a sample within this share of a spoke.
+/// A node needs a sample within this fraction of a spoke.
 constexpr double near_sample = 0.3;
 
-/// Which triangle of a fan holds a sample, and where.
+/// The triangle of a fan nearest to a sample, and the position in it.
 struct FanPlace {
   std::size_t triangle = 0;
   TrianglePlace place;
 };
 
-/// Looks from the triangle that held the sample before to both sides while they get nearer.
+/// Searches from the sample's last triangle to both sides as long as they get nearer.
 FanPlace place_in_fan(const FitFan& fan, const Vector3& at, const Vector3& point,
                       std::int32_t last) {
   const std::size_t count = fan.ring.size();

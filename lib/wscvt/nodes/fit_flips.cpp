@@ -11,20 +11,20 @@ namespace wscvt {
 
 namespace {
 
-/// What a flip's fall of squared distance is worth, in squared changes of lengths.
+/// Weight of a flip's fall of squared distance against squared changes of lengths.
 constexpr double error_worth = 3.0;
-/// Price of small angles, in squared edges times the springs' stiffness, and how far above the
-/// least angle it begins, in degrees.
+/// Price of small angles, in squared edges times the springs' stiffness, and the margin above the
+/// least angle at which it begins, in degrees.
 constexpr double angle_price = 0.5;
 constexpr double angle_margin = 5.0;
 constexpr double angle_unit = 20.0;
-/// Where two triangles hold this many mean errors of one, angles down to the spike angle pass.
+/// If two triangles have this many mean errors of one, angles down to the spike angle are allowed.
 constexpr double spike_errors = 7.0;
 constexpr double spike_angle = 3.0;
-/// Walls: triangles that look less than this along the scan, and their smallest angle once closed.
+/// Walls: triangles below this cosine to the scan; and their smallest angle once closed.
 constexpr double wall_cosine = 0.5;
 constexpr double wall_least_angle = 20.0;
-/// An edge is flat up to this cosine.
+/// A new edge is sharp below this cosine.
 constexpr double sharp_new_edge = -0.2;
 
 double cosine_of(double degrees) { return std::cos(degrees * pi / 180.0); }
@@ -35,7 +35,7 @@ double cosine_between(const Vector3& a, const Vector3& b) {
 
 double square(double x) { return x * x; }
 
-/// The edge ab of the triangles abc (t) and bad (u), which is to become cd.
+/// The edge ab of the triangles abc (t) and bad (u), which would become cd.
 struct FlipCandidate {
   std::int32_t h;
   std::int32_t g;
@@ -44,7 +44,7 @@ struct FlipCandidate {
   std::int32_t a, b, c, d;
   Vector3 pa, pb, pc, pd;
   double sharpness_before_t, sharpness_before_u;
-  double sharpness_t, sharpness_u;  ///< of cad and cdb
+  double sharpness_t, sharpness_u;  ///< of the triangles cad and cdb
   Vector3 normal_t, normal_u;       ///< unit, of the new triangles
   Vector3 old_normal_t, old_normal_u;
   bool closes_notch = false;
@@ -105,7 +105,7 @@ class FitFlips {
     return true;
   }
 
-  /// Reads the four nodes and their shapes; false where no flip is possible or angles forbid it.
+  /// Reads the four nodes and their shapes; false if no flip is possible or angles forbid it.
   bool look_at(std::int32_t h, FlipCandidate& f) const {
     f.h = h;
     f.g = mesh_.opposite[h];
@@ -147,7 +147,7 @@ class FitFlips {
     return true;
   }
 
-  /// Whether the triangles stand as walls in a notch that the new edge would close outwards.
+  /// Whether the triangles are walls of a notch that the new edge would close outwards.
   bool closes_notch(const FlipCandidate& f) const {
     const Vector3 ab = about_[f.a] + about_[f.b];
     const Vector3 cd = about_[f.c] + about_[f.d];
@@ -180,7 +180,7 @@ class FitFlips {
     return square(std::max(0.0, state_.round.least_angle + angle_margin - angle) / angle_unit);
   }
 
-  /// What springs, degrees and angles lose by the flip.
+  /// Cost of the flip in springs, degrees and angles.
   double cost_of(const FlipCandidate& f) const {
     const double rest = rest_length(f);
     const auto off = [&](std::int32_t v, int change) {
@@ -210,7 +210,7 @@ class FitFlips {
     return sum;
   }
 
-  /// Deals the samples to the new triangles; false as soon as their errors pass `most`.
+  /// Assigns the samples to the new triangles; false once their errors exceed `most`.
   bool deal_samples(const FlipCandidate& f, double most) {
     after_ = 0.0;
     of_t_.clear();

@@ -5,11 +5,11 @@
 
 namespace wscvt {
 
-/// Flips edges where error, springs, degrees and small angles fall together (as in the mesh
+/// Flips edges if this lowers the sum of error, springs, degrees and small angles (as in the mesh
 /// optimization of Hoppe et al. 1993, but once over all edges in order). An edge may become as
-/// sharp as the scan: its triangles then have to look where their samples do. Where two triangles
-/// hold many mean errors small angles pass, for later rounds to heal; and an edge that closes a
-/// notch in a rim is taken whatever its springs say. Returns how many were flipped.
+/// sharp as the scan if its triangles face as their samples do. Early rounds accept small angles if
+/// two triangles have many mean errors; later rounds repair them. An edge that closes a notch in a
+/// rim is flipped in whatever its springs cost. Returns the number of flips.
 int flip_for_fit(FitState& state);
 
 }  // namespace wscvt

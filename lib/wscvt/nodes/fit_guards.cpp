@@ -10,13 +10,13 @@ namespace wscvt {
 
 namespace {
 
-/// Longest step, in the mean edge about a node or that of the mesh, whichever is shorter.
+/// Longest step, in the shorter of the mean edge about a node and the mesh's mean edge.
 constexpr double longest_fit_step = 0.35;
-/// A triangle may turn to this cosine by one step: 72 degrees.
+/// Smallest cosine of a triangle's turn by one step: 72 degrees.
 constexpr double most_step_turn = 0.3;
-/// Triangles that stood against the scan may lose this much of a cosine.
+/// Cosine that triangles facing against the scan may still lose.
 constexpr double loose_margin = 0.1;
-/// Triangles with fewer samples are judged by those about their corners.
+/// Triangles with fewer samples are judged by the samples about their corners.
 constexpr std::size_t enough_samples = 4;
 constexpr std::size_t enough_to_agree = 3;
 constexpr std::size_t guarded_block = 1024;
@@ -93,7 +93,7 @@ class GuardedMove {
   void mark(std::size_t t) {
     for (const std::int32_t v : mesh_.triangles[t]) marked_[v] = 1;
   }
-  /// Marks the nodes that have a step left; whether there are any.
+  /// Marks the nodes that have a step left; returns whether there are any.
   bool mark_free(std::size_t t) {
     bool any = false;
     for (const std::int32_t v : mesh_.triangles[t]) {
@@ -158,7 +158,7 @@ class GuardedMove {
     return any;
   }
 
-  /// Triangles that meet now and did not before.
+  /// Marks triangles that intersect now and did not before.
   bool mark_meeting() {
     state_.build_hash();
     bool any = false;
@@ -176,7 +176,7 @@ class GuardedMove {
     return any;
   }
 
-  /// What still meets goes back to where it was.
+  /// Moves triangles that still intersect back to their old positions.
   void take_back_meeting() {
     constexpr int most_rounds = 40;
     for (int round = 0; round < most_rounds; ++round) {
@@ -204,11 +204,11 @@ class GuardedMove {
   std::vector<double> shares_;
   std::vector<char> marked_;
   std::vector<Vector3> old_normals_;
-  std::vector<Vector3> normals_;  ///< as the nodes stand; unit
-  std::vector<Vector3> outward_;  ///< where the scan looks at each triangle; unit or zero
+  std::vector<Vector3> normals_;  ///< at the nodes' current positions; unit
+  std::vector<Vector3> outward_;  ///< the scan's direction at each triangle; unit or zero
   std::vector<double> old_sharpness_;
-  std::vector<char> loose_;  ///< triangles that stand against the scan
-  bool none_meet_ = false;   ///< as of the last look, where no node has moved since
+  std::vector<char> loose_;  ///< triangles that face against the scan
+  bool none_meet_ = false;   ///< at the last check, if no node has moved since
 };
 
 }  // namespace

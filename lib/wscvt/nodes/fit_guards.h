@@ -7,11 +7,11 @@
 
 namespace wscvt {
 
-/// Moves the nodes by a step of each, at most a third of an edge long, which is shortened at the
-/// nodes of triangles that it would turn over, make sharp, turn against the scan, fold, or drive
-/// through others. Triangles that stand against the scan already, as in the walls of a notch in a
-/// rim, may do what makes them no worse. Builds `state.hash` anew; samples are to be placed after.
-/// The same on any number of threads.
+/// Moves each node by its step, limited to 0.35 of an edge. A step is shortened at the nodes of
+/// triangles that it would turn over, make sharp, turn against the scan, fold, or push through
+/// others. Triangles that face against the scan already, as in the walls of a notch in a rim, may
+/// move as long as they get no worse. Rebuilds `state.hash`; afterwards place the samples again.
+/// The result does not depend on the number of threads.
 void move_nodes(FitState& state, std::vector<Vector3> step, const Execution& execution);
 
 }  // namespace wscvt

@@ -12,17 +12,17 @@ namespace wscvt {
 
 namespace {
 
-/// Samples beyond this many root mean squares are far off.
+/// Samples beyond this many root mean squares are distant.
 constexpr double far_sample = 4.0;
-/// No step is longer, in the edges about a node.
+/// Longest step, in the edges about a node.
 constexpr double longest_polish = 0.4;
-/// A step shorter than this share of an edge is none.
+/// Shorter steps, in the edges about a node, are not made.
 constexpr double shortest_polish = 1e-4;
-/// A move must lower the energy by this share.
+/// Smallest relative fall of the energy for a move.
 constexpr double least_energy_fall = 1e-6;
 constexpr double second_try = 0.3;
-/// The pull of a node to its ring's middle alone, which in the step of all nodes comes from its
-/// neighbours' rings as well.
+/// Pull of a single node to its ring's middle. In the step of all nodes, its neighbours' rings pull
+/// it too.
 constexpr double lone_ring = 1.17;
 
 enum class Polish : char { No, Angles, Distance };
@@ -60,7 +60,7 @@ bool folds_more(const FitState& state, const NodeRing& ring, const FitFan& fan, 
          turn < sharpest_turn(state, fan.centre, fan.ring, ring.beyond, true) - 1e-9;
 }
 
-/// Finds a place where the fan costs less, by a step, or by going to the farthest sample.
+/// Finds a position at which the fan costs less, by a step or by moving to the farthest sample.
 bool find_better(const FitState& state, FitFan& fan, Polish polish,
                  const std::vector<Vector3>& about, Vector3& at) {
   FanEquations equations;
@@ -116,7 +116,7 @@ bool polish_node(FitState& state, std::int32_t v, Polish polish,
   return true;
 }
 
-/// The way that the angles of a fan want its node to go.
+/// Returns the step of a fan's node that enlarges its angles.
 Vector3 angle_step(const FitState& state, const FitFan& fan) {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Vector3 right = Vector3::Zero();
@@ -133,7 +133,7 @@ Vector3 angle_step(const FitState& state, const FitFan& fan) {
   return matrix.ldlt().solve(right);
 }
 
-/// A node's move that mends angles.
+/// A node's move that enlarges angles.
 struct Mending {
   double cost = 1e300;
   std::int32_t v = -1;
@@ -163,7 +163,7 @@ void look_for_mending(const FitState& state, std::int32_t v, double limit, Mendi
   const Vector3 step = angle_step(state, fan);
   const Vector3 way = middle - fan.centre;
   constexpr double least_fall = 1e-4;   // of a cosine
-  constexpr double miss_price = 100.0;  // mean squares a sample for an angle that stays small
+  constexpr double miss_price = 100.0;  // mean squares per sample for an angle that stays small
   for (const Vector3& move : {Vector3(0.5 * step), step, Vector3(1.5 * step), Vector3(2.5 * step),
                               Vector3(0.15 * way), Vector3(0.3 * way), Vector3(0.6 * way), way}) {
     const Vector3 at = fan.centre + move;

@@ -5,14 +5,14 @@
 
 namespace wscvt {
 
-/// Moves nodes of sharp triangles, and in the late rounds those near samples that lie far off, one
-/// by one to where they cost less, up to `passes` times over. Returns how many moves were made. The
-/// samples' lists must be up to date, and are.
+/// Moves nodes of sharp triangles, and in the late rounds nodes near distant samples, one by one to
+/// positions of lower cost, in up to `passes` passes. Returns the number of moves. Needs up-to-date
+/// lists of samples and updates them.
 int polish_nodes(FitState& state, int passes);
 
-/// Triangles that stay below `least_angle` degrees: one node of each moves by the least step that
-/// mends its angles, or towards the middle of its ring, to where that costs the distance least.
-/// Returns how many moved.
+/// Repairs triangles with an angle below `least_angle` degrees. One node of each moves by the
+/// smallest step that enlarges the angles, or towards the middle of its ring, to the position that
+/// adds least distance. Returns the number of moves.
 int mend_angles(FitState& state, double least_angle);
 
 }  // namespace wscvt

@@ -12,21 +12,21 @@ namespace wscvt {
 
 namespace {
 
-/// Share of the nodes that may move in a round.
+/// Fraction of the nodes that may move in a round.
 constexpr double relocated_share = 0.06;
-/// A place has to gain this many times what the node costs to do without.
+/// The gain of a new position must be this many times the cost of removing the node.
 constexpr double relocation_gain = 1.1;
-/// Springs count for less than in a step: they come to rest afterwards.
+/// Springs count less than in a step, because they relax afterwards.
 constexpr double relocation_springs = 0.3;
-/// Candidates looked at closely for each node that may move.
+/// Candidates tried for each node that may move.
 constexpr std::size_t candidates_a_move = 6;
-/// Spokes about a new node, in mean edges about it: there is one node more.
+/// Spokes about a new node, in mean edges about it; shorter, because there is one more node.
 constexpr double crowded_rest = 0.75;
 constexpr int most_relocated_degree = 9;
 constexpr std::size_t candidate_block = 16;
-/// Faces that a merge leaves look at least this much along the scan.
+/// Smallest cosine to the scan of faces after a merge.
 constexpr double merged_agreement = 0.3;
-/// No edge is left turned further than this, 143 degrees.
+/// Smallest cosine between neighbouring faces after a merge, 143 degrees.
 constexpr double most_folded = -0.8;
 
 struct Removal {
@@ -142,7 +142,7 @@ class Relocations {
     return off * off;
   }
 
-  /// The cheapest removals, of those that cost less than `most`.
+  /// Returns the cheapest removals that cost less than `most`.
   std::vector<Removal> find_removals(double most) const {
     std::vector<std::pair<double, std::int32_t>> candidates;
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
@@ -189,7 +189,7 @@ class Relocations {
     return best;
   }
 
-  /// Whether a node may go into the i-th of its ring, by degrees and common neighbours.
+  /// Whether a node may be merged into node i of its ring, by degrees and common neighbours.
   bool may_merge(const NodeRing& ring, std::size_t i) const {
     const std::size_t count = ring.nodes.size();
     const std::int32_t u = ring.nodes[i];
@@ -207,8 +207,8 @@ class Relocations {
     return common == 2;
   }
 
-  /// What errors, angles and springs gain when the node of a ring goes into its i-th; 1e300 where
-  /// the shape forbids it or that is more than `most`.
+  /// Returns the cost in errors, angles and springs of merging a ring's node into node i; 1e300 if
+  /// the shape forbids it or the cost exceeds `most`.
   double cost_of_merge(const NodeRing& ring, std::size_t i, const std::vector<std::int32_t>& pool,
                        double before, double most) const {
     constexpr double never = 1e300;
@@ -277,7 +277,7 @@ class Relocations {
     return insertions;
   }
 
-  /// Finds the place of a new node and what it gains.
+  /// Finds the position of a new node and its gain.
   void try_insertion(Insertion& insertion) const {
     constexpr int steps = 3;
     const Quad quad = quad_of(insertion.t, insertion.c);
@@ -311,7 +311,7 @@ class Relocations {
     insertion.gain = fan_is_fine(state_, fan, insertion.at, about_) ? before - best : -1.0;
   }
 
-  /// The first removal from `first` on whose node and ring leave a quad alone and are not locked.
+  /// Returns the first removal from `first` on with node and ring outside a quad and not locked.
   std::size_t cheapest_away_from(const Quad& quad, std::size_t first) {
     const auto in_quad = [&](std::int32_t v) {
       return v == quad.a || v == quad.b || v == quad.c || v == quad.d;
@@ -334,7 +334,7 @@ class Relocations {
     return removals_.size();
   }
 
-  /// Whether what a removal leaves is not folded and meets no other triangle.
+  /// Whether the faces after a removal are not folded and do not intersect other triangles.
   bool may_remove(const Removal& removal) const {
     const NodeRing ring = ring_of(mesh_, removal.v);
     const std::size_t count = ring.nodes.size();

@@ -5,12 +5,12 @@
 
 namespace wscvt {
 
-/// Takes nodes from where they are missed least to where they gain most, by the errors that the
-/// round counts: a node is merged into a neighbour, as in edge collapses, and put on an edge
-/// elsewhere, as in the mesh optimization of Hoppe et al. 1993, whose collapses and splits this
-/// pairs so that the number of nodes stays. At most a twentieth of them a round, none of whose
-/// triangles touch. Returns how many moved. The samples' lists must be up to date, and are. The
-/// same on any number of threads.
+/// Moves nodes from where they are needed least to where they gain most, by the round's errors: a
+/// node is merged into a neighbour, and put on an edge elsewhere. This pairs the collapses and
+/// splits of the mesh optimization of Hoppe et al. 1993, so that the number of nodes stays. Moves
+/// at most 6 % of the nodes per round, and no two of them whose triangles touch. Returns the number
+/// of moves. Needs up-to-date lists of samples and updates them. The result does not depend on the
+/// number of threads.
 int relocate_nodes(FitState& state, const Execution& execution);
 
 }  // namespace wscvt

@@ -12,7 +12,7 @@ namespace wscvt {
 
 namespace {
 
-/// Between these shares of a node's cell a face's own normal takes the place of those of its
+/// Between these face areas, in a node's cell, a face's own normal replaces the normals of its
 /// vertices.
 constexpr double fine_face = 0.25;
 constexpr double coarse_face = 1.0;
@@ -44,7 +44,7 @@ FitSample sample_in_face(const SampledScan& scan, std::size_t t, const Eigen::Ve
   const double doubled_area = face_normal.norm();
   const double share = face_normal_share(0.5 * doubled_area, cell);
   const double length = sample.normal.norm();
-  // Normals of the vertices that cancel leave the face's own.
+  // If the vertices' normals cancel, the face's own is used.
   if (length < 1e-6 || share == 1.0) {
     sample.normal = face_normal / doubled_area;
   } else {
@@ -58,7 +58,7 @@ FitSample sample_in_face(const SampledScan& scan, std::size_t t, const Eigen::Ve
 }  // namespace
 
 std::vector<FitSample> draw_fit_samples(const SampledScan& scan, std::size_t count, double cell) {
-  constexpr double golden = 0.61803398874989485;  // its multiples are spread evenly over [0, 1)
+  constexpr double golden = 0.61803398874989485;  // its multiples modulo 1 are evenly distributed
   const std::size_t faces = scan.mesh.triangles.size();
   std::vector<double> doubled_areas(faces);
   double total = 0.0;

@@ -9,14 +9,15 @@ namespace wscvt {
 
 namespace {
 
-/// Distances beyond this many mean squares weigh no more in what a sample costs.
+/// Squared distances above this many mean squares get no larger weight in a sample's cost.
 constexpr double farthest_error = 18.0;
 constexpr std::size_t placed_samples_block = 2048;
-/// A triangle that looks away from a sample by more than 60 degrees counts as farther by up to
-/// three mean edges: its cosine short of that, times this many of them.
+/// Added distance of a triangle that faces away from a sample by more than 60 degrees, in mean
+/// edges per missing cosine: up to three mean edges.
 constexpr double turned_distance = 2.0;
 
-/// The nearest triangle that looks as the sample does, from star to star of the nearest nodes.
+/// Returns the nearest triangle that faces as the sample does, from star to star of the nearest
+/// nodes.
 std::int32_t first_face(const EditMesh& mesh, const std::vector<Vector3>& normals,
                         const FitSample& sample, std::int32_t node, double edge) {
   constexpr int most_stars = 100;
@@ -60,7 +61,7 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
                            }
                          });
   place_samples(execution);
-  // Near in memory what is near in space.
+  // Neighbours in space become neighbours in memory.
   std::stable_sort(samples.begin(), samples.end(),
                    [](const FitSample& a, const FitSample& b) { return a.face < b.face; });
 }

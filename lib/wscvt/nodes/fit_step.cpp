@@ -15,30 +15,30 @@ namespace {
 
 using Matrix3 = Eigen::Matrix3d;
 
-/// How strongly samples pull along their triangle where it ends, in a rim that they lie beyond.
+/// Weight along the triangle of samples beyond its edge at a rim.
 constexpr double rim_pull = 2.0;
-/// Second eigenvalue of a cell's mean normal times itself: from the first on the cell lies on a
-/// ridge, from the second on wholly.
+/// Second eigenvalue of the mean of a cell's normals times themselves: the cell lies on a ridge
+/// from the first value on, completely from the second on.
 constexpr double ridge_begins = 0.15;
 constexpr double ridge_full = 0.3;
-/// Length of the sum of a star's area vectors over its area: below the first a rim begins, at the
-/// second the star is one wholly.
+/// Length of the sum of a star's area vectors over its area: a rim begins below the first value and
+/// is complete at the second.
 constexpr double star_bends = 0.95;
 constexpr double star_is_rim = 0.65;
-/// A sample is a node's own from this weight of its corner on.
+/// A sample belongs to a node if its corner has at least this weight.
 constexpr double own_weight = 0.2;
 /// Weight of the distance of a node from the plane of its nearest sample.
 constexpr double own_plane = 0.05;
-/// A node farther than this from all its samples, in mean edges, is pulled to the nearest.
+/// A node farther than this from all its samples, in mean edges, is pulled to the nearest sample.
 constexpr double leash = 0.2;
-/// Weight that keeps a node at a rim from standing out beyond its outermost sample, and by how much
-/// it may, in mean edges.
+/// Weight that keeps a node at a rim from rising above its highest sample, and the allowed height
+/// above it, in mean edges.
 constexpr double support = 0.3;
 constexpr double support_room = 0.03;
-/// A triangle's longest edge over its shortest less one: the softest triangle spring.
+/// Added to a triangle's longest / shortest edge less one, so that springs stay finite.
 constexpr double softest_triangle = 0.1;
 constexpr int gradient_steps = 15;
-/// A residual this much smaller, squared, ends the steps.
+/// The steps end if the squared residual is this much smaller.
 constexpr double gradient_end = 1e-4;
 /// The ring term's diagonal: 1 and a sixth, for a sixth each of six neighbours' sixths.
 constexpr double ring_diagonal = 1.17;
@@ -63,7 +63,7 @@ Matrix3 whole(const Column& s) {
   return result;
 }
 
-/// What a triangle adds to the normal equations.
+/// Contribution of a triangle to the normal equations.
 struct FaceSystem {
   std::array<Matrix3, 3> own;   ///< of each corner with itself
   std::array<Matrix3, 3> pair;  ///< of corner k with corner k + 1
@@ -84,13 +84,13 @@ struct FaceSystem {
   }
 };
 
-/// What the equations know of a node beforehand.
+/// Shape of a node's star, computed before the equations.
 struct NodeShape {
   Vector3 normal = Vector3::Zero();
   double rim = 0.0;                 ///< how far the star bends over a rim, 0 to 1
-  Vector3 along = Vector3::Zero();  ///< the rim's direction, where there is one
+  Vector3 along = Vector3::Zero();  ///< the rim's direction, if there is a rim
 
-  /// The part of a vector that the ring term sees: along the surface, at a rim along it.
+  /// Returns the part of a vector for the ring term: along the surface, and at a rim along the rim.
   Vector3 tangential(const Vector3& v) const {
     const Vector3 flat = v - normal.dot(v) * normal;
     if (rim == 0.0) return flat;
@@ -191,7 +191,7 @@ class FitEquations {
     }
   }
 
-  /// The shape of a node's star, the middle of its ring and its mean edge.
+  /// Computes the shape of a node's star, the middle of its ring and its mean edge.
   void look_at(std::size_t i) {
     Vector3 sum = Vector3::Zero();
     Matrix3 tensor = Matrix3::Zero();
@@ -221,8 +221,8 @@ class FitEquations {
     }
   }
 
-  /// Samples of a triangle: their distance along the mean of both normals, and at the triangle's
-  /// rim along it.
+  /// Adds a triangle's samples: their distance along the mean of both normals and, at the
+  /// triangle's edge, along the triangle.
   void add_samples(std::size_t t) {
     if (state_.of[t].empty()) return;
     const auto& [a, b, c] = mesh_.triangles[t];
@@ -230,7 +230,7 @@ class FitEquations {
     const Vector3& pb = mesh_.points[b];
     const Vector3& pc = mesh_.points[c];
     const Vector3 normal = unit_normal_of(pa, pb, pc);
-    // Of each corner with itself, then of corner k with corner k + 1.
+    // First each corner with itself, then corner k with corner k + 1.
     Eigen::Matrix<double, 6, 6> sums = Eigen::Matrix<double, 6, 6>::Zero();
     FaceSystem& face = faces_[t];
     const double share = state_.share();
@@ -266,7 +266,7 @@ class FitEquations {
     }
   }
 
-  /// The price of a sharp triangle.
+  /// Adds the price of a sharp triangle.
   void add_angles(std::size_t t) {
     if (state_.round.price <= 0.0) return;
     const auto& [a, b, c] = mesh_.triangles[t];
@@ -276,7 +276,7 @@ class FitEquations {
     if (excess > 0.0) faces_[t].add(state_.round.price, excess, gradient);
   }
 
-  /// Longest less shortest edge of a triangle.
+  /// Adds the difference of a triangle's longest and shortest edge.
   void add_triangle_springs(std::size_t t) {
     if (state_.dial.triangle_springs <= 0.0) return;
     const Triangle& corners = mesh_.triangles[t];
@@ -343,7 +343,7 @@ class FitEquations {
     right_[i] -= weight * (length - rest) * u;
   }
 
-  /// What the samples of a node's cell say of the node itself.
+  /// Adds the terms of the samples in a node's cell.
   void add_cell(std::size_t i) {
     const NodeShape& shape = shapes_[i];
     const Vector3& x = mesh_.points[i];
@@ -385,8 +385,8 @@ class FitEquations {
   void add_ridge(std::size_t i, const Matrix3& quadric, const Vector3& moment, int samples) {
     constexpr int least_samples = 3;
     if (samples < least_samples) return;
-    // The three eigenvalues add up to the samples; the largest is not below any Rayleigh quotient,
-    // and the second not above what that leaves: most cells are seen to be flat without a solver.
+    // The three eigenvalues sum to the number of samples. The largest is at least any Rayleigh
+    // quotient, and the second at most the rest, so most cells are found flat without a solver.
     const Vector3& n = shapes_[i].normal;
     if (samples - n.dot(quadric * n) <= ridge_begins * samples) return;
     Eigen::SelfAdjointEigenSolver<Matrix3> solver;
@@ -416,7 +416,7 @@ class FitEquations {
     for_nodes([&](std::size_t i) { right_[i] -= state_.ring() * ring_transposed(i, bent); });
   }
 
-  /// The transpose of "a node less the mean of its ring".
+  /// Returns the transpose of "a node less the mean of its ring".
   Vector3 ring_transposed(std::size_t i, const std::vector<Vector3>& values) const {
     Vector3 result = values[i];
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {

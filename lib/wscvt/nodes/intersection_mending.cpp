@@ -11,15 +11,15 @@ namespace wscvt {
 
 namespace {
 
-/// Rounds that may pass; most knots are parted in two or three.
+/// Largest number of rounds; most knots are separated in two or three.
 constexpr int most_parting_rounds = 20;
-/// Rings of nodes about a knot that move with it at most.
+/// Largest number of rings of nodes that move with a knot.
 constexpr int most_rings = 3;
 
 /// A move of the nodes of a knot.
 struct KnotMove {
   double outwards;  ///< along the star's normal, in mean edges
-  double inwards;   ///< share of the way to the middle of the ring
+  double inwards;   ///< fraction of the way to the middle of the ring
 };
 constexpr KnotMove knot_moves[] = {{0.05, 0.0}, {0.15, 0.0}, {0.0, 0.3}, {0.0, 0.7}, {0.1, 0.5}};
 

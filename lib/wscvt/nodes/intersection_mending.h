@@ -8,15 +8,15 @@
 
 namespace wscvt {
 
-/// What parting did.
+/// Counts of part_triangles.
 struct PartingReport {
-  std::size_t before = 0;  ///< pairs of triangles that met
-  std::size_t after = 0;   ///< that still do
+  std::size_t before = 0;  ///< intersecting triangle pairs
+  std::size_t after = 0;   ///< pairs that remain
 };
 
-/// Parts triangles that meet: the nodes of a knot move outwards, where chords of both sheets of a
-/// thin place cross, or towards the middles of their rings, where neighbours are folded, whichever
-/// leaves fewer pairs. Nodes elsewhere stay. The number of pairs never grows.
+/// Separates intersecting triangles. The nodes of a knot move outwards, for chords of both sheets
+/// of a thin place, or towards the middles of their rings, for folded neighbours; the move that
+/// leaves fewer pairs is used. Other nodes stay. The number of pairs never grows.
 PartingReport part_triangles(EditMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

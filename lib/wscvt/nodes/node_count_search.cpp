@@ -11,15 +11,15 @@ namespace wscvt {
 
 namespace {
 
-/// The bracket is closed when it is this share of the count wide, or 1. Errors waver by as much
-/// from one count to the next, and a tenth of it took twice as many remeshes.
+/// Width at which the bracket is closed, as a fraction of the count; at least 1. Errors vary by as
+/// much between neighbouring counts, and a tenth of it took twice as many remeshes.
 constexpr double resolution = 0.02;
 
-/// Largest factor between one count and the next while the target is being bracketed.
+/// Largest factor between successive counts while the target is being bracketed.
 constexpr double largest_stride = 8.0;
 
-/// Count at which an error that falls as 1 / count from `trial` comes to the target, a little
-/// beyond it so that the next trial is likely on the other side.
+/// Returns the count at which an error that falls as 1 / count from `trial` meets the target, and a
+/// little more, so that the next trial is likely on the other side.
 double extrapolate(const NodeCountTrial& trial, double target) {
   const double ratio = trial.error / target;
   const double beyond = ratio > 1.0 ? 1.05 : 1.0 / 1.05;
@@ -71,7 +71,7 @@ NodeCountSearch smallest_node_count(double target, int start, int lower, int upp
   search.node_count = above.node_count;
   if (!search.met || meets(below)) return search;
 
-  // Every third trial halves the bracket, for errors that are no power of the count.
+  // Every third trial halves the bracket, for errors that do not follow a power of the count.
   constexpr int trials_a_halving = 3;
   for (int step = 1;
        above.node_count - below.node_count > std::max(1.0, resolution * above.node_count); ++step) {
@@ -82,8 +82,8 @@ NodeCountSearch smallest_node_count(double target, int start, int lower, int upp
     if (step % trials_a_halving != 0 && std::isfinite(span) && span > 0.0) {
       const double share = std::log(below.error / target) / span;
       count = std::exp(low + share * (high - low));
-      // A little beyond, where the target is met; once it is met there, a little below, where it is
-      // not: two trials close the bracket.
+      // First a little more, so that the target is met there; then a little less, so that it is
+      // not. Two trials then close the bracket.
       count = (1.0 + 0.4 * resolution) * count < above.node_count - 1.0
                   ? (1.0 + 0.4 * resolution) * count
                   : (1.0 - 0.9 * resolution) * above.node_count;

@@ -13,28 +13,27 @@ namespace wscvt {
 
 namespace {
 
-/// Curvatures below this, in 1 / radius of the sphere of the same area, count as this: a flat face
-/// has no scale of its own.
+/// Curvatures below this, in 1 / radius of the sphere of equal area, are raised to it, because a
+/// flat face has no scale.
 constexpr double flat_curvature_in_space = 0.01;
-/// Of the error-adaptive weighting: a curvature below this share of the median counts as that.
-/// Where a face is flat its error is small whatever its size, but without nodes it would not be
-/// seen as flat.
+/// For the error-adaptive weighting, curvatures below this fraction of the median are raised to it.
+/// A flat face has a small error at any size, but without nodes it would not be detected as flat.
 constexpr double flat_share = 0.3;
 /// The density of the error-adaptive weighting is the curvature to this power.
 constexpr double adaptive_power = 2.0 / 3.0;
-/// Largest alpha x of eq. 11, so that no cell is wanted smaller than nothing.
+/// Largest alpha x of eq. 11, so that no wanted cell is negative.
 constexpr double most_weight = 0.9;
 /// The paper's law: cell area = 3.118 w + C.
 constexpr double area_per_weight = 3.118;
 constexpr double least_cell_share = 0.05;
-/// Deviation of the logarithm of the curvature below which the grain counts as a sphere: eq. 14
-/// measures by the deviation itself, and would gather nodes by a scanned sphere's noise.
+/// Smallest deviation of the logarithm of the curvature; below it the grain counts as a sphere. Eq.
+/// 14 divides by the deviation, and would otherwise gather nodes by a scanned sphere's noise.
 constexpr double least_deviation = 0.05;
-/// Radius of the discs that curvatures are averaged over, in sqrt(area a node).
+/// Radius of the discs over which curvatures are averaged, in sqrt(area per node).
 constexpr double disc_radius = 0.6;
 
-/// Takes means over the vertices' rings, by area, as often as carries a value `distance` far: one
-/// round has the spread of a walk by one edge.
+/// Averages over the vertices' rings, by area, as often as needed to carry a value over `distance`:
+/// each round spreads it like a random walk by one edge.
 void spread(const IndexedMesh& mesh, const std::vector<double>& areas, double distance,
             std::vector<double>& values, const Execution& execution) {
   constexpr double most_rounds = 400.0;
@@ -90,7 +89,7 @@ void adapt_to_errors(std::vector<double>& field) {
   for (double& k : field) k = std::pow(std::max(k, floor), adaptive_power);
 }
 
-/// Eqs. 11 to 14; false on a sphere, which has no deviation to measure by.
+/// Eqs. 11 to 14; false on a sphere, whose deviation is zero.
 bool weigh_curvature(std::vector<double>& field, const std::vector<double>& areas, double alpha) {
   for (double& k : field) k = -std::log(std::max(k, flat_curvature_in_space));
   const double mean = weighted_mean(areas, field);

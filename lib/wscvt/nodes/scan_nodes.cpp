@@ -28,24 +28,25 @@ namespace wscvt {
 
 namespace {
 
-/// A scan with fewer vertices than this many a node is split first: nodes can only be as even as
-/// the vertices that they are clusters of.
+/// A scan with fewer vertices per node is split first, because nodes can only be as even as the
+/// vertices of their clusters.
 constexpr double least_vertices_a_node = 8.0;
-/// Edges longer than this many of those that even faces would have are split.
+/// Edges longer than this many edges of even faces are split.
 constexpr double long_edge = 1.4;
-/// Above this many vertices a node the scan is coarsened by whole sweeps, which about halve it, to
-/// the surface that nodes are evened on.
+/// Above this many vertices per node the scan is coarsened by complete sweeps, which about halve
+/// it, to the surface for equalization.
 constexpr std::size_t most_proxy_vertices_a_node = 30;
 constexpr int evening_steps = 100;
-/// Evening and the fit change the contrast of a density; these powers of the wanted one make that
-/// good beforehand. The slope of the logarithm of the nodes' density against that of the largest
-/// curvature, of the scan's series of degree 20 at each node, is .32 to .37 so for a scan of sand
-/// and 1000 nodes; on smooth bodies evened nodes have that of the weighting's own law.
+/// Equalization and the fit change the contrast of a density; these powers of the wanted density
+/// correct it in advance. For a scan of sand and 1000 nodes, the logarithm of the nodes' density
+/// then has a slope of .32 to .37 against the logarithm of the largest curvature (of the scan's
+/// series of degree 20 at each node). On smooth bodies, equalized nodes have the slope of the
+/// weighting's own law.
 ///
-/// Error-adaptive densities end at three times the mean. Sharp rims want more without end, but
-/// edges along a rim leave no error there, however long. Without this bound the rim of a knapped
-/// stone of 25,000 vertices is jammed: 1000 nodes are 6.3 % of its radius off, 2.8 % with it. Those
-/// of WSCVT-C are bounded by the paper's law.
+/// Error-adaptive densities end at three times the mean. Sharp rims would want unlimited density,
+/// but edges along a rim leave no error there, however long. Without this bound the rim of a
+/// knapped stone of 25,000 vertices is crowded: 1000 nodes are 6.3 % of its radius off, 2.8 % with
+/// it. Densities of WSCVT-C are bounded by the paper's law.
 struct Steepness {
   double evened;
   double fitted;
@@ -53,17 +54,18 @@ struct Steepness {
 };
 constexpr Steepness curvature_steepness = {0.7, 0.82, std::numeric_limits<double>::infinity()};
 constexpr Steepness adaptive_steepness = {1.3, 1.45, 3.0};
-/// How a rim comes out hangs on last bits, by tens of per cent of the distance. Of bodies thinner
-/// than a sphericity of a half the nearest of some fits is taken, each from nodes evened further.
+/// The result at a rim depends on last bits, by tens of per cent of the distance. For bodies
+/// thinner than a sphericity of a half, the nearest of several fits is used, each from further
+/// equalized nodes.
 constexpr double thin_area = 2.0 * 4.0 * pi;
 constexpr int thin_starts = 3;
 constexpr int further_steps = 15;
-/// Samples of few nodes, whose cells are so large that a share for each would scatter: four nodes
-/// on a ball are a tetrahedron within 3 % only with 120.
+/// Smallest number of samples, for few nodes, whose cells are so large that a fixed number per node
+/// would scatter: four nodes on a ball are a tetrahedron within 3 % only with 120.
 constexpr std::size_t fewest_samples = 4000;
-/// Where a number of nodes is too few, up to this many times as many are tried.
+/// If a number of nodes is too few, up to this many times as many are tried.
 constexpr int most_tried_times = 3;
-/// Below this many vertices a node the cheapest merge is looked for among all.
+/// Below this many vertices per node, the cheapest merge of all is made each time.
 constexpr int heap_vertices_a_node = 2;
 
 void check_scan_options(const ScanNodesOptions& options) {
@@ -88,8 +90,8 @@ std::size_t genus_of(const EditMesh& mesh) {
 
 struct ScanRemesher::Parts {
   SampledScan scan;
-  Coarsening base;                          ///< of the scan, as far as any number of nodes wants it
-  std::vector<std::int32_t> base_clusters;  ///< its vertex for each of the scan; empty: the same
+  Coarsening base;                          ///< of the scan, as far as for any number of nodes
+  std::vector<std::int32_t> base_clusters;  ///< its vertex for each of the scan's; empty: identical
   double volume = 0.0;
   double area = 0.0;
   std::size_t genus = 0;
@@ -97,12 +99,12 @@ struct ScanRemesher::Parts {
 
 namespace {
 
-/// Nodes on their way, with what they stand on.
+/// Nodes in preparation, with their surface.
 struct Placing {
-  SampledScan split;  ///< the scan with split faces, where it had to be
+  SampledScan split;  ///< the scan with split faces, if needed
   EveningSurface surface;
-  std::vector<std::int32_t> on_surface;  ///< vertex of the surface for each of the scan
-  EditMesh nodes;                        ///< without triangles where there can't be so few
+  std::vector<std::int32_t> on_surface;  ///< vertex of the surface for each of the scan's
+  EditMesh nodes;                        ///< without triangles if there cannot be so few
   std::vector<std::int32_t> clusters;    ///< node for each vertex of the surface
 };
 
@@ -113,8 +115,8 @@ void sweep_to_proxy(Coarsening& coarsening, std::size_t nodes, const Execution& 
   }
 }
 
-/// Splits long edges; normals of the new vertices are the means of their edges' ends'. Splitting
-/// scatters what is near in space over the memory, so that vertices and faces are ordered anew.
+/// Splits long edges; the normal of a new vertex is the mean of its edge's ends. Splitting scatters
+/// neighbours in memory, so vertices and faces are sorted again.
 SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, double area, int nodes,
                        EditMesh& split, const Execution& execution) {
   split = scan;
@@ -135,7 +137,7 @@ SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, doubl
   return ordered;
 }
 
-/// Coarsens to exactly `count` vertices; false where handles want more.
+/// Coarsens to exactly `count` vertices; false if handles need more.
 bool coarsen(Coarsening& coarsening, int count, const Execution& execution) {
   const auto size = [&] { return static_cast<int>(coarsening.size()); };
   while (size() > heap_vertices_a_node * count) {
@@ -147,8 +149,8 @@ bool coarsen(Coarsening& coarsening, int count, const Execution& execution) {
   return coarsening.reduce(count, execution);
 }
 
-/// The least number of vertices that a closed surface of a genus can have: V (V - 7) >= 12 (g - 1)
-/// (Heawood 1890; Jungerman and Ringel 1980, Acta Math. 145, 121: but for g = 2, which takes 10).
+/// Returns the least number of vertices of a closed surface of a genus: V (V - 7) >= 12 (g - 1)
+/// (Heawood 1890; Jungerman and Ringel 1980, Acta Math. 145, 121; except g = 2, which needs 10).
 int fewest_nodes(std::size_t genus) {
   if (genus == 0) return 4;
   if (genus == 2) return 10;
@@ -174,7 +176,7 @@ int fewest_nodes(std::size_t genus) {
   refuse(text);
 }
 
-/// A triangle of the surface for each node: about that vertex of its cluster that is nearest.
+/// Returns a triangle of the surface for each node: about the nearest vertex of its cluster.
 std::vector<std::int32_t> places_on(const EditMesh& surface, const EditMesh& nodes,
                                     const std::vector<std::int32_t>& clusters) {
   std::vector<std::int32_t> places(nodes.points.size(), 0);
@@ -209,7 +211,7 @@ ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& 
                                                    genus});
   parts_ = parts;
   const std::size_t vertices = parts->base.size();
-  // A number that is tried where fewer are too few gives the same as when it is asked for.
+  // A number tried after a smaller one failed gives the same result as when it is asked for.
   sweep_to_proxy(parts->base, static_cast<std::size_t>(most_tried_times * std::max(most_nodes, 4)),
                  execution);
   if (parts->base.size() == vertices) return;
@@ -229,7 +231,7 @@ ScanRemesher ScanRemesher::with(const ScanNodesOptions& options) const {
 
 namespace {
 
-/// Coarsens to the surface that nodes are evened on, then to the nodes.
+/// Coarsens to the surface for equalization, then to the nodes.
 template <class Parts>
 Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, int node_count,
                          const Execution& execution) {
@@ -272,7 +274,7 @@ Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, in
   return placing;
 }
 
-/// Samples of the scan, with the nodes that stand for their vertices in `near`.
+/// Returns samples of the scan, and in `near` the nodes that represent their vertices.
 template <class Parts>
 std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& placing,
                                           const FitDial& dial, std::vector<std::int32_t>& near) {
@@ -292,8 +294,8 @@ std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& pla
   return samples;
 }
 
-/// Fits the nodes to the scan and gives them its volume; what meets then is parted, and the volume
-/// given again. `mean_square`: of the samples' distances.
+/// Fits the nodes to the scan and gives them its volume. Then separates intersecting triangles and
+/// gives the volume again. `mean_square`: of the samples' distances.
 template <class Parts>
 EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing& placing,
              ScanNodesReport& report, double& mean_square, const Execution& execution) {

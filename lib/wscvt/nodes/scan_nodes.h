@@ -19,32 +19,32 @@ struct ScanNodes {
   ScanNodesReport report;
 };
 
-/// Remeshes a scan on its own triangles, without a map: coarsened to exactly N vertices by Ward's
-/// clusters, evened as a centroidal Voronoi tessellation of the scan's surface, fitted to the scan,
-/// given its volume, and looked through for triangles that meet.
+/// Remeshes a scan on its own triangles, without a map. The scan is coarsened to exactly N vertices
+/// by Ward's clusters, equalized as a centroidal Voronoi tessellation of its surface, fitted to the
+/// scan, given its volume, and checked for self-intersections.
 ///
-/// Any genus: handles stay. Those of the scanner's noise, shorter than about three edges of the
-/// result, are to be cut before (cut_handles of scan/handles.h): kept, they cost angles and may
-/// meet. Thin bodies keep both sheets, since nothing here ever changes from one to the other; of
-/// them the nearest of three fits is taken, as rims come out by chance.
+/// Any genus: handles stay. Cut the small handles of scanner noise, with loops of less than about
+/// three edges of the result, before (cut_handles of scan/handles.h): otherwise they cost angles
+/// and may intersect. Thin bodies keep both sheets, because no step moves from one sheet to the
+/// other. For thin bodies the nearest of three fits is used, because the result at rims varies.
 class ScanRemesher {
  public:
   /// `normalized_scan`: closed, connected, oriented outward, a 2-manifold (check_mesh), of
-  /// equivalent radius 1 about the origin. Faces without area are allowed. What does not depend on
-  /// the number of nodes is made here; nodes up to `most_nodes` are asked for later. The result
-  /// does not depend on `most_nodes`.
+  /// equivalent radius 1 about the origin. Faces without area are allowed. Computes everything that
+  /// does not depend on the number of nodes, for up to `most_nodes`. The result does not depend on
+  /// `most_nodes`.
   ///
   /// Throws Error(InvalidInput) for options out of range, Error(Cancelled).
   ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& options, int most_nodes,
                const Execution& execution);
 
-  /// The same for other options, without the work of making it ready. Throws Error(InvalidInput)
-  /// for options out of range.
+  /// Returns a remesher of the same scan with other options, without repeating the preparation.
+  /// Throws Error(InvalidInput) for options out of range.
   ScanRemesher with(const ScanNodesOptions& options) const;
 
-  /// Exactly `node_count` nodes, 4 to `most_nodes`. The same bytes on any number of threads. Throws
-  /// Error(InvalidInput) where a body with handles cannot be triangulated by so few; the sentence
-  /// says how many were tried and are enough. Error(Cancelled).
+  /// Places exactly `node_count` nodes, 4 to `most_nodes`. The same bytes on any number of threads.
+  /// Throws Error(InvalidInput) if a body with handles cannot be triangulated by so few; the
+  /// message says how many were tried and are enough. Error(Cancelled).
   ScanNodes place(int node_count, const Execution& execution) const;
 
  private:

@@ -42,8 +42,8 @@ std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh, const Exec
       boxes.emplace_back(box_of(points, mesh.triangles[t]), number);
     }
   }
-  // Not CGAL's Polygon_mesh_processing::self_intersections, which asks the same of the same pairs
-  // of boxes: it wants a half-edge mesh made first, and cannot be stopped.
+  // Not CGAL's Polygon_mesh_processing::self_intersections, which tests the same pairs of boxes: it
+  // needs a half-edge mesh first, and cannot be cancelled.
   std::vector<TrianglePair> candidates;
   std::vector<char> meet;
   const auto decide = [&] {
@@ -78,7 +78,7 @@ bool triangles_meet(const std::vector<Vector3>& points, const Triangle& a, const
   const auto is_in = [](const Triangle& t, std::int32_t v) {
     return std::find(t.begin(), t.end(), v) != t.end();
   };
-  // The corners of a triangle, from one on that the condition holds for.
+  // Rotates the corners of a triangle so that the first one meets the condition.
   const auto turned = [](Triangle t, const auto& is_first) {
     std::rotate(t.begin(), std::find_if(t.begin(), t.end(), is_first), t.end());
     return t;
@@ -89,12 +89,12 @@ bool triangles_meet(const std::vector<Vector3>& points, const Triangle& a, const
   if (shared == 2) {
     const Triangle t = turned(a, [&](auto v) { return !is_in(b, v); });
     const Triangle other = turned(b, [&](auto v) { return !is_in(a, v); });
-    // From a common edge on they lie on each other in one plane, or meet nowhere.
+    // Triangles with a common edge intersect only if they overlap in one plane.
     return CGAL::coplanar(point(t[1]), point(t[2]), point(t[0]), point(other[0])) &&
            CGAL::coplanar_orientation(point(t[1]), point(t[2]), point(t[0]), point(other[0])) ==
                CGAL::POSITIVE;
   }
-  // They meet in more than the corner where the far side of one passes through the other.
+  // They intersect beyond the corner if the far side of one passes through the other.
   const auto far_side = [&](const Triangle& t, const Triangle& other) {
     const Triangle from_corner = turned(t, [&](auto v) { return is_in(other, v); });
     return Kernel::Segment_3(point(from_corner[1]), point(from_corner[2]));

@@ -8,12 +8,12 @@
 
 namespace wscvt {
 
-/// Numbers of the points in the order of a curve that fills space (Morton 1966): near in the order,
-/// near in space. A mesh whose vertices lie so in memory is gone over several times as fast as one
-/// in any order, once it is larger than the caches.
+/// Returns the numbers of the points in the order of a space-filling curve (Morton 1966):
+/// neighbours in the order are neighbours in space. If a mesh is larger than the caches and its
+/// vertices have this order in memory, passes over it are several times faster.
 std::vector<std::int32_t> space_order(const std::vector<Vector3>& points);
 
-/// Gives the vertices of a mesh the order of space, its triangles that of their first vertices.
+/// Sorts the vertices of a mesh in the order of space, and its triangles by their first vertices.
 /// Corners of a triangle keep their order. Returns the old number of each vertex.
 std::vector<std::int32_t> order_in_space(std::vector<Vector3>& points,
                                          std::vector<Triangle>& triangles);

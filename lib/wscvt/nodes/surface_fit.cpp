@@ -16,33 +16,33 @@ namespace wscvt {
 
 namespace {
 
-/// Evenness of the last of the leading rounds, and how far it may be stiffened beyond 1.
+/// Evenness of the first leading round, and the limits of its control.
 constexpr double leading_share = 0.2;
 constexpr double least_evenness = 1e-6;
 constexpr double most_evenness = 2.0;
-/// In the last rounds a ratio that is farther off than this may stiffen it to the other, until it
-/// is so near. Stiffened wherever the wanted ratio is missed it would cost a tenth of the distance
-/// on sharp bodies.
+/// In the last rounds, a ratio that is farther off than this may raise the evenness to the stiffest
+/// one until the ratio is this near. If every missed ratio did so, sharp bodies would lose a tenth
+/// of the distance.
 constexpr double far_off_ratio = 0.02;
 constexpr double stiffest_evenness = 8.0;
-/// How strongly the evenness answers to a mean ratio that is off the wanted one.
+/// Gain of the control of the evenness by the mean ratio.
 constexpr double steering = 0.5;
-/// Degrees: no angle of the result is smaller.
+/// Degrees: smallest angle of the result.
 constexpr double smallest_angle = 30.0;
-/// Larger angles, those that the late rounds keep, are mended for where the mean square distance
-/// grows no further than by this: rims of thin bodies have no room for them.
+/// Larger angles, down to the least angle of the late rounds, are repaired only if the mean square
+/// distance grows by no more than this factor: rims of thin bodies have no room for them.
 constexpr double most_mending_cost = 1.02;
-/// Angles pay from this much above it on, early and late.
+/// Margin above the least angle below which angles have a price, early and late.
 constexpr double early_margin = 1.0;
 constexpr double late_margin = 0.5;
 constexpr double mending_margin = 0.3;
-/// Price of a triangle of no angle in the last rounds, in mean errors of a triangle; 1 in the
-/// first.
+/// Price of a triangle with an angle of 0 in the last rounds, in mean errors of a triangle; 1 in
+/// the first round.
 constexpr double last_price = 200.0;
-/// By how much the price grows with each late round.
+/// Factor of the price with each late round.
 constexpr double late_growth = 2.0;
 constexpr double valence_price = 0.01;
-/// Nodes are relocated from this round on, and not in the last.
+/// First round with relocations, and the number of last rounds without.
 constexpr int first_relocation = 2;
 constexpr int rounds_without_relocation = 8;
 
@@ -65,8 +65,9 @@ class SurfaceFit {
   }
 
  private:
-  /// Evenness is weak first, so that nodes find ridges, then full; then it is led so that the mean
-  /// ratio, which falls by `ratio_slope` as the evenness grows e times, ends at the wanted one.
+  /// Returns the evenness of a round. The leading rounds bring it from `leading_share`, so that
+  /// nodes find ridges, to the dial's start. Then it is controlled so that the mean ratio, which
+  /// falls by `ratio_slope` as the evenness grows by a factor e, ends at the wanted ratio.
   double lead(int round) {
     double part = round / dial_.lead_rounds;
     if (dial_.heats > 1 && part < 1.0) part = std::fmod(part * dial_.heats, 1.0);
@@ -135,7 +136,7 @@ class SurfaceFit {
     mend_below(smallest_angle);
   }
 
-  /// Small angles that are left: dearer and dearer, and from the third pass on at any price.
+  /// Repairs remaining small angles at a rising price, and from the third pass on at any price.
   void mend_below(double degrees) {
     constexpr int most_passes = 10;
     constexpr int passes_of_polish = 3;

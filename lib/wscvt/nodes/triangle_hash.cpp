@@ -25,7 +25,7 @@ bool segment_pierces(const Vector3& p, const Vector3& q, const std::array<Vector
   return true;
 }
 
-/// Whether a triangle lies on one side of the plane of another, or touches it from there.
+/// Whether a triangle lies strictly on one side of the plane of another.
 bool on_one_side(const std::array<Vector3, 3>& x, const std::array<Vector3, 3>& y) {
   const Vector3 n = doubled_area_normal(x[0], x[1], x[2]);
   const double a = n.dot(y[0] - x[0]);
@@ -34,9 +34,9 @@ bool on_one_side(const std::array<Vector3, 3>& x, const std::array<Vector3, 3>& 
   return (a > 0.0 && b > 0.0 && c > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0);
 }
 
-/// Whether the triangles about a vertex lie side by side, seen along the sum of their normals: then
-/// no two of them meet. Where each looks that way the ring turns forwards only, and goes round once
-/// if it comes but once from behind a line to before it.
+/// Whether the triangles about a vertex lie side by side, seen along the sum of their normals; then
+/// no two of them intersect. If all face this way, the ring only turns forwards. It goes round once
+/// if it crosses a line from behind to before only once.
 bool is_embedded(const EditMesh& mesh, std::int32_t v) {
   Vector3 sum = Vector3::Zero();
   mesh.around(v, [&](std::int32_t h) { sum += mesh.normal(face_of(h)); });
@@ -54,7 +54,7 @@ bool is_embedded(const EditMesh& mesh, std::int32_t v) {
   return forwards && rounds == 1;
 }
 
-/// The corner that two triangles share, if it is one; -1 for none, -2 for more.
+/// Returns the only corner that two triangles share; -1 for none, -2 for more.
 std::int32_t only_shared(const Triangle& a, const Triangle& b) {
   std::int32_t shared = -1;
   for (const std::int32_t v : a) {

@@ -11,24 +11,24 @@
 
 namespace wscvt {
 
-/// The triangles of a mesh by the cells of a grid that their boxes touch, to ask of a single
-/// triangle whether it meets others, thousands of times while the mesh changes. Decides in rounded
-/// numbers; self_intersections is exact and looks in the end.
+/// The triangles of a mesh in the cells of a grid that their boxes touch. Finds whether a single
+/// triangle intersects others, thousands of times while the mesh changes. Uses rounded numbers; the
+/// exact self_intersections checks the final mesh.
 class TriangleHash {
  public:
-  /// Enters all triangles of a mesh into cells of the given edge > 0.
+  /// Enters all triangles of a mesh into cells with edges of `cell` > 0.
   void build(const EditMesh& mesh, double cell);
-  /// Enters a triangle that has changed; where it was before it is tested as it stands.
+  /// Enters a changed triangle; its old cells keep it too, and tests use its current shape.
   void enter(const EditMesh& mesh, std::int32_t t);
 
-  /// Whether a triangle with these corners meets one of the mesh elsewhere than in what they share:
-  /// `ids` are the vertices there, -1 for one that is in no triangle. Left out are the triangles
-  /// `but`, and those about the vertex `moved` if not -1.
+  /// Returns whether a triangle with these corners intersects a triangle of the mesh outside what
+  /// they share. `ids` are the vertices of the corners, -1 for a vertex in no triangle. Leaves out
+  /// the triangles `but`, and all triangles of the vertex `moved` if it is not -1.
   bool meets(const EditMesh& mesh, const Triangle& ids, const std::array<Vector3, 3>& corners,
              const std::vector<std::int32_t>& but, std::int32_t moved = -1) const;
 
-  /// All pairs of triangles that meet, the smaller number first, ascending, each once. No triangle
-  /// has moved since `build`. The same on any number of threads.
+  /// Returns all pairs of intersecting triangles, the smaller number first, ascending, each once.
+  /// No triangle may have moved since `build`. The result does not depend on the number of threads.
   std::vector<TrianglePair> pairs(const EditMesh& mesh, const Execution& execution) const;
 
  private:
@@ -42,7 +42,7 @@ class TriangleHash {
   };
   static Box box_of(const std::array<Vector3, 3>& corners);
   static bool part(const Box& a, const Box& b) {
-    // Without branches, of which no processor foresees the way.
+    // Without branches, which processors predict badly here.
     const auto apart = [&](int k) {
       return static_cast<unsigned>(a.low[k] > b.high[k]) |
              static_cast<unsigned>(b.low[k] > a.high[k]);
@@ -59,11 +59,11 @@ class TriangleHash {
   std::size_t mask_ = 0;
   std::vector<std::int32_t> heads_;
   std::vector<Entry> entries_;
-  std::vector<Box> boxes_;  ///< of each triangle as it was entered last
+  std::vector<Box> boxes_;  ///< of each triangle when it was last entered
 };
 
-/// Whether two triangles meet elsewhere than in the corners they share by number, in rounded
-/// numbers; those that share two corners do not.
+/// Returns whether two triangles intersect outside the corners with the same numbers, in rounded
+/// numbers; false if they share two corners.
 bool triangles_cross(const Triangle& a, const std::array<Vector3, 3>& x, const Triangle& b,
                      const std::array<Vector3, 3>& y);
 

@@ -4,8 +4,8 @@
 namespace wscvt {
 
 TrianglePlace walk_to_nearest(const Vector3& p, const EditMesh& mesh, std::int32_t& t) {
-  // Each step is nearer by more than rounding, so that a walk never comes back; the limit is for
-  // bodies without end only.
+  // Each step is nearer by more than rounding, so a walk never returns; the limit is a safeguard
+  // only.
   constexpr int most_steps = 10000;
   constexpr double rounding = 1e-12;
   TrianglePlace place = nearest_in_triangle(p, mesh, t);

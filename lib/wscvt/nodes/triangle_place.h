@@ -9,12 +9,12 @@
 
 namespace wscvt {
 
-/// Where on a triangle the point nearest to another lies.
+/// Position on a triangle of the point nearest to another point.
 struct TrianglePlace {
   Vector3 weights = Vector3(1.0, 0.0, 0.0);  ///< of the corners, >= 0, sum 1
   double squared_distance = 0.0;
-  /// 0 within the triangle, 1 to 3 on the edge opposite to that corner less 1, 4 to 6 on the corner
-  /// less 4.
+  /// 0 inside the triangle, 1 to 3 on the edge opposite to corner region - 1, 4 to 6 on corner
+  /// region - 4.
   int region = 0;
 
   Vector3 point(const Vector3& a, const Vector3& b, const Vector3& c) const {
@@ -22,9 +22,9 @@ struct TrianglePlace {
   }
 };
 
-/// The point of the triangle a, b, c nearest to `p` (Ericson 2005, "Real-time collision detection",
-/// section 5.1.5). Inline, with the square of the distance: the fit of nodes calls it a hundred
-/// times a sample.
+/// Returns the point of the triangle a, b, c nearest to `p` (Ericson 2005, "Real-time collision
+/// detection", section 5.1.5). Inline, and with the squared distance, because the fit of nodes
+/// calls it a hundred times per sample.
 inline TrianglePlace nearest_in_triangle(const Vector3& p, const Vector3& a, const Vector3& b,
                                          const Vector3& c) {
   const Vector3 ab = b - a;
@@ -63,15 +63,15 @@ inline TrianglePlace nearest_in_triangle(const Vector3& p, const Vector3& a, con
   return {Vector3(1.0 - v - w, v, w), (ap - v * ab - w * ac).squaredNorm(), 0};
 }
 
-/// The same of a triangle of a mesh.
+/// Returns this point for a triangle of a mesh.
 inline TrianglePlace nearest_in_triangle(const Vector3& p, const EditMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
   return nearest_in_triangle(p, mesh.points[a], mesh.points[b], mesh.points[c]);
 }
 
-/// Walks over a mesh from the triangle `t`, over edges and round vertices, to nearer and nearer
-/// ones, until none of those about is nearer, and leaves the last in `t`. Where the point comes
-/// from near `t` that is the nearest, and always on the sheet of the surface that `t` lies on.
+/// Walks over a mesh from the triangle `t`, over edges and around vertices, to nearer triangles
+/// until no neighbour is nearer, and stores the last one in `t`. If the point comes from near `t`,
+/// this is the nearest point. It is always on the sheet of the surface of `t`.
 TrianglePlace walk_to_nearest(const Vector3& p, const EditMesh& mesh, std::int32_t& t);
 
 }  // namespace wscvt

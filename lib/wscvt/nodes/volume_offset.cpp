@@ -11,15 +11,15 @@ namespace wscvt {
 
 namespace {
 
-/// No offset is longer than this many cube roots of the volume: parallel surfaces of a mesh far
-/// from that volume fold over before they hold it.
+/// Longest offset, in cube roots of the volume. If a mesh is far from the volume, its parallel
+/// surfaces fold over before they enclose it.
 constexpr double farthest_offset = 0.1;
 
 MeshSums sums_of(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles) {
   return mesh_sums(points, triangles, Vector3::Zero(), Execution(1));
 }
 
-/// Scales about the centroid; returns the mean move.
+/// Scales about the centroid; returns the mean displacement.
 double scale_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                        double volume) {
   const MeshSums sums = sums_of(points, triangles);
@@ -38,7 +38,7 @@ double scale_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>
 
 double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                         double volume) {
-  // Newton's method; each step squares what is missing, of a large offset after some.
+  // Newton's method: each step squares the relative error, after a few steps of a large offset.
   constexpr int most_steps = 30;
   constexpr double rounding = 1e-15;
   const std::vector<Vector3> start = points;

@@ -19,9 +19,9 @@ namespace wscvt {
 
 namespace {
 
-/// Above this overhang fraction the series' residual is read off the whole scan: below it the rays
-/// of the fit, which see the outermost surface only, are within 2 % (four scans), above it up to 12
-/// and, where 8 % lie behind another sheet, 54 % too small.
+/// Above this overhang fraction, the series' residual is measured against the whole scan. The rays
+/// of the fit see only the outermost surface. Their residual is within 2 % below this fraction
+/// (four scans). Above, it is up to 12 % too small, and 54 % if 8 % lie behind another sheet.
 constexpr double told_by_rays = 1e-3;
 
 void refuse_overhang(double overhang_fraction, double limit) {
@@ -40,17 +40,17 @@ void refuse_overhang(double overhang_fraction, double limit) {
   }
 }
 
-/// Root mean square of the distance from the scan, with all its sheets, to the series; length.
+/// Returns the rms distance from the scan, with all its sheets, to the series; length.
 double residual_with_overhangs(const IndexedMesh& scan, const RadialSurface& series,
                                const Execution& execution) {
-  // 5,762 points, whose edges are a sixth of the wavelength of degree 20; and as many samples as it
-  // takes for the few on hidden sheets, which are far from it, to come out within 1 %.
+  // 5,762 points, whose edges are a sixth of the wavelength of degree 20. The samples are enough to
+  // measure the few on hidden sheets, which are far from it, within 1 %.
   constexpr int frequency = 24;
   constexpr std::size_t samples = 10000;
   return rms_distance(scan, mesh_of_surface(series, frequency, execution), samples, execution);
 }
 
-/// Seeds at rest, with their cells.
+/// Returns seeds at rest, with their cells.
 RelaxationResult tessellate(const RadialSurface& surface, const AsPublishedOptions& options,
                             int node_count, const Execution& execution) {
   execution.report(0.0, "Computing weights");

@@ -22,33 +22,33 @@ namespace wscvt {
 /// 4. The seeds move to the centroids of their weighted Voronoi cells on the sphere.
 /// 5. The nodes are put on the series, or, along the same rays, on the scan.
 ///
-/// Two things differ from the paper: the triangulation is the regular one, exact, because the
-/// unweighted Delaunay triangulation inverts cells under curvature weights; and the series is
-/// fitted to the surface and not to the vertices that it happens to have.
+/// Two things differ from the paper. The triangulation is the regular one, exact, because the
+/// unweighted Delaunay triangulation inverts cells under curvature weights. The series is fitted to
+/// the surface, not only to its vertices.
 class PublishedRemesher : public RemeshMethod {
  public:
-  /// Steps 1 and 2 for a scan, which must outlive this. Throws Error: NotStarShaped when the
+  /// Does steps 1 and 2 for a scan, which must outlive this. Throws Error: NotStarShaped if the
   /// overhang fraction is above the limit or the centroid is not inside, InvalidInput,
   /// NumericalFailure, Cancelled.
   PublishedRemesher(const NormalizedScan& scan, const AsPublishedOptions& options, int degree,
                     bool with_curvatures, const Execution& execution);
 
-  /// For a surface given by a formula or by coefficients, of equivalent radius 1; it takes the
-  /// place of the series and of the scan, and must outlive this.
+  /// For a surface given by a formula or by coefficients, of equivalent radius 1. It replaces the
+  /// series and the scan, and must outlive this.
   PublishedRemesher(const RadialSurface& surface, const AsPublishedOptions& options,
                     bool with_curvatures);
 
   /// Steps 3 to 5.
   Nodes place(int node_count, const Execution& execution) const override;
 
-  /// Of the series; empty of a formula.
+  /// Returns the coefficients of the series; empty for a formula.
   const std::vector<double>& coefficients() const { return coefficients_; }
   const HarmonicFitReport& fit() const { return report_.fit; }
 
  private:
   AsPublishedOptions options_;
   bool with_curvatures_;
-  std::unique_ptr<const RadialSurface> series_;  ///< none of a formula
+  std::unique_ptr<const RadialSurface> series_;  ///< nullptr for a formula
   const RadialSurface* surface_ = nullptr;       ///< the series, or the formula
   std::optional<MeshSurface> rays_;              ///< for nodes on the scan
   std::vector<double> coefficients_;

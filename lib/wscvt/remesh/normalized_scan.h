@@ -8,12 +8,11 @@
 
 namespace wscvt {
 
-/// A closed, outward mesh of equivalent radius 1 about the origin, wherever and however large the
-/// scan was, so that tolerances mean the same for every scan. All lengths but `unit` and `centre`
-/// are in `unit`.
+/// A closed, outward mesh of equivalent radius 1 about the origin, so that tolerances mean the same
+/// for every scan. All lengths but `unit` and `centre` are in `unit`.
 struct NormalizedScan {
   IndexedMesh mesh;
-  double unit = 1.0;                 ///< length of the input per length here: its equivalent radius
+  double unit = 1.0;                 ///< the scan's equivalent radius, in the input's length
   Vector3 centre = Vector3::Zero();  ///< of the scan, in the input's coordinates
   ShapeDescriptors shape;
   MeshQuality quality;

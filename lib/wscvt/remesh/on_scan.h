@@ -13,15 +13,15 @@
 
 namespace wscvt {
 
-/// Does to the handles of a repaired scan what the options say: in `scan` those that are cut are
-/// closed. Throws Error: InvalidInput for a scan with handles that is to be refused, and as
-/// cut_handles, Cancelled.
+/// Cuts, keeps or refuses the handles of a repaired scan by the options; cut handles are closed in
+/// `scan`. Throws Error: InvalidInput for handles that are to be refused, and as cut_handles,
+/// Cancelled.
 HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
                            const Execution& execution);
 
 /// The method on the scan, for any closed grain: nodes in centroidal Voronoi cells on the grain's
-/// own surface (see ScanRemesher). Of the paper's method it keeps the purpose of the weights and
-/// the centroidal cells; its sphere, rays and series it does not need.
+/// own surface (see ScanRemesher). It keeps the purpose of the paper's weights and the centroidal
+/// cells, but needs no sphere, rays or series.
 class ScanMethod : public RemeshMethod {
  public:
   /// For at most `most_nodes`; `scan` must outlive this. Throws Error: InvalidInput,
@@ -29,8 +29,8 @@ class ScanMethod : public RemeshMethod {
   ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
              bool with_curvatures, const Execution& execution);
 
-  /// The same for other options and as many nodes at most. Throws Error(InvalidInput) for options
-  /// out of range.
+  /// Returns this method with other options and the same `most_nodes`. Throws Error(InvalidInput)
+  /// for options out of range.
   std::unique_ptr<ScanMethod> with(const OnScanOptions& options, bool with_curvatures) const;
 
   Nodes place(int node_count, const Execution& execution) const override;
@@ -45,8 +45,9 @@ class ScanMethod : public RemeshMethod {
   ScanRemesher remesher_;
 };
 
-/// The method on the scan for a star-shaped surface that is known exactly: on a scan of it. Nodes
-/// on the surface go along their rays from the scan's flat faces to the surface itself.
+/// The method on the scan for a star-shaped surface that is known exactly, applied to a mesh of it.
+/// Nodes on the surface are moved along their rays from the mesh's flat faces to the surface
+/// itself.
 class SurfaceMethod : public RemeshMethod {
  public:
   /// `surface` has the units of `scan`; both must outlive this. Throws as ScanMethod.

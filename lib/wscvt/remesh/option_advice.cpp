@@ -5,10 +5,10 @@ namespace wscvt {
 
 namespace {
 
-/// A key, or a value of a key, of version 2, and what to do in version 3.
+/// A key, or a value of a key, of version 2, and its replacement in version 3.
 struct Replaced {
   std::string_view key;
-  std::string_view value;  ///< empty: whatever its value
+  std::string_view value;  ///< empty: any value
   std::string_view instead;
 };
 
@@ -63,7 +63,7 @@ constexpr Replaced replaced[] = {
     {"placement", "contact", "Use contact-fit, with --method on-scan."},
 };
 
-/// The keys of a method's own options, and whether one of them has a value.
+/// The keys of a method's own options, with a test for a value of one of them.
 class KnownOptions {
  public:
   KnownOptions(std::string_view key, std::string_view value) : key_(key), value_(value) {}

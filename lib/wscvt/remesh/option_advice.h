@@ -9,16 +9,16 @@
 
 namespace wscvt {
 
-/// Why a remesh by `method` has no option with this key, in one or two sentences that say what to
-/// use instead: it belongs to the other method, or version 3 has renamed or removed it. Empty for a
-/// key that no version has, and for an option that the method has.
+/// Returns why a remesh by `method` has no option with this key, in one or two sentences that say
+/// what to use instead: it belongs to the other method, or version 3 has renamed or removed it.
+/// Empty for a key that no version has, and for an option of the method.
 std::string advice_for_option(std::string_view key, Method method);
 
-/// The same for a value of version 2 that version 3 has renamed or moved, and for a value of the
-/// other method; empty for others.
+/// Returns such sentences for a value of version 2 that version 3 has renamed or moved, and for a
+/// value of the other method; empty for others.
 std::string advice_for_value(std::string_view key, std::string_view value, Method method);
 
-/// The keys that version 2 had and version 3 has not.
+/// Returns the keys of version 2 that version 3 does not have.
 std::vector<std::string_view> replaced_options();
 
 }  // namespace wscvt

@@ -27,7 +27,7 @@ bool measures_distances(const RemeshOptions& options) {
          (searches(options) && options.target.measure == ErrorMeasure::Distance);
 }
 
-/// The largest number of nodes that will be asked for.
+/// Returns the largest number of nodes that will be asked for.
 int most_nodes(const RemeshOptions& options) {
   return searches(options) ? std::max(options.node_count, options.target.largest_node_count)
                            : options.node_count;
@@ -50,22 +50,22 @@ void add_distances(const PreparedGrain& grain, RemeshResult& result, const Execu
     result.rms_distance = result.distances->from_reference.root_mean_square;
     return;
   }
-  // Few enough to cost a twentieth of a run as published, and enough to tell the rms to some per
-  // cent: on four samples and three scans, with 100 to 2000 nodes, it was at most 2.4 % off
-  // (beside 400,000), 0.7 % in the mean; with twice as many at most 2.0 %.
+  // Costs at most a twentieth of a run as published, and gives the rms to some per cent. On four
+  // samples and three scans, with 100 to 2000 nodes, it was at most 2.4 % off (against 400,000),
+  // 0.7 % on average; with twice as many at most 2.0 %.
   constexpr std::size_t samples = 5000;
   result.rms_distance = rms_distance(grain.scan.mesh, result.mesh, samples, execution);
 }
 
-/// Nodes on the series come no nearer to the scan than the series does, however many they are.
+/// Nodes on the series are never nearer to the scan than the series, however many they are.
 void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget& target,
                          const HarmonicFitReport& fit) {
   if (target.percent == 0.0 || target.measure != ErrorMeasure::Distance ||
       published.placement != PublishedPlacement::Series) {
     return;
   }
-  // In units of the normalized scan, where the equivalent radius is 1; other points read it within
-  // five per cent.
+  // In units of the normalized scan, with equivalent radius 1; at other points the residual is
+  // within five per cent.
   const double reach = 100.0 * fit.residual;
   if (!(target.percent < 0.95 * reach)) return;
   throw Error(ErrorCode::InvalidInput,
@@ -76,8 +76,8 @@ void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget&
                   std::string(harmonic_degree_option.key) + ", or use the method on-scan.");
 }
 
-/// Makes the method ready that the options hold. This is where it is chosen. `before`: what was
-/// made ready for the same scan, or nullptr.
+/// Prepares the method in the options. This is where it is chosen. `before`: the method prepared
+/// for the same scan, or nullptr.
 void choose_method(const RemeshOptions& options, const ScanMethod* before,
                    const Execution& execution, PreparedGrain& grain) {
   const bool with_curvatures = options.measures.node_curvatures;
@@ -130,8 +130,8 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
   // 40,962 points, whose chords lose 0.02 % of the volume; as a scan four times as many.
   const int frequency = on_scan == nullptr ? 64 : 128;
   IndexedMesh samples = mesh_of_surface(scaled, frequency, execution.part(0.0, 0.3));
-  // Fitted nodes get the volume of their scan, so the scan gets the surface's: its equivalent
-  // radius is 1 then, as that of any scan.
+  // Fitted nodes get the volume of their scan, so the scan gets the surface's volume. Its
+  // equivalent radius is then 1, as for any scan.
   const double radius = on_scan == nullptr ? 1.0 : equivalent_radius(volume_of(samples, execution));
   grain.scan = normalize(std::move(samples), Vector3::Zero(), radius, execution.part(0.3, 0.5));
   grain.scan.unit = unit;
@@ -140,7 +140,7 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
   grain.input.centroid = integrals.centroid;
   grain.input.equivalent_radius = unit;
   grain.input.components = 1;
-  // The integrals are those of the surface itself, without its mesh's chords.
+  // The integrals are over the surface itself, without its mesh's chords.
   grain.scan.shape.volume = 4.0 * pi / 3.0;
   grain.scan.shape.area = integrals.area / (unit * unit);
   grain.scan.shape.sphericity = 4.0 * pi / grain.scan.shape.area;
@@ -182,9 +182,9 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.original_quality = grain.scan.quality;
   to_input_units(grain.scan.unit, grain.scan.centre, result);
   if (auto* report = std::get_if<OnScanReport>(&result.method)) {
-    // Again, of the triangles that are given back or written: in the scan's place, or with fewer
-    // digits, their corners are rounded anew, and where sheets lie close other pairs may intersect
-    // than about the origin.
+    // Counts again for the triangles that are returned or written. Their corners are rounded anew
+    // at the scan's position, or with fewer digits. Other pairs may then intersect than about the
+    // origin, if sheets are close.
     const auto& written = options.measures.written;
     report->nodes.self_intersections =
         self_intersections(written ? written(result) : result.mesh, execution.part(0.98, 1.0))

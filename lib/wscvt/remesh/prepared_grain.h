@@ -15,8 +15,8 @@
 
 namespace wscvt {
 
-/// A grain that is ready to be remeshed to any number of nodes by one of the methods, which refers
-/// to it: it is not moved.
+/// A grain prepared for remeshing to any number of nodes by one of the methods, which refers to it,
+/// so it is not moved.
 struct PreparedGrain {
   PreparedGrain() = default;
   PreparedGrain(const PreparedGrain&) = delete;
@@ -28,24 +28,24 @@ struct PreparedGrain {
   SeriesCoefficients coefficients;
   double steep_area_fraction = 0.0;  ///< see RemeshResult
   std::unique_ptr<const RemeshMethod> method;
-  /// To the scan, where distances are measured. On a dense scan, building this tree costs more than
-  /// querying it. All node counts of a search share one tree.
+  /// From points to the scan. On a dense scan, building this tree costs more than querying it. All
+  /// node counts of a search share one tree.
   std::optional<MeshDistance> distance;
 };
 
-/// Makes a repaired scan ready for the method that the options hold. This is where the method is
-/// chosen. Throws Error as the methods do.
+/// Prepares a repaired scan for the method in the options. This is where the method is chosen.
+/// Throws Error as the methods do.
 void prepare(CheckedMesh checked, const RemeshOptions& options, const Execution& execution,
              PreparedGrain& grain);
 
-/// Makes the same scan ready for other options with as many nodes, with what was done about its
-/// handles and, of the method on the scan, what does not depend on its options. `prepared` must
-/// outlive `grain`, which is empty before.
+/// Prepares the same scan for other options with as many nodes. Reuses its handles and, for the
+/// method on the scan, everything that does not depend on its options. `prepared` must outlive
+/// `grain`, which is empty before.
 void prepare_again(const PreparedGrain& prepared, const RemeshOptions& options,
                    const Execution& execution, PreparedGrain& grain);
 
-/// Makes a surface given by a formula or by coefficients ready; `scaled`, of equivalent radius 1,
-/// must outlive the grain, and `integrals` are those of the surface in the unit `unit`.
+/// Prepares a surface given by a formula or by coefficients. `scaled`, of equivalent radius 1, must
+/// outlive the grain; `integrals` are the surface's, in the unit `unit`.
 void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, double unit,
              const RemeshOptions& options, const Execution& execution, PreparedGrain& grain);
 
@@ -53,7 +53,7 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
 RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& options,
                              int node_count, const Execution& execution);
 
-/// Whether the smallest number of nodes is searched for.
+/// Returns whether the smallest number of nodes is searched for.
 inline bool searches(const RemeshOptions& options) { return options.target.percent > 0.0; }
 
 }  // namespace wscvt

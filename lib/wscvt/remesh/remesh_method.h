@@ -10,8 +10,8 @@
 
 namespace wscvt {
 
-/// The nodes and their mesh, in the units of the NormalizedScan and about its origin; so is what
-/// the report has of lengths.
+/// The nodes and their mesh, in the units of the NormalizedScan and about its origin, as are the
+/// lengths in the report.
 struct Nodes {
   IndexedMesh mesh;
   std::vector<double> cell_areas;  ///< see RemeshResult
@@ -19,7 +19,7 @@ struct Nodes {
   std::variant<OnScanReport, AsPublishedReport> report;
 };
 
-/// One of the two methods, made ready for a grain.
+/// One of the two methods, prepared for a grain.
 class RemeshMethod {
  public:
   RemeshMethod() = default;
@@ -27,7 +27,7 @@ class RemeshMethod {
   RemeshMethod& operator=(const RemeshMethod&) = delete;
   virtual ~RemeshMethod() = default;
 
-  /// Places `node_count` nodes: asked once, or by a search and by suggestions many times. Throws
+  /// Places `node_count` nodes. Called once, or many times by a search and by suggestions. Throws
   /// Error: InvalidInput, NumericalFailure, Cancelled.
   virtual Nodes place(int node_count, const Execution& execution) const = 0;
 };

@@ -20,7 +20,7 @@
 
 namespace wscvt {
 
-/// Another setting, and what it gives.
+/// Another setting and its result.
 struct SuggestedSetting {
   std::string setting;           ///< in words that complete "with"
   double rms_distance = 0.0;     ///< from the scan to that remesh / equivalent radius
@@ -35,13 +35,13 @@ struct OnScanReport {
 
 /// Report of the method AsPublished.
 struct AsPublishedReport {
-  double overhang_fraction = 0.0;  ///< of the scan, see folded_solid_angle; 0 of a formula
-  HarmonicFitReport fit;           ///< of the SH series; empty of a formula
+  double overhang_fraction = 0.0;  ///< of the scan, see folded_solid_angle; 0 for a formula
+  HarmonicFitReport fit;           ///< of the SH series; empty for a formula
   RelaxationReport relaxation;
 };
 
-/// Coefficients of an SH series about the result's centre, length. A grain that rays from its
-/// centroid see whole has one of the radius, others one of x, y and z (see HarmonicMap).
+/// Coefficients of an SH series about the result's centre, length. The series is of the radius if
+/// rays from the centroid see the whole grain, else of x, y and z (see HarmonicMap).
 struct SeriesCoefficients {
   std::vector<double> radius;
   std::array<std::vector<double>, 3> map;
@@ -53,22 +53,22 @@ struct RemeshResult {
   std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
-  /// Surface area of each node's cell, length^2: as published of its power cell, on the scan a
-  /// third of its triangles'.
+  /// Surface area of each node's cell, length^2: as published the area of its power cell, on the
+  /// scan a third of the area of its triangles.
   std::vector<double> cell_areas;
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
   Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
-  /// The scan as it was remeshed: with a surface where it is points, shrink-wrapped where that is
-  /// asked for, repaired, with its handles; if asked for, and not of a surface from a formula.
+  /// The scan as it was remeshed: repaired, with its handles, with a surface if it was points, and
+  /// shrink-wrapped if asked for. Only if asked for, and not of a surface from a formula.
   IndexedMesh repaired_scan;
-  MeshCheckReport input;  ///< what of the scan was repaired, and its measures
-  /// Of the area of a surface that was made of points, the fraction inclined more than 75 degrees
-  /// to the radius; else 0.
+  MeshCheckReport input;  ///< repairs of the scan, and its measures
+  /// Fraction of area inclined more than 75 degrees to the radius, of a surface made of points;
+  /// else 0.
   double steep_area_fraction = 0.0;
   std::variant<OnScanReport, AsPublishedReport> method;
   SeriesCoefficients coefficients;  ///< as published of a scan, on the scan if asked for
-  /// Rms distance from the scan to the remesh; length. Over the samples of `distances`, or over
-  /// 5,000 points of the scan where those were not asked for.
+  /// Rms distance from the scan to the remesh; length. Measured at the samples of `distances`, or
+  /// at 5,000 points of the scan without `distances`.
   double rms_distance = 0.0;
   std::vector<SuggestedSetting> suggestions;  ///< if the remesh is not accurate; see is_inaccurate
   std::optional<MeshDistances> distances;     ///< between remesh and scan; if asked for
@@ -81,7 +81,7 @@ struct RemeshResult {
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// The report of the method, or nullptr where the other one was used.
+/// Return the report of the method, or nullptr if the other method was used.
 inline const OnScanReport* on_scan_report(const RemeshResult& result) {
   return std::get_if<OnScanReport>(&result.method);
 }
@@ -89,13 +89,13 @@ inline const AsPublishedReport* as_published_report(const RemeshResult& result) 
   return std::get_if<AsPublishedReport>(&result.method);
 }
 
-/// A result's error by a measure, in %, >= 0. Throws Error(InvalidInput) for Distance when the
-/// result holds no distances.
+/// Returns a result's error by a measure, in %, >= 0. Throws Error(InvalidInput) for Distance if
+/// the result contains no distances.
 double error_percent(const RemeshResult& result, ErrorMeasure measure);
 
-/// Writes the coefficients of a result as write_harmonics or write_harmonic_map does. On the scan a
-/// result needs `measures.coefficients`. Throws Error: InvalidInput for a result without
-/// coefficients, and what those throw.
+/// Writes the coefficients of a result by write_harmonics or write_harmonic_map. On the scan,
+/// `measures.coefficients` must have been set. Throws Error: InvalidInput for a result without
+/// coefficients, and the errors of both functions.
 void write_coefficients(const std::string& path, const RemeshResult& result);
 
 }  // namespace wscvt

@@ -6,8 +6,7 @@
 
 namespace wscvt {
 
-/// Turns what was measured in units of `unit` about `centre` into the input's units and
-/// coordinates.
+/// Converts results in units of `unit` about `centre` to the input's units and coordinates.
 void to_input_units(double unit, const Vector3& centre, RemeshResult& result);
 
 }  // namespace wscvt

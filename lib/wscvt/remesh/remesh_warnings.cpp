@@ -15,9 +15,9 @@ namespace {
 
 using Sentences = std::vector<std::string>;
 
-/// Share of steep area above which points are taken to lie behind each other. The points of 22 real
-/// scans, made a surface again: up to .039 where the remesh follows that surface (area within 2 %,
-/// but for one of 4 %), .087 to .68 where it loses 3 to 50 % of its area.
+/// Fraction of steep area above which points are assumed to lie behind each other. A surface was
+/// made of the points of 22 real scans: the fraction is up to .039 if the remesh follows this
+/// surface (area within 2 %, but for one of 4 %), .087 to .68 if it loses 3 to 50 % of its area.
 constexpr double steep_points_limit = 0.06;
 
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
@@ -111,7 +111,7 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
                        "long, flat or sharp.");
   }
   const auto& options = std::get<AsPublishedOptions>(result.options.method);
-  // Of nodes on the scan the series only decides the cells.
+  // For nodes on the scan, the series only decides the cells.
   if (options.placement != PublishedPlacement::Series) return;
   const double residual = fit.residual / result.input.equivalent_radius;
   if (residual > residual_warning_limit && !result.input.has_voxel_steps) {
@@ -167,7 +167,7 @@ void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
   const double rms = result.rms_distance / result.input.equivalent_radius;
   const double area = result.remesh.area / result.original.area - 1.0;
   std::string text = "The remesh is not accurate: " + off_by(rms, area) + ".";
-  // The measure that is farthest over its limit decides which setting helps most.
+  // The measure that exceeds its limit most decides which setting helps most.
   const auto badness = [](double distance, double area_difference) {
     return std::max(distance / distance_warning_limit,
                     std::abs(area_difference) / area_warning_limit);
@@ -183,7 +183,7 @@ void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
                    [&](const SuggestedSetting& a, const SuggestedSetting& b) {
                      return badness_of(a) < badness_of(b);
                    });
-  // Two, since the nearest may cost nodes or evenness that one does not want to pay.
+  // Two, because the nearest may cost more nodes or evenness than the user wants.
   constexpr std::size_t most_named = 2;
   for (std::size_t k = 0; k < std::min(most_named, better.size()); ++k) {
     text += " Better: " + better[k].setting + " (" +
@@ -193,7 +193,7 @@ void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
   warnings.push_back(text);
 }
 
-/// On the scan triangles have angles above 35 degrees on ordinary grains; smaller ones are said.
+/// Warns of small angles. On the scan, ordinary grains have angles above 35 degrees.
 void warn_of_angles(const RemeshResult& result, Sentences& warnings) {
   constexpr double jammed = 20.0;
   if (on_scan_report(result) == nullptr) return;

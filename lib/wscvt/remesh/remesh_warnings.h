@@ -14,27 +14,27 @@ inline constexpr double overhang_warning_limit = 0.01;
 /// Residual of the SH fit / equivalent radius above which the result carries a warning.
 inline constexpr double residual_warning_limit = 0.05;
 
-/// Rms distance / equivalent radius, and the fraction of area lost or won, above which a remesh is
+/// Rms distance / equivalent radius, and relative difference of the area, above which a remesh is
 /// not accurate.
 inline constexpr double distance_warning_limit = 0.01;
 inline constexpr double area_warning_limit = 0.02;
 
-/// Whether the remesh is farther from the scan than either limit. What a contact fit is fitted to
-/// is not the scan's shape, so it is never inaccurate; nor is the remesh of a scan in voxel steps,
-/// from which it should differ.
+/// Returns whether the remesh exceeds either limit. A contact fit never does, because it is not
+/// fitted to the scan's shape; nor does the remesh of a scan in voxel steps, from which it should
+/// differ.
 bool is_inaccurate(const RemeshResult& result);
 
-/// Adds a sentence about each of the scan's bodies that were left out, surfaces inside, and area
-/// that repairs changed. `done` is what became of the body that is left, such as "remeshed".
+/// Appends a sentence each about the scan's omitted bodies, inner surfaces and repaired area.
+/// `done` says what was done with the remaining body, such as "remeshed".
 void append_repair_warnings(const MeshCheckReport& input, const std::string& done,
                             std::vector<std::string>& warnings);
 
-/// What the user of anything that is made of the scan ought to know, if it is not the remesh: how
-/// the scan was taken and repaired, and its handles.
+/// Returns warnings for users of anything else than the remesh that is made of the scan: how the
+/// scan was read and repaired, and its handles.
 std::vector<std::string> scan_warnings(const RemeshResult& result);
 
-/// What the user of a result ought to know, a sentence or more each, the scan's faults first. The
-/// first of all is `of_precision`, if it is not empty (see precision_warning).
+/// Returns the warnings of a result, the scan's faults first. The very first is `of_precision`, if
+/// it is not empty (see precision_warning).
 std::vector<std::string> remesh_warnings(const RemeshResult& result,
                                          const std::string& of_precision);
 

@@ -18,7 +18,8 @@ RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
   const std::size_t faces = scan.triangles.size();
   const bool wraps = options.envelope.opening_percent > 0.0;
   if (wraps && options.points) {
-    // Not of a surface made of the points by their rays: the wrap sees what lies behind others.
+    // The points themselves are wrapped, because a surface made by rays misses points behind
+    // others.
     scan.triangles.clear();
   } else {
     scan = with_surface(std::move(scan), options.points, execution.part(0.0, 0.7));

@@ -10,14 +10,14 @@
 
 namespace wscvt {
 
-/// The scan as both methods take it: one closed, outward surface, in the input's units.
+/// The scan as both methods use it: one closed, outward surface, in the input's units.
 struct RepairedScan {
   CheckedMesh checked;
   double steep_area_fraction = 0.0;  ///< of a surface made of points, see RemeshResult; else 0
   std::string precision_warning;     ///< see precision_warning
 };
 
-/// Makes a surface of points and wraps the scan, where that is asked for, and repairs it (see
+/// Makes a surface of points and shrink-wraps the scan, if asked for, and repairs it (see
 /// check_mesh). Throws Error as mesh_of_points, envelope_of and check_mesh do.
 RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
                          const Execution& execution);

@@ -7,10 +7,10 @@
 
 namespace wscvt {
 
-/// The coefficients of an SH series of a closed scan about the origin, in its units: of the radius
-/// where rays from the origin see all of it, else of x, y and z over its map to the sphere. Throws
-/// Error: InvalidInput for a degree out of range and for a scan with handles that rays do not see
-/// whole, NumericalFailure, Cancelled.
+/// Computes the coefficients of an SH series of a closed scan about the origin, in its units: of
+/// the radius if rays from the origin see all of it, else of x, y and z over its map to the sphere.
+/// Throws Error: InvalidInput for a degree out of range and for a scan with handles that rays do
+/// not see whole, NumericalFailure, Cancelled.
 SeriesCoefficients scan_harmonics(const IndexedMesh& scan, int degree, const Execution& execution);
 
 }  // namespace wscvt

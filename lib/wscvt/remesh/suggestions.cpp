@@ -12,27 +12,27 @@ namespace wscvt {
 
 namespace {
 
-/// A setting to be tried.
+/// A setting to try.
 struct Trial {
   std::string name;
   RemeshOptions options;
-  /// Work that it takes at least, see Execution::work.
+  /// Least work it needs, see Execution::work.
   std::uint64_t least_work = 0;
 };
 
-/// Of evening and fitting a node: 1,900 elements at the default edge ratio, 5,000 at 1.4 with
-/// error-adaptive weights.
+/// Work per node of equalization and fit: 1,900 elements at the default edge ratio, 5,000 at 1.4
+/// with error-adaptive weights.
 constexpr std::uint64_t fitted_work = 1900;
 constexpr std::uint64_t closer_work = 5000;
 
-/// An element of placing nodes takes up to twice as long as one of a whole run, much of which reads
-/// and checks the scan.
+/// An element of placing nodes takes up to twice as long as one of a complete run, much of which is
+/// reading and checking the scan.
 constexpr std::uint64_t cost_of_placing = 2;
 
 /// A large edge ratio, at which the triangles of error-adaptive nodes are close and still even.
 constexpr double closer_edge_ratio = 1.4;
 
-/// The setting that helps most of those with as many nodes. There is one trial, since all together
+/// Returns the setting with as many nodes that helps most. Only one is tried, because all together
 /// may cost as much as the run.
 std::optional<Trial> best_trial(const RemeshOptions& options) {
   const auto nodes = static_cast<std::uint64_t>(options.node_count);
@@ -79,7 +79,7 @@ std::vector<SuggestedSetting> suggest_settings(const RemeshOptions& options, std
   } catch (const WorkExceeded&) {
     return {};
   } catch (const Error& error) {
-    // A setting that does not work is no suggestion.
+    // A setting that fails is no suggestion.
     if (error.code() == ErrorCode::Cancelled) throw;
     return {};
   }

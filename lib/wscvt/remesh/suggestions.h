@@ -16,17 +16,17 @@ namespace wscvt {
 using RemeshWith =
     std::function<RemeshResult(const RemeshOptions& options, const Execution& execution)>;
 
-/// A setting that brings the remesh closer to the scan with the same number of nodes, which is what
-/// a simulation pays for: tried to its end by `remesh_with`, once. None where it cannot be
-/// remeshed, or costs more than the run, of which `run_work` is the work (see Execution::work).
-/// Throws Error(Cancelled).
+/// Returns a setting that brings the remesh closer to the scan with the same number of nodes,
+/// because a simulation pays for the nodes. `remesh_with` tries one setting completely. Empty if it
+/// fails or costs more than the run, whose work is `run_work` (see Execution::work). Throws
+/// Error(Cancelled).
 std::vector<SuggestedSetting> suggest_settings(const RemeshOptions& options, std::uint64_t run_work,
                                                const RemeshWith& remesh_with,
                                                const Execution& execution);
 
-/// The opening of the first shrink-wrap, in %, with which a scan that was refused is remeshed to
-/// the end: those of `first`, of twice as much and so on up to coarsest_tried_percent are tried.
-/// None where none does. Each takes as long as the run that it advises. Throws Error(Cancelled).
+/// Returns the opening of the first shrink-wrap, in %, with which a refused scan can be remeshed
+/// completely. Tries `first`, twice as much and so on up to coarsest_tried_percent. Empty if all
+/// fail. Each trial takes as long as the run that it suggests. Throws Error(Cancelled).
 std::optional<double> working_opening(RemeshOptions options, double first,
                                       const RemeshWith& remesh_with, const Execution& execution);
 

@@ -17,14 +17,14 @@ RemeshResult remesh_to_target(const ErrorTarget& target, int first_count,
   bool best_meets = false;
   int trials = 0;
   const auto error = [&](int node_count) {
-    // How many trials there will be is not known; about ten are usual.
+    // The number of trials is unknown; about ten are usual.
     const double begin = 1.0 - std::pow(0.85, trials);
     const double end = 1.0 - std::pow(0.85, ++trials);
     RemeshResult result;
     try {
       result = remesh_to(node_count, execution.part(begin, end));
     } catch (const Error& failure) {
-      // So few nodes that they do not surround the centre: from deep inside the stages, and rare.
+      // The nodes are too few to surround the centre. Deeper stages detect it, and it is rare.
       if (failure.code() != ErrorCode::NumericalFailure) throw;
       return std::numeric_limits<double>::infinity();
     }

@@ -21,7 +21,7 @@ Eigen::ArrayXd column(const GrainTable& table, const std::string& name) {
 
 bool is_contact_error(const std::string& name) { return name.rfind("contact_error_", 0) == 0; }
 
-/// The error of each grain in %; nothing if the table lacks a column.
+/// Returns the error of each grain in %; empty if the table lacks a column.
 std::optional<Eigen::ArrayXd> errors_of(const GrainTable& table, const std::string& name) {
   if (name == "rms_distance") {
     if (!table.find(name) || !table.find("scan.equivalent_diameter")) return {};
@@ -35,7 +35,7 @@ std::optional<Eigen::ArrayXd> errors_of(const GrainTable& table, const std::stri
   return 100.0 * (column(table, "remesh." + name) / column(table, "scan." + name) - 1.0);
 }
 
-/// The kinds of errors, in the order of a table's rows.
+/// Returns the kinds of errors, in the order of a table's rows.
 std::vector<std::string> error_names() {
   std::vector<std::string> names = {"rms_distance", "contact_error_mean", "contact_error_scatter"};
   for (const DescriptorValue& one : list_descriptors(DetailedDescriptors())) {
@@ -49,7 +49,8 @@ LevelError level_error(const Eigen::ArrayXd& percent) {
   return {errors.quantile(0.5), errors.quantile(0.9), errors.size()};
 }
 
-/// Where the line between two points on logarithmic axes meets the mark.
+/// Returns the number of nodes at which the line between two points on logarithmic axes meets the
+/// mark.
 double meeting(double nodes, double error, double next_nodes, double next_error, double mark) {
   if (!(next_error > 0.0)) return next_nodes;
   const double part = std::log(error / mark) / std::log(error / next_error);
@@ -58,7 +59,7 @@ double meeting(double nodes, double error, double next_nodes, double next_error,
 
 double nodes_needed(const std::vector<double>& nodes, const std::vector<LevelError>& levels,
                     double mark) {
-  // A comparison with NaN, of a descriptor that no grain has, is false.
+  // Comparisons with NaN, of a descriptor that no grain has, are false.
   std::size_t first = levels.size();
   while (first > 0 && levels[first - 1].percent_90 <= mark) --first;
   if (first == levels.size()) return std::numeric_limits<double>::quiet_NaN();

@@ -10,20 +10,20 @@
 
 namespace wscvt {
 
-/// Errors of one kind over a sample with one number of nodes, without their signs, in %.
+/// Absolute errors of one kind over a sample with one number of nodes, in %.
 struct LevelError {
   double median = 0.0;
   double percent_90 = 0.0;  ///< 90 % of the grains have a smaller error
   std::size_t count = 0;    ///< grains that have the error
 };
 
-/// Errors of one kind at each level: of a distance or of a contact in % of the equivalent radius,
-/// of a descriptor in % of the scan's value.
+/// Errors of one kind at each level: distances and contacts in % of the equivalent radius,
+/// descriptors in % of the scan's value.
 struct DescriptorLevels {
   std::string name;  ///< "rms_distance", "contact_error_mean", "contact_error_scatter"; descriptors
   std::vector<LevelError> levels;
-  /// Number of nodes from which on 90 % of the grains have errors below the mark: the line between
-  /// two levels is straight on logarithmic axes. NaN if no level is enough.
+  /// Smallest number of nodes from which on 90 % of the grains have errors below the mark,
+  /// interpolated linearly on logarithmic axes between two levels. NaN if no level is enough.
   double nodes_needed = 0.0;
 };
 
@@ -43,10 +43,10 @@ inline constexpr NumberOption<double> mark_option = {
     Ends::NotMinimum,
     "in %, of levels: the number of nodes is told from which on 90 % of the grains are below it"};
 
-/// Errors of the remeshes in tables of shapes, one per number of nodes, in any order. Left out are
-/// errors of which a table lacks a column, and descriptors of which an error in % says nothing
-/// (DescriptorValue::on_ratio_scale). Throws Error(InvalidInput) if a table has no column "nodes"
-/// or two have one number of nodes.
+/// Computes errors of the remeshes from tables of shapes, one per number of nodes, in any order.
+/// Leaves out errors for which a table lacks a column, and descriptors for which an error in % has
+/// no meaning (DescriptorValue::on_ratio_scale). Throws Error(InvalidInput) if a table has no
+/// column "nodes" or two have one number of nodes.
 DetailLevels measure_levels(const std::vector<GrainTable>& tables, double mark_percent);
 
 }  // namespace wscvt

@@ -30,7 +30,7 @@ Distribution::Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd&
       sorted.emplace_back(values[k], static_cast<std::uint32_t>(k));
     }
   }
-  // Equal values keep the order of the grains, so that sums have the same bits everywhere.
+  // Equal values keep the order of the grains, so that sums have equal bits everywhere.
   std::sort(sorted.begin(), sorted.end());
   for (const auto& [value, grain] : sorted) grains_.push_back(grain);
   double total = 0.0;

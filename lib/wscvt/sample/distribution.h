@@ -8,13 +8,14 @@
 
 namespace wscvt {
 
-/// One number of each grain of a sample, in ascending order, with the grains' weights: equal ones
-/// for statistics by number, masses for statistics by mass. Grains without the number, or without a
-/// positive weight, are left out.
+/// One number of each grain of a sample, in ascending order, with the grains' weights: equal
+/// weights for statistics by number, masses for statistics by mass. Grains without the number or
+/// without a positive weight are left out.
 class Distribution {
  public:
   Distribution() = default;
-  /// `values` and `weights` have a row per grain; NaN: missing. Without `weights` all are 1.
+  /// `values` and `weights` have a row per grain; NaN: missing. Without `weights` all weights are
+  /// 1.
   explicit Distribution(const Eigen::VectorXd& values);
   explicit Distribution(const std::vector<double>& values);
   Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd& weights);
@@ -22,20 +23,20 @@ class Distribution {
   std::size_t size() const { return values_.size(); }
   const std::vector<double>& values() const { return values_; }
   const std::vector<double>& weights() const { return weights_; }
-  /// The grain of each value: a row of the constructor's vectors.
+  /// Returns the grain of each value: a row of the constructor's vectors.
   const std::vector<std::uint32_t>& grains() const { return grains_; }
 
   /// sum w x / sum w; NaN for no value.
   double mean() const;
 
-  /// The standard deviation of the population that the values are drawn from, without bias of the
-  /// variance: the square root of sum w (x - mean)^2 / (W - sum w^2 / W), W = sum w. With equal
-  /// weights it divides by n - 1. NaN for fewer than two values.
+  /// Returns the standard deviation of the population from which the values are drawn, with an
+  /// unbiased variance: the square root of sum w (x - mean)^2 / (W - sum w^2 / W), W = sum w. With
+  /// equal weights it divides by n - 1. NaN for fewer than two values.
   double deviation() const;
 
-  /// The value below which a fraction of the weight lies, 0 to 1. The weight of a grain counts half
-  /// below its own value (Hazen 1914), and between neighbours the line is straight; beyond the
-  /// middle of the first and of the last grain it is their value. NaN for no value.
+  /// Returns the value below which a fraction of the weight lies, 0 to 1. Half of a grain's weight
+  /// counts as below its own value (Hazen 1914), and the function is linear between neighbours.
+  /// Beyond the middle of the first and of the last grain it is their value. NaN for no value.
   double quantile(double fraction) const;
 
  private:
@@ -45,9 +46,9 @@ class Distribution {
   std::vector<double> middles_;  ///< weight below the middle of each grain / all
 };
 
-/// The value below which a fraction, 0 to 1, of values in ascending order lies, as
-/// Distribution::quantile has it for equal weights: all quantiles of this library are Hazen's
-/// (method="hazen" of NumPy), since those have weights too. NaN for no value.
+/// Returns the value below which a fraction, 0 to 1, of values in ascending order lies, as
+/// Distribution::quantile for equal weights. All quantiles of this library are Hazen's
+/// (method="hazen" of NumPy), because these exist with weights too. NaN for no value.
 double quantile(const std::vector<double>& ascending, double fraction);
 
 }  // namespace wscvt

@@ -30,7 +30,7 @@ std::optional<double> number_of(std::string text) {
   return value;
 }
 
-/// Grains per mass at a diameter, but for a factor.
+/// Returns the grains per mass at a diameter, up to a factor.
 double per_mass(double diameter) { return 1.0 / (diameter * diameter * diameter); }
 
 }  // namespace

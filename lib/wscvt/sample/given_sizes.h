@@ -6,17 +6,17 @@
 
 namespace wscvt {
 
-/// A size curve that virtual grains are to follow: the percentage by mass of grains that are
-/// smaller than a diameter, straight between its points over the logarithm of the diameter. The
-/// diameter is that of the sphere of equal volume.
+/// A size curve for virtual grains: the percentage by mass of grains smaller than a diameter,
+/// linear between its points over the logarithm of the diameter. The diameter is of the sphere of
+/// equal volume.
 class GivenSizes {
  public:
   /// Diameters ascending and above 0, length; percentages ascending from 0 to 100. Throws
-  /// Error(InvalidInput) for less than two points and for others than these.
+  /// Error(InvalidInput) for other values and for less than two points.
   GivenSizes(std::vector<double> diameters, std::vector<double> percentages);
 
-  /// The diameter that a fraction of the grains, by number, is smaller than; length. `fraction` in
-  /// [0, 1].
+  /// Returns the diameter below which a fraction of the grains lies, by number; length. `fraction`
+  /// in [0, 1].
   double diameter(double fraction) const;
 
  private:

@@ -21,21 +21,21 @@ namespace wscvt {
 namespace {
 
 constexpr double mask_sharpness = 10.0;  ///< a seam is about 2 / this radians wide
-constexpr double largest_gain = 3.0;     ///< of a degree's amplitude, and its inverse the smallest
+constexpr double largest_gain = 3.0;     ///< of a degree's amplitude; the smallest is its inverse
 constexpr int first_fine_degree = 7;     ///< from here on amplitudes are set in the final frame too
 constexpr double smallest_radius_left = 0.02;  ///< of a grain of radius 1
-constexpr double near_fraction = 0.02;         ///< of the sample that donors are taken from
+constexpr double near_fraction = 0.02;         ///< of the sample; donors are drawn from it
 constexpr std::size_t fewest_near = 5;
 constexpr double jitter_of_size = 0.15;  ///< over the deviation of the logarithm of the sizes
 constexpr int most_attempts = 200;
-/// Of so many usable attempts, that whose sphericity and convexity are nearest to the base grain's.
-/// Seams make hollows: without a choice convexity was 0.13 deviations too low.
+/// Number of usable attempts, of which the nearest to the base grain in sphericity and convexity is
+/// used. Seams make hollows: without a choice convexity was 0.13 deviations too low.
 constexpr std::size_t candidates_of_grain = 3;
 constexpr int caps_of_collage = 24;
 constexpr double cap_angle = 40.0 * pi / 180.0;
 constexpr double follows = 0.8;
 
-/// Keys of the order of base grains, a round each, which no grain's number reaches.
+/// First key of the order of base grains, one key per round; larger than any grain's number.
 constexpr std::uint64_t order_key = std::uint64_t{1} << 62;
 
 double mean_log(const std::vector<double>& amplitudes, std::size_t first, std::size_t end) {
@@ -77,7 +77,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b,
   return spread > 0.0 ? (ab - sum_a * sum_b / sum) / std::sqrt(spread) : 0.0;
 }
 
-/// Nothing of a mesh that encloses no volume.
+/// Returns nothing for a mesh that encloses no volume.
 std::optional<QuickShape> shape_of(const IndexedMesh& mesh) {
   try {
     return quick_shape(mesh, Execution(1));
@@ -87,7 +87,7 @@ std::optional<QuickShape> shape_of(const IndexedMesh& mesh) {
   }
 }
 
-/// Of sphericity and convexity over the sample; above 0.
+/// Returns the deviations of sphericity and convexity over the sample; above 0.
 Eigen::Vector2d deviations_of(const std::vector<SampleGrain>& sample) {
   Eigen::Array2Xd values(2, static_cast<Eigen::Index>(sample.size()));
   for (std::size_t k = 0; k < sample.size(); ++k) {
@@ -97,7 +97,7 @@ Eigen::Vector2d deviations_of(const std::vector<SampleGrain>& sample) {
   return values.square().rowwise().mean().sqrt().max(1e-12);
 }
 
-/// Per column: mean 0, deviation 1.
+/// Scales each column to mean 0, deviation 1.
 void standardise(std::vector<GrainFeatures>& features) {
   const auto count = static_cast<double>(features.size());
   GrainFeatures mean = GrainFeatures::Zero();
@@ -110,8 +110,8 @@ void standardise(std::vector<GrainFeatures>& features) {
   for (auto& f : features) f.array() /= square.array().sqrt().max(1e-12);
 }
 
-/// Smooth Voronoi masks, a weight per direction and donor. The weights' squares sum to 1, so that
-/// the variance of fields that have nothing in common is kept; those of aligned fields sum to 1.
+/// Smooth Voronoi masks, a weight per direction and donor. The weights' squares sum to 1, which
+/// keeps the variance of unrelated fields. For aligned fields, the weights sum to 1.
 class Masks {
  public:
   Masks(const std::vector<Vector3>& directions, const std::vector<Vector3>& centres,
@@ -130,7 +130,7 @@ class Masks {
     }
   }
 
-  /// The values of a field that is joined of the donors' series; one that is empty is 0.
+  /// Returns the values of a field joined from the donors' series; an empty series is 0.
   std::vector<double> joined(const HarmonicGrid& grid,
                              const std::vector<std::vector<double>>& series) const {
     std::vector<double> sums(lengths_.size(), 0.0);
@@ -153,7 +153,7 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
   return a.empty() || b.empty() ? 0.0 : std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// The mirror image of a white grain that lies best on another one.
+/// Returns the mirror image of a white grain that fits best on another white grain.
 Vector3 aligned_signs(const SampleGrain& grain, const std::vector<double>& series,
                       const OffsetSeries& offset) {
   Vector3 best = Vector3::Ones();
@@ -173,14 +173,14 @@ Vector3 aligned_signs(const SampleGrain& grain, const std::vector<double>& serie
 
 }  // namespace
 
-/// A white grain that is joined of donors.
+/// A white grain joined from donors.
 struct GrainGrower::Quilt {
   std::vector<std::vector<double>> donors;  ///< their series, mirrored
-  std::vector<double> series;               ///< of the whole, of the logarithm of the radius
-  OffsetSeries offset;                      ///< of the whole
+  std::vector<double> series;               ///< the joined series of the logarithm of the radius
+  OffsetSeries offset;                      ///< the joined offset
 };
 
-/// An attempt that is usable.
+/// A usable attempt.
 struct GrainGrower::Candidate {
   GrownGrain grain;
   Quilt quilt;
@@ -255,7 +255,7 @@ GrainGrower::Quilt GrainGrower::stitch(const std::vector<std::size_t>& donors,
   for (const std::size_t donor : donors) {
     const SampleGrain& grain = sample_[donor];
     Vector3 signs = random_signs(random);
-    // Half a hook and half its mirror image would make no hook.
+    // Half a hook and half its mirror image would not make a hook.
     if (any_offset && !offsets.empty()) {
       signs = aligned_signs(grain, quilt.donors.front(), offsets.front());
     }
@@ -394,7 +394,7 @@ std::optional<GrainGrower::Candidate> GrainGrower::attempt(const std::vector<std
     grain.donors.push_back(pick());
   }
   const Quilt quilt = stitch(grain.donors, random);
-  // The form: that of the base grain, moved along the line to a near one.
+  // The form of the base grain, moved along the line to a similar grain's.
   const double form_part = random.uniform(-0.5, 0.5);
   const Vector3 deviations = sample_[base].deviations.array().pow(1.0 - form_part) *
                              sample_[pick()].deviations.array().pow(form_part);

@@ -14,7 +14,7 @@
 
 namespace wscvt {
 
-/// By which near grains are found: two of the form, three of the relief, one of the overhangs.
+/// Features for finding similar grains: two of the form, three of the relief, one of the overhangs.
 using GrainFeatures = Eigen::Matrix<double, 6, 1>;
 
 /// A virtual grain.
@@ -23,22 +23,22 @@ struct GrownGrain {
   std::vector<double> radial;       ///< as SampleGrain::radial
   OffsetSeries offset;              ///< as SampleGrain::radial_offset
   std::vector<std::size_t> donors;  ///< numbers of the real grains, the base grain first
-  int redraws = 0;                  ///< attempts before it that were not usable
+  int redraws = 0;                  ///< unusable attempts before it
   /// Fraction of 24 caps of 40 degrees in which the fine relief follows that of one donor: waves of
   /// degree 7 and more, correlation above 0.8.
   double collage = 0.0;
 };
 
 /// Grows virtual grains with the statistics of real ones, as quilts. A base grain and real grains
-/// near to it in form and roughness are made white (see SampleGrain), mirrored at random and joined
-/// on the sphere by smooth Voronoi masks, whose weights keep the variance across the seams. Each
-/// degree then gets the amplitude of the base grain, and the whole the inertia of the base grain,
-/// moved a little towards that of a near one. Offsets of grains with overhangs are joined by the
-/// same masks, and amplitudes are those of the radii.
+/// of similar form and roughness are made white (see SampleGrain), mirrored at random and joined on
+/// the sphere by smooth Voronoi masks, whose weights keep the variance across the seams. Each
+/// degree then gets the amplitude of the base grain. The whole gets the inertia of the base grain,
+/// moved a little towards a similar grain's. Offsets of grains with overhangs are joined by the
+/// same masks, and amplitudes are the radii's.
 ///
-/// The base grains of grains 0 to n - 1 are all n grains of the sample once, so are those of the
-/// next n. Each grain has a random stream of its own: grain k is the same in whatever order grains
-/// are grown.
+/// The base grains of grains 0 to n - 1 are all n grains of the sample once, and so on for each
+/// further n. Each grain has its own random stream, so grain k does not depend on the order of
+/// growing.
 class GrainGrower {
  public:
   using GrainCheck = std::function<bool(const GrownGrain&)>;
@@ -52,11 +52,11 @@ class GrainGrower {
 
   const std::vector<SampleGrain>& sample() const { return sample_; }
 
-  /// Grain number `index`. Attempts are usable if they are star-shaped or, with an offset, do not
-  /// intersect themselves. Of three usable ones, or fewer at the end, it is that whose
-  /// sphericity and convexity are nearest to the base grain's, and that `is_accepted`. May be
-  /// called from several threads. Throws Error(NumericalFailure) if 200 attempts give no such
-  /// grain.
+  /// Returns grain number `index`. Attempts are usable if they are star-shaped or, with an offset,
+  /// do not intersect themselves. Of each three usable attempts, or fewer at the end, the one with
+  /// sphericity and convexity nearest to the base grain's that passes `is_accepted` is returned.
+  /// May be called from several threads. Throws Error(NumericalFailure) if 200 attempts give no
+  /// such grain.
   GrownGrain grow(std::size_t index, const GrainCheck& is_accepted) const;
   GrownGrain grow(std::size_t index) const {
     return grow(index, [](const GrownGrain&) { return true; });

@@ -33,7 +33,7 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// Where a grain lies and how it is turned says nothing of its shape.
+/// Position and orientation of a grain are not its shape.
 bool is_pose(const std::string& name) {
   return starts_with(name, "centroid_") || starts_with(name, "principal_axes_");
 }
@@ -42,7 +42,7 @@ std::string counted(std::size_t count, const std::string& grains) {
   return std::to_string(count) + (count == 1 ? " grain " : " grains ") + grains;
 }
 
-/// The columns of a mesh, by their place in the table.
+/// Returns the columns of a mesh, as indices into the table.
 std::vector<std::size_t> places_of(const GrainTable& table, const std::string& mesh) {
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
@@ -93,7 +93,7 @@ std::optional<std::size_t> find(const GrainSample& sample, const std::string& na
              text + " [mm]\".");
     }
   }
-  // Of a long table the first ones.
+  // Only the first names of a long table.
   constexpr std::size_t most = 20;
   std::string names;
   for (std::size_t k = 0; k < std::min(most, table.columns.size()); ++k) {
@@ -105,10 +105,10 @@ std::optional<std::size_t> find(const GrainSample& sample, const std::string& na
          keys_of<SizeMeasure>() + ". Its columns of numbers: " + names + ".");
 }
 
-/// The mass of a grain of this volume: row and volume give it.
+/// Returns the mass of a grain from its row and volume.
 using MassOf = std::function<double(Eigen::Index row, double volume)>;
 
-/// Chooses where masses come from.
+/// Chooses the source of the masses.
 MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSample& sample) {
   const auto column = [&](std::size_t place) {
     return [&table, place](Eigen::Index row) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-/// Nothing for a text. `decimal` is the decimal mark beside the point.
+/// Returns nothing for text. `decimal` is the decimal mark besides the point.
 std::optional<double> field_number(std::string_view field, char decimal) {
   std::string with_point;
   std::string_view text = trimmed(field);
@@ -36,7 +36,7 @@ std::optional<double> field_number(std::string_view field, char decimal) {
   double value = missing;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return {};
-  // Beyond the range of double, or infinite.
+  // A value outside the range of double, or infinite, is missing.
   return error == std::errc() && std::isfinite(value) ? value : missing;
 }
 
@@ -50,10 +50,10 @@ GrainColumn column_of(std::string_view heading) {
           std::string(trimmed(text.substr(bracket + 1, text.size() - bracket - 2)))};
 }
 
-/// What a field of a row is for.
+/// Content of a column.
 enum class Role { Undecided, Number, Text };
 
-/// Takes the rows of a file one after the other.
+/// Reads the rows of a file one after the other.
 class TableReader {
  public:
   TableReader(const std::string& path, char decimal) : path_(path), decimal_(decimal) {}
@@ -62,13 +62,13 @@ class TableReader {
   void read_row(const std::vector<std::string>& fields);
   GrainTable table();
 
-  /// Counts the line breaks of the record that was read.
+  /// Counts the line breaks of the last record.
   void count_lines(const std::string& record) {
     line_ = next_line_;
     next_line_ += static_cast<std::size_t>(std::count(record.begin(), record.end(), '\n'));
   }
 
-  /// Whether the table is a batch's, whose last row may have been cut.
+  /// Whether the table is a batch's, which may be cut in its last row.
   bool has_status() const { return status_field_.has_value(); }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -85,7 +85,7 @@ class TableReader {
   std::size_t name_field_ = 0;
   std::optional<std::size_t> file_field_;
   std::optional<std::size_t> status_field_;
-  std::vector<std::vector<double>> numbers_;  ///< of each field that is no text
+  std::vector<std::vector<double>> numbers_;  ///< of each field that is not text
   GrainTable table_;
 };
 
@@ -93,7 +93,7 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   std::unordered_set<std::string> names;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     std::string heading = fields[k];
-    // Spreadsheets begin a file in UTF-8 with this mark.
+    // Spreadsheets write this mark at the beginning of a UTF-8 file.
     if (k == 0 && heading.rfind("\xEF\xBB\xBF", 0) == 0) heading.erase(0, 3);
     fields_.push_back(column_of(heading));
     const std::string& name = fields_.back().name;
@@ -165,7 +165,7 @@ GrainTable TableReader::table() {
   return std::move(table_);
 }
 
-/// What separates the columns of a heading. The stream is back at its begin.
+/// Returns the separator of the columns of a heading. Rewinds the stream.
 char separator_of(std::istream& stream) {
   std::string heading;
   std::getline(stream, heading);

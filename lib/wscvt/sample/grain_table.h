@@ -18,7 +18,7 @@ struct GrainColumn {
 
 /// A sample as a table of numbers: a row per grain, a column per measure.
 struct GrainTable {
-  std::vector<std::string> grains;  ///< names, a row each
+  std::vector<std::string> grains;  ///< names, one per row
   /// The mesh file of each grain, relative to the table's folder; empty if the table names none.
   std::vector<std::string> files;
   std::vector<GrainColumn> columns;
@@ -27,32 +27,32 @@ struct GrainTable {
   /// Columns that were left out because their first entry is a text.
   std::vector<std::string> text_columns;
 
-  /// The index of a column; nothing if the table has no such column.
+  /// Returns the index of a column; nothing if the table has no such column.
   std::optional<std::size_t> find(std::string_view name) const;
 
-  /// The index of a column. Throws Error(InvalidInput) with the table's column names if there is no
-  /// such column.
+  /// Returns the index of a column. Throws Error(InvalidInput) with the table's column names if
+  /// there is no such column.
   std::size_t index_of(std::string_view name) const;
 };
 
-/// A column's heading in a file: "scan.volume [length^3]", or the name alone without a unit.
+/// Returns a column's heading in a file: "scan.volume [length^3]", or only the name without a unit.
 std::string heading_of(const GrainColumn& column);
 
-/// Reads a CSV file (RFC 4180, a heading in the first line), with commas between columns and
-/// decimal points; or, if the heading has no comma, with semicolons or tabs, and points or commas
-/// in decimals, as spreadsheets of many languages write them.
+/// Reads a CSV file (RFC 4180, a heading in the first line) with commas between columns and decimal
+/// points. If the heading has no comma, columns are separated by semicolons or tabs, and decimals
+/// have points or commas, as spreadsheets of many languages write them.
 ///
-/// The column "grain" names the grains, or else the first column. The column "file" names mesh
-/// files. Every other column holds numbers if its first entry is a number, and is left out if that
-/// is text. An empty field, "nan" and "NA" mean that the number is missing; so do infinities. A
-/// heading may end with a unit in brackets. Rows whose column "status" is "failed" are counted and
-/// left out, and so is the column "error".
+/// The column "grain", or else the first column, names the grains. The column "file" names mesh
+/// files. Every other column contains numbers if its first entry is a number, and is left out if
+/// that entry is text. An empty field, "nan", "NA" and infinities mean that the number is missing.
+/// A heading may end with a unit in brackets. Rows with the status "failed" (column "status") are
+/// counted and left out. The column "error" is left out.
 ///
-/// Memory is about 20 bytes per field. Throws Error with the file and the line:
-/// InvalidInput if a row has another number of fields than the heading, a column of numbers holds a
-/// text, two columns have one name, no column holds numbers, no row holds a grain, or the file ends
-/// within a row: in quotes, or a table with a status, as a batch writes it, without a line break.
-/// InputOutput if the file cannot be read.
+/// Memory is about 20 bytes per field. Throws Error with the file and the line. InvalidInput if a
+/// row has another number of fields than the heading, a column of numbers contains a text, two
+/// columns have one name, no column contains numbers, no row contains a grain, or the file ends
+/// within a row. A row is cut if it ends in quotes, or, in a batch's table (with a status), without
+/// a line break. InputOutput if the file cannot be read.
 GrainTable read_grain_table(const std::string& path);
 
 }  // namespace wscvt

@@ -17,7 +17,7 @@ namespace wscvt {
 
 namespace {
 
-/// Half extents of the surface along the axes.
+/// Returns the half extents of the surface along the axes.
 Vector3 extents_of(const std::vector<Vector3>& points) {
   Vector3 extents = Vector3::Zero();
   for (const Vector3& point : points) extents = extents.cwiseMax(point.cwiseAbs());
@@ -35,8 +35,8 @@ GrownMeshes::GrownMeshes(int nodes, const Execution& execution) {
 IndexedMesh GrownMeshes::mesh(const std::vector<double>& radial, double radius,
                               const OffsetSeries& offset) const {
   const Execution one_thread(1);
-  // The square root of the extents: between even directions, which crowd nodes about the waist of a
-  // long grain, and the ellipsoid's own, which draw them out along it.
+  // The square root of the extents is a compromise: even directions crowd nodes about the waist of
+  // a long grain, and the ellipsoid's own spread them out along it.
   const Vector3 extents = extents_of(surface_points(radial, offset, directions_)).cwiseSqrt();
   std::vector<Vector3> directions = directions_;
   for (Vector3& direction : directions) direction = direction.cwiseProduct(extents).normalized();
@@ -46,7 +46,7 @@ IndexedMesh GrownMeshes::mesh(const std::vector<double>& radial, double radius,
   triangulation.restore_surface_delaunay(directions, mesh.points, one_thread);
   mesh.triangles = triangulation.triangles();
   if (has_offset(offset)) {
-    // Cutting the series takes more from one side of a hook than from the other.
+    // Truncating the series removes more from one side of a hook than from the other.
     const Vector3 centroid = describe_shape(mesh, one_thread).centroid;
     for (Vector3& point : mesh.points) point -= centroid;
   }

@@ -9,7 +9,7 @@
 
 namespace wscvt {
 
-/// Functions on the sphere, as their values on a Gauss-Legendre grid and as their harmonics up to a
+/// Converts functions on the sphere between values on a Gauss-Legendre grid and harmonics up to a
 /// degree. All functions may be called from several threads.
 class HarmonicGrid {
  public:
@@ -19,12 +19,12 @@ class HarmonicGrid {
 
   int degree() const { return transform_.degree(); }
   const std::vector<Vector3>& directions() const { return directions_; }
-  /// Solid angles of the directions; they sum to 4 pi.
+  /// Returns the solid angles of the directions; they sum to 4 pi.
   const std::vector<double>& weights() const { return weights_; }
 
-  /// The series in the directions. Throws as HarmonicTransform.
+  /// Returns the values of the series in the directions. Throws as HarmonicTransform.
   std::vector<double> values(const std::vector<double>& coefficients) const;
-  /// The projection onto the harmonics, exact below degree 2 rows - degree().
+  /// Returns the projection onto the harmonics, exact below degree 2 rows - degree().
   std::vector<double> coefficients(std::vector<double> values) const;
 
  private:
@@ -34,7 +34,7 @@ class HarmonicGrid {
   std::vector<double> weights_;
 };
 
-/// The solid r(u) u whose radii are given in the directions of a grid.
+/// Moments of the solid r(u) u whose radii are given in the directions of a grid.
 struct RadialMoments {
   double volume = 0.0;                                   ///< length^3
   Vector3 centroid = Vector3::Zero();                    ///< length
@@ -42,14 +42,14 @@ struct RadialMoments {
 };
 RadialMoments radial_moments(const HarmonicGrid& grid, const std::vector<double>& radii);
 
-/// The amplitude of each degree of a series: the root of the sum of the squares of its
+/// Returns the amplitude of each degree of a series: the root of the sum of its squared
 /// coefficients, in their unit.
 std::vector<double> degree_amplitudes(const std::vector<double>& coefficients);
 
-/// The series of f(s u), s a mirror image: signs of 1 or -1 for x, y and z.
+/// Returns the series of f(s u), s a mirror image: signs of 1 or -1 for x, y and z.
 std::vector<double> mirrored(std::vector<double> coefficients, const Vector3& signs);
 
-/// Which of eight classes a harmonic is in: bit 0 if it is odd in x, bit 1 in y, bit 2 in z.
+/// Returns the mirror class of a harmonic, 0 to 7: bit 0 if it is odd in x, bit 1 in y, bit 2 in z.
 int mirror_class(int l, int m);
 
 }  // namespace wscvt

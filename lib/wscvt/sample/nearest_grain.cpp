@@ -84,7 +84,7 @@ NearestGrain GrainSearch::nearest(const std::vector<double>& radial, std::size_t
       }
     }
   };
-  // No mirror image is nearer than the amplitudes of the degrees are, which are soon compared.
+  // Bounds, quick to compute: no mirror image is nearer than the amplitudes of the degrees.
   Eigen::VectorXd bounds =
       (amplitudes_.colwise() - amplitudes_of(radial)).colwise().squaredNorm().transpose();
   if (left_out < static_cast<std::size_t>(bounds.size())) {

@@ -15,7 +15,7 @@ namespace wscvt {
 struct NearestGrain {
   std::size_t grain = 0;  ///< its number in the sample
   /// Root mean square over the directions of the difference of the two radii in their principal
-  /// frames, both at the size of radius 1, for the best of the eight mirror images; no unit.
+  /// frames, both scaled to radius 1, for the best of the eight mirror images; no unit.
   double distance = 0.0;
 };
 
@@ -25,15 +25,15 @@ class GrainSearch {
   /// Copies the series. Throws Error(InvalidInput) for an empty sample.
   explicit GrainSearch(const std::vector<SampleGrain>& sample);
 
-  /// `left_out`: a grain of the sample that does not count; its size for none. May be called from
-  /// several threads. Throws Error(InvalidInput) for a series of another length.
+  /// `left_out`: a grain of the sample to ignore; the sample's size to ignore none. May be called
+  /// from several threads. Throws Error(InvalidInput) for a series of another length.
   NearestGrain nearest(const std::vector<double>& radial, std::size_t left_out) const;
   NearestGrain nearest(const std::vector<double>& radial) const {
     return nearest(radial, static_cast<std::size_t>(sorted_.cols()));
   }
 
-  /// The distance that is usual within the sample: the median over at most 400 grains of the
-  /// distance to the nearest other one. 0 for a sample of one grain.
+  /// Returns the usual distance within the sample: the median over at most 400 grains of the
+  /// distance to their nearest other grain. 0 for a sample of one grain.
   double usual_distance(const Execution& execution) const;
 
  private:

@@ -9,7 +9,7 @@ namespace wscvt {
 
 namespace {
 
-/// The minimum over the variables that are free; the others are 0.
+/// Returns the minimum over the free variables; the others are 0.
 Eigen::VectorXd free_minimum(const Eigen::MatrixXd& g, const Eigen::VectorXd& b,
                              const std::vector<bool>& is_free) {
   std::vector<Eigen::Index> places;
@@ -33,7 +33,7 @@ Eigen::VectorXd free_minimum(const Eigen::MatrixXd& g, const Eigen::VectorXd& b,
   return all;
 }
 
-/// From a feasible point towards the free minimum; variables that reach 0 first are bound.
+/// Moves from a feasible point towards the free minimum; variables that reach 0 first become bound.
 Eigen::VectorXd descend(const Eigen::MatrixXd& g, const Eigen::VectorXd& b, Eigen::VectorXd w,
                         std::vector<bool>& is_free) {
   for (Eigen::Index pass = 0; pass <= g.rows(); ++pass) {
@@ -64,7 +64,7 @@ Eigen::VectorXd nonnegative_minimum(const Eigen::MatrixXd& g, const Eigen::Vecto
   std::vector<bool> is_free = std::move(start);
   is_free.resize(static_cast<std::size_t>(count), false);
   Eigen::VectorXd w = Eigen::VectorXd::Zero(count);
-  // The start's free variables that come out negative are bound at once.
+  // Free variables of the start that become negative are bound at once.
   for (Eigen::Index pass = 0; pass < count; ++pass) {
     w = free_minimum(g, b, is_free);
     bool all_positive = true;

@@ -13,17 +13,17 @@ namespace wscvt {
 
 namespace {
 
-constexpr double smallest_along = 0.2;  ///< from here on r(u) is what lies along u
-constexpr int coarse_degree = 24;       ///< of the series that is smoothed
+constexpr double smallest_along = 0.2;  ///< from here on r(u) is the component along u
+constexpr int coarse_degree = 24;       ///< of the series to be smoothed
 constexpr int coarse_rows = 72;
 constexpr int check_frequency = 16;
-/// Of the solid angle of a triangle of the sphere, what must be left of it.
+/// Smallest solid angle of a mapped triangle / its solid angle on the sphere.
 constexpr double smallest_part = 0.1;
 /// Above it the series is an ellipsoid, whose directions are one to one.
 constexpr double most_smoothing = 8.0;
 constexpr double least_smoothing = 1e-4;
 
-/// The series of x, y and z of a surface, times `scale`.
+/// Returns the series of x, y and z of a surface, times `scale`.
 OffsetSeries coordinate_series(const HarmonicGrid& grid, const std::vector<Vector3>& points,
                                double scale) {
   OffsetSeries series;
@@ -37,8 +37,8 @@ OffsetSeries coordinate_series(const HarmonicGrid& grid, const std::vector<Vecto
   return series;
 }
 
-/// h(t) = t above the limit; below it a function above 0 that joins it smoothly, and whose slope is
-/// at most 1: radii of two surfaces differ by no more than their points.
+/// Returns t above the limit. Below it, a positive function joins smoothly, with a slope of at most
+/// 1, so that radii of two surfaces differ by no more than their points.
 double radius_along(double along) {
   return along > smallest_along ? along : smallest_along * std::exp(along / smallest_along - 1.0);
 }
@@ -47,7 +47,7 @@ OffsetSeries smoothed(OffsetSeries series, double smoothing) {
   for (std::vector<double>& coordinate : series) {
     for (std::size_t l = 0; l * l < coordinate.size(); ++l) {
       const auto order = static_cast<double>(l * (l + 1));
-      // Degree 1 stays: an ellipsoid.
+      // Degree 1, an ellipsoid, stays.
       const double factor = std::exp(-smoothing * std::abs(order - 2.0));
       for (std::size_t k = l * l; k < (l + 1) * (l + 1); ++k) coordinate[k] *= factor;
     }
@@ -61,7 +61,7 @@ std::vector<Vector3> directions_of(const OffsetSeries& series, const std::vector
   return directions;
 }
 
-/// Whether no triangle of the sphere is turned over or pressed to nothing.
+/// Whether no triangle of the sphere is turned over or collapsed.
 bool is_one_to_one(const OffsetSeries& series, const IndexedMesh& sphere) {
   const std::vector<Vector3> to = directions_of(series, sphere.points);
   const auto volume = [](const std::vector<Vector3>& p, const Triangle& t) {
@@ -74,7 +74,7 @@ bool is_one_to_one(const OffsetSeries& series, const IndexedMesh& sphere) {
   return true;
 }
 
-/// The least smoothing that leaves a star-shaped surface, to 5 %; the most if none does.
+/// Returns the least smoothing for a star-shaped surface, to 5 %; the largest if none is enough.
 double smoothing_of(const OffsetSeries& series) {
   const IndexedMesh sphere = subdivided_sphere(check_frequency);
   double low = least_smoothing, high = most_smoothing;
@@ -138,7 +138,7 @@ HarmonicMap harmonic_map_of(const std::vector<double>& radial, const OffsetSerie
                             double scale) {
   int degree = 0;
   while (harmonic_count(degree) < radial.size()) ++degree;
-  // r(u) u has one degree more than r.
+  // r(u) u has a degree one above r.
   const HarmonicGrid grid(degree + 1, degree + 2);
   const std::vector<Vector3> points = surface_points(radial, offset, grid.directions());
   return HarmonicMap(coordinate_series(grid, points, scale));
@@ -167,7 +167,7 @@ MappedSurface spread_over_directions(const IndexedMesh& mesh, const Execution& e
     try {
       return {mesh, directions_of(smoothed(series, smoothing), places), execution};
     } catch (const Error& error) {
-      // Between the points where it was tried, a triangle is turned over.
+      // A triangle is turned over between the tested points.
       if (error.code() != ErrorCode::InvalidInput) throw;
       if (smoothing > most_smoothing) {
         refuse(

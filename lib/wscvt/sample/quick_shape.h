@@ -7,14 +7,14 @@
 
 namespace wscvt {
 
-/// Descriptors that are measured in a moment.
+/// Descriptors that are quick to measure.
 struct QuickShape {
   ShapeDescriptors shape;
   FormRatios form;         ///< of the inertia ellipsoid
-  double convexity = 0.0;  ///< volume over that of the convex hull; no unit
+  double convexity = 0.0;  ///< volume / volume of the convex hull; no unit
 };
 
-/// Throws as describe_shape.
+/// Measures a mesh. Throws as describe_shape.
 QuickShape quick_shape(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

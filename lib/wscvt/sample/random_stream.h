@@ -11,9 +11,9 @@
 namespace wscvt {
 
 /// Random numbers by SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number
-/// generators", OOPSLA) and arithmetic of our own: a seed gives the same numbers with every
-/// compiler. Streams of different keys are independent, so that each grain has one of its own,
-/// whatever thread draws it.
+/// generators", OOPSLA) and own arithmetic, so that a seed gives the same numbers with every
+/// compiler. Streams of different keys are independent, so each grain has its own, whatever thread
+/// uses it.
 class RandomStream {
  public:
   /// The stream of a seed for the keys, such as the grain's number and the attempt.
@@ -25,19 +25,19 @@ class RandomStream {
     state_ += golden;
     return mixed(state_);
   }
-  /// In [0, 1).
+  /// Returns a number in [0, 1).
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double from, double to) { return from + (to - from) * uniform(); }
-  /// A whole number below `count` >= 1.
+  /// Returns a whole number below `count` >= 1.
   std::size_t below(std::size_t count) {
     return static_cast<std::size_t>(uniform() * static_cast<double>(count));
   }
-  /// Normal, mean 0, deviation 1 (Box and Muller).
+  /// Returns a normal number, mean 0, deviation 1 (Box and Muller).
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return radius * std::cos(2.0 * pi * uniform());
   }
-  /// A direction, uniform on the sphere.
+  /// Returns a direction, uniform on the sphere.
   Vector3 direction() {
     const double z = uniform(-1.0, 1.0);
     const double azimuth = 2.0 * pi * uniform();
@@ -55,8 +55,8 @@ class RandomStream {
   std::uint64_t state_;
 };
 
-/// The place of number `index` of `count` in an order that the seed and the key draw: each place is
-/// taken once. Takes the same time for any count (a Feistel network of six rounds).
+/// Returns the place of number `index` of `count` in a random permutation given by the seed and the
+/// key. Takes the same time for any count (a Feistel network of six rounds).
 inline std::size_t drawn_place(std::size_t index, std::size_t count, std::uint64_t seed,
                                std::uint64_t key) {
   unsigned half = 1;

@@ -19,14 +19,14 @@ namespace wscvt {
 namespace {
 
 constexpr double no_comparison = std::numeric_limits<double>::quiet_NaN();
-/// A parting costs n for each descriptor: above this many grains fewer are made.
+/// The cost of a division per descriptor grows with n: above this many grains fewer are made.
 constexpr std::size_t most_grains_permuted = 4000;
 constexpr int least_permutations = 200;
 
-/// Partings that are measured at once: their numbers fill the registers of a processor.
+/// Divisions that are measured at once: their numbers fill the registers of a processor.
 constexpr std::size_t partings_at_once = 4;
 using PartingNumbers = std::array<double, partings_at_once>;
-/// Of each grain of both samples: whether it is of the first one, 1 or 0, in each parting.
+/// For each grain of both samples, 1 in each division in which it is in the first sample, else 0.
 using Partings = std::vector<std::array<std::uint8_t, partings_at_once>>;
 
 struct PartingDistances {
@@ -34,7 +34,7 @@ struct PartingDistances {
   PartingNumbers wasserstein{};
 };
 
-/// What turns a grain's label into its step of the difference of two distribution functions.
+/// Converts a grain's label into its step of the difference of two distribution functions.
 struct Step {
   PartingNumbers both{};
   PartingNumbers fall{};
@@ -84,7 +84,7 @@ class PooledColumn {
             masses_[k] * (is_one[lane] * mass_step.both[lane] - mass_step.fall[lane]);
       }
       const double gap = values_[k + 1] - values_[k];
-      // Equal values are one step.
+      // Equal values make one step.
       if (gap == 0.0) continue;
       add(difference, gap, by_number);
       add(mass_difference, gap, by_mass);
@@ -104,7 +104,7 @@ class PooledColumn {
     }
   }
 
-  /// Of a parting that leaves one part empty.
+  /// For a division with an empty part.
   static void clear(PartingDistances& distances, std::size_t lane) {
     distances.kolmogorov[lane] = distances.wasserstein[lane] = no_comparison;
   }
@@ -115,14 +115,14 @@ class PooledColumn {
   double mass_ = 0.0;
 };
 
-/// The two samples as they are, in every lane.
+/// Returns the given samples, in every lane.
 Partings as_given(std::size_t of_one, std::size_t all) {
   Partings partings(all, {0, 0, 0, 0});
   std::fill_n(partings.begin(), of_one, std::array<std::uint8_t, partings_at_once>{1, 1, 1, 1});
   return partings;
 }
 
-/// Random partings into as many grains, each from a stream of its own.
+/// Divides randomly into as many grains, each division from its own stream.
 void part(std::uint64_t seed, std::size_t first_stream, std::size_t of_one, Partings& partings) {
   std::vector<std::uint8_t> is_one(partings.size());
   for (std::size_t lane = 0; lane < partings_at_once; ++lane) {
@@ -136,7 +136,7 @@ void part(std::uint64_t seed, std::size_t first_stream, std::size_t of_one, Part
   }
 }
 
-/// Rounding makes partings that are the same differ in their last bits.
+/// Rounding makes equal divisions differ in their last bits.
 bool is_as_far(double parted, double own) { return parted >= own * (1.0 - 1e-12); }
 
 std::size_t partings_for(std::size_t grains, int asked) {
@@ -151,11 +151,11 @@ SampleDistance first_lane(const PartingDistances& distances) {
   return {distances.kolmogorov[0], distances.wasserstein[0], no_comparison, no_comparison};
 }
 
-/// How many partings of a column are as far apart as the samples: by number and by mass, first
-/// Kolmogorov's distance, then Wasserstein's.
+/// Number of divisions of a column that are at least as far apart as the samples: by number, then
+/// by mass; first Kolmogorov's distance, then Wasserstein's.
 using Farther = std::array<std::uint32_t, 4>;
 
-/// Counts the first `count` partings.
+/// Counts over the first `count` divisions.
 void count_farther(const PartingDistances& parted, const SampleDistance& own, std::size_t count,
                    std::uint32_t* farther) {
   for (std::size_t lane = 0; lane < count; ++lane) {
@@ -164,7 +164,7 @@ void count_farther(const PartingDistances& parted, const SampleDistance& own, st
   }
 }
 
-/// Puts p into the rows, which have the samples' own distances.
+/// Computes p for the rows, which have the samples' own distances.
 void test_rows(const std::vector<PooledColumn>& columns, std::size_t of_one, std::size_t all,
                const SampleOptions& options, const Execution& execution,
                std::vector<ColumnComparison>& rows) {
@@ -194,7 +194,7 @@ void test_rows(const std::vector<PooledColumn>& columns, std::size_t of_one, std
         sum[one] += farther[group * columns.size() + k][one];
       }
     }
-    // The samples themselves are a parting too.
+    // The samples themselves count as a division too.
     const auto p = [&](std::uint32_t count) {
       return (1.0 + count) / static_cast<double>(partings + 1);
     };
@@ -221,7 +221,7 @@ struct ColumnPair {
   Eigen::VectorXd other;
 };
 
-/// Refuses to compare millimetres with micrometres.
+/// Refuses to compare different units, such as millimetres and micrometres.
 void check_units(const GrainColumn& one, const GrainColumn& other) {
   const auto is_open = [](const std::string& unit) {
     return unit.empty() || unit.rfind("length", 0) == 0;
@@ -232,7 +232,7 @@ void check_units(const GrainColumn& one, const GrainColumn& other) {
          " in the second. Convert the columns of one table, and name the unit in their headings.");
 }
 
-/// The descriptors that both samples have.
+/// Returns the descriptors that both samples have.
 std::vector<ColumnPair> shared_columns(const GrainSample& one, const GrainSample& other) {
   std::vector<ColumnPair> pairs = {{{"size", one.size_unit}, one.sizes, other.sizes}};
   for (std::size_t k = 0; k < one.columns.size(); ++k) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that are easily taken for the table of a sample.
+/// Refuses files that are easily mistaken for the table of a sample.
 void refuse_other_files(const std::string& path) {
   const fs::path name = fs::path(path).filename();
   std::error_code error;

@@ -24,7 +24,8 @@ namespace wscvt {
 
 namespace {
 
-/// Stretching moves waves to higher degrees. Cut at degree + 4, white grains lose the sharp edges.
+/// Stretching moves waves to higher degrees. Truncated at degree + 4, white grains lose sharp
+/// edges.
 int white_degree_of(int degree) { return degree + (3 * degree + 4) / 5; }
 
 int checked_degree(int degree) {
@@ -32,12 +33,12 @@ int checked_degree(int degree) {
   return degree;
 }
 
-/// So that products of two series are integrated exactly, and waves beyond the degree do not fold
-/// back into the low ones.
+/// Products of two series are integrated exactly, and waves beyond the degree do not alias into the
+/// low degrees.
 int rows_of(int degree) { return 3 * (degree + 1) / 2 + 1; }
-/// Of the mesh of a series: 16,002 points.
+/// Mesh of a series: 16,002 points.
 constexpr int mesh_frequency = 40;
-/// Of the mesh on which candidates are measured: 1,002 points.
+/// Mesh on which candidates are measured: 1,002 points.
 constexpr int measuring_frequency = 10;
 
 int fine_rows_of(int degree) { return std::max(96, 4 * (degree + 1)); }
@@ -47,14 +48,14 @@ std::vector<double> logarithms(std::vector<double> values) {
   return values;
 }
 
-/// Right-handed principal axes as columns, longest first; signs by the third moments, as
-/// principal_axes has them of a mesh.
+/// Returns right-handed principal axes as columns, longest first; signs by the third moments, as in
+/// principal_axes for a mesh.
 Eigen::Matrix3d axes_of(const HarmonicGrid& grid, const std::vector<double>& radii,
                         const RadialMoments& moments) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.covariance);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   Vector3 third = Vector3::Zero();
-  // Of the cone under a patch, integral of ((p - c) . a)^3 dV by Simpson's rule from the origin to
+  // For the cone under a patch, integral of ((p - c) . a)^3 dV by Simpson's rule from the origin to
   // the surface, which is exact enough for a sign.
   for (std::size_t k = 0; k < radii.size(); ++k) {
     for (const double part : {0.25, 0.5, 0.75, 1.0}) {
@@ -150,7 +151,7 @@ std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
   const auto white =
       radii_in_frame(log_radii, moments.centroid, stretch, grids.white().directions());
   if (!radial || !white) return {};
-  // Rays that meet the surface twice see another volume than the one that there is.
+  // If rays meet the surface twice, they give another volume than the real one.
   if (std::abs(radial_moments(grids.radial(), *radial).volume / (4.0 * pi / 3.0) - 1.0) > 0.01) {
     return {};
   }
@@ -159,7 +160,7 @@ std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
   return grain;
 }
 
-/// The series of r(u) and o(u) of a surface that is given in the directions of the grid.
+/// Computes the series of r(u) and o(u) of a surface given in the directions of the grid.
 void set_series(const HarmonicGrid& grid, const std::vector<Vector3>& points, bool of_logarithm,
                 std::vector<double>& radial, OffsetSeries& offset) {
   RadiiAndOffsets parts = split_points(points, grid.directions());
@@ -186,7 +187,7 @@ IndexedMesh without_handles(const IndexedMesh& mesh, const Execution& execution)
   return cut.mesh;
 }
 
-/// A grain that rays cannot see whole; `standing` at the size of radius 1.
+/// Reads a grain with overhangs; `standing` is scaled to radius 1.
 void read_with_offsets(SampleGrain& grain, const IndexedMesh& standing, const Vector3& semi_axes,
                        const SampleGrids& grids, const Execution& execution) {
   IndexedMesh white = standing;
@@ -195,7 +196,7 @@ void read_with_offsets(SampleGrain& grain, const IndexedMesh& standing, const Ve
   const HarmonicGrid& fine_white = grids.fine_white();
   set_series(fine_white, surface.positions(fine_white.directions(), execution), true, grain.white,
              grain.white_offset);
-  // The directions of the grain itself are those of the white one, stretched as the grain is.
+  // The directions of the grain itself are the white grain's, stretched like the grain.
   std::vector<Vector3> directions = grids.fine_radial().directions();
   for (Vector3& direction : directions) direction = direction.cwiseQuotient(semi_axes).normalized();
   std::vector<Vector3> points = surface.positions(directions, execution);
@@ -224,7 +225,7 @@ SampleGrain sample_grain(const HarmonicSurface& surface, const SampleGrids& grid
   if (std::optional<SampleGrain> grain = star_shaped_grain(surface, grids)) {
     return measured(std::move(*grain), grids);
   }
-  // About its centroid it has overhangs: then its mesh is read, as a scan.
+  // It has overhangs about its centroid, so its mesh is read like a scan.
   return sample_grain(mesh_of_surface(surface, mesh_frequency, execution), grids, execution);
 }
 

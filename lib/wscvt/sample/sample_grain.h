@@ -16,24 +16,24 @@ namespace wscvt {
 /// A real grain of a sample, without its pose and its size.
 struct SampleGrain {
   double radius = 0.0;  ///< of the sphere of equal volume, length
-  /// The radius in the principal frame about the centroid, x along the longest axis, at the size of
-  /// radius 1: an SH series of the degree of the sample.
+  /// SH series of the radius in the principal frame about the centroid, x along the longest axis,
+  /// scaled to radius 1; of the sample's degree.
   std::vector<double> radial;
-  /// Standard deviations of the volume along the principal axes at that size, descending.
+  /// Standard deviations of the volume along the principal axes at this size, descending.
   Vector3 deviations = Vector3::Zero();
   /// The white grain is the grain stretched along its principal axes to the inertia of a sphere of
-  /// radius 1, so that it has no form. The series is that of the logarithm of its radius.
+  /// radius 1, so that it has no form. The series is of the logarithm of its radius.
   std::vector<double> white;
-  /// Of a grain with more overhangs than usual_fold_limit_percent: the surface is r(u) u + o(u) in
-  /// either frame, u spread over the scan. Empty for other grains.
+  /// If a grain has more overhangs than usual_fold_limit_percent, the surface is r(u) u + o(u) in
+  /// either frame, with u spread over the scan. Empty for other grains.
   OffsetSeries radial_offset;
   OffsetSeries white_offset;
   double sphericity = 0.0;  ///< Wadell's, of the series on SampleGrids::sphere; no unit
-  double convexity = 0.0;   ///< likewise; volume over that of the convex hull
+  double convexity = 0.0;   ///< likewise; volume / volume of the convex hull
 };
 
-/// The grids on which the grains of a sample of one degree are read and grown. The white grains
-/// have 1.6 times the degree, rounded: stretching moves waves to higher degrees.
+/// The grids on which the grains of a sample of one degree are read and grown. White grains have
+/// 1.6 times the degree, rounded, because stretching moves waves to higher degrees.
 class SampleGrids {
  public:
   /// Throws Error(InvalidInput) for a degree not in [4, 56].
@@ -46,7 +46,7 @@ class SampleGrids {
     return fine_radial_;
   }                                                               ///< of scans, four rows a degree
   const HarmonicGrid& fine_white() const { return fine_white_; }  ///< likewise
-  const IndexedMesh& sphere() const { return sphere_; }           ///< that grains are measured on
+  const IndexedMesh& sphere() const { return sphere_; }           ///< on which grains are measured
 
  private:
   HarmonicGrid radial_;
@@ -56,27 +56,28 @@ class SampleGrids {
   IndexedMesh sphere_;
 };
 
-/// A grain given by the SH series of its radius. About its centroid it may have overhangs, as a
-/// mesh. Throws Error(InvalidInput) if the series is not positive everywhere, and as of a mesh.
+/// Reads a grain given by the SH series of its radius. If it has overhangs about its centroid, it
+/// is read as a mesh. Throws Error(InvalidInput) if the series is not positive everywhere, and as
+/// for a mesh.
 SampleGrain sample_grain(const HarmonicSurface& surface, const SampleGrids& grids,
                          const Execution& execution);
 
-/// A grain given by a closed, outward mesh, as checked by check_mesh. The outermost layer of small
-/// overhangs is read. If they exceed usual_fold_limit_percent, the mesh is spread over the sphere
-/// and has offsets; small handles are cut as HandleOptions has them. Throws Error: InvalidInput if
-/// the mesh encloses no volume, or if it has overhangs and a larger handle or walls too thin for
-/// the degree, and as spread_over_directions; Cancelled.
+/// Reads a grain given by a closed, outward mesh, as checked by check_mesh. Of small overhangs,
+/// only the outermost surface is read. If they exceed usual_fold_limit_percent, the mesh is spread
+/// over the sphere and has offsets; small handles are cut by the defaults of HandleOptions. Throws
+/// Error: InvalidInput if the mesh encloses no volume, or if it has overhangs and a larger handle
+/// or walls too thin for the degree, and as spread_over_directions; Cancelled.
 SampleGrain sample_grain(const IndexedMesh& mesh, const SampleGrids& grids,
                          const Execution& execution);
 
-/// The logarithm of the radius of a surface about the origin, for many directions; false if there
-/// is none.
+/// Computes the logarithm of the radius of a surface about the origin, for many directions; returns
+/// false if it has none.
 using LogRadii =
     std::function<bool(const std::vector<Vector3>& directions, std::vector<double>& values)>;
 
-/// The surface in other coordinates y, x = centre + axes y: its radii t in directions d, so that
-/// centre + t axes d lies on the surface. Nothing if rays from the centre meet the surface more
-/// than once, or are so near to it that the iteration does not settle.
+/// Returns the surface's radii t in other coordinates y, x = centre + axes y: centre + t axes d
+/// lies on the surface, for directions d. Empty if rays from the centre meet the surface more than
+/// once, or are so close to this that the iteration does not converge.
 std::optional<std::vector<double>> radii_in_frame(const LogRadii& surface, const Vector3& centre,
                                                   const Eigen::Matrix3d& axes,
                                                   const std::vector<Vector3>& directions);

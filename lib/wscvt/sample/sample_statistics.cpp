@@ -20,24 +20,24 @@ constexpr double no_statistic = std::numeric_limits<double>::quiet_NaN();
 /// Two-sided 95 % of the normal distribution.
 constexpr double normal_95 = 1.959963984540054;
 
-/// Sums cost n a repetition: above this many grains fewer are made.
+/// The cost of a repetition grows with n: above this many grains fewer are made.
 constexpr std::size_t most_grains_at_full = 20000;
 constexpr int least_repetitions = 200;
 
-/// Mean, deviation, 10, 50 and 90 %: what is repeated of a column.
+/// Repeated statistics of a column: mean, deviation, 10, 50 and 90 %.
 constexpr std::size_t column_numbers = 5;
 constexpr std::array<double, 3> column_shares = {0.1, 0.5, 0.9};
-/// D10 to D90, Cu, Cc: what is repeated of the size.
+/// Repeated statistics of the size: D10 to D90, Cu, Cc.
 constexpr std::size_t size_numbers = 7;
 constexpr std::array<double, 5> size_shares = {0.1, 0.3, 0.5, 0.6, 0.9};
 
 /// Draws that are summed at once: their numbers fill the registers of a processor.
 constexpr std::size_t draws_at_once = 4;
 using DrawNumbers = std::array<double, draws_at_once>;
-/// How often each grain comes in each draw.
+/// Number of times each grain is in each draw.
 using Draws = std::vector<std::array<std::uint16_t, draws_at_once>>;
 
-/// One number of each grain, whose grains are drawn again and again.
+/// One number of each grain, whose grains are drawn repeatedly.
 class Repeated {
  public:
   Repeated(const Eigen::VectorXd& values, const Eigen::VectorXd& masses, bool is_size)
@@ -54,15 +54,15 @@ class Repeated {
 
   const std::vector<double>& values() const { return values_; }
   const std::vector<std::uint32_t>& grains() const { return grains_; }
-  /// How many statistics there are by number, and as many by mass.
+  /// Returns the number of statistics by number, which equals the number by mass.
   std::size_t numbers() const { return is_size_ ? size_numbers : column_numbers; }
 
-  /// The statistics of the first draws, as many as there are results: each has room for numbers()
-  /// by number and then numbers() by mass.
+  /// Computes the statistics of the first draws, one draw per result. Each result has room for
+  /// numbers() by number, then numbers() by mass.
   void measure(const Draws& draws, const std::vector<double*>& results) const;
 
  private:
-  /// The weights of all grains below the first of each block.
+  /// Weights of all grains below the first grain of each block.
   struct Below {
     DrawNumbers by_number{};
     DrawNumbers by_mass{};
@@ -74,7 +74,7 @@ class Repeated {
     const double times = draws[grains_[k]][lane];
     return by_mass ? times * masses_[k] : times;
   }
-  /// Distribution::quantile of a draw whose weights sum to `total` > 0.
+  /// Returns Distribution::quantile of a draw whose weights sum to `total` > 0.
   template <bool by_mass>
   double quantile(const Draws& draws, const std::vector<Below>& blocks, std::size_t lane,
                   double total, double fraction) const;
@@ -96,7 +96,7 @@ double Repeated::quantile(const Draws& draws, const std::vector<Below>& blocks, 
     return by_mass ? one.by_mass[lane] : one.by_number[lane];
   };
   const double target = fraction * total;
-  // No grain before the last block that begins below the target has its middle beyond it.
+  // Grains before the last block that begins below the target have their middles below it.
   const auto later = std::partition_point(blocks.begin() + 1, blocks.end(),
                                           [&](const Below& one) { return below_of(one) < target; });
   const auto first = static_cast<std::size_t>(later - blocks.begin()) - 1;
@@ -109,7 +109,7 @@ double Repeated::quantile(const Draws& draws, const std::vector<Below>& blocks, 
     if (own > 0.0 && middle >= target) break;
     below += own;
   }
-  // The grain before, among those that were drawn.
+  // The previous grain among the drawn ones.
   std::size_t last = k;
   double last_weight = 0.0;
   while (last > 0 && !(last_weight > 0.0)) last_weight = weight<by_mass>(draws, --last, lane);
@@ -138,8 +138,8 @@ void Repeated::append_quantiles(const Draws& draws, const std::vector<Below>& bl
 }
 
 void Repeated::measure(const Draws& draws, const std::vector<double*>& results) const {
-  // In one pass, about the mean of the sample, where no digits are lost. A grain that was drawn
-  // twice is two grains, also in the sum of the squared masses.
+  // One pass, about the mean of the sample, so that no digits are lost. A grain drawn twice is two
+  // grains, also in the sum of the squared masses.
   DrawNumbers count{};
   DrawNumbers first{};
   DrawNumbers second{};
@@ -189,7 +189,7 @@ void Repeated::measure(const Draws& draws, const std::vector<double*>& results) 
   }
 }
 
-/// The middle 95 % of what repetitions gave, about the value of the sample itself.
+/// Returns the sample's own value with the middle 95 % of the repetitions.
 Estimate estimate_of(double value, std::vector<double>& repeated) {
   repeated.erase(std::remove_if(repeated.begin(), repeated.end(),
                                 [](double one) { return !std::isfinite(one); }),
@@ -206,7 +206,7 @@ int repetitions_for(std::size_t grains, int asked) {
   return std::max(least_repetitions, static_cast<int>(asked * share));
 }
 
-/// Draws as many grains as there are, with replacement, in each lane from a stream of its own.
+/// Draws as many grains as there are, with replacement, in each lane from its own stream.
 void draw(std::uint64_t seed, std::size_t first_stream, std::size_t grains, Draws& draws) {
   draws.assign(grains, {});
   for (std::size_t lane = 0; lane < draws_at_once; ++lane) {
@@ -215,7 +215,7 @@ void draw(std::uint64_t seed, std::size_t first_stream, std::size_t grains, Draw
   }
 }
 
-/// Estimates of all columns' numbers, one after the other, by number and then by mass.
+/// Estimates all columns' numbers, one after the other, by number and then by mass.
 std::vector<Estimate> bootstrap(const std::vector<Repeated>& all, std::size_t grains,
                                 std::size_t repetitions, std::uint64_t seed,
                                 const Execution& execution) {
@@ -257,7 +257,7 @@ SizeEstimates size_estimates(const Estimate* at) {
 
 ColumnEstimates column_estimates(const Estimate* at) { return {at[0], at[1], at[2], at[3], at[4]}; }
 
-/// Of each row that the distribution has: its rank from 1, that of equal values their mean.
+/// Returns the ranks, from 1, of the rows in the distribution; equal values get their mean rank.
 std::vector<double> ranks_of(const std::vector<double>& values,
                              const std::vector<std::uint32_t>& rows, std::size_t count) {
   std::vector<double> ranks(count, no_statistic);
@@ -271,7 +271,7 @@ std::vector<double> ranks_of(const std::vector<double>& values,
   return ranks;
 }
 
-/// Of ranks of the same rows; rows without a rank have none in both.
+/// Correlates ranks of the same rows; rows without a rank have none in both.
 Estimate correlation_of(const std::vector<double>& one, const std::vector<double>& other,
                         std::size_t count) {
   const auto n = static_cast<double>(count);
@@ -335,7 +335,7 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
     column.largest = values.empty() ? no_statistic : values.back();
     column.by_number = column_estimates(at);
     column.by_mass = column_estimates(at + column_numbers);
-    // Where all grains have the descriptor, the ranks of their sizes are known.
+    // If all grains have the descriptor, the ranks of their sizes are known.
     column.size_correlation =
         values.size() == grains
             ? correlation_of(size_ranks, ranks_of(values, all[k + 1].grains(), grains), grains)

@@ -10,7 +10,7 @@
 
 namespace wscvt {
 
-/// A statistic of a sample with its 95 % interval; NaN where it does not exist.
+/// A statistic of a sample with its 95 % interval; NaN if it does not exist.
 struct Estimate {
   double value = 0.0;
   double lower = 0.0;
@@ -58,20 +58,20 @@ struct SampleStatistics {
   int repetitions = 0;                    ///< that were made
 };
 
-/// Statistics of a sample. The intervals go from 2.5 to 97.5 % of what random samples of as many
-/// grains, drawn from it with replacement, give (percentile bootstrap; Efron 1979); of samples
-/// above 20,000 grains options.repetitions is reduced, to 200 at least. The same options give the
-/// same bytes on any number of threads.
+/// Computes statistics of a sample. The intervals are the 2.5 and 97.5 percentiles over random
+/// samples of as many grains, drawn from it with replacement (percentile bootstrap; Efron 1979).
+/// Above 20,000 grains options.repetitions is reduced, to 200 at least. Equal options give the same
+/// bytes on any number of threads.
 SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& options,
                                 const Execution& execution);
 
-/// Number of grains of which the 95 % interval of an estimate would reach `percent` % of its value
-/// to either side: intervals shrink with the square root of the number. NaN if the estimate has no
-/// interval or is 0.
+/// Returns the number of grains for which the 95 % interval of an estimate would extend `percent` %
+/// of its value to either side, because intervals shrink with the square root of the number. NaN if
+/// the estimate has no interval or is 0.
 double grains_needed(const Estimate& estimate, std::size_t grains, double percent);
 
-/// Rank correlation of the rows that have both numbers; NaN for fewer than four of them, or if all
-/// of one are equal.
+/// Computes the rank correlation of the rows that have both numbers. NaN for fewer than four such
+/// rows, or if all numbers of one vector are equal.
 Estimate rank_correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other);
 
 }  // namespace wscvt

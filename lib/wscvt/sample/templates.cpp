@@ -18,21 +18,21 @@ namespace wscvt {
 namespace {
 
 constexpr const char* stage = "Choosing templates";
-constexpr std::size_t levels = 100;     ///< places at which distribution functions are compared
-constexpr std::size_t candidates = 24;  ///< random grains of which the most wanted is tried
+constexpr std::size_t levels = 100;     ///< points at which distribution functions are compared
+constexpr std::size_t candidates = 24;  ///< random grains; the one in largest demand is tried
 constexpr int swaps_per_template = 100;
 constexpr int least_swaps = 2000;
-constexpr int absolute_rounds = 12;  ///< that turn least squares into least absolute differences
+constexpr int absolute_rounds = 12;  ///< rounds from least squares to least absolute differences
 constexpr int random_choices = 20;
-/// Weight of the equation that the weights sum to 1, beside a descriptor's.
+/// Weight of the equation that the weights sum to 1, relative to a descriptor's.
 constexpr double sum_weight = 1e3;
 
 using Index = Eigen::Index;
 Index at(std::size_t k) { return static_cast<Index>(k); }
 
-/// Distribution functions of all descriptors at `levels` places each, of the sample by number and
-/// by mass. A grain's own function is a step, from its rank on: so the product of two is a sum over
-/// the places from the larger of two ranks on.
+/// Distribution functions of all descriptors at `levels` points each, of the sample by number and
+/// by mass. A grain's own function is a step at its rank, so the product of two is a sum over the
+/// points from the larger rank on.
 class StepFunctions {
  public:
   StepFunctions(const Eigen::MatrixXd& standard, const std::vector<double>& masses)
@@ -80,7 +80,7 @@ class StepFunctions {
   std::vector<std::vector<double>> targets_[2];  ///< by number, by mass
 };
 
-/// The squared differences of distribution functions, summed with weights per place, as a quadratic
+/// The squared differences of distribution functions, summed with weights per point, as a quadratic
 /// form of the grains' weights.
 class Fit {
  public:
@@ -120,7 +120,7 @@ class Fit {
   std::vector<std::vector<double>> products_;
 };
 
-/// A set of grains with the best weights for it.
+/// A set of grains with their best weights.
 struct Choice {
   std::vector<std::size_t> grains;
   Eigen::VectorXd weights[2];
@@ -152,7 +152,8 @@ Eigen::MatrixXd matrix_of(const Fit& fit, const std::vector<std::size_t>& grains
   return matrix;
 }
 
-/// How much weight the sample's functions would give a grain beside those chosen.
+/// Returns the demand for a grain beside the chosen ones: how much weight the sample's functions
+/// would give it.
 double demand(const Fit (&fits)[2], const Choice& choice, std::size_t grain) {
   double sum = 0.0;
   for (int which = 0; which < 2; ++which) {
@@ -221,8 +222,8 @@ Choice exchanged(const StepFunctions& steps, const TemplateOptions& options,
   return best;
 }
 
-/// The distributions of the descriptors in the sample. They are sorted once, since a sample may
-/// have 100,000 grains.
+/// Returns the distributions of the descriptors in the sample. They are sorted once, because a
+/// sample may have 100,000 grains.
 std::vector<Distribution> sample_distributions(const Eigen::MatrixXd& standard,
                                                const std::vector<double>& shares) {
   const Eigen::Map<const Eigen::VectorXd> weights(shares.data(), at(shares.size()));
@@ -257,8 +258,8 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Weights of least absolute differences, by least squares whose places count less the farther the
-/// functions are apart there. The best of all rounds.
+/// Returns weights of least absolute differences, by least squares with smaller weights at points
+/// where the functions are farther apart. The best of all rounds.
 std::vector<double> absolute_weights(const StepFunctions& steps, int which,
                                      const Eigen::MatrixXd& standard,
                                      const std::vector<Distribution>& sample,
@@ -295,7 +296,7 @@ std::vector<double> absolute_weights(const StepFunctions& steps, int which,
   return best;
 }
 
-/// Columns of mean 0 and deviation 1. Throws for what cannot be chosen from.
+/// Scales columns to mean 0 and deviation 1. Throws for unusable inputs.
 Eigen::MatrixXd standardised(const Eigen::MatrixXd& descriptors, const std::vector<double>& masses,
                              const TemplateOptions& options) {
   require_in_range(options.count, template_count_option);

@@ -26,29 +26,30 @@ struct TemplateDistances {
   std::vector<double> by_mass;
 };
 
-/// Real grains that stand for a sample.
+/// Real grains that represent a sample.
 struct SampleTemplates {
   std::vector<std::size_t> grains;  ///< their rows, ascending; K of them
-  /// Weights of the K grains; they sum to 1. By number the grains have the sample's distributions
-  /// of the descriptors, by mass those in which each grain of the sample counts by its mass.
+  /// Weights of the K grains; they sum to 1. By number, the grains have the sample's distributions
+  /// of the descriptors; by mass, the distributions in which each grain of the sample counts by its
+  /// mass.
   std::vector<double> by_number;
   std::vector<double> by_mass;
-  /// For each grain of the sample the template that is nearest in the space of the descriptors, as
-  /// a number below K.
+  /// For each grain of the sample, the number (0 to K - 1) of the nearest template in the space of
+  /// the descriptors.
   std::vector<std::size_t> stands_for;
   TemplateDistances reached;
   TemplateDistances random;  ///< of K random grains of equal weights: the mean of 20 choices
 };
 
-/// Chooses K grains of a sample and weights for them, so that their distributions of the
-/// descriptors are close to those of the sample: by exchanging one grain at a time, with weights by
-/// non-negative least squares on the distribution functions, which at last are turned into least
-/// absolute differences.
+/// Chooses K grains of a sample and their weights, so that their distributions of the descriptors
+/// are close to the sample's. One grain is exchanged at a time. The weights are non-negative least
+/// squares on the distribution functions, and at last least absolute differences.
 ///
 /// `descriptors`: a row per grain, a column per descriptor, in any units. `masses`: one per grain,
-/// above 0. K = number of grains gives all of them. The same for a seed on any number of threads.
-/// Throws Error(InvalidInput) for more templates than grains, numbers that are not finite, masses
-/// of 0, a descriptor with one value only and options out of range; Cancelled.
+/// above 0. If K is the number of grains, all are chosen. The result for a seed does not depend on
+/// the number of threads. Throws Error(InvalidInput) for more templates than grains, numbers that
+/// are not finite, masses of 0, a descriptor with only one value and options out of range;
+/// Cancelled.
 SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
                                  const std::vector<double>& masses, const TemplateOptions& options,
                                  const Execution& execution);

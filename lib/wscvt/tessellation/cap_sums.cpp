@@ -13,9 +13,9 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
   const double spacing = pi / rows;
   const int reach = static_cast<int>(radius / spacing);
   const std::vector<double> cosines = SphereGrid::row_cosines(rows);
-  // The columns that are not zero, row by row. Where they are few, each is spread over the caps it
-  // lies in; where they are many, each cap is gathered, which reads memory in order. A scan of a
-  // dozen points fills a dozen of 32,768 nodes, and its caps have to grow to the whole sphere.
+  // The nonzero columns of each row. If they are few, each value is spread over its caps; if they
+  // are many, each cap is gathered, which reads memory in order. A scan of a dozen points fills a
+  // dozen of 32,768 nodes, and its caps must grow to the whole sphere.
   std::vector<std::vector<std::ptrdiff_t>> filled(static_cast<std::size_t>(rows));
   for (std::size_t i = 0; i < field.values.size(); ++i) {
     if (field.values[i] != 0.0) {
@@ -54,15 +54,15 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
             for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
               const double value = kernel[shift] * source[k];
               target[k + shift < columns ? k + shift : k + shift - columns] += value;
-              if (shift == columns / 2) continue;  // both ways round to the same node
+              if (shift == columns / 2) continue;  // the same node in both directions
               target[k >= shift ? k - shift : k - shift + columns] += value;
             }
           }
           continue;
         }
         terms[j] += static_cast<std::size_t>(columns) * kernel.size();
-        // Three times round, so that no index wraps, and all columns for one shift after the other:
-        // the loop over them is the processor's vector registers' then, and each column still adds
+        // The source is repeated three times, so that no index wraps. The inner loop runs over all
+        // columns for one shift, so that the compiler can vectorize it, and each column still adds
         // its terms in the order of the shifts.
         for (std::ptrdiff_t k = 0; k < columns; ++k) {
           thrice[k] = thrice[k + columns] = thrice[k + 2 * columns] = source[k];
@@ -73,7 +73,7 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
           const double weight = kernel[shift];
           const double* const right = middle + shift;
           const double* const left = middle - shift;
-          if (shift == columns / 2) {  // both ways round to the same node
+          if (shift == columns / 2) {  // the same node in both directions
             for (std::ptrdiff_t k = 0; k < columns; ++k) row_sums[k] += weight * right[k];
           } else {
             for (std::ptrdiff_t k = 0; k < columns; ++k) {

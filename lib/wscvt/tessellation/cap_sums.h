@@ -11,7 +11,7 @@
 
 namespace wscvt {
 
-/// One number a grid node, with the node's share of the sphere.
+/// One number per grid node, and the rows' sines for integrals over the sphere.
 struct GridField {
   int rows = 0;
   std::vector<double> sines;   ///< of the rows' polar angles
@@ -38,15 +38,15 @@ struct GridField {
   }
 };
 
-/// What sum_over_caps came to.
+/// Result of sum_over_caps.
 struct CapSums {
   std::vector<double> sums;  ///< of every grid node
-  std::size_t terms = 0;     ///< products added up, which is what it costs
+  std::size_t terms = 0;     ///< number of products added, a measure of cost
 };
 
-/// Adds up `field` over caps of chord `radius` about every grid node with weights
-/// exp(-2 (d / radius)^2). Rows of the grid that are mostly zero, as where a coarse scan was
-/// sampled, cost what is not zero in them.
+/// Sums `field` over caps of chord `radius` about every grid node with weights exp(-2 (d /
+/// radius)^2). In mostly zero rows of the grid, as for a coarse scan, only nonzero values cost
+/// time.
 CapSums sum_over_caps(const GridField& field, double radius, const Execution& execution);
 
 }  // namespace wscvt

@@ -9,9 +9,9 @@ namespace wscvt {
 
 namespace {
 
-/// Deviation of the logarithm of the curvature below which the grain counts as a sphere: a
-/// twentieth. Eq. 14 measures by the deviation itself, so that on a scanned sphere it would gather
-/// the nodes by the scan's noise.
+/// Smallest deviation of the logarithm of the curvature; below it the grain counts as a sphere. Eq.
+/// 14 divides by the deviation, so on a scanned sphere it would gather the nodes by the scan's
+/// noise.
 constexpr double smallest_deviation = 0.05;
 
 double largest_square(const PrincipalCurvatures& k) {
@@ -29,7 +29,7 @@ WeightingRule curvature_weighting(const TabulatedSurface& table, const Weighting
   rule.reads_deviation = true;
   rule.weight = [alpha = options.curvature_alpha](double value, double count,
                                                   const FieldDeviation& over_seeds) {
-    // A sphere's rounding errors are no curvature.
+    // A sphere's rounding errors are not curvature.
     if (!(over_seeds.deviation > 1e-9)) return 0.0;
     const double deviation = std::max(over_seeds.deviation, smallest_deviation);
     const double x = alpha * (value - over_seeds.mean) / (3.0 * deviation);

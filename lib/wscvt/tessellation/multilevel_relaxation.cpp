@@ -21,7 +21,7 @@ struct Tessellation {
   std::vector<Triangle> triangles;
 };
 
-/// Cuts every edge at its middle, and every triangle in four.
+/// Splits every edge at its middle, and every triangle in four.
 Tessellation subdivide(const std::vector<Vector3>& seeds,
                        const SphereTriangulation& triangulation) {
   Tessellation fine;
@@ -53,8 +53,8 @@ Tessellation subdivide(const std::vector<Vector3>& seeds,
   return fine;
 }
 
-/// Adds `extra` seeds, at most three, in the middles of the largest triangles: there they disturb
-/// least, and the relaxation has the fewest neighbours to push aside.
+/// Adds `extra` seeds, at most three, in the middles of the largest triangles, because they disturb
+/// least there.
 void insert_seeds(Tessellation& tessellation, int extra) {
   if (extra == 0) return;
   std::vector<std::size_t> order(tessellation.triangles.size());
@@ -68,7 +68,7 @@ void insert_seeds(Tessellation& tessellation, int extra) {
   }
   std::partial_sort(
       order.begin(), order.begin() + extra, order.end(),
-      // Equal areas, as of a lattice's triangles, must not be put in order by the sort.
+      // A fixed order for equal areas, as of a lattice's triangles, must not depend on the sort.
       [&](std::size_t i, std::size_t j) {
         return areas[i] != areas[j] ? areas[i] > areas[j] : i < j;
       });
@@ -83,14 +83,14 @@ void insert_seeds(Tessellation& tessellation, int extra) {
   }
 }
 
-/// The options of a level before the last.
+/// Returns the options of a level before the last.
 RelaxationOptions coarse_options(RelaxationOptions options, bool coarsest) {
-  // Displacement tolerances of the coarsest and of the levels between.
+  // Displacement tolerances of the coarsest and the middle levels.
   constexpr double coarsest_tolerance = 1e-4;
   constexpr double middle_tolerance = 3e-4;
   options.displacement_tolerance =
       std::min(options.displacement_tolerance, coarsest ? coarsest_tolerance : middle_tolerance);
-  // Few seeds on a rough grain never spread as little as the last level's may.
+  // The areas of few seeds on a rough grain never vary as little as the last level requires.
   options.area_tolerance = std::numeric_limits<double>::max();
   return options;
 }
@@ -103,7 +103,7 @@ std::vector<int> level_sizes(int count) {
                 "A tessellation needs at least 4 seeds, not " + std::to_string(count) + ".");
   }
   std::vector<int> sizes = {count};
-  // V seeds have 3 V - 6 edges, each with a seed in its middle on the next level: 4 V - 6 there.
+  // V seeds have 3 V - 6 edges, and the next level has a seed in the middle of each: 4 V - 6.
   while ((sizes.back() - 2) / 4 + 2 >= coarsest_seeds) sizes.push_back((sizes.back() - 2) / 4 + 2);
   std::reverse(sizes.begin(), sizes.end());
   return sizes;
@@ -117,7 +117,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
                                              " seeds instead of " + std::to_string(sizes.front()) +
                                              ".");
   }
-  // Progress by the number of seeds to be moved, of which the last level has three quarters.
+  // Progress by the number of seeds to move; the last level has three quarters of them.
   const auto options_of = [&](std::size_t level) {
     return level + 1 == sizes.size() ? options : coarse_options(options, level == 0);
   };
@@ -137,7 +137,7 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
     Tessellation fine = subdivide(result.seeds, result.triangulation);
     insert_seeds(fine, sizes[level] - static_cast<int>(fine.seeds.size()));
     SphereTriangulation triangulation(fine.seeds, std::move(fine.triangles), execution);
-    // What happened on any level is told; displacements and outcome are those of the last.
+    // Reports counts of all levels, but displacements and outcome of the last.
     const int rebuilds = result.report.rebuilds;
     const double weight_scale = result.report.weight_scale;
     result = relax(std::move(fine.seeds), std::move(triangulation), model, options_of(level),

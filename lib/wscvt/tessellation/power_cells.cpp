@@ -9,10 +9,10 @@ namespace wscvt {
 
 namespace {
 
-/// Few, as in weights.cpp.
+/// Small, as in weights.cpp.
 constexpr std::size_t cell_block = 128;
 
-// (O - a).ab = (|ab|^2 + w_a - w_b) / 2 and the same for ac, solved in the triangle's plane.
+// Solves (O - a).ab = (|ab|^2 + w_a - w_b) / 2 and the same for ac, in the triangle's plane.
 Vector3 radical_centre(const Vector3& a, const Vector3& b, const Vector3& c, double lower_ab,
                        double lower_ac) {
   const Vector3 ab = b - a;
@@ -21,8 +21,8 @@ Vector3 radical_centre(const Vector3& a, const Vector3& b, const Vector3& c, dou
   const double ac_ac = ac.squaredNorm();
   const double ab_ac = ab.dot(ac);
   const double determinant = ab_ab * ac_ac - ab_ac * ab_ac;
-  // The determinant is 4 area^2: below 1e-24 of its terms, an angle of 1e-12, it is rounding. Such
-  // a needle has no centre worth the name; its middle keeps the neighbours' cells sane.
+  // The determinant is 4 area^2. Below 1e-24 of its terms, an angle of 1e-12, it is rounding. Such
+  // a needle has no useful centre; its middle keeps the neighbours' cells valid.
   if (!(determinant > 1e-24 * ab_ab * ac_ac)) return (a + b + c) / 3.0;
   const double along_ab = 0.5 * (ab_ab + lower_ab);
   const double along_ac = 0.5 * (ac_ac + lower_ac);
@@ -79,9 +79,9 @@ void compute_power_cells(const SphereTriangulation& triangulation,
         a = b;
       } while (h != first);
       cells.areas[i] = area;
-      // A cell turned inside out by a coarse start has no centroid: the seed stays. Otherwise
-      // the shift is taken in the tangent plane, since the site comes back to the surface along
-      // its ray, and height above it would only shorten the step.
+      // A cell turned inside out by a coarse start has no centroid: the seed stays. Otherwise the
+      // shift is projected to the tangent plane, because the site returns to the surface along its
+      // ray, and height above it would only shorten the step.
       Vector3 shift = area > 0.0 ? Vector3(sum / area) : Vector3(Vector3::Zero());
       shift -= shift.dot(site) * site;
       cells.centroids[i] = site + shift;

@@ -9,7 +9,7 @@
 
 namespace wscvt {
 
-/// The cells dual to a triangulation: one vertex a triangle, one cell a site.
+/// The cells dual to a triangulation: one vertex per triangle, one cell per site.
 struct PowerCells {
   std::vector<Vector3> vertices;   ///< per triangle: the radical centre of its sites
   std::vector<Vector3> centroids;  ///< per site: of its cell, moved to the site's tangent plane
@@ -20,14 +20,14 @@ struct PowerCells {
 ///
 /// The three perpendiculars through the weighted midpoints of a triangle's edges meet in one point,
 /// its radical centre (eqs. 6 to 8), which is normalised to the sphere. A cell is the fan of
-/// triangles (site, centre, next centre); areas are signed along the site, so centres outside their
-/// triangle count rightly (eq. 9, which as printed takes absolute areas).
+/// triangles (site, centre, next centre). Areas are signed along the site, so centres outside their
+/// triangle count correctly (eq. 9 as printed uses absolute areas).
 ///
-/// `weights` (steradian; empty: none) hold one value a site. `cells` is overwritten; its capacity
+/// `weights` (steradian; empty: none) has one value per site. `cells` is overwritten; its capacity
 /// is reused.
 ///
-/// Throws Error(InvalidInput) when there is not one site a vertex of the triangulation, or weights
-/// are given but not one a site. Their values are not checked.
+/// Throws Error(InvalidInput) if the sites, or the weights if given, are not one per vertex of the
+/// triangulation. Their values are not checked.
 void compute_power_cells(const SphereTriangulation& triangulation,
                          const std::vector<Vector3>& sites, const std::vector<double>& weights,
                          const Execution& execution, PowerCells& cells);

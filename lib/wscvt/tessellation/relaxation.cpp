@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t seed_block = 4096;
 
-/// Step factor towards the centroid. With momentum the limit of stability is 4/3: the step goes
-/// down the gradient of an energy.
+/// Step factor towards the centroid. With momentum the limit of stability is 4/3, because the step
+/// follows the gradient of an energy.
 constexpr double over_relaxation = 1.2;
 
 double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>& to,
@@ -32,7 +32,7 @@ double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>&
   return sum / static_cast<double>(from.size());
 }
 
-/// The cells of seeds at one place, and how they compare with their targets.
+/// The cells of seeds at one position, compared with their targets.
 class Evaluation {
  public:
   Evaluation(const SeedModel& model, const Execution& execution)
@@ -40,8 +40,8 @@ class Evaluation {
 
   void start_from(SphereTriangulation triangulation) { triangulation_ = std::move(triangulation); }
 
-  /// Repairs or rebuilds the triangulation for `seeds` and computes the cells. False, and no cells,
-  /// when the seeds have no triangulation whatever they weigh.
+  /// Repairs or rebuilds the triangulation for `seeds` and computes the cells. Returns false,
+  /// without cells, if the seeds have no triangulation at any weights.
   [[nodiscard]] bool try_at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     flips_ = 0;
     model_.weights(seeds, execution_, weights_);
@@ -51,13 +51,13 @@ class Evaluation {
     return true;
   }
 
-  /// The same for seeds that nothing can take the place of. Throws, with the reason, as
+  /// Does the same for seeds that cannot be replaced. Throws, with the reason, as
   /// SphereTriangulation.
   void at(const std::vector<Vector3>& seeds, RelaxationReport& report) {
     if (!try_at(seeds, report)) triangulation_.emplace(seeds);
   }
 
-  /// Where the centroids lie, seen from the origin; unit vectors are taken by the caller.
+  /// Centroids seen from the origin; the caller normalizes them.
   const std::vector<Vector3>& centroids() const { return cells_.centroids; }
   const RelaxationStep& step() const { return step_; }
   SphereTriangulation take_triangulation() { return std::move(*triangulation_); }
@@ -71,8 +71,8 @@ class Evaluation {
       if (repair.complete()) return true;
       ++report.rebuilds;
     }
-    // A seed whose weight is too low has no cell. Then the differences between weights are halved
-    // until every seed has one; with equal weights every seed has.
+    // A seed whose weight is too low has no cell. The differences between weights are then halved
+    // until every seed has one; with equal weights every seed has one.
     constexpr int most_halvings = 10;
     double scale = 1.0;
     const Execution start = execution_.part(0.0, 0.0);
@@ -91,7 +91,7 @@ class Evaluation {
     return true;
   }
 
-  // h and the spread of (cell area / target).
+  // Computes h and the standard deviation of (cell area / target).
   void compare(const std::vector<Vector3>& seeds) {
     const std::size_t count = seeds.size();
     struct Sums {
@@ -145,9 +145,9 @@ class Evaluation {
   int flips_ = 0;
 };
 
-/// Evaluates at `seeds`; when those have no triangulation, which happens to a handful of seeds on a
-/// long grain that a whole step would leave in one hemisphere, halfway back to where they were.
-/// False when nothing but their old place will do; the seeds then stand there.
+/// Evaluates at `seeds`, with halved steps as long as they have no triangulation. This happens to a
+/// handful of seeds on a long grain if a full step leaves them in one hemisphere. Returns false if
+/// only the old positions are possible; the seeds then have these.
 bool try_evaluation(Evaluation& evaluation, const std::vector<Vector3>& before,
                     std::vector<Vector3>& seeds, RelaxationReport& report) {
   constexpr int halvings = 6;
@@ -177,7 +177,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
   if (triangulation) evaluation.start_from(*std::move(triangulation));
   evaluation.at(seeds, report);
 
-  // `seeds` is where the cells were evaluated; `arrived` where the last plain step ended.
+  // `seeds`: positions of the evaluated cells; `arrived`: end of the last plain step.
   std::vector<Vector3> arrived = seeds;
   std::vector<Vector3> stepped(count);
   Momentum momentum;
@@ -207,9 +207,9 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
           }
           return part;
         });
-    // `uphill` compares the last step's direction with where the cells now pull: the gradient test
-    // of O'Donoghue and Candes, which needs no energy. Momentum that is never dropped swings about
-    // the end and takes more than twice the steps.
+    // `uphill` compares the last step with the current pull of the cells: the gradient test of
+    // O'Donoghue and Candes, which needs no energy. Momentum that is never dropped oscillates about
+    // the end and needs more than twice the steps.
     const double carry = momentum.carry(uphill > 0.0);
     execution.parallel_for(count, seed_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -247,7 +247,7 @@ std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
       step.area_spread < options.area_tolerance) {
     return RelaxationOutcome::Converged;
   }
-  // Below this share of the tolerance seeds have come to rest.
+  // Below this fraction of the tolerance, seeds are at rest.
   constexpr double rest = 0.01;
   if (step.displacement < rest * options.displacement_tolerance) return RelaxationOutcome::Settled;
   if (iterations >= options.maximum_iterations) return RelaxationOutcome::IterationLimit;

@@ -12,8 +12,8 @@ namespace wscvt {
 
 namespace {
 
-/// More seeds than this surround the centre, whatever the seed of their directions: of 50 random
-/// points all lie in one half of the sphere with a probability of 2e-12 (Wendel 1962).
+/// More seeds than this surround the centre for any random seed: 50 random points all lie in one
+/// half of the sphere with a probability of 2e-12 (Wendel 1962).
 constexpr int surely_surrounding = 50;
 
 bool can_be_triangulated(const std::vector<Vector3>& seeds) {

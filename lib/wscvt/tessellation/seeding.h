@@ -10,15 +10,15 @@
 
 namespace wscvt {
 
-/// Whether a sampling has a form with any number of points.
+/// Returns whether a sampling exists for any number of points.
 bool takes_any_count(Sampling sampling);
 
-/// The points of a sampling that is not relaxed: `count` of them, or the nearest possible number
-/// (see takes_any_count). Unit vectors. Throws Error(InvalidInput) for Sampling::Weighted.
+/// Returns the points of a sampling that is not relaxed: `count` of them, or the nearest possible
+/// number (see takes_any_count). Unit vectors. Throws Error(InvalidInput) for Sampling::Weighted.
 std::vector<Vector3> unrelaxed_seeds(Sampling sampling, int count);
 
-/// `count` >= 4 unit vectors from which the relaxation starts: a Fibonacci lattice warped to the
-/// density that `model` wants.
+/// Returns `count` >= 4 unit vectors from which the relaxation starts: a Fibonacci lattice warped
+/// to the density that `model` wants.
 std::vector<Vector3> start_seeds(const SurfaceSeedModel& model, int count,
                                  const Execution& execution);
 

@@ -6,12 +6,12 @@
 
 namespace wscvt {
 
-/// How a pair of principal curvatures is made one number whose square is averaged.
+/// Combines a pair of principal curvatures into one number whose square is averaged.
 using CurvatureSquare = double (*)(const PrincipalCurvatures&);
 
-/// Root mean square of the surface's curvature over caps of 0.6 h about the
-/// nodes of the table's grid, h = sqrt(4 pi / N). Detail finer than the cells cannot be followed by
-/// them and keeps the iteration from settling.
+/// Returns the root mean square of the surface's curvature over caps of 0.6 h about the nodes of
+/// the table's grid, h = sqrt(4 pi / N). Cells cannot follow finer detail, which would keep the
+/// iteration from settling.
 GridField smoothed_curvature(const TabulatedSurface& table, CurvatureSquare square,
                              const Execution& execution);
 

@@ -6,14 +6,14 @@
 
 namespace wscvt {
 
-/// Notices seeds that no longer come nearer to rest, as under steep weightings on rough scans,
-/// whose flips never end: displacements of 0.05 h from the 70th iteration to the 1000th, at the
-/// same spread of the cells' areas.
+/// Detects seeds that no longer approach rest, as under steep weightings on rough scans, whose
+/// flips never end: displacements of 0.05 h from the 70th iteration to the 1000th, at a constant
+/// spread of the cells' areas.
 class StallWatch {
  public:
-  /// Whether none of the last three fifties of steps had a mean displacement well below the best
-  /// before. The slowest relaxations that come to rest gain a tenth in fifty steps; of a few
-  /// hundred seeds some rest for a hundred steps and go on.
+  /// Returns whether none of the last three groups of fifty steps had a mean displacement well
+  /// below the best before. The slowest relaxations that come to rest gain a tenth in fifty steps.
+  /// Some with a few hundred seeds pause for a hundred steps and continue.
   bool stalled_at(double displacement) {
     sum_ += displacement;
     if (++steps_ < window) return false;
@@ -33,14 +33,14 @@ class StallWatch {
   double sum_ = 0.0;
   double smallest_sum_ = std::numeric_limits<double>::infinity();
   int steps_ = 0;
-  int idle_ = 0;  ///< fifties without a gain
+  int idle_ = 0;  ///< groups of fifty without a gain
 };
 
 /// Nesterov's momentum, dropped whenever it points uphill (O'Donoghue and Candes 2015, "Adaptive
 /// restart for accelerated gradient schemes").
 class Momentum {
  public:
-  /// The share of the last change that the next step carries on.
+  /// Returns the fraction of the last change that the next step repeats.
   double carry(bool uphill) {
     if (uphill) weight_ = 1.0;
     const double grown = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * weight_ * weight_));

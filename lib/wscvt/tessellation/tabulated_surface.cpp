@@ -7,8 +7,8 @@ namespace wscvt {
 
 namespace {
 
-/// Rows so that the grid resolves both the surface and the cells: 128 rows are 1.4 degrees, a third
-/// of a cell of 2000 and an eighth of a period of degree 30.
+/// Rows that resolve both the surface and the cells: 128 rows are 1.4 degrees, a third of a cell of
+/// 2000 and an eighth of a period of degree 30.
 int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
 
 }  // namespace
@@ -36,9 +36,9 @@ const GridField& TabulatedSurface::area_elements() const {
 }
 
 double TabulatedSurface::area() const {
-  // Where only the area is asked for, quadrature on a seventh of as many nodes gives it to 1e-5 on
-  // series of degree 20 and to 1e-3 on those of 60 (sixteen scans), beside a weight that no cell
-  // follows to more than some per cent.
+  // If only the area is needed, quadrature on a seventh of as many nodes gives it to 1e-5 on series
+  // of degree 20 and to 1e-3 on series of degree 60 (sixteen scans). Cells follow a weight only to
+  // some per cent.
   return area_elements_ ? area_elements_->integral([](double g) { return g; })
                         : surface_area(surface_, 3 * rows() / 8, execution_);
 }

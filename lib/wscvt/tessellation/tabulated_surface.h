@@ -12,9 +12,8 @@
 
 namespace wscvt {
 
-/// A surface as weightings see it, tabulated at the nodes of an equal-angle grid: what is asked
-/// for, when it is, since derivatives take three times as long as distances. Not for several
-/// threads at once.
+/// Surface quantities for the weightings, at the nodes of an equal-angle grid. Each is computed on
+/// first use, because derivatives cost three times as much as distances. Not thread-safe.
 class TabulatedSurface {
  public:
   /// For `node_count` seeds. The surface must outlive the table.
@@ -23,13 +22,14 @@ class TabulatedSurface {
   const SphereSurface& surface() const { return surface_; }
   int node_count() const { return node_count_; }
   int rows() const;  ///< of the grid
-  /// From the origin to the surface at the nodes of the grid; the radii of a radial surface.
+  /// Returns distances from the origin to the surface at the grid's nodes; the radii of a radial
+  /// surface.
   const std::vector<double>& distances() const;
-  const GridField& area_elements() const;  ///< dA/dOmega there
-  /// S, of the surface: from the area elements where they were asked for, else by quadrature; both
-  /// within 1e-3.
+  const GridField& area_elements() const;  ///< dA/dOmega at the grid's nodes
+  /// Returns S, the surface's area: from the area elements if they were computed, else by
+  /// quadrature; both within 1e-3.
   double area() const;
-  /// Of the sphere of the same area.
+  /// Returns the radius of the sphere of the same area.
   double radius() const { return std::sqrt(area() / (4.0 * pi)); }
 
  private:

@@ -15,7 +15,7 @@ namespace wscvt {
 
 namespace {
 
-/// Few, so that the coarsest level's hundreds of seeds are shared by the threads as well.
+/// Small, so that the threads also share the coarsest level's hundreds of seeds.
 constexpr std::size_t weight_block = 128;
 
 /// Mean and standard deviation of `field` weighted by `density`.
@@ -33,8 +33,8 @@ FieldDeviation deviation_of(const GridField& field, const GridField& density) {
   return {mean, std::sqrt(std::max(0.0, variance))};
 }
 
-/// C such that the integral over the sphere of 1 / max(smallest, cell + C) is `count`: Newton's
-/// method, kept inside the bracket where the integral, which falls with C, passes `count`.
+/// Returns C such that the integral over the sphere of 1 / max(smallest, cell + C) is `count`:
+/// Newton's method, bracketed, because the integral falls with C.
 double solve_offset(const GridField& cells, double count, double smallest) {
   const double mean_cell = 4.0 * pi / count;
   double low = -20.0 * mean_cell;
@@ -49,7 +49,7 @@ double solve_offset(const GridField& cells, double count, double smallest) {
     });
     (excess > 0.0 ? low : high) = offset;
     double next = offset - excess / slope;
-    // Where all cells are at the smallest the slope is 0 and Newton's step no number: then halving.
+    // If all cells have the smallest size, the slope is 0 and Newton's step invalid: then halving.
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (std::abs(next - offset) < 1e-9 * mean_cell) return next;
     offset = next;
@@ -76,9 +76,8 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
     field_.emplace(rows, rule_.stencil, field.values);
   }
 
-  // The cells' areas 3.118 w + C add up to the sphere when C makes the integral of 1 / area equal
-  // N. WSCVT-C's weights depend on mean and deviation over the seeds, which depend on their
-  // density.
+  // The cells' areas 3.118 w + C sum to the sphere if C makes the integral of 1 / area equal N.
+  // WSCVT-C's weights depend on mean and deviation over the seeds, which depend on their density.
   const double smallest = smallest_cell_share * 4.0 * pi / count;
   GridField cells(rows);
   const int rounds = rule_.reads_deviation ? 4 : 1;

@@ -16,7 +16,8 @@ namespace wscvt {
 
 /// The weightings for a given surface (see Weighting).
 ///
-/// What a weight depends on is tabulated once, so a seed's weight costs a look-up and not a series.
+/// The quantity behind a weight is tabulated once, so a seed's weight costs a look-up, not a
+/// series.
 class SurfaceSeedModel : public SeedModel {
  public:
   /// For `node_count` >= 4 seeds. Throws Error(InvalidInput) for options out of range.
@@ -26,18 +27,18 @@ class SurfaceSeedModel : public SeedModel {
   void weights(const std::vector<Vector3>& seeds, const Execution& execution,
                std::vector<double>& result) const override;
 
-  /// Wanted number of seeds per steradian, for the start; its integral over the sphere is N. At
-  /// most 1 / smallest_cell_share of the mean.
+  /// Returns the wanted number of seeds per steradian, for the start; its integral over the sphere
+  /// is N. At most 1 / smallest_cell_share of the mean.
   std::vector<double> number_densities(const std::vector<Vector3>& directions,
                                        const Execution& execution) const;
 
  private:
-  /// Wanted number of seeds per steradian where the field has a value.
+  /// Returns the wanted number of seeds per steradian at a value of the field.
   double number_density(double value) const;
 
   int node_count_;
   WeightingRule rule_;               ///< its field has become field_
-  std::optional<SphereGrid> field_;  ///< none where all seeds weigh alike
+  std::optional<SphereGrid> field_;  ///< empty if all weights are equal
   FieldDeviation wanted_;            ///< of the field over the wanted density
   double offset_ = 0.0;              ///< C in "cell area = 3.118 w + C"
 };
