@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the plugin and the program and remeshes a sample with it, from nothing but a bare Debian 12 or 13. On 12
-# through meshlabserver, whose log is printed; on 13, whose MeshLab has none, the program remeshes and
+# Builds the plugin and the program on a bare Debian 12 or 13, and remeshes an example grain. On 12 meshlabserver
+# runs the filter, and its log is printed. MeshLab of 13 has no meshlabserver: there the program remeshes, and
 # MeshLab's window shows the filter, in pictures beside the mesh.
 #   filter_wscvt/demo.sh [MESH [SCRIPT [OUTPUT]]]     (SCRIPT: for meshlabserver)
 set -eu
@@ -16,8 +16,8 @@ flock 9
 
 tests/install_packages.sh
 filter_wscvt/get_meshlab_source.sh "$PWD/build/meshlab-source"
-# As tests/run_all.sh does it, which then need not build the library again; by a compiler that the
-# tests never saw, a warning is no reason to stop.
+# The same options as in tests/run_all.sh, which then need not build the library again. With a compiler that
+# was never tested, a warning is no reason to stop.
 case $(c++ -dumpversion) in
   12 | 14) strict=ON ;;
   *) strict=OFF ;;
@@ -26,8 +26,8 @@ cmake --preset release -DMESHLAB_SOURCE_DIR="$PWD/build/meshlab-source" -DWSCVT_
 stage=$PWD/build/release/filter_wscvt/stage
 cmake --build --preset release --target wscvt_stage wscvt_program wscvt_python
 
-# The file appears under its name when it is whole; what was there until then stays. The folder
-# beside it has one name, so that what a killed run left is found.
+# The file appears under its name when it is whole; the old file stays until then. The temporary folder beside
+# it has a fixed name, so that the next run finds the remains of a killed run.
 work=$output.part
 mkdir -p "$(dirname "$output")"
 trap 'exit 129' HUP

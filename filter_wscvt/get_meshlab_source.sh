@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fetches the source of the installed MeshLab, whose headers no Debian package carries, or of the
+# Fetches the source of the installed MeshLab, because no Debian package has its headers, or of the
 # MeshLab of another Debian suite.
 #   filter_wscvt/get_meshlab_source.sh FOLDER [SUITE]      (SUITE: bookworm, trixie, sid, ...)
-# FOLDER is created, and is what CMake wants as MESHLAB_SOURCE_DIR; nothing is done if it is there.
-# Needs no root: the source entry and apt's lists are kept in a folder of our own. Only the tarball
-# of the source package is fetched: Debian's patches leave the headers of src/common as they are,
-# and mirrors do not all serve the rest. apt checks its hash against the archive's signed index.
+# Creates FOLDER for CMake's option MESHLAB_SOURCE_DIR. Does nothing if FOLDER is there.
+# Needs no root: the source entry and apt's lists are in a folder of this script. It fetches only the
+# tarball of the source package: Debian's patches do not change the headers of src/common, and not all
+# mirrors serve the rest. apt checks its hash against the archive's signed index.
 # May be killed at any point and run again, or twice at once: FOLDER appears whole, by one rename.
 set -eu
 

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Starts a MeshLab with a mesh on a display of its own, opens the plugin's everyday filter, applies
-# it by mouse and writes two pictures: the dialog and the result.
+# Starts MeshLab with a mesh, opens the plugin's filter "Grain to a Number of Nodes", applies it by mouse
+# and writes two pictures: the dialog and the result.
 #   filter_wscvt/show_filter.sh MESHLAB MESH DIALOG_PNG RESULT_PNG
-# Run by xvfb-run. Needs xdotool and ImageMagick's import.
+# Run it with xvfb-run. Needs xdotool and ImageMagick's import.
 set -eu
 filter="Remeshing: Grain to a Number of Nodes"
 work=$(mktemp -d)

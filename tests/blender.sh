@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the Blender add-on, installs it into Blender, and passes its tests there: without a window, and
+# Makes the Blender add-on, installs it into Blender, and runs its tests there: without a window, and
 # in a window on a virtual screen, with a picture.
 #   tests/blender.sh BUILD WORK_FOLDER [WHEEL]
-# Without WHEEL one is made of BUILD.
+# Makes the wheel from BUILD if WHEEL is not given.
 set -eu
 build=$(realpath "${1:?usage: blender.sh BUILD WORK_FOLDER [WHEEL]}")
 work=$(realpath -m "${2:?usage: blender.sh BUILD WORK_FOLDER [WHEEL]}")

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Passes the add-on's tests without a window in the Blender of Debian 13, in a root of its own. As root.
+# Runs the add-on's tests without a window in the Blender of Debian 13, in a root of its own. As root.
 #   tests/blender_debian13.sh ZIP WORK_FOLDER
-# ZIP is what filter_wscvt/host_blender/make_addon.py makes. The root stays in WORK_FOLDER and is used
-# again; it takes 1.5 GB.
+# filter_wscvt/host_blender/make_addon.py makes ZIP. The root stays in WORK_FOLDER, 1.5 GB, and is used
+# again.
 set -eu
 zip=$(realpath "${1:?usage: blender_debian13.sh ZIP WORK_FOLDER}")
 work=$(realpath -m "${2:?usage: blender_debian13.sh ZIP WORK_FOLDER}")

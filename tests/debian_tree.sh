@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Does in a tree of another Debian what a newcomer does there, then runs the tests inside that
-# Debian's real MeshLab: menu, dialog, Apply, log.
+# Runs demo.sh in a tree of another Debian, as a newcomer would, then the tests inside that Debian's real
+# MeshLab: menu, dialog, Apply, log.
 #   tests/debian_tree.sh SUITE
 # SUITE: bookworm (Debian 12 with MeshLab 2020.09), trixie (Debian 13 with 2022.02), sid (2025.07).
-# As root; needs debootstrap, which tests/run_all.sh installs. The tree stands in build/debian-SUITE
-# and is used again; the pictures are in build/debian-SUITE-pictures.
+# As root; needs debootstrap, which tests/run_all.sh installs. The tree stays in build/debian-SUITE
+# and is used again. The pictures are in build/debian-SUITE-pictures.
 set -eu
 suite=${1:?usage: debian_tree.sh SUITE}
 root=$(realpath "$(dirname "$0")/..")

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""each_alone.py BUILD FOLDER...: reads every source below the folders as its compile command in BUILD says,
-without making an object, so that none lives on what a precompiled header or a file that is compiled
-together with it includes or declares. BUILD is configured with WSCVT_QUICK_BUILD=OFF, and need not be built."""
+"""each_alone.py BUILD FOLDER...: parses every source below the folders with its compile command in BUILD,
+without making an object. It finds sources that need a precompiled header, or a file that is compiled
+together with them. BUILD is configured with WSCVT_QUICK_BUILD=OFF, and need not be built."""
 import concurrent.futures
 import json
 import os

@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what the library, the plugin and their tests need on Debian 12. As root or with sudo;
-# when everything is there already, neither is needed. May be killed and run again. Packages named
-# as arguments are installed in place of these.
+# Installs the packages that the library, the plugin and their tests need on Debian 12, or the packages
+# named as arguments. As root or with sudo, unless all are installed. May be killed and run again.
 set -eu
 
 packages="

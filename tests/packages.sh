@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the Debian packages of what is built, looks at them by lintian, installs them, uses program, library, module
-# and plugin from where they are then, and removes them: nothing may be left. As root or with sudo.
+# Makes the Debian packages of a build, checks them with lintian, installs them, uses the installed program,
+# library, module and plugin, and removes them: nothing may be left. As root or with sudo.
 #   tests/packages.sh BUILD_FOLDER WORK_FOLDER
 set -eu
 build=$(realpath "${1:?usage: packages.sh BUILD_FOLDER WORK_FOLDER}")

@@ -1,12 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Shows a report's page in headless Chromium: on a telephone (400 pixels wide), in a wide window
-# (1400) and printed. Fails when the page is wider than a window, a picture of it does not load or a
-# printed page ends with a heading.
+# (1400) and printed. Fails if the page is wider than a window, a picture does not load or a printed
+# page ends with a heading.
 #   tests/page_in_browser.sh PROGRAM FOLDER
-# PROGRAM is wscvt. The page, the pictures page-400.png and page-1400.png and page.pdf are left in
-# FOLDER to be looked at. Needs chromium and poppler-utils; tests/run_all.sh page installs them and
-# runs this.
+# PROGRAM is wscvt. Leaves the page, the pictures page-400.png and page-1400.png and page.pdf in FOLDER.
+# Needs chromium and poppler-utils; tests/run_all.sh page installs them and runs this.
 set -eu
 program=$(realpath "${1:?usage: page_in_browser.sh PROGRAM FOLDER}")
 folder=$(realpath -m "${2:?usage: page_in_browser.sh PROGRAM FOLDER}")

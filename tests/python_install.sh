@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the Python module by pip from a copy of the sources, without the network, into an
-# environment of its own, passes its tests there, PROGRAM beside it, and removes it: nothing may be left.
+# Installs the Python module with pip from a copy of the sources, without the network, into an environment
+# of its own, runs its tests there, with PROGRAM, and removes it: nothing may be left.
 #   tests/python_install.sh PROGRAM WORK_FOLDER
 set -eu
 program=$(realpath "${1:?usage: python_install.sh PROGRAM WORK_FOLDER}")

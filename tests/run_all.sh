@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds everything and passes every test.
+# Builds everything and runs every test.
 #   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [windows] [debian12] [debian13] [sid]
-# Without arguments: install, release and hosts. tests/README.md says what each step does. The sanitized
-# build goes without CGAL's own assertions (CGAL_NDEBUG), which make some tests a hundred times
-# slower; those of Eigen and OpenMesh stay.
+# Without arguments: install, release and hosts. tests/README.md explains each step. The sanitized
+# build has no assertions of CGAL (CGAL_NDEBUG), because they make some tests a hundred times slower. It has
+# those of Eigen and OpenMesh.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(nproc)

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A sample of 1000 grains on a Slurm cluster of this machine, a controller and two nodes, one of which
-# is killed in the middle; then by GNU parallel. The tables must be the bytes of one batch's.
+# Remeshes a sample of 1000 grains on a Slurm cluster on this machine, a controller and two nodes. One node is
+# killed in the middle. Then does the same with GNU parallel. The tables must have the bytes of one batch's tables.
 #   tests/slurm.sh PROGRAM WORK_FOLDER
-# As root: each node is a namespace of processes of its own, so that all of it dies at once.
+# As root: each node has its own namespace of processes, so that all of it dies at once.
 set -eu
 program=$(realpath "${1:?usage: slurm.sh PROGRAM WORK_FOLDER}")
 work=$(realpath -m "${2:?usage: slurm.sh PROGRAM WORK_FOLDER}")
@@ -20,7 +20,7 @@ fail() {
 rm -rf "$work"
 mkdir -p "$work/scans" "$work/slurm/state"
 cd "$work"
-# Of 20 bodies, one of them broken; a grain's name decides in which part it is.
+# Copies of 20 bodies, one of them broken. A grain's name decides its shard.
 for k in $(seq 19); do
   "$program" create ellipsoid "body_$k.ply" --semi-axes 1 "0.$((60 + k))" 0.6 -n 400 -q
 done

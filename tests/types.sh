@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Holds the type stub of the Python module against code that uses it, right and wrong.
+# Checks the type stub of the Python module with mypy, on code that uses it right and wrong.
 #   tests/types.sh BUILD
 set -eu
 build=$(realpath "${1:?usage: types.sh BUILD}")

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the wheel of the Python module and uses it in roots of Debian 12 and 13 that hold nothing but
-# Python and NumPy. Both must make the mesh of the program, byte by byte. As root, for debootstrap.
+# Makes the wheel of the Python module and uses it in roots of Debian 12 and 13 that have only Python and
+# NumPy. Both must make the bytes of the program's mesh. As root, for debootstrap.
 #   tests/wheel.sh BUILD WORK_FOLDER
 # The roots stay in WORK_FOLDER and are used again.
 set -eu

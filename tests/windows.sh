@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Drives the window of another Debian's MeshLab with the plugin that was built here for its version: menu,
-# search, dialogs, Apply, log. MeshLab runs in a root of that Debian, which has nothing else of ours;
-# keys, clicks and pictures come from here.
+# search, dialogs, Apply, log. MeshLab runs in a root of that Debian with nothing else of this project. This
+# machine sends keys and clicks, and takes the pictures.
 #   tests/windows.sh BUILD SUITE [GTEST_FILTER]
 # SUITE: trixie (MeshLab 2022.02) or sid (2025.07). BUILD was configured with the source of that version
-# among MESHLAB_OTHER_SOURCE_DIRS. As root, for debootstrap and chroot. The root stands in
-# build/meshlab-SUITE and is used again; the pictures are in BUILD/tests/host/VERSION/stage.
+# among MESHLAB_OTHER_SOURCE_DIRS. As root, for debootstrap and chroot. The root stays in
+# build/meshlab-SUITE and is used again. The pictures are in BUILD/tests/host/VERSION/stage.
 set -eu
 usage="usage: windows.sh BUILD SUITE [GTEST_FILTER]"
 build=$(realpath "${1:?$usage}")

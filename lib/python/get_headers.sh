@@ -1,11 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fetches the headers of another Debian's Python, and of the pybind11 that knows it.
+# Fetches the headers of another Debian's Python, and of the pybind11 for it.
 #   lib/python/get_headers.sh FOLDER SUITE PACKAGE...
 #   lib/python/get_headers.sh build/headers-trixie trixie libpython3.13-dev pybind11-dev
-# FOLDER gets the unpacked packages and is then what CMake wants in WSCVT_PYTHON_OTHER_HEADERS;
-# nothing is done if it is there. Needs no root. apt checks the packages against the archive's
-# signed index.
+# Unpacks the packages into FOLDER, for CMake's option WSCVT_PYTHON_OTHER_HEADERS. Does nothing if FOLDER
+# is there. Needs no root. apt checks the packages against the archive's signed index.
 set -eu
 folder=$(realpath -m "${1:?usage: get_headers.sh FOLDER SUITE PACKAGE...}")
 suite=${2:?usage: get_headers.sh FOLDER SUITE PACKAGE...}

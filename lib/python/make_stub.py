@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the stub of the module beside it, with every option that it has and its type.
+"""Writes the stub of the module beside it, with every option and its type.
 
     make_stub.py TEMPLATE STUB
 """

@@ -4,9 +4,9 @@
 
     lib/python/make_wheel.py BUILD OUTPUT_FOLDER
 
-BUILD is a configured build folder, build/release for example. The wheel holds a module for each
-Python, the shared libraries that they need but for those of every Linux (libc, libstdc++), and all
-licence texts. Needs g++, patchelf, and Debian's archive for the headers of the other Python.
+BUILD is a configured build folder, build/release for example. The wheel contains a module for each Python,
+the shared libraries that they need except those of every Linux (libc, libstdc++), and all licence texts.
+Needs g++, patchelf, and Debian's archive for the headers of the other Python.
 """
 import base64
 import hashlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Has CMake build the module; what the package is stands in pyproject.toml."""
+"""Builds the module with CMake. pyproject.toml describes the package."""
 import os
 import pathlib
 import re

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The most memory that wscvt batch takes for so many grains, the scans of a folder in turn under names
-# of their own.
+# Prints the peak memory of wscvt batch for each COUNT of grains: the scans of a folder in turn, under new
+# names.
 #   tests/benchmarks/batch_memory.sh PROGRAM FOLDER COUNT... [-- OPTIONS of wscvt remesh]
 set -eu
 program=$(realpath "${1:?usage: batch_memory.sh PROGRAM FOLDER COUNT... [-- OPTIONS]}")

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Grains a second of wscvt batch and of one process a file, on a machine with nothing else to do.
+# Prints the grains per second of wscvt batch and of one process per file. Use an idle machine.
 #   tests/benchmarks/batch_rate.sh PROGRAM SCAN COUNT [OPTIONS of wscvt remesh]
 set -eu
 program=$(realpath "${1:?usage: batch_rate.sh PROGRAM SCAN COUNT [OPTIONS]}")

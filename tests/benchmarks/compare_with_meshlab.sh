@@ -3,7 +3,7 @@
 # Times whole processes, file to file, in one run: this remesher against MeshLab's own quadric edge
 # collapse and isotropic remeshing on the same scan.
 #   compare_with_meshlab.sh WSCVT_PROGRAM SCAN.ply [NODES [RUNS]]
-# Prints the median wall time and the peak memory of each, and the ratios to the remesher.
+# Prints the median wall time and the peak memory of each, and the ratios to wscvt.
 set -eu
 # One display for all runs, so that starting it is not part of MeshLab's time.
 [ -n "${DISPLAY:-}" ] || exec xvfb-run -a "$0" "$@"

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes a large volume of labels and takes its grains out of it under a limit of memory.
+"""Makes a large volume of labels and extracts its grains under a limit of memory.
 
     tests/benchmarks/large_volume.py build/release/lib/wscvt WORK_FOLDER [--counts 2000 2000 1000]
 
-The volume has 5,000 ellipsoids with waves on them, each in a cell of its own and turned any way, as
-16-bit voxels: 8 GB. It is written slice by slice. The program may take no more than 4 GiB of address
-space. What it says, its time and its peak of memory are printed; meshes are checked for their number,
-and some of them for their volume, and everything is removed.
+The volume has 5,000 ellipsoids with waves on them, each in its own cell and rotated at random, as 16-bit
+voxels: 8 GB. It is written slice by slice. The program may use no more than 4 GiB of address space. The
+script prints the program's output, its time and its peak memory. It checks the number of meshes, and the
+volume of some of them, and removes everything.
 """
 
 import argparse

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# yade -n -x clump_yade_test.py, in the folder of clump.py and clump.json: the clump holds all spheres,
-# has the grain's mass and moments, and comes to rest on a wall.
+# yade -n -x clump_yade_test.py, in the folder of clump.py and clump.json. Checks that the clump has all
+# spheres, the grain's mass and its moments, and comes to rest on a wall.
 import json
 import os
 import sys

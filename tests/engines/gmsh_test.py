@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# python3 gmsh_test.py MESH DESCRIPTION: the volume of Gmsh's tetrahedra is the grain's, whose
-# remesh by least squares encloses it exactly; STL keeps 24 bits of it.
+# python3 gmsh_test.py MESH DESCRIPTION: checks that the volume of Gmsh's tetrahedra is the grain's. The
+# fitted remesh encloses it exactly, and STL keeps 24 bits of it.
 import json
 import sys
 

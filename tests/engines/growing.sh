@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The commands of lib/doc/grow.md, word for word: templates, virtual grains and their packing in Yade.
+# Runs the commands of lib/doc/grow.md, word for word: templates, virtual grains and their packing in Yade.
 #   tests/engines/growing.sh PROGRAM FOLDER
-# FOLDER is made, and gets the sample of 28 grains in its folder `scans`. A part of run.sh.
+# Makes FOLDER, with a sample of 28 grains in its folder `scans`. A part of run.sh.
 set -eu
 program=$1
 folder=$2

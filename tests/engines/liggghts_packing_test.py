@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether LIGGGHTS inserted the grains of liggghts.in, and they lie on the bottom.
+"""Checks that LIGGGHTS inserted the grains of liggghts.in, and that they are at rest on the bottom.
 
     liggghts_packing_test.py INPUT OUTPUT COUNT
 """

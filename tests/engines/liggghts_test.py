@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# python3 liggghts_test.py OUTPUT TRIANGLES: LIGGGHTS took every triangle, and the balls, which
-# would be at -0.005 m had they fallen freely, did not fall through it.
+# python3 liggghts_test.py OUTPUT TRIANGLES: checks that LIGGGHTS read every triangle, and that the balls
+# did not fall through the mesh. After a free fall they would be at -0.005 m.
 import re
 import sys
 

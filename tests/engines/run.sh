@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Loads a grain into the engines that Debian has: Yade (level sets), LIGGGHTS (surface mesh), Gmsh
-# (tetrahedra) and VTK, whose readers are ParaView's; and runs the examples of lib/examples/engines.
+# Loads a grain into the engines of Debian: Yade (level sets), LIGGGHTS (surface mesh), Gmsh (tetrahedra)
+# and VTK (ParaView has the same readers). Runs the examples of lib/examples/engines.
 #   tests/engines/run.sh PROGRAM FOLDER
-# PROGRAM is wscvt. The files are left in FOLDER. Run by tests/run_all.sh engines, because of the
-# packages' size.
+# PROGRAM is wscvt. Leaves the files in FOLDER. tests/run_all.sh engines runs it and installs the large
+# packages.
 set -eu
 program=$(realpath "${1:?usage: run.sh PROGRAM FOLDER}")
 folder=$(realpath -m "${2:?usage: run.sh PROGRAM FOLDER}")
@@ -16,7 +16,7 @@ for command in yade liggghts gmsh lmp; do
     exit 1
   }
 done
-# Debian's own, for whose version its modules are.
+# Debian's own Python, because Debian's modules are for its version.
 python=/usr/bin/python3
 mkdir -p "$folder"
 cd "$folder"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# python3 vtk_test.py NODES_CSV NODES_VTP GRID_NPY GRID_VTI: the files as VTK's readers, which are
-# ParaView's, see them, against each other and against VTK's own distances.
+# python3 vtk_test.py NODES_CSV NODES_VTP GRID_NPY GRID_VTI: reads the files with VTK's readers, which
+# ParaView uses too, and compares them with each other and with VTK's own distances.
 import json
 import sys
 

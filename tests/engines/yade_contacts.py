@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contacts between grains of wscvt in Yade by a law that makes no energy. Yade finds the node of one
-grain that is deepest in the other, but its force acts along the normal which the node's own grain has
-there. The overlap does not change along that one, so that collisions of angular grains end with half
-the energy or with four times as much. Here the force follows from an energy: kn u^2 / 2 for the depth
-u, and so acts along the gradient of the distance to the surface that the node is in. Along the surface
-it is Cundall and Strack's, as Yade's own (Law2_ScGeom_FrictPhys_CundallStrack). In a script of your own:
+"""A contact law between grains of wscvt in Yade that conserves energy. Yade finds the node of one grain
+that is deepest in the other, but its force acts along the normal of the node's own grain. The overlap
+does not change along this normal, so that collisions of angular grains end with half the energy or with
+four times as much. Here the force follows from an energy, kn u^2 / 2 for the depth u, so it acts along
+the gradient of the distance to the surface that the node is in. Along the surface it is Cundall and
+Strack's, as Yade's own (Law2_ScGeom_FrictPhys_CundallStrack). In your own script:
 
     from yade_contacts import GrainContacts
     contacts = GrainContacts(grain, kn, ks, friction)      # grain: yade_grain.Grain, of several any one

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grain of wscvt in Yade: one shape, with the nodes and the distances of two files, for any number
-of bodies. In a script of your own: from yade_grain import Grain. Lengths are those of the files.
+of bodies. In your own script: from yade_grain import Grain. Lengths are in the unit of the files.
 
     wscvt scan.ply remesh.ply -n 200 --frame principal --size 0.1 --node-table nodes.csv --sdf grid.npy
 """

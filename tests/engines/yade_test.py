@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# yade -n -x yade_test.py NODES_CSV GRID_NPY: the files loaded into Yade, a grain thrown at a wall
-# without damping, and two at each other, which must keep their energy without friction and lose some
-# with it: at the wall by Yade's own law, whose force acts along the wall's normal, in which the overlap
-# changes; between grains by that of yade_contacts.py. Yade's own acts between grains along the normal that
-# the node's own grain has there (told and checked below), and not along that of the surface which the
-# node is in: what is left of the energy by it is printed, and not asked for.
+# yade -n -x yade_test.py NODES_CSV GRID_NPY: loads the files into Yade, throws a grain at a wall without
+# damping, and two grains at each other. They must keep their energy without friction and lose some with it.
+# At the wall the law is Yade's own: its force acts along the wall's normal, in which the overlap changes.
+# Between grains it is the law of yade_contacts.py, because Yade's own force acts there along the normal of
+# the node's own grain (checked below), not along the normal of the surface that the node is in. The energy
+# that is left with Yade's own law is printed and not checked.
 import math
 import os
 import sys

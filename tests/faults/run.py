@@ -1,23 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts faults into the sources, one at a time, and looks whether the tests notice.
+"""Puts faults into the sources, one at a time, and checks that the tests notice them.
 
   tests/faults/run.py [--check] [--changed COMMIT] [--untried] [--table] [--build DIRECTORY]
                       [--jobs NUMBER] [WORD ...]
 
-faults.txt lists the faults; WORDs keep those whose folder, title or file holds one of them,
---changed keeps those of files that differ from a commit, and --untried those that README.md
-does not say to have been tried. Each is put into a copy of the sources
-under DIRECTORY (build/faults), what its tests need is built, the tests of its own subject are run,
-and the fault is taken out again. The tree itself is only read, so that it is as it was also after
-an interruption. A fault is killed when a test fails, crashes, or takes ten times as long as without
-it. --check only tells whether every fault still finds its place; after a change of the library that
-is to be mended in faults.txt. --table writes what came of them into README.md, where the rows of
-faults that were not tried stay as they are.
+faults.txt lists the faults. WORDs keep faults whose folder, title or file contains one of them.
+--changed keeps faults in files that differ from a commit, and --untried keeps faults that README.md
+has as not tried. The script puts each fault into a copy of the sources under DIRECTORY (build/faults),
+builds what its tests need, runs the tests of its own subject, and removes the fault. It only reads the
+tree itself, so that an interruption changes nothing there. A fault is killed if a test fails, crashes,
+or takes ten times as long as without it. --check only checks that every fault still finds its place. If
+one does not after a change of the library, correct faults.txt. --table writes the results into README.md.
+There the rows of faults that were not tried now stay as they are.
 
-Exit code 0: every fault is killed, or survives for the reason that faults.txt gives. A run takes as
-long as a build and half a minute a fault. With --jobs there are several copies, each of which is
-built: only worth it with ccache, which is used where it is installed.
+Exit code 0: every fault is killed, or survives for the reason in faults.txt. A run takes as long as a
+build and half a minute per fault. --jobs makes and builds several copies: use it only with ccache, which
+the script uses if it is installed.
 """
 
 import argparse

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What type checkers say of the module: mypy takes all but the lines that say so.
+"""Uses of the module for a type checker: mypy accepts all lines but those marked as errors.
 
     MYPYPATH=build/release/lib/python mypy --strict --warn-unused-ignores tests/python/typed_use.py
 """

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Kills filter_wscvt/get_meshlab_source.sh before and after each command that it runs, runs it again
-# and looks for the whole source and nothing else. apt and dpkg are played by scripts, so that
-# neither root nor the network is needed.
+# Kills filter_wscvt/get_meshlab_source.sh before and after each command that it runs, and runs it again.
+# The whole source must then be there, and nothing else. Scripts replace apt and dpkg, so that neither
+# root nor the network is needed.
 #   killed_installers_test.sh SOURCE_FOLDER WORK_FOLDER
 set -eu
 root=$(realpath "$1")

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""packing_table.py FOLDER [REFERENCE]: what the packings of yade_packing.sh in a folder came to, a row
-for each choice of nodes: means over the seeds with their standard errors. The solid fraction is that of
-the grains as scanned, below the height that 70 % of their centres stay under; the true overlap that of
-the deepest vertex of a scan in the other grain. REFERENCE, 7,228 nodes on the scan unless told, is the
-choice that the others' solid fractions are set against, start by start. FOLDER gets energies.csv, the
-means over the seeds against time."""
+"""packing_table.py FOLDER [REFERENCE]: prints the results of the packings of yade_packing.sh in FOLDER, one
+row per choice of nodes: means over the seeds with their standard errors. The solid fraction is that of the
+grains as scanned, below the height that 70 % of their centres are under. The true overlap is that of the
+deepest vertex of a scan in the other grain. The others' solid fractions are compared with REFERENCE, by
+default 7,228 nodes on the scan, start by start. Writes FOLDER/energies.csv, the means over the seeds
+against time."""
 import glob
 import json
 import os

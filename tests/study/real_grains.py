@@ -4,10 +4,10 @@
 
     tests/study/real_grains.py PROGRAM FOLDER [--nodes 100 500 1000 5000] [options of the program]
 
-Remeshes every mesh file of FOLDER by PROGRAM (build/release/lib/wscvt) and prints a row for each
-number of nodes: mean edge ratio, edge length deviation / mean, smallest angle, two-sided rms and
-largest sampled distance in % of the equivalent radius, errors of area and volume in %, pairs of
-triangles that meet, seconds of the whole process with distances, the map, and the warnings' number.
+Remeshes every mesh file of FOLDER with PROGRAM (build/release/lib/wscvt) and prints one row per number of
+nodes: mean edge ratio, coefficient of variation of the edge length, smallest angle, two-sided rms and
+largest sampled distance in % of the equivalent radius, errors of area and volume in %, intersecting
+triangle pairs, seconds of the whole process with distances, and the number of warnings.
 """
 import argparse
 import json

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How often two samples of one population are told apart at p <= 0.05, by permutation and by bootstrap.
+"""How often tests find a difference (p <= 0.05) between two samples of one population: permutation and bootstrap.
 
     tests/study/two_sample_tests.py [--trials 1000]
 
-Sizes are lognormal (deviation 0.4 of the logarithm), masses their cubes. Prints a row for each number
-of grains a sample: the fraction of trials with p <= 0.05 by Wasserstein's and by Kolmogorov's distance,
-once with random partings of all grains (permutation, as "wscvt sample" does), once with two random samples
-drawn with replacement from all grains (bootstrap). 0.05 is right. Needs NumPy.
+Sizes are lognormal (deviation 0.4 of the logarithm), masses their cubes. Prints one row per number of
+grains in a sample: the fraction of trials with p <= 0.05 by Wasserstein's and by Kolmogorov's distance,
+once with random divisions of all grains (permutation, as in "wscvt sample"), once with two random samples
+drawn with replacement from all grains (bootstrap). The right value is 0.05. Needs NumPy.
 """
 import argparse
 

@@ -4,11 +4,11 @@
 
     tests/study/virtual_grains.py PROGRAM FOLDER [--seed 1] [--grown 1000] [--splits 4]
 
-FOLDER holds SH coefficients (*.dat, `n m Re Im`). Half of the grains, drawn by the seed, are the
-sample; the others are kept to judge by. Two published generators are repeated here from the same
-sample, a Gaussian of principal components with 95 % of the variance and a Nataf transform of all
-coefficients. With --splits the table is that of `wscvt grow` alone, for the seeds 1, 2, ... and their
-medians. Needs python3-numpy, python3-scipy and python3-sklearn; ten minutes of processor time.
+FOLDER contains SH coefficients (*.dat, `n m Re Im`). Half of the grains, drawn by the seed, are the
+sample. The others judge the result. The script repeats two published generators with the same sample: a
+Gaussian of principal components with 95 % of the variance, and a Nataf transform of all coefficients.
+With --splits the table has only `wscvt grow`, for the seeds 1, 2, ... and their medians. Needs
+python3-numpy, python3-scipy and python3-sklearn, and ten minutes of processor time.
 """
 import argparse
 import csv

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # yade -n -x yade_packing.py NODES_CSV GRID_NPY SEED OUTPUT_CSV [SIDE LAYERS SECONDS [DAMPING FRICTION [LAW]]]:
-# the packing of the paper's figure 11 in Yade: grains of 0.1 m, in LAYERS (6) of SIDE x SIDE (3), thrown
-# down at 2 m/s into a box as wide as they are, until SECONDS (1) have passed; normal and tangential
-# stiffness 2e6 and 1e6 N/m, FRICTION 0.5, Yade's DAMPING 0.3, LAW between grains "contacts", that of
-# ../engines/yade_contacts.py, or "own", Yade's. Starts go by the seed alone, so that those of different
-# nodes are paired. Without damping and friction the sum of the energies must stay, but by Yade's law.
+# makes the packing of the paper's figure 11 in Yade: grains of 0.1 m, in LAYERS (6) of SIDE x SIDE (3), thrown
+# down at 2 m/s into a box as wide as they are, until SECONDS (1) have passed. Normal and tangential stiffness
+# are 2e6 and 1e6 N/m, FRICTION is 0.5, Yade's DAMPING 0.3. LAW between grains is "contacts", the law of
+# ../engines/yade_contacts.py, or "own", Yade's. Starts depend only on the seed, so that those of different
+# nodes are paired. Without damping and friction the sum of the energies must stay, except with Yade's law.
 # Columns: time, kinetic, potential and elastic energy, mean overlap of grains in contact as Yade sees it /
-# radius; the last line is the cost. Beside it, in OUTPUT_CSV.poses, place and quaternion w, x, y, z of
-# each grain at the end.
+# radius; the last line is the cost. OUTPUT_CSV.poses gets position and quaternion w, x, y, z of each grain
+# at the end.
 import math
 import os
 import sys

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Packings in Yade by several choices of nodes, from paired starts; see yade_packing.py.
+# Makes packings in Yade for several choices of nodes, from paired starts; see yade_packing.py.
 #   tests/study/yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]
-# PROGRAM is wscvt. Packages: tests/run_all.sh engines. A line for each packing in packings.txt;
+# PROGRAM is wscvt. tests/run_all.sh engines installs the packages. packings.txt gets one line per packing;
 # packing_table.py FOLDER makes a table of them.
 set -eu
 program=$(realpath "${1:?usage: yade_packing.sh PROGRAM FOLDER SEEDS [NODES:PLACEMENT...]}")
@@ -13,7 +13,7 @@ shift 3
 here=$(realpath "$(dirname "$0")")
 mkdir -p "$folder"
 cd "$folder"
-# What the packings are held against: as many nodes on the scan as it has vertices.
+# The reference of the packings: as many nodes on the scan as it has vertices.
 "$program" remesh -q "$here/../../meshes/sand_7228.ply" vertices.ply -n 7228 -p on-surface \
   --frame principal --size 0.1 --node-table vertices.csv --sdf vertices.npy
 for set in "$@"; do

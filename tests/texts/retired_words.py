@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""retired_words.py SOURCE: no text that a user meets holds a word that GLOSSARY.md retired.
+"""retired_words.py SOURCE: checks that no text for users contains a word that GLOSSARY.md retired.
 
-Looks at the literals of lib/, filter_wscvt/ and of the Python module, which hold labels, messages, helps and
-keys of JSON and CSV, and at the documents. Comments and identifiers are not looked at. `python3
-retired_words.py --self` checks that each word is found in a sentence made for it.
+It reads the literals of lib/, filter_wscvt/ and of the Python module (labels, messages, helps, keys of JSON
+and CSV), and the documents. It does not read comments and identifiers. `python3 retired_words.py --self`
+checks that it finds each word in a sentence made for it.
 """
 import pathlib
 import re
@@ -41,7 +41,7 @@ EXCEPTIONS = {
     "tests/faults/README.md": "titles of faults, about the code",
 }
 
-# What a word may stand in: file names, code, and other senses.
+# Where such a word is allowed: in file names, code, and other senses.
 ALLOWED = re.compile(
     r"`[^`]*`"                      # code in documents
     r"|\"[^\" ]*\.(h|cpp)\"?"       # included files

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """run_readme.py SOURCE BINARY FOLDER [TEXT ...]: runs the commands of every README.md, or of the
-TEXTs named by their path in SOURCE, word for word and in their order, as somebody would after README.md's
-first command. Each text has a folder of its own in FOLDER, with links to the project and
-its build, a scan.ply, and small volumes scan.tif and labels.tif.
+TEXTs named by their path in SOURCE, word for word and in their order, as a user would after README.md's
+first command. Each text has its own folder in FOLDER, with links to the project and its build, a
+scan.ply, and small volumes scan.tif and labels.tif.
 
-A block of commands below the line <!-- by hand --> is not run, nor is a text that begins with it.
+It does not run a block of commands below the line <!-- by hand -->, nor a text that begins with this line.
 
-Exit code 0 if each command ends with 0, and each file that one names after -o, --report, --node-table or
---sdf, or as the output of wscvt, is there.
+Exit code 0 if each command ends with 0, and each file is there that a command names after -o, --report,
+--node-table or --sdf, or as the output of wscvt.
 """
 import os
 import pathlib
@@ -18,7 +18,7 @@ import struct
 import subprocess
 import sys
 
-# What sets up or tests, and so takes minutes; tests/run_all.sh and its step debian12 run these.
+# Commands that set up or test, and so take minutes; tests/run_all.sh and its step debian12 run them.
 SETUP = {"filter_wscvt/demo.sh", "tests/run_all.sh"}
 # How a command begins; other indented lines are what a program prints.
 STARTS = ("build/", "filter_wscvt/", "tests/", "lib/", "packages/", "python3 ", "xvfb-run ", "PYTHONPATH=",
