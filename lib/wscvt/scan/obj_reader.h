@@ -14,7 +14,7 @@ namespace wscvt {
 /// from the end when negative, lines continued by a backslash. Skips lines, groups, materials and
 /// the like. A file without faces gives only points. Throws as read_mesh.
 ///
-/// The writer's library (OpenMesh) is not used for reading: it stops silently at the first unknown
+/// CGAL, which writes OBJ here, is not used for reading: it stops silently at the first unknown
 /// line and so returns a part of the scan.
 IndexedMesh read_obj(ByteReader& reader);
 

@@ -10,8 +10,8 @@ namespace wscvt {
 /// STOFF) and the colours of faces. A file without faces gives only points. Throws as read_mesh.
 /// Refuses the binary form and coordinates that are not three-dimensional.
 ///
-/// The writer's library (OpenMesh) is not used for reading: it allocates memory for as many corners
-/// as a face claims, 4 GB for a file of fifty bytes.
+/// CGAL, which writes OFF here, is not used for reading: it allocates memory for as many corners as
+/// a face claims, 4 GB for a file of fifty bytes.
 IndexedMesh read_off(ByteReader& reader);
 
 }  // namespace wscvt

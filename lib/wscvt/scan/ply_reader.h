@@ -11,9 +11,9 @@ namespace wscvt {
 /// type, faces and triangle strips. Skips other elements and properties. A file without faces gives
 /// only points. Throws as read_mesh.
 ///
-/// The library of the other formats' writers (OpenMesh) is not used for reading. It reads through a
-/// null pointer if coordinates are integers or a property precedes the first element, trusts the
-/// counts of lists, and takes eleven times as long.
+/// CGAL, which writes other formats here, is not used for reading. It reads through a null pointer
+/// if coordinates are integers or a property precedes the first element, trusts the counts of
+/// lists, and takes eleven times as long.
 IndexedMesh read_ply(ByteReader& reader);
 
 /// Reads a PLY file as read_ply, with the numbers at its vertices and faces: every property that is

@@ -10,7 +10,7 @@ namespace wscvt {
 /// Warns about extra bytes at its end, fewer than a triangle takes. Each triangle has three points
 /// of its own. Throws as read_mesh; a file without triangles is an error.
 ///
-/// The writer's library (OpenMesh) is not used for reading: it reads a text that breaks off as an
+/// CGAL, which writes STL here, is not used for reading: it reads a text that breaks off as an
 /// empty file, and does not read capital letters.
 IndexedMesh read_stl(ByteReader& reader);
 
