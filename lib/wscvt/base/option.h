@@ -116,7 +116,7 @@ Enumeration from_key(std::string_view key) {
 }
 
 // The name and range of an option that is a number or a flag are in one constant beside its struct.
-// The same texts read it.
+// Reports, programs, dialogs, checks and messages read it too.
 
 /// The ends that belong to a range.
 enum class Ends { Both, NotMinimum, NotMaximum, Neither };

@@ -40,7 +40,7 @@ class WorkerThreads {
   void wait_for_loops();
   Loop* loop_with_work();
 
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< protects the members below
   std::condition_variable posted_;
   std::condition_variable left_;
   std::list<Loop*> loops_;

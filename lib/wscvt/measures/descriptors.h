@@ -126,12 +126,12 @@ struct FormAxes {
 struct FormRatios {
   double aspect_ratio = 0.0;      ///< S/L, in (0, 1]
   double zingg_elongation = 0.0;  ///< I/L, in (0, 1] (Zingg 1935, Beitrag zur Schotteranalyse)
-  double zingg_flatness = 0.0;    ///< S/I, in (0, 1] (the same)
+  double zingg_flatness = 0.0;    ///< S/I, in (0, 1] (Zingg 1935)
   /// (L - I)/L, in [0, 1) (Kong and Fonseca 2018, "Quantification of the morphology of shelly
   /// carbonate sands using 3D images", Geotechnique; read as SHAPE does: Angelidakis, Nadimi and
   /// Utili 2021, Comput. Phys. Commun. 265, 107983).
   double kong_fonseca_elongation = 0.0;
-  double kong_fonseca_flatness = 0.0;  ///< (I - S)/I, in [0, 1) (the same)
+  double kong_fonseca_flatness = 0.0;  ///< (I - S)/I, in [0, 1) (Kong and Fonseca 2018)
   /// Intercept sphericity (I S / L^2)^(1/3), in (0, 1] (Krumbein 1941, J. Sediment. Petrol. 11,
   /// 64-72).
   double krumbein_sphericity = 0.0;

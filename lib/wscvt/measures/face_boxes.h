@@ -27,8 +27,8 @@ class FaceBoxes {
   /// Whether no face has an area.
   bool empty() const { return faces_.empty(); }
 
-  /// Returns the nearest point of the surface. This function and those below need faces; this is
-  /// not checked.
+  /// Returns the nearest point of the surface. This and the functions below need faces; this is not
+  /// checked.
   Vector3 nearest_point(const Vector3& point) const;
 
   /// Returns the distance to the nearest point of the surface, >= 0; length.

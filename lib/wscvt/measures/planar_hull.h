@@ -10,7 +10,7 @@ using Vector2 = Eigen::Vector2d;
 
 /// Returns the corners of the convex hull of points in a plane, counter-clockwise (Andrew 1979,
 /// "Another efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9,
-/// 216-219); Leaves out points on its sides, up to rounding. Sorts `points` and removes inner
+/// 216-219). Leaves out points on its sides, up to rounding. Sorts `points` and removes inner
 /// points.
 std::vector<Vector2> planar_hull(std::vector<Vector2>& points);
 

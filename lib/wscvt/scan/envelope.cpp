@@ -80,7 +80,7 @@ constexpr const char* envelope_stage = "Wrapping the scan";
 /// Faces given to the oracle at once: some hundredths of a second.
 constexpr std::size_t faces_a_report = 1 << 17;
 
-/// Reports before each step of the wrapping, which takes milliseconds at most.
+/// Reports before each step of the wrapping. A step takes at most milliseconds.
 struct ReportingVisitor : parts::Wrapping_default_visitor {
   explicit ReportingVisitor(const Execution& to) : execution(to) {}
 

@@ -14,7 +14,7 @@ std::size_t genus_of(const IndexedMesh& mesh);
 
 /// A mesh without the handles made by the scanner, and the report of the cuts.
 struct HandleFreeMesh {
-  IndexedMesh mesh;  ///< first the input's vertices (those of the loops moved), then new vertices
+  IndexedMesh mesh;  ///< first the input's vertices (vertices of loops moved), then new vertices
   HandleReport report;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// https://docs.vtk.org/en/latest/vtk_file_formats/. Not by VTK itself, whose library is 100 MB.
+// https://docs.vtk.org/en/latest/vtk_file_formats/. VTK itself is not used, because its library is
+// 100 MB.
 #include "wscvt/scan/legacy_vtk_reader.h"
 
 #include <algorithm>

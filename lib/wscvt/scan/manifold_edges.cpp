@@ -242,8 +242,7 @@ class Sheets {
   /// Does steps 2 and 3. Returns the number of added vertices.
   std::size_t cut_edges() {
     std::size_t added = 0;
-    // New indices of half-edges whose face was cut before: the same side of the edge at another
-    // index.
+    // New indices of half-edges whose face was cut before. They are on their old side of the edge.
     std::unordered_map<std::int32_t, std::int32_t> moved;
     const auto slot_of = [&](std::int32_t h) {
       for (auto at = moved.find(h); at != moved.end(); at = moved.find(h)) h = at->second;

@@ -179,7 +179,7 @@ bool write_stl(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
 }
 
 bool write_obj(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
-  stream.precision(17);  // CGAL ignores its precision parameter
+  stream.precision(17);  // the library forgets it where it is a parameter
   return CGAL::IO::write_OBJ(stream, library_points(mesh), mesh.triangles);
 }
 

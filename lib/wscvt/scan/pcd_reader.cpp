@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// https://pointclouds.org/documentation/tutorials/pcd_file_format.html. Not by PCL, whose library
-// for files alone brings VTK.
+// https://pointclouds.org/documentation/tutorials/pcd_file_format.html. PCL is not used, because
+// its file library needs VTK.
 #include "wscvt/scan/pcd_reader.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Not by VTK itself, whose library is 100 MB. Its XML is a few tags with attributes, read here
-// without a parser of XML: that would be one more library for whoever links this one.
+// VTK itself is not used, because its library is 100 MB. Its XML has only a few tags with
+// attributes. An XML parser would be one more library to link.
 #include "wscvt/scan/vtp_reader.h"
 
 #include <zlib.h>

@@ -14,7 +14,7 @@ namespace wscvt {
 /// centre cut the faces in straight lines.
 class CubeMap {
  public:
-  /// `resolution` >= 1, which is not checked.
+  /// `resolution` >= 1; this is not checked.
   explicit CubeMap(int resolution) : resolution_(resolution) {}
 
   /// Returns the resolution for about two triangles of an even mesh per cell. About five triangles

@@ -48,7 +48,7 @@ void check_grain_surface(const GrainSurface& surface);
 /// Whether the coefficients belong to a harmonic map. Reads their file. Throws as read_harmonics.
 bool holds_map(const GrainSurface& surface);
 
-/// Returns the surface, which must not be a harmonic map. Reads the file of coefficients. Throws
+/// Returns the surface. It must not be a harmonic map. Reads the file of coefficients. Throws
 /// Error: InputOutput, InvalidInput.
 std::unique_ptr<const RadialSurface> make_surface(const GrainSurface& surface);
 

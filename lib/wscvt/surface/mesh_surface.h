@@ -39,7 +39,7 @@ class MeshSurface : public RadialSurface {
 
   /// Returns the outermost hit. Rays through an edge or a vertex are not missed: the test of Woop,
   /// Benthin and Wald (J. Comput. Graph. Tech. 2 (2013) 65-82). If triangles are hit at equal
-  /// distances, the first counts. Throws Error(NumericalFailure) if nothing is hit, which cannot
+  /// distances, the first counts. Throws Error(NumericalFailure) if nothing is hit. This cannot
   /// happen for a closed mesh about the origin.
   Hit outermost_hit(const Vector3& direction) const;
 

@@ -159,7 +159,7 @@ std::vector<Vector3> SurfaceLowPass::filter(const std::vector<Vector3>& values,
     step[row] << values[static_cast<std::size_t>(i)], 0.0;
     areas[row] = areas_[i];
   }
-  // Sums the powers of h one after another, which takes as many steps as Horner's rule.
+  // Sums the powers of h one after another. This takes as many steps as Horner's rule.
   std::vector<Value> sum(vertices_, Value::Zero());
   constexpr std::array<double, 6> polynomial = {0.0, 0.0, 0.0, 10.0, -15.0, 6.0};
   for (std::size_t power = 1; power < polynomial.size(); ++power) {
