@@ -14,7 +14,8 @@ namespace wscvt {
 ///   them, integral of x^3 dV >= 0, so the frame does not depend on the pose. If the body is
 ///   symmetric along an axis, the axis's largest component in the mesh's frame (the first of
 ///   several) is positive, which depends on the pose. z completes a right-handed frame.
-/// - q has w >= 0. If moments are equal, as for a sphere or a cube, the axes are arbitrary.
+/// - q has w >= 0.
+/// If moments are equal, as for a sphere or a cube, the axes are arbitrary.
 ///
 /// `centroid` and `inertia_tensor` as in this mesh's ShapeDescriptors.
 Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centroid,

@@ -14,12 +14,15 @@ namespace wscvt {
 /// curvature", Powder Technol. 335, 58-66) use curvature, as does this library.
 ///
 /// Convention: corners are the points whose larger principal curvature k exceeds 1.05 / R. The mean
-/// over them weights each radius 1/k by the turn k dA that it makes: V = A_c / (R integral over the
-/// corners of k dA), A_c their area. Another weight gives another number: an ellipsoid 1 : 2 : 6
-/// has 0.54 by turn, 0.61 by area. A rounded cube of edge radius a has V = a / R for any weight.
+/// over them weights each radius 1/k by the turn k dA that it makes:
+///   V = A_c / (R integral over the corners of k dA),   A_c their area.
+/// Another weight gives another number: an ellipsoid 1 : 2 : 6 has 0.54 by turn, 0.61 by area. A
+/// rounded cube of edge radius a has V = a / R for any weight.
+///
 /// Curvature in balls of radius s (ball_curvatures) conserves the turn but spreads a corner over
-/// the ball, so V(s) grows linearly with s. Hence V = V(s) - 2 (V(1.5 s) - V(s)), and at least V(s)
-/// - 0.7 (s / R) (1 - V(s)). If corners cover less than 1 % of the area, roundness is 1.
+/// the ball, so V(s) grows linearly with s. Hence
+///   V = V(s) - 2 (V(1.5 s) - V(s)),   at least V(s) - 0.7 (s / R) (1 - V(s)).
+/// If corners cover less than 1 % of the area, roundness is 1.
 ///
 /// `ball` is s / R in (0, 1]; s is at least 2.5 mean edges of the mesh. The smallest corner radius
 /// that can be distinguished from sharper corners, to within 0.03 R, is s / 4 (measured on cubes of

@@ -41,7 +41,7 @@ class ByteReader {
   /// Skips `count` bytes. Returns false if fewer bytes are left.
   bool skip(std::uintmax_t count);
 
-  /// Returns at most `count` of the next bytes without reading past them.
+  /// Returns at most `count` of the next bytes and does not consume them.
   std::string_view peek(std::size_t count);
 
   /// Reads the next line without its line break; it is valid until the next call. Returns nothing

@@ -23,8 +23,8 @@ class WrappableScan : public Error {
   double opening_percent_;
 };
 
-/// The smallest opening that is tried, because smaller openings take seconds, and the largest. With
-/// larger openings a wrap does not follow its scan.
+/// The smallest and the largest opening that are tried. Smaller openings take seconds. With larger
+/// openings a wrap does not follow its scan.
 inline constexpr double finest_tried_percent = 5.0;
 inline constexpr double coarsest_tried_percent = 20.0;
 

@@ -21,14 +21,14 @@ struct ManifoldRepair {
 /// has more than two faces:
 ///
 /// 1. The edges cut the surface into patches. An edge is balanced if equally many faces use it in
-/// each direction. If fewer edges are unbalanced without a patch, the patch is a flap or an
-/// internal wall and is dropped. Small patches are dropped first, the largest never. A patch that
-/// balances more edges when turned is turned.
+///    each direction. If fewer edges are unbalanced without a patch, the patch is a flap or an
+///    internal wall and is dropped. Small patches are dropped first, the largest never. A patch
+///    that balances more edges when turned is turned.
 /// 2. The remaining faces on an edge are sorted by angle and paired, with the body between the
-/// faces of a pair. If two parts of a body touch in an edge, this separates them. A face without a
-/// partner gets a boundary edge.
+///    faces of a pair. If two parts of a body touch in an edge, this separates them. A face without
+///    a partner gets a boundary edge.
 /// 3. Each pair after the first gets its own vertex on the edge, which splits its faces in two. No
-/// position changes.
+///    position changes.
 ///
 /// `rings` as edge_rings returns them; they are not valid afterwards.
 ManifoldRepair separate_sheets(IndexedMesh& mesh, const std::vector<std::int32_t>& rings);

@@ -15,8 +15,8 @@ namespace wscvt {
 /// - if more than two faces meet in an edge, flaps and internal walls are dropped and sheets
 ///   separated (see manifold_edges.h); the largest separated part is kept;
 /// - faces are turned outward and holes are filled (see holes.h);
-/// - if fans of faces touch only in one vertex, each fan gets its own vertex. A clean scan does not
-///   change. Voxel steps are reported and stay.
+/// - if fans of faces touch only in one vertex, each fan gets its own vertex.
+/// A clean scan does not change. Voxel steps are reported and stay.
 ///
 /// Throws Error(InvalidInput), with advice, if the mesh is empty, has indices out of range, has a
 /// size not between 1e-60 and 1e60, is not orientable, encloses no volume, has parts of comparable

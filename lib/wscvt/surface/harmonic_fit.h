@@ -22,8 +22,8 @@ struct HarmonicFit {
 /// and a cube needs only its eight vertices. The grid has four rows per degree, at least 96. It is
 /// doubled until its volume changes by at most 1e-3 or it has 768 rows.
 ///
-/// The degree is lowered by one until the series is positive on a fine grid. The residual is
-/// measured from 3,000 points of the surface, each to the nearest point of the series. Compared
+/// The degree is lowered in steps of one until the series is positive on a fine grid. The residual
+/// is measured from 3,000 points of the surface, each to the nearest point of the series. Compared
 /// with dense sampling, it is within 2 % on nine scans without overhangs, within 6 % if a scan is
 /// pressed flat (2 : 1 : 0.4), and up to 10 % too large for slabs with sharp edges. Overhangs are
 /// not measured: on scans with overhangs the residual is too small.
