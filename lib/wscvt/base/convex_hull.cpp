@@ -21,12 +21,12 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Hull = CGAL::Surface_mesh<Point>;
 
-/// CGAL's traits, whose question on which side of a face a point lies reports as well: the hull of
-/// a million points takes seconds.
+/// CGAL's traits with progress reports in the test on which side of a face a point lies, because
+/// the hull of a million points takes seconds.
 struct ReportingHullTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true> {
   using Base = CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_true>;
 
-  // NOLINTNEXTLINE(readability-identifier-naming): the name that CGAL asks for
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that CGAL requires
   struct Has_on_positive_side_3 {
     using result_type = bool;
 
@@ -45,13 +45,13 @@ struct ReportingHullTraits : CGAL::Convex_hull_traits_3<Kernel, Hull, CGAL::Tag_
   }
 
   const Execution* execution;
-  std::size_t* asked;  ///< how often
+  std::size_t* asked;  ///< number of tests
 };
 
-/// Cuts every plane face of more than three corners into triangles about its first corner: which
-/// of its triangulations CGAL returns goes by addresses, and with it the last digits of sums over
-/// the triangles. By flips of edges within the plane towards the smaller corner, of which none is
-/// left when that corner is joined to all others.
+/// Cuts every plane face of more than three corners into triangles about its first corner. CGAL's
+/// triangulation of it depends on addresses, and so do the last digits of sums over the triangles.
+/// Flips edges within the plane towards the smaller corner until that corner is joined to all
+/// others.
 void cut_planes_alike(const std::vector<Point>& points, std::vector<Triangle>& triangles) {
   std::vector<std::int32_t> opposite = link_half_edges(triangles, points.size()).opposite;
   const auto halves = static_cast<std::int32_t>(opposite.size());
@@ -89,7 +89,7 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
   traits.asked = &asked;
   CGAL::convex_hull_3(input.begin(), input.end(), hull, traits);
   std::vector<Triangle> triangles;
-  // Of points in one plane CGAL returns their polygon, whose border has no other side.
+  // If all points lie in one plane, CGAL returns their polygon, which is not closed.
   if (hull.num_vertices() < 4 || !CGAL::is_closed(hull)) return triangles;
 
   // The hull copies its points: find them again by value.
@@ -103,7 +103,7 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
         *std::lower_bound(order.begin(), order.end(), hull.point(vertex),
                           [&](std::int32_t i, const Point& p) { return input[i] < p; });
   }
-  // Faces with more than three corners do not come out of convex_hull_3, but its type allows them.
+  // convex_hull_3 returns only triangles, but its type allows larger faces.
   for (const auto face : hull.faces()) {
     std::vector<std::int32_t> corners;
     for (const auto vertex : hull.vertices_around_face(hull.halfedge(face))) {
@@ -114,7 +114,7 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
     }
   }
   cut_planes_alike(input, triangles);
-  // So does CGAL's order of them.
+  // CGAL's order of the triangles also depends on addresses.
   for (Triangle& t : triangles)
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   std::sort(triangles.begin(), triangles.end());

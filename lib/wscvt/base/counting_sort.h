@@ -7,7 +7,7 @@
 
 namespace wscvt {
 
-/// Items sorted into groups; an item may stand in several.
+/// Items sorted into groups; an item may be in several groups.
 struct Groups {
   std::vector<std::size_t> starts;  ///< of each group in `items`, and the end of the last
   std::vector<std::int32_t> items;  ///< ascending in each group
@@ -17,13 +17,13 @@ struct Groups {
   std::size_t size(std::size_t group) const { return starts[group + 1] - starts[group]; }
 };
 
-/// Counting sort of the items 0 to count - 1 into `groups` groups, in time linear in both:
-/// visit_groups(item, visit) calls visit(group) for every group of an item; it runs twice for each
-/// item. Items come out in ascending order.
+/// Sorts the items 0 to count - 1 into `groups` groups by counting, in time linear in both.
+/// visit_groups(item, visit) must call visit(group) for every group of an item; it runs twice per
+/// item. Items are in ascending order in each group.
 template <class VisitGroups>
 Groups counting_sort(std::size_t count, std::size_t groups, const VisitGroups& visit_groups) {
-  // Counted two places further on, so that the filling, which moves starts[group + 1] from the
-  // beginning of the group to its end, leaves every entry in its own place.
+  // Counts go two entries further on. Filling then moves starts[group + 1] from the group's
+  // beginning to its end, so every entry ends at its own index.
   Groups result;
   result.starts.assign(groups + 2, 0);
   for (std::size_t item = 0; item < count; ++item) {

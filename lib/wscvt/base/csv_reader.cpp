@@ -10,14 +10,14 @@ namespace wscvt {
 
 namespace {
 
-/// The next of a record's fields, whose text of the last record is kept as room.
+/// Returns the next field of a record. Keeps its old text, to reuse the memory.
 std::string& begin_field(std::vector<std::string>& fields, std::size_t& count) {
   if (count == fields.size()) fields.emplace_back();
   fields[count].clear();
   return fields[count++];
 }
 
-/// Takes a record without quotes apart; returns the number of its fields.
+/// Splits a record without quotes. Returns the number of fields.
 std::size_t split(std::string_view record, char separator, std::vector<std::string>& fields) {
   std::size_t count = 0;
   record.remove_suffix(1);
@@ -32,7 +32,7 @@ std::size_t split(std::string_view record, char separator, std::vector<std::stri
   }
 }
 
-/// Takes a record with quotes apart.
+/// Splits a record with quotes.
 std::size_t split_quoted(std::string_view record, char separator,
                          std::vector<std::string>& fields) {
   std::size_t count = 0;
@@ -41,7 +41,7 @@ std::size_t split_quoted(std::string_view record, char separator,
   for (std::size_t k = 0; k < record.size(); ++k) {
     const char c = record[k];
     if (c == '"') {
-      // A doubled quote closes and opens again, and stands for itself.
+      // A doubled quote closes and opens again, and means one quote.
       if (!quoted && k > 0 && record[k - 1] == '"') *field += '"';
       quoted = !quoted;
     } else if (quoted || (c != separator && c != '\r' && c != '\n')) {
@@ -56,7 +56,7 @@ std::size_t split_quoted(std::string_view record, char separator,
 }  // namespace
 
 bool CsvReader::next(std::vector<std::string>& fields) {
-  // Lines up to one that ends outside of quotes.
+  // Reads lines until one ends outside quotes.
   std::string text;
   std::string line;
   bool quoted = false;

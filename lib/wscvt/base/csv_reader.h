@@ -8,18 +8,19 @@
 
 namespace wscvt {
 
-/// Reads a CSV file after RFC 4180 record by record, as csv_record writes them. Memory follows the
-/// longest record.
+/// Reads a CSV file after RFC 4180 record by record, as csv_record writes them. Needs memory for
+/// the longest record only.
 class CsvReader {
  public:
-  /// The stream must outlive the reader. Spreadsheets of some languages separate by ';'.
+  /// The stream must outlive the reader. Spreadsheets in some languages separate fields by ';'.
   explicit CsvReader(std::istream& stream, char separator = ',')
       : stream_(stream), separator_(separator) {}
 
-  /// The fields of the next record; false, and nothing changed, where no whole one follows.
+  /// Reads the fields of the next record. Returns false and changes nothing if no complete record
+  /// follows.
   bool next(std::vector<std::string>& fields);
 
-  /// The last record as it stands, with its CR LF.
+  /// The last record as in the file, with its CR LF.
   const std::string& text() const { return text_; }
 
   /// Bytes of all whole records so far.
@@ -28,8 +29,8 @@ class CsvReader {
   /// Whether the stream ended within a record.
   bool is_cut() const { return is_cut_; }
 
-  /// The fields of a last record that lacks its line break only; false, and nothing changed, if
-  /// there is none or a quote is open.
+  /// Reads the fields of a last record that lacks only its line break. Returns false and changes
+  /// nothing if there is no such record or a quote is open.
   bool last(std::vector<std::string>& fields);
 
  private:

@@ -7,7 +7,8 @@
 
 namespace wscvt {
 
-/// The radius of the sphere of a volume (length^3, 0 or more): (3 V / 4 pi)^(1/3), length.
+/// Returns the radius of the sphere with this volume (length^3, 0 or more): (3 V / 4 pi)^(1/3),
+/// length.
 inline double equivalent_radius(double volume) { return std::cbrt(3.0 * volume / (4.0 * pi)); }
 
 }  // namespace wscvt

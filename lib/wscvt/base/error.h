@@ -15,8 +15,8 @@ enum class ErrorCode {
   Cancelled,         ///< the progress callback asked to stop
 };
 
-/// Every exception the library throws on purpose. The sentence says what is wrong, where, and what
-/// to do about it.
+/// The base of every exception that the library throws on purpose. The message names the fault, its
+/// place and the remedy.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -27,8 +27,8 @@ class Error : public std::runtime_error {
   ErrorCode code_;
 };
 
-/// What the machine refuses, such as room on a disk or another open file: an Error(InputOutput)
-/// that says nothing about the grain. The same call may go well later. Memory that is refused is a
+/// Thrown when the machine refuses a resource, such as disk space or another open file. The code is
+/// InputOutput. The grain is not at fault, and a later call may succeed. Refused memory is a
 /// std::bad_alloc.
 class MachineRefused : public Error {
  public:

@@ -13,32 +13,31 @@
 
 namespace wscvt {
 
-/// What all copies and parts of an execution share: the threads and what was reported last.
+/// Shared by all copies and parts of an execution: the threads and the last report.
 class Execution::Arena {
  public:
   explicit Arena(int threads) {
     if (threads > 1) workers.emplace(threads - 1);
   }
 
-  std::optional<WorkerThreads> workers;  ///< none when the caller works alone
-  /// The thread whose loop runs now. It alone repeats the progress, between its own blocks: the
-  /// callback belongs to the thread that called the library.
+  std::optional<WorkerThreads> workers;  ///< empty if only the caller works
+  /// The thread whose loop runs now. Only this thread repeats the progress, between its own blocks,
+  /// because the callback belongs to the thread that called the library.
   std::atomic<std::thread::id> caller{};
-  std::mutex mutex;  ///< of the two below
+  std::mutex mutex;  ///< protects the two members below
   double fraction = 0.0;
   std::string stage;
 };
 
 struct Execution::Count {
-  std::shared_ptr<Count> whole;  ///< of the execution that this one was counted from
+  std::shared_ptr<Count> whole;  ///< count of the execution that made this one by counted()
   std::atomic<std::uint64_t> elements{0};
   std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
 };
 
 namespace {
 
-/// Makes this thread the caller for as long as a loop lasts, unless the loop stands in another's
-/// body.
+/// Makes this thread the caller during a loop, unless the loop is inside another loop's body.
 class CallerOfLoop {
  public:
   explicit CallerOfLoop(std::atomic<std::thread::id>& caller) : caller_(caller) {
@@ -68,7 +67,7 @@ Execution::Execution(int threads, ProgressCallback progress) : progress_(std::mo
     throw Error(ErrorCode::InvalidInput, "The number of threads is " + std::to_string(threads) +
                                              "; give 0 for all of the machine's, or 1 and more.");
   }
-  // More than the machine has would gain nothing.
+  // More threads than the machine has would not be faster.
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   arena_ = std::make_shared<Arena>(threads > 0 ? std::min(threads, machine) : machine);
   count_ = std::make_shared<Count>();
@@ -79,8 +78,8 @@ void Execution::report(double fraction, const std::string& stage) const {
   const double inside = std::clamp(fraction, 0.0, 1.0);
   double whole = progress_begin_ + inside * (progress_end_ - progress_begin_);
   {
-    // How long a stage takes is an estimate, and stages that run again begin anew: what is shown
-    // never goes back, but for a new beginning. A part without a share is none, wherever it lies.
+    // The progress never goes back, except to 0 at a new beginning, because stage lengths are
+    // estimates and stages may repeat. A part of zero width is not a beginning.
     const std::lock_guard<std::mutex> lock(arena_->mutex);
     const bool begins = whole == 0.0 && progress_end_ > progress_begin_;
     if (!begins) whole = std::max(whole, arena_->fraction);
@@ -118,8 +117,8 @@ void Execution::parallel_for(std::size_t count, std::size_t block,
   if (progress_) caller.emplace(arena_->caller);
   const auto run = [&](std::size_t index) {
     body(index * block, std::min(count, (index + 1) * block));
-    // A loop over a million elements takes seconds: between its blocks the last report is repeated,
-    // so that a window stays alive and a cancel is heard.
+    // A loop over a million elements takes seconds. Repeat the last report between its blocks, so
+    // that a window stays responsive and the user can cancel.
     if (!progress_ || arena_->caller != std::this_thread::get_id()) return;
     double fraction = 0.0;
     std::string stage;

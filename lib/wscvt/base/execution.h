@@ -16,37 +16,37 @@ namespace wscvt {
 /// the name of the stage. Returning false cancels: the library throws Error(Cancelled).
 using ProgressCallback = std::function<bool(double fraction, const std::string& stage)>;
 
-/// Work went beyond what it may cost, see Execution::counted.
+/// Thrown when the work exceeds its limit, see Execution::counted.
 class WorkExceeded : public std::exception {
  public:
   const char* what() const noexcept override { return "The work costs more than it may."; }
 };
 
-/// Settings of a run: number of threads, and progress with cancel. Cheap to copy. Whatever takes
-/// one may throw Error(Cancelled), also where its comment does not say so.
+/// Settings of a run: number of threads, and progress with cancel. Cheap to copy. Any function that
+/// takes an Execution may throw Error(Cancelled), even if its comment does not say so.
 ///
-/// Results never depend on the number of threads: work is cut into blocks whose bounds follow from
-/// the problem size alone, and partial sums are added in block order.
+/// Results never depend on the number of threads. Work is cut into blocks whose bounds follow only
+/// from the problem size, and partial sums are added in block order.
 class Execution {
  public:
   /// `threads`: 0 means as many as the machine has. Throws Error(InvalidInput) below 0.
   explicit Execution(int threads = 0, ProgressCallback progress = {});
 
-  /// Reports progress; throws Error(Cancelled) if the callback asks to stop. `fraction` is relative
-  /// to the part of the work this Execution stands for (see `part`).
+  /// Reports progress. Throws Error(Cancelled) if the callback asks to stop. `fraction` is relative
+  /// to the part of the work that this Execution covers (see `part`).
   void report(double fraction, const std::string& stage) const;
 
-  /// Returns a part, whose progress fills only [begin, end] of this one's; 0 <= begin <= end
-  /// <= 1.
+  /// Returns a part. Its progress fills [begin, end] of this one's progress; 0 <= begin <= end <=
+  /// 1.
   Execution part(double begin, double end) const;
 
-  /// Returns this execution with its own count of what is done, from 0; it counts for this one as
-  /// well. A loop that takes it above `most` throws WorkExceeded.
+  /// Returns this execution with its own count of work, starting at 0. The work also counts for
+  /// this execution. A loop that raises the new count above `most` throws WorkExceeded.
   Execution counted(std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
 
-  /// Returns the work done by this execution, its copies and parts: the elements of all their
-  /// loops, of which most take some hundredths to tenths of a microsecond. A measure that, other
-  /// than a clock, gives the same on every machine and any number of threads.
+  /// Returns the work done by this execution, its copies and parts: the number of elements of all
+  /// their loops. Most elements take some hundredths to tenths of a microsecond. Unlike time, this
+  /// number is equal on every machine and for any number of threads.
   std::uint64_t work() const;
 
   /// Calls body(begin, end) for consecutive blocks of at most `block` >= 1 indices covering [0,
@@ -54,8 +54,9 @@ class Execution {
   void parallel_for(std::size_t count, std::size_t block,
                     const std::function<void(std::size_t, std::size_t)>& body) const;
 
-  /// Sum over the blocks of partial(begin, end), added in block order: the same bits on any number
-  /// of threads. `Value` needs copying, `+=` and a start value `zero`.
+  /// Returns the sum of partial(begin, end) over the blocks, added in block order, so that the bits
+  /// do not depend on the number of threads. `Value` needs a copy constructor, `+=` and a start
+  /// value `zero`.
   template <class Value, class Partial>
   Value parallel_sum(std::size_t count, std::size_t block, Value zero,
                      const Partial& partial) const {

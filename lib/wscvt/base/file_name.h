@@ -5,7 +5,8 @@
 
 namespace wscvt {
 
-/// The ending of a file's name in lower case, with its point: ".ply"; empty where there is none.
+/// Returns the extension of a file name in lower case, with the point: ".ply". Empty if there is no
+/// extension.
 std::string ending_of(const std::string& path);
 
 }  // namespace wscvt

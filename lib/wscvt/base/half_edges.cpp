@@ -19,8 +19,8 @@ HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t ve
   const auto opposite_of = [&](std::int32_t h) {
     const std::int32_t from = origin_of(triangles, h);
     const std::int32_t to = target_of(triangles, h);
-    // The other way round is among the half-edges that leave `to` and among those that reach
-    // `from`. The shorter list is searched: the hub of a fan of thousands would cost their square.
+    // The opposite is among the half-edges that leave `to` and among the half-edges that reach
+    // `from`. Search the shorter list, because the hub of a large fan would need quadratic time.
     std::int32_t found = -1;
     if (outgoing.size(to) <= outgoing.size(from)) {
       for (auto other = outgoing.begin(to); other != outgoing.end(to); ++other) {

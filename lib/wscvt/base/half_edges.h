@@ -10,15 +10,15 @@
 
 namespace wscvt {
 
-// Half-edges of a triangle mesh without an array of their own: half-edge 3 t + k runs from corner k
-// of triangle t to corner (k + 1) % 3, and its number also names the corner that it starts at.
-// Nothing is stored for it, which is why a scan of a million vertices is checked in flat arrays and
-// not in a half-edge structure: CGAL's needs twelve times as long to build.
+// Half-edges of a triangle mesh without a stored array: half-edge 3 t + k runs from corner k of
+// triangle t to corner (k + 1) % 3. Its number also identifies the corner where it starts. Scans
+// are therefore checked in flat arrays: for a million vertices, CGAL's half-edge structure takes
+// twelve times as long to build.
 
-/// An index into a mesh's arrays, which is not below 0.
+/// Converts an index >= 0 for access to a mesh's arrays.
 inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// The triangle that a half-edge belongs to, and the corner there that it starts at.
+/// The triangle of a half-edge, and the corner where it starts.
 inline std::size_t face_of(std::int32_t half_edge) { return index(half_edge) / 3; }
 inline std::size_t corner_of(std::int32_t half_edge) { return index(half_edge) % 3; }
 
@@ -46,25 +46,25 @@ inline std::int32_t target_of(const std::vector<Triangle>& triangles, std::int32
   return triangles[face_of(half_edge)][following(corner_of(half_edge))];
 }
 
-/// How the triangles of a mesh hang together.
+/// The connectivity of a mesh's triangles.
 struct HalfEdges {
-  /// The half-edge that runs the other way, for each half-edge; -1 on a border. Where more than two
-  /// faces share an edge it is one of them.
+  /// The opposite half-edge of each half-edge; -1 on a border. If more than two faces share an
+  /// edge, it is in one of them.
   std::vector<std::int32_t> opposite;
   /// A half-edge that starts at each vertex; -1 for a vertex of no triangle.
   std::vector<std::int32_t> first;
 };
 
-/// Finds the opposite half-edges, in time linear in the triangles whatever the valences of a planar
-/// mesh. Indices must lie in [0, vertices), which is not checked. The same on any number of
-/// threads. Throws Error(Cancelled).
+/// Finds the opposite half-edges, for planar meshes in time linear in the triangles at any valence.
+/// Indices must be in [0, vertices); this is not checked. The result does not depend on the number
+/// of threads. Throws Error(Cancelled).
 HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
                           const Execution& execution = Execution(1));
 
 /// Replaces an edge by the other diagonal of its two triangles abc and bad, about ab: they become
-/// cad and dbc, in the same two slots, and what lies beyond their outer edges is linked anew.
-/// Afterwards half-edge 3 t runs from c, 3 t + 1 from a, 3 u from d and 3 u + 1 from b, t and u
-/// being the triangles of the half-edge and of its opposite. The edge must not lie on a border.
+/// cad and dbc, at the same two indices. Links the neighbours beyond the outer edges again. Let t
+/// be the triangle of the half-edge and u of its opposite: afterwards half-edge 3 t starts at c, 3
+/// t + 1 at a, 3 u at d and 3 u + 1 at b. The edge must not lie on a border.
 void flip_edge(std::int32_t half_edge, std::vector<Triangle>& triangles,
                std::vector<std::int32_t>& opposite);
 

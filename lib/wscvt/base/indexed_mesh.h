@@ -14,8 +14,8 @@ using Vector3 = Eigen::Vector3d;
 /// Three indices into the points, counter-clockwise seen from outside.
 using Triangle = std::array<std::int32_t, 3>;
 
-/// Points and triangles in flat arrays: the form in which a dense scan is held (no half-edges) and
-/// in which geometry is computed.
+/// Points and triangles in flat arrays, without half-edges. Scans are stored and geometry is
+/// computed in this form.
 struct IndexedMesh {
   std::vector<Vector3> points;
   std::vector<Triangle> triangles;

@@ -5,7 +5,7 @@ namespace wscvt {
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
-  // Not std::tolower, which asks the locale.
+  // Not std::tolower, because it depends on the locale.
   for (char& letter : lower) {
     if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   }

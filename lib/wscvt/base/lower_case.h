@@ -6,7 +6,8 @@
 
 namespace wscvt {
 
-/// Returns the text with the letters A to Z as a to z, the same in every locale; other bytes stay.
+/// Returns the text with the letters A to Z as a to z. Other bytes stay. Does not depend on the
+/// locale.
 std::string lower_case(std::string_view text);
 
 }  // namespace wscvt

@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the number tells of the file itself, as it stands on the disk.
+/// Whether the error concerns the file itself, not the machine.
 bool is_of_the_file(int error_number) {
   switch (error_number) {
-    case 0:  // nothing is known: a stream that failed without asking the system
+    case 0:  // unknown: a stream failed without a system call
     case EACCES:
     case EISDIR:
     case ELOOP:

@@ -5,12 +5,12 @@
 
 namespace wscvt {
 
-/// Throws the error of a file that could not be opened for reading, by the number that the system
-/// gave (errno). Error(InputOutput) where this file is not there or is not to be read;
-/// MachineRefused where its folder is gone, or the machine is at fault.
+/// Throws the error for a file that could not be opened for reading, from the system's errno:
+/// Error(InputOutput) if the file is missing or not readable, MachineRefused if its folder is
+/// missing or the machine is at fault.
 [[noreturn]] void refuse_to_open(const std::string& path, int error_number);
 
-/// Throws the MachineRefused of a file that could be opened and not be read to its end.
+/// Throws MachineRefused for a file that was opened but could not be read to its end.
 [[noreturn]] void refuse_to_read(const std::string& path);
 
 }  // namespace wscvt

@@ -13,14 +13,15 @@ struct MeshTraits : OpenMesh::DefaultTraits {
   using Normal = OpenMesh::Vec3d;
 };
 
-/// The public half-edge type, for those who walk over a mesh: to_mesh makes one of a result.
+/// The public half-edge type, for code that walks over a mesh. to_mesh converts a result.
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
 
-/// Builds the half-edge mesh, vertices and faces in the same order. Throws Error(InvalidInput) when
-/// the triangles are not those of an oriented 2-manifold or an index is out of range.
+/// Builds the half-edge mesh and keeps the order of vertices and faces. Throws Error(InvalidInput)
+/// if the triangles are no oriented 2-manifold or an index is out of range.
 Mesh to_mesh(const IndexedMesh& mesh);
 
-/// Flat copy of a half-edge mesh without deleted elements, vertices and faces in the same order.
+/// Copies a half-edge mesh into flat arrays, without deleted elements. Keeps the order of vertices
+/// and faces.
 IndexedMesh to_indexed(const Mesh& mesh);
 
 }  // namespace wscvt

@@ -14,16 +14,16 @@ namespace wscvt {
 /// The types of numbers in a PLY file.
 enum class ScalarType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 
-/// Whether a type holds fractions.
+/// Whether a type can store fractions.
 inline bool holds_fractions(ScalarType type) {
   return type == ScalarType::Float32 || type == ScalarType::Float64;
 }
 
-/// A number at each vertex, or at each face, under the name that PLY files know it by: "red",
-/// "green", "blue", "alpha", "quality", "label".
+/// One number per vertex or per face, with its name in PLY files: "red", "green", "blue", "alpha",
+/// "quality", "label".
 struct MeshAttribute {
   std::string name;
-  ScalarType type = ScalarType::Float32;  ///< as which it was read, and is written
+  ScalarType type = ScalarType::Float32;  ///< in the file, read or written
   std::vector<double> values;
 };
 
@@ -38,20 +38,20 @@ struct TexturePicture {
 
 /// Pictures on the faces of a mesh.
 struct MeshTexture {
-  /// Place of a corner in its picture: from the left and from the bottom, the whole picture from 0
-  /// to 1, repeated beyond. Not finite: the corner has none.
+  /// Position of a corner in its picture, from the left and from the bottom. The picture extends
+  /// from 0 to 1 and repeats beyond. Not finite: the corner has no position.
   using Place = Eigen::Vector2f;
   static Place no_place() { return Place::Constant(std::numeric_limits<float>::quiet_NaN()); }
 
-  std::vector<std::string> names;        ///< of the pictures, or of the materials that have them
-  std::vector<TexturePicture> pictures;  ///< an empty one could not be read
+  std::vector<std::string> names;             ///< of the pictures, or of their materials
+  std::vector<TexturePicture> pictures;       ///< an empty one could not be read
   std::vector<std::int32_t> picture_of_face;  ///< index; -1: none
   std::vector<std::array<Place, 3>> corners;  ///< of each face
 
   bool empty() const { return corners.empty(); }
 };
 
-/// The numbers that a mesh carries beside its shape.
+/// Numbers at the vertices and faces of a mesh, and its texture.
 struct MeshAttributes {
   std::vector<MeshAttribute> of_vertices;
   std::vector<MeshAttribute> of_faces;
@@ -60,7 +60,7 @@ struct MeshAttributes {
   bool empty() const { return of_vertices.empty() && of_faces.empty() && texture.empty(); }
 };
 
-/// Returns the attribute of that name, or null if there is none.
+/// Returns the attribute with this name, or null.
 inline const MeshAttribute* attribute_named(const std::vector<MeshAttribute>& attributes,
                                             std::string_view name) {
   for (const MeshAttribute& attribute : attributes) {

@@ -3,7 +3,7 @@
 
 namespace wscvt {
 
-/// The smallest prime above a number, which is at least 1 and below 2^31 - 1.
+/// Returns the smallest prime above a number from 1 to 2^31 - 2.
 constexpr int next_prime(int above) {
   for (int number = above + 1;; ++number) {
     bool is_prime = true;

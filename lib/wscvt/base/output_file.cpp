@@ -35,13 +35,13 @@ namespace fs = std::filesystem;
        "of file sizes (ulimit -f), and that no folder has this name.");
 }
 
-/// What a file is called while it is written.
+/// Returns the name of a file while it is written.
 std::string partial_name(const std::string& target) { return target + ".part"; }
 
 constexpr const char* check_the_folder =
     "cannot be written; check that the folder is there and can be written to.";
 
-/// The descriptor that /dev/stdout and its like name; nothing for other paths.
+/// Returns the descriptor for /dev/stdout and similar paths; nothing for other paths.
 std::optional<int> descriptor_of(const fs::path& path) {
   const std::string folder = path.parent_path().string();
   const std::string name = path.filename().string();
@@ -51,17 +51,16 @@ std::optional<int> descriptor_of(const fs::path& path) {
   return std::atoi(name.c_str());
 }
 
-/// Where a path leads.
+/// The target of a path.
 struct Target {
-  fs::path path;                  ///< the file itself, there or not yet
-  std::optional<int> descriptor;  ///< of this process, in the path's place
-  bool is_circle = false;         ///< the links lead nowhere
+  fs::path path;                  ///< the file itself; it need not exist
+  std::optional<int> descriptor;  ///< of this process, used instead of the path
+  bool is_circle = false;         ///< the links form a circle
 };
 
-/// Follows the links of the last name, also those to a file that is not there, which
-/// std::filesystem does not.
+/// Follows the symbolic links of the last name, also to a missing file; std::filesystem does not.
 Target follow(const std::string& path) {
-  constexpr int most_links = 40;  // as many as the system follows
+  constexpr int most_links = 40;  // the system's limit
   std::error_code error;
   Target target;
   target.path = fs::absolute(path, error).lexically_normal();
@@ -72,16 +71,16 @@ Target follow(const std::string& path) {
     if (target.is_circle) return target;
     const fs::path next = fs::read_symlink(target.path, error);
     if (error) return target;
-    // Not normalised: "linked folder/.." is not the folder the link stands in.
+    // Not normalised: "linked folder/.." is not the folder that contains the link.
     target.path = next.is_absolute() ? next : target.path.parent_path() / next;
   }
 }
 
-/// A new empty file beside the target; gone at the end of its scope, unless it was renamed.
+/// A new empty file beside the target. Removed at the end of its scope, unless it was renamed.
 class PartialFile {
  public:
   explicit PartialFile(const std::string& target) {
-    // Never a file that was there: it may be somebody's.
+    // Never uses an existing file, because it may belong to someone.
     for (int attempt = 0; attempt < 100 && path_.empty(); ++attempt) {
       const std::string name = partial_name(target) + (attempt == 0 ? "" : std::to_string(attempt));
       if (std::FILE* created = std::fopen(name.c_str(), "wbx")) {
@@ -99,17 +98,18 @@ class PartialFile {
     if (!path_.empty()) fs::remove(path_, ignored);
   }
 
-  /// Empty when none could be made.
+  /// Empty if no file could be made.
   const std::string& path() const { return path_; }
 
-  /// Leaves the file to whoever is told of it.
+  /// Does not remove the file at the end.
   void keep() { path_.clear(); }
 
  private:
   std::string path_;
 };
 
-/// Writes into what is open; false when it takes no more, or when a signal breaks the wait for it.
+/// Writes to an open descriptor. Returns false if it accepts no more, or if a signal interrupts the
+/// wait.
 bool write_all(int descriptor, const std::string& content) {
   std::size_t written = 0;
   while (written < content.size()) {
@@ -120,7 +120,7 @@ bool write_all(int descriptor, const std::string& content) {
   return true;
 }
 
-/// Pipes, devices and open descriptors: what cannot be renamed onto.
+/// Writes to pipes, devices and open descriptors, which a renamed file cannot replace.
 void write_through(const std::string& path, const Target& target,
                    const std::function<bool(std::ostream&)>& write) {
   std::ostringstream content;
@@ -133,7 +133,7 @@ void write_through(const std::string& path, const Target& target,
   if (!good) fail(path, "cannot be written. The program that reads it may have stopped.");
 }
 
-/// Gives the new file what the old one had; false when that is not allowed.
+/// Gives the new file the owner and mode of the old file. Returns false if that is not allowed.
 bool take_over(const struct stat& old_file, const std::string& path) {
   struct stat created {};
   if (::stat(path.c_str(), &created) != 0) return false;
@@ -142,7 +142,7 @@ bool take_over(const struct stat& old_file, const std::string& path) {
   return owned && ::chmod(path.c_str(), old_file.st_mode & 07777U) == 0;
 }
 
-/// Copies a whole new file into an old one, which keeps all that is not its content.
+/// Copies a complete new file into an old file, which keeps its owner, mode and links.
 void copy_into(const std::string& path, const std::string& target, PartialFile& partial) {
   std::ifstream from(partial.path(), std::ios::binary);
   std::ofstream to(target, std::ios::binary | std::ios::trunc);
@@ -155,7 +155,7 @@ void copy_into(const std::string& path, const std::string& target, PartialFile& 
   fail(path, "could not be written whole; its new content is in \"" + kept + "\".");
 }
 
-/// Throws when the target cannot be written; gives what is there, if it is a file.
+/// Throws if the target cannot be written. Returns the status of an existing target.
 std::optional<struct stat> check_target(const std::string& path, const Target& target) {
   if (target.is_circle) {
     fail(path, "is a link that leads nowhere; remove it or give another name.");
@@ -220,7 +220,7 @@ void check_writable(const std::string& path) {
   }
   const std::optional<struct stat> there = check_target(path, target);
   if (there && !is_file(*there)) return;
-  // Made and removed again: rights, quotas and read-only disks have no other test.
+  // Makes and removes a file, the only test for rights, quotas and read-only disks.
   const PartialFile partial(target.path.string());
   if (partial.path().empty()) fail(path, check_the_folder);
 }

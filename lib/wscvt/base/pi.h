@@ -3,8 +3,7 @@
 
 namespace wscvt {
 
-/// Half the circumference of the unit circle. <cmath> names it only beside the standard (M_PI), and
-/// <numbers> only from C++20 on.
+/// Pi. M_PI of <cmath> is not standard, and <numbers> needs C++20.
 inline constexpr double pi = 3.14159265358979323846;
 
 }  // namespace wscvt

@@ -7,9 +7,9 @@
 
 namespace wscvt {
 
-/// Point `i` of a sequence in [0, 1)^2 every stretch of which is spread evenly: the additive
-/// recurrence of the plastic number p, of steps 1/p and 1/p^2 (M. Roberts, "The unreasonable
-/// effectiveness of quasirandom sequences", 2018).
+/// Returns point `i` of a sequence in [0, 1)^2. Any run of consecutive points is spread evenly. It
+/// is the additive recurrence of the plastic number p, with steps 1/p and 1/p^2 (M. Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018).
 inline Eigen::Vector2d plastic_point(std::size_t i) {
   constexpr double first_step = 0.75487766624669276;
   constexpr double second_step = 0.56984029099805327;

@@ -9,7 +9,7 @@ namespace wscvt {
 
 namespace {
 
-/// Bytes of the character that a text begins with; 0 where it is no UTF-8.
+/// Returns the number of bytes of a text's first character; 0 if it is not UTF-8.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned char first = byte(0);
@@ -19,14 +19,13 @@ std::size_t utf8_length(std::string_view text) {
   for (std::size_t k = 1; k < length; ++k) {
     if ((byte(k) & 0xc0U) != 0x80) return 0;
   }
-  // Longer than they need be, halves of UTF-16, and numbers beyond the last character.
+  // Overlong forms, halves of UTF-16 pairs, and numbers beyond the last character.
   const bool is_none = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) > 0x9f) ||
                        (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) > 0x8f);
   return is_none ? 0 : length;
 }
 
-/// Whether a text, not empty and UTF-8, begins with a control character: of ASCII, or U+0080 to
-/// U+009F.
+/// Whether a non-empty UTF-8 text begins with a control character: of ASCII, or U+0080 to U+009F.
 bool is_control(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   if (first < 0x80) return first < ' ' || first == 0x7f;

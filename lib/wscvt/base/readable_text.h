@@ -6,19 +6,19 @@
 
 namespace wscvt {
 
-// Names and sentences from elsewhere, such as a file's name, as terminals, tables and pages take
-// them.
+// Converts foreign text, such as a file name, for terminals, tables and HTML pages.
 
-/// The text as UTF-8 that a terminal, a table and a page take: each byte of a control character,
-/// but for those in `kept`, and each that is no UTF-8 as \xNN, with two hexadecimal digits.
+/// Returns the text as UTF-8 that is safe in a terminal, a table and a page. Bytes of control
+/// characters, except those in `kept`, and bytes that are no UTF-8 become \xNN, with two
+/// hexadecimal digits.
 std::string readable(std::string_view text, std::string_view kept = "\n");
 
-/// `readable` but for tabs and line breaks, with the signs written out that HTML, SVG and XML read
-/// as their own; also between the double quotes of an attribute.
+/// Applies `readable`, keeps tabs and line breaks, and escapes the markup characters of HTML, SVG
+/// and XML. Also safe between the double quotes of an attribute.
 std::string html_escaped(std::string_view text);
 
-/// A field as it stands in a table: `readable` but for tabs and line breaks, and with a ' before
-/// it where a spreadsheet would take a text for a formula (=, +, -, @ and more behind it).
+/// Returns a table field: `readable`, but tabs and line breaks stay. Puts a ' before a text that a
+/// spreadsheet would read as a formula (=, +, - or @ and more after it).
 std::string csv_field(std::string_view text);
 
 }  // namespace wscvt

@@ -36,7 +36,7 @@ std::string format_percent(double share) { return format_number(100.0 * share, 3
 
 std::string format_error(double percent) {
   if (!std::isfinite(percent)) return "-";
-  // Sums over a million triangles are off by some 1e-12 of themselves, 1e-10 %.
+  // Sums over a million triangles have relative errors of some 1e-12, 1e-10 %.
   if (std::abs(percent) < 1e-9) return "exact";
   std::ostringstream text;
   text.imbue(std::locale::classic());

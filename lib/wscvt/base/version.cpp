@@ -3,7 +3,7 @@
 
 namespace wscvt {
 
-// The build knows it from the project's one definition.
+// The build sets it from the project's version.
 const char* version() { return WSCVT_VERSION; }
 
 }  // namespace wscvt

@@ -3,7 +3,7 @@
 
 namespace wscvt {
 
-/// The library's version, such as "1.0.0": what reports and programs say they were made by.
+/// Returns the library's version, such as "1.0.0", for reports and programs.
 const char* version();
 
 }  // namespace wscvt

@@ -7,7 +7,7 @@
 
 namespace wscvt {
 
-/// A loop that is being worked on.
+/// A loop that is running.
 class WorkerThreads::Loop {
  public:
   Loop(std::size_t count, const std::function<void(std::size_t)>& run) : count_(count), run_(run) {}
@@ -29,7 +29,7 @@ class WorkerThreads::Loop {
     if (failure_) std::rethrow_exception(failure_);
   }
 
-  int helpers = 0;  ///< threads at work beside the caller; of the mutex of WorkerThreads
+  int helpers = 0;  ///< threads at work beside the caller; protected by the mutex of WorkerThreads
 
  private:
   std::size_t count_;
@@ -44,7 +44,8 @@ WorkerThreads::WorkerThreads(int wanted) {
     threads_.reserve(static_cast<std::size_t>(wanted));
     for (int i = 0; i < wanted; ++i) threads_.emplace_back([this] { wait_for_loops(); });
   } catch (const std::system_error&) {
-    // The system has no more threads, or no memory for their stacks: those that are there do.
+    // The system has no more threads, or no memory for their stacks. Continue with the started
+    // ones.
   } catch (...) {
     stop();
     throw;

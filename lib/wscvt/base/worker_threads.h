@@ -11,12 +11,12 @@
 
 namespace wscvt {
 
-/// Threads that share loops with the threads that call them. It goes on with as many threads as the
-/// system starts; with none the callers work alone.
+/// Threads that share loops with their callers. Uses as many threads as the system starts. If the
+/// system starts none, only the callers work.
 ///
-/// Own code in the place of oneTBB, because oneTBB 2021.8 ends the program where the system refuses
-/// a thread to one of its own: in 13 of 15 runs with 14 threads asked for and 2 to 7 allowed
-/// (ulimit -u). In the other two it threw.
+/// Replaces oneTBB, because oneTBB 2021.8 ends the program if the system refuses a thread: in 13 of
+/// 15 runs with 14 threads requested and 2 to 7 allowed (ulimit -u). In the other two runs it
+/// threw.
 class WorkerThreads {
  public:
   /// `wanted` >= 0 threads beside the callers.
@@ -28,9 +28,9 @@ class WorkerThreads {
   /// Threads that were started.
   std::size_t size() const { return threads_.size(); }
 
-  /// Calls run(index) once for each index below `count`, on the calling thread and on those that
-  /// are free. Several threads may call it at the same time, also from within `run`. When `run`
-  /// throws, indices that were not begun are left out, and the first exception reaches the caller.
+  /// Calls run(index) once for each index below `count`, on the calling thread and on free threads.
+  /// Several threads may call it at the same time, also from within `run`. If `run` throws, the
+  /// indices that were not begun are left out, and the caller gets the first exception.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& run);
 
  private:
@@ -40,7 +40,7 @@ class WorkerThreads {
   void wait_for_loops();
   Loop* loop_with_work();
 
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< protects the members below
   std::condition_variable posted_;
   std::condition_variable left_;
   std::list<Loop*> loops_;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* stage = "Carrying colours and labels";
 
-/// Whether a value between those of two vertices means something.
+/// Whether a value between two vertices' values is meaningful.
 bool is_interpolated(const MeshAttribute& attribute) {
   constexpr std::array<std::string_view, 4> colours{"red", "green", "blue", "alpha"};
   return holds_fractions(attribute.type) ||
@@ -36,7 +36,7 @@ void check_sizes(const std::vector<MeshAttribute>& attributes, std::size_t count
   }
 }
 
-/// Copies the values of `attribute` at the places that index(i) gives.
+/// Copies the values of `attribute` at the indices index(i).
 template <class Index>
 MeshAttribute picked(const MeshAttribute& attribute, std::size_t count, const Index& index) {
   MeshAttribute result{attribute.name, attribute.type, {}};
@@ -61,7 +61,7 @@ MeshAttribute at_places(const IndexedMesh& scan, const MeshAttribute& attribute,
     double value = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double weight = place.weights[static_cast<Eigen::Index>(k)];
-      // A corner without a value (NaN) takes it from those points only that lie towards it.
+      // A corner without a value (NaN) must not affect points where its weight is 0.
       if (weight > 0.0) value += weight * attribute.values[t[k]];
     }
     result.values.push_back(value);
@@ -88,7 +88,7 @@ void check_texture(const MeshTexture& texture, std::size_t faces) {
   }
 }
 
-/// Whether the colours of the vertices are a picture's.
+/// Whether the vertices' colours come from a picture.
 bool shows_picture(const MeshAttributes& attributes) {
   const std::vector<TexturePicture>& pictures = attributes.texture.pictures;
   return attribute_named(attributes.of_vertices, "red") == nullptr && !attributes.texture.empty() &&
@@ -99,8 +99,8 @@ bool shows_picture(const MeshAttributes& attributes) {
 using Colour = std::array<double, 3>;
 constexpr Colour white = {255.0, 255.0, 255.0};
 
-/// The pixels about a place from 0 to 1 along a side: the two whose middles it lies between, or
-/// the last one twice, and the weight of the second.
+/// The pixels about a position from 0 to 1 along a side: the two with their middles on both sides,
+/// or the last pixel twice, and the weight of the second.
 struct PixelPair {
   std::size_t first;
   std::size_t second;
@@ -114,7 +114,7 @@ struct PixelPair {
 };
 
 Colour colour_at(const TexturePicture& picture, const Eigen::Vector2d& place) {
-  // 1 is the right or upper end of the picture, and not the next one's beginning; places are of
+  // 1 is the right or upper end of the picture, not the beginning of the next. Positions have
   // single precision.
   const auto within = [](double x) {
     constexpr double rounding = 1e-5;
@@ -147,7 +147,7 @@ Colour colour_at(const MeshTexture& texture, const MeshPlace& place) {
     const double weight = place.weights[static_cast<Eigen::Index>(k)];
     if (weight > 0.0) at += weight * texture.corners[place.triangle][k].cast<double>();
   }
-  // A picture of one pixel is the colour of a material, which needs no places.
+  // A picture of one pixel is the colour of a material and needs no position.
   if (picture.colours.size() == 3) at.setZero();
   return at.allFinite() ? colour_at(picture, at) : white;
 }
@@ -164,8 +164,8 @@ void append_colours(const MeshTexture& texture, const std::vector<MeshPlace>& pl
   for (MeshAttribute& part : parts) attributes.push_back(std::move(part));
 }
 
-/// Vertices of the mesh by the points of a scan without faces, each a triangle of no area that the
-/// tree of faces would leave out: searched plainly, in blocks.
+/// Returns the nearest scan point of each mesh vertex, for a scan without faces. Searches all
+/// points, in blocks, because the tree of faces leaves out triangles without area.
 std::vector<std::size_t> nearest_points(const std::vector<Vector3>& scan,
                                         const std::vector<Vector3>& points,
                                         const Execution& execution) {

@@ -7,23 +7,24 @@
 
 namespace wscvt {
 
-/// Carries the numbers of a scan's vertices and faces onto another mesh in the same place.
+/// Transfers the numbers at a scan's vertices and faces to another mesh in the same position.
 ///
-/// A vertex of `mesh` takes the numbers of the scan's point nearest to it. Colours (red, green,
-/// blue, alpha) and numbers with fractions are interpolated within the scan's triangle; other whole
-/// numbers, such as labels, are those of its corner with the largest weight. A face takes the
-/// numbers of the scan's face nearest to its middle. If the scan has no faces, a vertex takes the
-/// numbers of the nearest point.
+/// A vertex of `mesh` gets the numbers of the nearest point of the scan's surface. Colours (red,
+/// green, blue, alpha) and numbers with fractions are interpolated within the scan's triangle.
+/// Other whole numbers, such as labels, are copied from the triangle's corner with the largest
+/// weight. A face gets the numbers of the scan's face nearest to its centroid. If the scan has no
+/// faces, a vertex gets the numbers of the nearest scan point.
 ///
-/// A texture becomes red, green and blue of the vertices: the picture's colour at the nearest
-/// point, interpolated between its four pixels there, or white if no picture lies there. Colours
-/// that the scan's vertices have go before a texture. A texture without any picture gives none.
+/// A texture becomes red, green and blue at the vertices: the picture's colour at the nearest
+/// point, interpolated between four pixels, or white if there is no picture. If the scan's vertices
+/// have colours, these are used instead of a texture. A texture without any picture gives no
+/// colour.
 ///
-/// The result has the names and types of `attributes`, and one value for each vertex or face; no
-/// texture. It is the same on any number of threads. Attributes are none if the scan has no points,
-/// or faces without area only. Throws Error(InvalidInput) for another number of values than of the
-/// scan's vertices or faces and for a picture with another number of colours than its size says,
-/// and Error(Cancelled).
+/// The result has the names and types of `attributes`, one value for each vertex or face, and no
+/// texture. It does not depend on the number of threads. It has no attributes if the scan has no
+/// points, or only faces without area. Throws Error(InvalidInput) if the number of values differs
+/// from the scan's vertices or faces, or if a picture's size does not match its colours. Throws
+/// Error(Cancelled).
 MeshAttributes carried_attributes(const IndexedMesh& scan, const MeshAttributes& attributes,
                                   const IndexedMesh& mesh,
                                   const Execution& execution = Execution(1));

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A value smaller than this share of what it is measured by is noise: the roughness of a grain
-/// without any, which a remesh of flat triangles multiplies.
+/// A value below this fraction of its reference size is noise, such as the roughness of a smooth
+/// grain, which a remesh of flat triangles multiplies.
 constexpr double near_zero_share = 1e-3;
 
 void append_axes(std::vector<DescriptorValue>& rows, const std::string& suffix,
@@ -81,7 +81,7 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& d) {
                   d.roundness.roundness});
   rows.push_back({"roundness_smallest_radius", "smallest corner radius resolved, of R", "",
                   d.roundness.smallest_radius});
-  // What a height says depends on the cut-off, so that no height is named without it.
+  // Heights depend on the cut-off, so every label of a height names it.
   const auto rough = [&d](double value) { return d.has_roughness ? value : not_a_number; };
   const std::string above = " (cut-off " + format_number(d.roughness.cutoff, 4) + ")";
   rows.push_back({"roughness_cutoff", "cut-off length of roughness", "length", d.roughness.cutoff});
@@ -107,8 +107,8 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& d) {
 
 namespace {
 
-/// The label of two rows. Where they differ it is by the cut-off lengths in brackets, which have a
-/// row of their own.
+/// Returns the common label of two rows. Labels differ only in the cut-off lengths in brackets,
+/// which have their own row.
 std::string shared_label(const std::string& one, const std::string& other) {
   return one == other ? one : one.substr(0, one.find(" (")) + " (each at its cut-off)";
 }
@@ -123,8 +123,8 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
                     std::to_string(values.size()) +
                     " descriptors; compare lists made by the same function.");
   }
-  // What counts as near zero: numbers without a unit are of the size 1, others are judged by the
-  // largest of their unit, lengths so by the longest axis.
+  // Sizes for the test of near zero: 1 for numbers without a unit, otherwise the largest value with
+  // the unit, such as the longest axis for lengths.
   std::map<std::string, double> sizes = {{"", 1.0}};
   for (const DescriptorValue& row : reference) {
     double& size = sizes[row.unit];

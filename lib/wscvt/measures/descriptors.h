@@ -10,10 +10,10 @@
 
 namespace wscvt {
 
-// What is measured of the shape of one body: in a moment, for every remesh, and in full.
+// Shape measures of one body: a fast set for every remesh, and the full set.
 
-/// Shape descriptors of a closed, outward mesh that follow from integrals over it: cheap enough for
-/// every remesh. DetailedDescriptors holds the others.
+/// Shape descriptors of a closed, outward mesh that follow from integrals over it. They are cheap
+/// enough for every remesh. DetailedDescriptors contains the others.
 ///
 /// Integrals over the volume are turned into sums over the faces by the divergence theorem: each
 /// face spans a signed tetrahedron with a point near the middle of the mesh (Lien and Kajiya 1984,
@@ -24,74 +24,75 @@ struct ShapeDescriptors {
   /// length^3.
   double volume = 0.0;
   double area = 0.0;  ///< (1/2) sum |(b - a) x (c - a)| over the faces; length^2
-  /// S/L of the inertia ellipsoid, in (0, 1]; no unit. Source as of inertia_semi_axes.
+  /// S/L of the inertia ellipsoid, in (0, 1]; no unit. Source: see inertia_semi_axes.
   double aspect_ratio = 0.0;
   /// (36 pi V^2)^(1/3) / A, in (0, 1]; no unit (Wadell 1932, "Volume, shape, and roundness of rock
   /// particles", J. Geol. 40, 443-451).
   double sphericity = 0.0;
   /// Root-mean-square gradient of the radius, in a form of this library that does not depend on the
-  /// orientation. It takes the place of the paper's eq. 17, which does (see printed_sdq):
+  /// orientation. It replaces the paper's eq. 17, which depends on it (see printed_sdq):
   /// Sdq^2 = (1/A) integral of |grad_Omega r|^2 dOmega = (1/A) sum A_f (1 - c_f^2) / c_f, with c_f
   /// the cosine between a face's normal and the direction of its centroid from the volume centroid.
-  /// c_f is taken as at least the clip, 0.05, so that folds do not count as infinitely steep. No
+  /// c_f is clipped at 0.05 from below, so that overhangs do not count as infinitely steep. No
   /// unit; 0 for a sphere.
   double sdq = 0.0;
-  /// Share of Sdq^2 that comes from faces at the clip, in [0, 1]: that part is what the clip says.
+  /// Fraction of Sdq^2 from clipped faces, in [0, 1]. This part depends on the clip.
   double sdq_clipped_share = 0.0;
   double sdq_half_clip = 0.0;          ///< Sdq with half the clip; no unit
   Vector3 centroid = Vector3::Zero();  ///< of the volume (Lien and Kajiya; Mirtich); length
-  /// Semi-axes of the homogeneous ellipsoid with the same second moments of volume per volume (the
-  /// inertia ellipsoid), S <= I <= L; length. a_k = (5 m_k)^(1/2) with m_k the eigenvalues of
-  /// (1/V) integral of x x^T dV about the centroid: the ellipsoid of equal radii of gyration of
-  /// Medalia (1971), "Dynamic shape factors of particles", Powder Technol. 4, 117-138.
+  /// Semi-axes of the homogeneous ellipsoid with the body's second moments per volume (the inertia
+  /// ellipsoid), S <= I <= L; length. a_k = (5 m_k)^(1/2) with m_k the eigenvalues of (1/V)
+  /// integral of x x^T dV about the centroid: the ellipsoid of equal radii of gyration of Medalia
+  /// (1971), "Dynamic shape factors of particles", Powder Technol. 4, 117-138.
   Vector3 inertia_semi_axes = Vector3::Zero();
   /// Tensor of inertia about the centroid at unit density (Lien and Kajiya; Mirtich); length^5.
   Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();
-  /// Unit quaternion that turns the principal axes into the mesh's, as in MassProperties; no unit.
+  /// Unit quaternion that turns the principal axes into the mesh's axes, as in MassProperties; no
+  /// unit.
   Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
 };
 
-/// Measures a closed outward mesh, as accurately far from the origin as near it. Throws
-/// Error(InvalidInput) when the volume is not positive.
+/// Measures a closed outward mesh. The accuracy does not depend on the distance to the origin.
+/// Throws Error(InvalidInput) if the volume is not positive.
 ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execution);
 
-/// A sentence of a grain whose Sdq moves by more than 2 % when its clip is halved, so that it says
-/// less of the grain than of the clip; empty for other grains. `grain` is the subject's name.
+/// Returns a warning if Sdq changes by more than 2 % when the clip is halved, because Sdq then
+/// depends more on the clip than on the grain. Otherwise empty. `grain` is the grain's name.
 std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& descriptors);
 
-/// 100 (value / reference - 1); 0 when the two are equal, even at zero.
+/// Returns 100 (value / reference - 1); 0 if the two are equal, even at zero.
 double relative_error_percent(double value, double reference);
 
-/// Largest absolute entry of the difference of two inertia tensors, in the principal axes of the
-/// reference, in % of the reference's largest principal moment: a measure of this library.
+/// Returns the largest absolute entry of the difference of two inertia tensors, in the principal
+/// axes of the reference, in % of its largest principal moment. A measure of this library.
 double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference);
 
-/// Descriptors measured in lengths of `unit` about `centre`, in plain lengths.
+/// Converts descriptors that were measured in units of length `unit` about `centre` to plain
+/// lengths.
 void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre);
 
-/// Mass properties of a rigid body at unit density: mass is volume times density, moments
-/// are those here times density.
+/// Mass properties of a rigid body at unit density. Multiply volume and moments by the density.
 struct MassProperties {
   double volume = 0.0;                                       ///< length^3
   Vector3 centroid = Vector3::Zero();                        ///< length
   Eigen::Matrix3d inertia_tensor = Eigen::Matrix3d::Zero();  ///< about the centroid; length^5
   Vector3 principal_moments = Vector3::Zero();               ///< ascending; length^5
-  /// Unit quaternion q: a point p of the principal frame is centroid + q p in the mesh's. x runs
-  /// along the longest axis, z along the shortest; lib/doc/descriptors.md has the signs.
+  /// Unit quaternion q: a point p of the principal frame is centroid + q p in the mesh's frame. x
+  /// is along the longest axis, z along the shortest. lib/doc/descriptors.md defines the signs.
   Eigen::Quaterniond principal_axes = Eigen::Quaterniond::Identity();
 };
 
-/// Of a body whose descriptors are known. Throws nothing.
+/// Returns the mass properties from descriptors. Throws nothing.
 MassProperties mass_properties(const ShapeDescriptors& descriptors);
 
-/// The two lengths that descriptors of detail depend on.
+/// The two lengths on which the detailed descriptors depend.
 struct DetailedOptions {
-  /// Radius of the balls that roundness reads curvature in, over that of the largest inscribed
-  /// sphere.
+  /// Radius of the balls in which roundness measures curvature, over the radius of the largest
+  /// inscribed sphere.
   double roundness_ball = 0.2;
-  /// Cut-off length of roughness over the radius of the sphere of equal volume: longer waves are
-  /// form. There is no plateau on real grains, so that Sq grows with it. 0.25 lets less of the form
-  /// of sharp bodies into the heights, and fewer waves.
+  /// Cut-off length of roughness over the radius of the sphere of equal volume. Longer waves are
+  /// form. Sq grows with the cut-off: real grains show no plateau. With 0.25 the heights contain
+  /// less of the form of sharp bodies, but also fewer waves.
   double roughness_cutoff = 0.33;
 };
 
@@ -110,8 +111,8 @@ inline constexpr NumberOption<double> roughness_cutoff_option = {
     Ends::Both,
     "longest wave that counts, over the equivalent radius"};
 
-/// Share of the solid angle in sheets beyond the first, seen from the volume centroid, above which
-/// a body has no radius for the printed Sdq.
+/// Largest overhang, as a fraction of the solid angle seen from the volume centroid, for which the
+/// printed Sdq is computed.
 inline constexpr double largest_measured_fold = 0.01 * usual_fold_limit_percent;
 
 /// Three mutually perpendicular dimensions of a body, S <= I <= L; full lengths, not halves.
@@ -121,16 +122,16 @@ struct FormAxes {
   double longest = 0.0;       ///< L
 };
 
-/// Ratios of the three dimensions; none has a unit.
+/// Ratios of the three dimensions; no units.
 struct FormRatios {
   double aspect_ratio = 0.0;      ///< S/L, in (0, 1]
   double zingg_elongation = 0.0;  ///< I/L, in (0, 1] (Zingg 1935, Beitrag zur Schotteranalyse)
-  double zingg_flatness = 0.0;    ///< S/I, in (0, 1] (the same)
+  double zingg_flatness = 0.0;    ///< S/I, in (0, 1] (Zingg 1935)
   /// (L - I)/L, in [0, 1) (Kong and Fonseca 2018, "Quantification of the morphology of shelly
   /// carbonate sands using 3D images", Geotechnique; read as SHAPE does: Angelidakis, Nadimi and
   /// Utili 2021, Comput. Phys. Commun. 265, 107983).
   double kong_fonseca_elongation = 0.0;
-  double kong_fonseca_flatness = 0.0;  ///< (I - S)/I, in [0, 1) (the same)
+  double kong_fonseca_flatness = 0.0;  ///< (I - S)/I, in [0, 1) (Kong and Fonseca 2018)
   /// Intercept sphericity (I S / L^2)^(1/3), in (0, 1] (Krumbein 1941, J. Sediment. Petrol. 11,
   /// 64-72).
   double krumbein_sphericity = 0.0;
@@ -138,13 +139,13 @@ struct FormRatios {
 
 /// Distances across a body (feret_diameters.h); lengths.
 struct FeretDiameters {
-  double largest = 0.0;           ///< between two points of it; L of NIST
-  double smallest = 0.0;          ///< between two parallel planes that hold it
-  double width_across = 0.0;      ///< the longest chord across the largest diameter; W of NIST
-  double thickness_across = 0.0;  ///< the longest chord across both; T of NIST
+  double largest = 0.0;       ///< between two points of the body; L of NIST
+  double smallest = 0.0;      ///< between two parallel planes that enclose the body
+  double width_across = 0.0;  ///< longest chord perpendicular to the largest diameter; W of NIST
+  double thickness_across = 0.0;  ///< longest chord perpendicular to both; T of NIST
 };
 
-/// A sphere inside a body, and how much larger the largest one can be at most.
+/// A sphere inside a body, and an upper bound for the largest such sphere.
 struct InscribedSphere {
   Vector3 centre = Vector3::Zero();  ///< length
   double radius = 0.0;               ///< length; the sphere lies inside
@@ -166,34 +167,33 @@ struct OrientationTensor {
 
 /// Wadell's roundness of a body; roundness.h has the formula and the convention of its mean.
 struct Roundness {
-  /// In (0, 1]; 1 when there are no corners, not a number when the mesh is too coarse to tell.
+  /// In (0, 1]; 1 if there are no corners, NaN if the mesh is too coarse.
   double roundness = 1.0;
   double corner_area_share = 0.0;  ///< of the surface area, in [0, 1]
-  double ball_radius = 0.0;        ///< of the balls that curvature was read in; length
-  /// Radius of the sharpest corners that the balls can tell from sharper ones, over the inscribed
-  /// radius; no unit.
+  double ball_radius = 0.0;        ///< of the balls in which curvature was measured; length
+  /// Radius of the sharpest corners that the balls can resolve, over the inscribed radius; no unit.
   double smallest_radius = 0.0;
 };
 
-/// Height parameters after ISO 25178-2 of the heights z of a surface above what is left of it
-/// without waves shorter than the cut-off length (roughness.h), less their mean; means are taken
-/// over the area A of that reference surface.
+/// Height parameters after ISO 25178-2. The reference surface is the surface without waves shorter
+/// than the cut-off length (roughness.h), and A is its area. The heights z are measured from it,
+/// minus their mean.
 struct Roughness {
-  double cutoff = 0.0;     ///< nesting index of the L-filter: a wave length; length
+  double cutoff = 0.0;     ///< nesting index of the L-filter: a wavelength; length
   double sa = 0.0;         ///< (1/A) integral |z| dA; length
   double sq = 0.0;         ///< ((1/A) integral z^2 dA)^(1/2); length
   double ssk = 0.0;        ///< (1/A) integral z^3 dA / Sq^3; no unit, 0 for symmetric heights
   double sku = 0.0;        ///< (1/A) integral z^4 dA / Sq^4; no unit, 3 for normal heights
-  double form_leak = 0.0;  ///< the part of Sq that is bent form, not roughness: an estimate; length
+  double form_leak = 0.0;  ///< estimated part of Sq that is curved form, not roughness; length
 };
 
-/// Every shape descriptor of a closed, outward mesh. Formula and source stand here or in the file
+/// Every shape descriptor of a closed, outward mesh. Formula and source are here or in the file
 /// that computes it: form_axes.h, feret_diameters.h, inscribed_sphere.h, orientation_tensor.h,
-/// roundness.h, roughness.h. lib/doc/descriptors.md has them all in one table.
+/// roundness.h, roughness.h. lib/doc/descriptors.md lists all in one table.
 struct DetailedDescriptors {
   ShapeDescriptors basic;
-  /// Of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell (1932);
-  /// length.
+  /// Diameter of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell
+  /// (1932); length.
   double equivalent_diameter = 0.0;
   /// Full axes of the inertia ellipsoid, twice ShapeDescriptors::inertia_semi_axes.
   FormAxes inertia_axes;
@@ -208,24 +208,23 @@ struct DetailedDescriptors {
   InscribedSphere inscribed_sphere;
   OrientationTensor orientation;
   Roundness roundness;
-  /// Whether roughness exists: false where the mesh's edges are too long for the cut-off. Its
-  /// cut-off is always there.
+  /// Whether roughness exists: false if the mesh's edges are too long for the cut-off.
+  /// roughness.cutoff is always set.
   bool has_roughness = false;
-  double least_cutoff = 0.0;  ///< that the mesh's edges carry; length
+  double least_cutoff = 0.0;  ///< smallest cut-off that the mesh's edges allow; length
   Roughness roughness;
-  double folded_share = 0.0;  ///< of 4 pi, seen from the volume centroid
-  /// Whether the printed Sdq exists: false when the volume centroid lies outside the body, and
-  /// where the surface folds by more than largest_measured_fold. Where it folds by less it sees the
-  /// outermost layer.
+  double folded_share = 0.0;  ///< overhang as a fraction of 4 pi, seen from the volume centroid
+  /// Whether the printed Sdq exists: false if the volume centroid is outside the body or the
+  /// overhang exceeds largest_measured_fold. With less overhang it uses the outermost surface.
   bool has_radius = false;
   double printed_sdq =
       0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (printed_sdq.h)
 };
 
-/// Measures a closed outward mesh as checked by check_mesh; takes of the order of a second for
-/// 100,000 faces. Throws Error(InvalidInput) when the volume is not positive or an option is out of
-/// range, Error(NumericalFailure) when a ray from the volume centroid meets no face or the
-/// equations of the surface filter have no solution, Error(Cancelled).
+/// Measures a closed outward mesh as checked by check_mesh, in about a second for 100,000 faces.
+/// Throws Error(InvalidInput) if the volume is not positive or an option is out of range;
+/// Error(NumericalFailure) if a ray from the volume centroid meets no face or the equations of the
+/// surface filter have no solution; Error(Cancelled).
 DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
                                              const DetailedOptions& options,
                                              const Execution& execution);

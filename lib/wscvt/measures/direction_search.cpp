@@ -38,7 +38,7 @@ Eigen::Matrix3d frame_of(const std::vector<Vector3>& points) {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (const Vector3& p : points) second += (p - mean) * (p - mean).transpose();
   Eigen::Matrix3d frame = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(second).eigenvectors();
-  // Signs that turn with the body as well: towards where it reaches farther.
+  // The signs also turn with the body: axes point to where it reaches farther.
   for (int k = 0; k < 2; ++k) {
     double third = 0.0;
     for (const Vector3& p : points) third += std::pow(frame.col(k).dot(p - mean), 3);

@@ -14,15 +14,16 @@
 
 namespace wscvt {
 
-/// A direction and what was searched for in it.
+/// A direction and the function's value there.
 struct DirectionMinimum {
   Vector3 direction = Vector3::UnitX();
   double value = 0.0;
 };
 
-/// Follows a function of directions downhill from `start` with steps from `first` down to `last`
-/// radians: to the best of eight neighbours, and where none is better to one of eight between them,
-/// since a valley with a kink along its floor is narrow; then with half the step.
+/// Follows a function of directions downhill from `start`, with steps from `first` down to `last`
+/// radians. Moves to the best of eight neighbours. If no neighbour is better, tries eight
+/// directions between them, because a valley with a kink along its floor is narrow. Then halves the
+/// step.
 template <class Function>
 DirectionMinimum descend(const Function& function, DirectionMinimum start, double first,
                          double last) {
@@ -54,12 +55,11 @@ DirectionMinimum descend(const Function& function, DirectionMinimum start, doubl
   return start;
 }
 
-/// The smallest value of a function that is the same for a direction and its opposite. `coarse` and
-/// `medium` are cheaper functions near it, of fewer points: on a lattice of 500 directions, then
-/// downhill from the lattice's own minima, the 32 best of them at most, by `coarse`; from the six
-/// best of these by `medium`, and from the three best of those by `function` itself, to 1e-6
-/// radians. For a result that turns with a body, give functions of the body in its own frame
-/// (frame_of).
+/// Finds the smallest value of a function that is equal for a direction and its opposite. `coarse`
+/// and `medium` approximate it with fewer points. Evaluates `coarse` on a lattice of 500 directions
+/// and follows it downhill from at most 32 of the lattice's best minima. Then follows `medium` from
+/// the six best results, and `function` from the three best of these, to 1e-6 radians. If the
+/// result must turn with a body, give functions of the body in its own frame (frame_of).
 template <class Coarse, class Medium, class Function>
 DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& medium,
                                           const Function& function, const char* stage,
@@ -81,7 +81,8 @@ DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& me
     execution.report(0.0, stage);
     all.push_back({direction, coarse(direction)});
   }
-  // Where no near direction is better: the best alone would all lie in one valley.
+  // Starts only where no near direction is better, because otherwise the best could all lie in one
+  // valley.
   const double near = std::cos(1.7 * spacing);
   std::vector<DirectionMinimum> found;
   for (const DirectionMinimum& one : all) {
@@ -113,20 +114,20 @@ DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& me
   return found.front();
 }
 
-/// The points that lie farthest in each of `directions` directions of a lattice, or all points
-/// where they are fewer. Reports `stage` once a direction.
+/// Returns the farthest points in each of `directions` directions of a lattice, or all points if
+/// they are fewer. Reports `stage` once per direction.
 std::vector<Vector3> extreme_points(const std::vector<Vector3>& points, int directions,
                                     const char* stage, const Execution& execution);
 
-/// Directions for extreme points to measure by, and for those to begin a search with.
+/// Numbers of directions for the extreme points of a measurement, and of a search's beginning.
 inline constexpr int thinning_directions = 2000;
 inline constexpr int coarse_directions = 200;
 
-/// Axes of a point set's second moments, which turn with the points: the right-handed ones whose
-/// first two look to where the points reach farther.
+/// Returns the axes of a point set's second moments, which turn with the points. They are
+/// right-handed; the first two point to where the points reach farther.
 Eigen::Matrix3d frame_of(const std::vector<Vector3>& points);
 
-/// The points as `frame` sees them, about `origin`.
+/// Returns the points' coordinates in `frame`, about `origin`.
 std::vector<Vector3> in_frame(const std::vector<Vector3>& points, const Vector3& origin,
                               const Eigen::Matrix3d& frame);
 

@@ -20,21 +20,21 @@ constexpr std::size_t facet_block = 256;
 Vector3 nearest_of(const std::array<Vector3, 3>& corners, const Vector3& point) {
   const auto& [a, b, c] = corners;
   const Vector3 weights = nearest_weights(a, b, c, point);
-  // About the point, so that far from the origin no digits are lost.
+  // Relative to the point, so that no digits are lost far from the origin.
   return weights[0] * (a - point) + weights[1] * (b - point) + weights[2] * (c - point);
 }
 
 double squared_distance(const std::array<Vector3, 3>& corners, const Vector3& point) {
   const double square = nearest_of(corners, point).squaredNorm();
-  // Of a needle whose area is lost in rounding nothing is known; its neighbours cover it.
+  // Ignore a needle if its area is lost in rounding; its neighbours cover it.
   return square >= 0.0 ? square : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
-/// Faces are dealt out by their middles, half to each child along the axis on which they are spread
-/// most, so that every node's place follows from the number of faces before it: parts of the tree
-/// can be built in any order.
+/// Distributes faces by their centroids, half to each child along the axis of largest spread. Every
+/// node's index follows from the number of faces before it, so parts of the tree can be built in
+/// any order.
 class FaceBoxes::Builder {
  public:
   Builder(const IndexedMesh& mesh, FaceBoxes& boxes, const Execution& execution,
@@ -47,7 +47,7 @@ class FaceBoxes::Builder {
       if (f % faces_a_report == 0) execution.report(0.0, stage);
       const Triangle& t = mesh.triangles[f];
       const Corners corners = {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
-      // Its neighbours cover what a face without area covers.
+      // The neighbours of a face without area cover it.
       if (!(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) continue;
       middles_.push_back({corners[0] + corners[1] + corners[2], faces_.size()});
       faces_.push_back(corners);
@@ -66,7 +66,7 @@ class FaceBoxes::Builder {
     execution.parallel_for(parts_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) build(parts_[i]);
     });
-    // What lies above the parts, from the leaves up.
+    // The nodes above the parts, from the leaves up.
     for (auto part = upper_.rbegin(); part != upper_.rend(); ++part) join(*part);
   }
 
@@ -75,15 +75,14 @@ class FaceBoxes::Builder {
     Vector3 sum;  ///< of the corners
     std::size_t face;
   };
-  /// A node and its faces, in the order of the leaves.
+  /// A node and its faces, in leaf order.
   struct Part {
     std::size_t begin;
     std::size_t end;
     std::size_t node;
 
     bool is_leaf() const { return end - begin <= faces_a_leaf; }
-    /// Of the leaves that go to the first child, all of them full; its nodes are twice as many but
-    /// one.
+    /// Number of leaves of the first child, all full. The child has twice as many nodes minus one.
     std::size_t first_leaves() const { return (end - begin + faces_a_leaf - 1) / faces_a_leaf / 2; }
     std::size_t middle() const { return begin + faces_a_leaf * first_leaves(); }
     Part first() const { return {begin, middle(), node + 1}; }
@@ -107,7 +106,7 @@ class FaceBoxes::Builder {
         [axis](const Middle& a, const Middle& b) { return a.sum[axis] < b.sum[axis]; });
   }
 
-  /// Splits until the parts are small enough to be a few hundredths of a second's work.
+  /// Splits until each part takes a few hundredths of a second.
   void deal(const Part& part, const Execution& execution, const std::string& stage) {
     constexpr std::size_t faces_a_part = 8192;
     if (part.end - part.begin <= faces_a_part) {
@@ -144,7 +143,7 @@ class FaceBoxes::Builder {
     join(part);
   }
 
-  /// The node about its two children.
+  /// Joins the boxes of a node's two children.
   void join(const Part& part) {
     const Node& first = boxes_.nodes_[part.first().node];
     const Node& second = boxes_.nodes_[part.second().node];
@@ -178,12 +177,13 @@ std::size_t FaceBoxes::nearby_face(const Vector3& point) const {
 
 double FaceBoxes::squared_distance(const Vector3& point, std::size_t& face, double enough) const {
   double nearest = wscvt::squared_distance(faces_[face], point);
-  // The nearer child first: of a point far inside many faces are nearly as far as the nearest.
+  // Visits the nearer child first, because for a point far inside, many faces are nearly as far as
+  // the nearest.
   struct Open {
     std::size_t node;
     double square;
   };
-  std::array<Open, 64> open;  // a level of the tree adds one
+  std::array<Open, 64> open;  // each level of the tree adds one
   std::size_t count = 0;
   open[count++] = {0, nodes_[0].squared_distance(point)};
   while (count > 0 && nearest > enough) {
@@ -271,10 +271,11 @@ std::vector<MeshPlace> FaceBoxes::nearest_places(const std::vector<Vector3>& poi
 std::size_t FaceBoxes::faces_met(const Vector3& point) const {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const auto local = [&](const Vector3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
-  // Without pattern, which keeps rays off edges and vertices; no component is 0.
+  // An irregular direction avoids hits on edges and vertices. No component is 0.
   const Vector3 d(0.5377102934, 0.3142870195, 0.7823519467);
   const Kernel::Ray_3 ray(local(point), Kernel::Vector_3(d.x(), d.y(), d.z()));
-  // Rounding must not lose a box that the ray grazes (Ize, J. Comput. Graph. Tech. 2 (2013) 12-27).
+  // Boxes that the ray grazes must not be lost by rounding (Ize, J. Comput. Graph. Tech. 2 (2013)
+  // 12-27).
   constexpr double wider = 1.0 + 4.0 * std::numeric_limits<double>::epsilon();
   const Vector3 inverse = d.cwiseInverse();
   std::size_t met = 0;

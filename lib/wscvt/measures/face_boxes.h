@@ -14,62 +14,64 @@
 
 namespace wscvt {
 
-/// The faces of a mesh in a binary tree of boxes, for the distances of many points one after the
-/// other. Our own, because CGAL's AABB tree takes twice the time for the distances of a batch's
-/// grains, given the same starts, and four times the time to be built over two million faces:
-/// here nodes lie in memory in the order in which they are searched, and parts of the tree are made
-/// at the same time. Const calls may come from several threads.
+/// The faces of a mesh in a binary tree of boxes, for the distances of many points. CGAL's AABB
+/// tree takes twice the time for the distances of a batch's grains, from the same starts, and four
+/// times the time to build over two million faces. This tree stores nodes in the order of the
+/// search, and builds parts at the same time. Const functions are thread-safe.
 class FaceBoxes {
  public:
-  /// Copies what it needs of the faces that have an area; about 150 bytes each. Reports `stage`.
-  /// The same tree on any number of threads.
+  /// Copies the data of the faces that have an area, about 150 bytes per face. Reports `stage`. The
+  /// tree does not depend on the number of threads.
   FaceBoxes(const IndexedMesh& mesh, const Execution& execution, const std::string& stage);
 
-  /// No face has an area.
+  /// Whether no face has an area.
   bool empty() const { return faces_.empty(); }
 
-  /// The nearest point of the surface. There must be faces, here and below, which is not checked.
+  /// Returns the nearest point of the surface. This and the functions below need faces; this is not
+  /// checked.
   Vector3 nearest_point(const Vector3& point) const;
 
-  /// Distance to the nearest point of the surface, >= 0; length.
+  /// Returns the distance to the nearest point of the surface, >= 0; length.
   double distance(const Vector3& point) const;
 
-  /// The same of many points. Where they follow each other along a surface the search is shortest.
+  /// Returns the distances of many points. Fastest if successive points are neighbours on a
+  /// surface.
   std::vector<double> distances(const std::vector<Vector3>& points,
                                 const Execution& execution) const;
 
-  /// The square of `distance`, for points that each have a face near them from the search before:
-  /// `face` is where the search starts, counted in the order of this tree from 0, and becomes the
-  /// nearest. Where the square is at most `enough` the search may end with any face that near.
+  /// Returns the square of `distance`, for a point with a near face from an earlier search. The
+  /// search starts at `face`, counted from 0 in the order of this tree, and sets it to the nearest
+  /// face. If the square is at most `enough`, the search may end at any face that near.
   double squared_distance(const Vector3& point, std::size_t& face, double enough) const;
 
-  /// The point of a face, counted as above, that is nearest to `point`.
+  /// Returns the point of a face, counted as above, that is nearest to `point`.
   Vector3 nearest_point_of(std::size_t face, const Vector3& point) const;
 
-  /// All faces, counted as above, that are at most `distance` away.
+  /// Returns all faces, counted as above, that are at most `distance` away.
   std::vector<std::size_t> faces_within(const Vector3& point, double distance) const;
 
-  /// The places of the mesh nearest to points; its triangles are counted as there.
+  /// Returns the places of the mesh nearest to points, with the mesh's triangle indices.
   std::vector<MeshPlace> nearest_places(const std::vector<Vector3>& points,
                                         const Execution& execution) const;
 
-  /// How many faces a ray from `point` meets, decided exactly by CGAL; its direction is the same
-  /// for all points. Odd inside a closed mesh.
+  /// Returns the number of faces that a ray from `point` hits, computed exactly by CGAL. The ray's
+  /// direction is fixed. Odd inside a closed mesh.
   std::size_t faces_met(const Vector3& point) const;
 
  private:
   using Corners = std::array<Vector3, 3>;
 
-  /// Only the last leaf may have fewer. With one the tree would take half as much memory again.
+  /// Only the last leaf may have fewer. With one face per leaf, the tree would need half as much
+  /// memory again.
   static constexpr std::size_t faces_a_leaf = 2;
 
-  /// Nodes stand in the order of a walk through the tree: after an inner node its first child with
-  /// all that is under it, then the second.
+  /// Nodes are in depth-first order: after an inner node its first child's subtree, then the second
+  /// child's.
   struct Node {
     Vector3 low;
     Vector3 high;
-    std::int32_t beyond;  ///< the node after all that is under this one
-    std::int32_t faces;   ///< the first of a leaf's; of an inner node -1
+    std::int32_t beyond;  ///< the node after this one's subtree
+    std::int32_t faces;   ///< the first face of a leaf; -1 for an inner node
 
     double squared_distance(const Vector3& point) const {
       return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm();
@@ -88,7 +90,7 @@ class FaceBoxes {
   std::size_t nearby_face(const Vector3& point) const;
 
   std::vector<Corners> faces_;         ///< in the order of the leaves
-  std::vector<std::int32_t> numbers_;  ///< of these faces in the mesh
+  std::vector<std::int32_t> numbers_;  ///< index of each of these faces in the mesh
   std::vector<Node> nodes_;
 };
 

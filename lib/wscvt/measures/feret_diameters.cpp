@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* diameter_stage = "Measuring diameters";
 
-/// Up to so many points every pair is tried.
+/// Up to this many points every pair is tested.
 constexpr std::size_t most_pairs_of = 4000;
 
 constexpr std::size_t planes = 128;
@@ -43,7 +43,7 @@ Pair farthest_of_all(const std::vector<Vector3>& points) {
   return best;
 }
 
-/// From either end to the point farthest from it, while that is farther.
+/// Replaces an end by the point farthest from the other end, while the distance grows.
 Pair moved_apart(Pair pair, const std::vector<Vector3>& points) {
   for (bool farther = true; farther;) {
     farther = false;
@@ -69,14 +69,14 @@ double width_along(const std::vector<Vector3>& points, const Vector3& direction)
   return highest - lowest;
 }
 
-/// Where faces are cut by planes across a direction.
+/// Sections of the mesh by planes perpendicular to a direction.
 class Sections {
  public:
   Sections(const IndexedMesh& mesh, const Vector3& normal)
       : mesh_(mesh), normal_(normal), x_(normal.unitOrthogonal()), y_(normal.cross(x_)) {
     heights_.reserve(mesh.points.size());
     for (const Vector3& p : mesh.points) heights_.push_back(normal.dot(p));
-    // Not the points: those of no face count for nothing.
+    // Uses the faces' corners, because points without a face do not count.
     lowest_ = highest_ = heights_[index(mesh.triangles.front()[0])];
     for (const Triangle& t : mesh.triangles) {
       for (const std::int32_t v : t) {
@@ -93,14 +93,14 @@ class Sections {
   Vector3 in_space(const Vector2& p) const { return p.x() * x_ + p.y() * y_; }
   Vector2 in_plane(const Vector3& v) const { return {x_.dot(v), y_.dot(v)}; }
 
-  /// Ends of the segments in which faces meet the plane, two by two.
+  /// Returns the ends, in pairs, of the segments in which the plane cuts faces.
   std::vector<Vector2> cut(double height) const {
     std::vector<Vector2> ends;
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) add(f, height, ends);
     return ends;
   }
 
-  /// The same for all planes at once.
+  /// Cuts by all planes at once.
   std::vector<std::vector<Vector2>> cut_all() const {
     std::vector<std::vector<Vector2>> result(planes);
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
@@ -122,7 +122,7 @@ class Sections {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t a = index(t[k]);
       const std::size_t b = index(t[following(k)]);
-      // Half open: a face is crossed by two of its edges or by none.
+      // Half-open test: two or no edges of a face cross the plane.
       if ((heights_[a] < height) == (heights_[b] < height)) continue;
       const double part = (height - heights_[a]) / (heights_[b] - heights_[a]);
       ends.push_back(in_plane(mesh_.points[a] + part * (mesh_.points[b] - mesh_.points[a])));
@@ -140,7 +140,7 @@ class Sections {
 
 FarthestPair diameter_of(std::vector<Vector2> ends) { return farthest_pair(planar_hull(ends)); }
 
-/// The longest chord of a section along `along`, on lines across it.
+/// Returns the longest chord of a section parallel to `along`, on a set of lines.
 double longest_chord(const std::vector<Vector2>& ends, const Vector2& along) {
   const Vector2 across(along.y(), -along.x());
   if (ends.empty()) return 0.0;
@@ -188,7 +188,7 @@ FeretDiameters feret_diameters(const IndexedMesh& mesh, const std::vector<Vector
                 "A body of " + std::to_string(hull.size()) +
                     " points has no diameters; give a closed mesh and the points of its hull.");
   }
-  // About a point of the mesh, so that nothing cancels far from the origin.
+  // Relative to a point of the mesh, against cancellation far from the origin.
   const Eigen::Matrix3d frame = frame_of(hull);
   const std::vector<Vector3> points = in_frame(hull, hull.front(), frame);
   const IndexedMesh local = {in_frame(mesh.points, hull.front(), frame), mesh.triangles};
@@ -259,7 +259,7 @@ double mean_curvature_integral(const IndexedMesh& mesh, const Execution& executi
             const double length = edge.norm();
             if (!(length > 0.0)) continue;
             const double sine = normal.cross(other).dot(edge) / length;
-            // Each edge comes twice, once from either side.
+            // Each edge is visited twice, once from either side.
             part += 0.25 * length * std::atan2(sine, normal.dot(other));
           }
         }

@@ -21,7 +21,7 @@ constexpr const char* box_stage = "Turning the bounding box";
 /// Directions for the extreme points of the second search.
 constexpr int medium_directions = 600;
 
-/// Twice the first steps of the search by extreme points, and by all.
+/// Twice the first steps of the search with extreme points, and with all points.
 constexpr double medium_angle = 0.04;
 constexpr double last_angle = 0.008;
 
@@ -31,7 +31,7 @@ struct Box {
   std::array<Vector3, 3> axes;  ///< unit vectors along its edges
 };
 
-/// A direction, and two across it.
+/// A direction and two perpendicular directions.
 struct Frame {
   explicit Frame(const Vector3& direction)
       : z(direction), x(direction.unitOrthogonal()), y(direction.cross(x)) {}
@@ -64,7 +64,8 @@ Range range_along(const Vector3& direction, const std::vector<Vector3>& points) 
   return range;
 }
 
-/// The smallest box about points with one edge along `direction`. `hull_of` gives planar hulls.
+/// Returns the smallest box about points with one edge along `direction`. `hull_of` returns planar
+/// hulls.
 template <class HullOf>
 Box box_along(const Vector3& direction, const std::vector<Vector3>& points, const HullOf& hull_of) {
   const Frame frame(direction);
@@ -76,8 +77,8 @@ Box box_along(const Vector3& direction, const std::vector<Vector3>& points, cons
           {direction, along, direction.cross(along)}};
 }
 
-/// Boxes along directions of which each is near the one before, as those of a descent are: only
-/// points that lie at the rim of the body as seen along one of them matter, a tenth of all or less.
+/// Computes boxes for directions each near the direction before, as in a descent. Only points at
+/// the body's rim, seen along these directions, count: a tenth of all points or less.
 class NearbyBoxes {
  public:
   /// Directions within `angle` of each other, radians, are near.
@@ -101,7 +102,7 @@ class NearbyBoxes {
   }
 
  private:
-  /// So many directions say how far they still spread.
+  /// Number of directions from which the present spread is estimated.
   static constexpr int watched = 16;
 
   void follow(const Vector3& direction) {
@@ -120,9 +121,9 @@ class NearbyBoxes {
     spread_ = 0.0;
   }
 
-  /// The points that are on the rim, or farthest ahead or behind, as seen along a direction within
-  /// `angle` of `middle`: a turn by it moves two points apart ahead by no more than the angle times
-  /// their distance, and apart across by the angle times how far one lies ahead of the other.
+  /// Returns the points on the rim, or farthest ahead or behind, as seen along any direction within
+  /// `angle` of `middle`. A turn by this angle moves two points apart ahead by at most the angle
+  /// times their distance, and across by the angle times their difference ahead.
   std::vector<Vector3> rim_of(const std::vector<Vector3>& points, const Vector3& middle,
                               double angle) {
     middle_ = middle;
@@ -159,13 +160,13 @@ class NearbyBoxes {
   std::vector<Vector3> rim_;  ///< for directions within `angle_` of `middle_`
   Vector3 middle_ = Vector3::Zero();
   double angle_ = 0.0;
-  // The directions since the rim was looked at, how far they spread from the first.
+  // The directions since the rim was computed, and their spread from the first.
   Vector3 first_ = Vector3::Zero();
   int count_ = 0;
   double spread_ = 0.0;
 };
 
-/// From a box to one of its own edges as direction, while that makes it smaller.
+/// Searches on from a box's own edges as directions, while the box becomes smaller.
 Box settled(NearbyBoxes& about, Box box) {
   const auto volume = [&about](const Vector3& direction) { return about.box(direction).volume; };
   for (bool smaller = true; smaller;) {

@@ -9,20 +9,20 @@
 
 namespace wscvt {
 
-/// Edges of the smallest-volume oriented box about the points: over the directions of one edge
-/// (smallest_over_directions), of the smallest rectangle about the points seen along it
-/// (smallest_rectangle) times the extent along it. The volume comes to 0.1 % of the smallest and is
-/// the same in every pose; a search in the pose as given, by the optimisation of Chang, Gorissen
-/// and Melchior (2011, ACM Trans. Graph. 30, 122; CGAL::oriented_bounding_box), left axes that
-/// moved by 1.2 % when a body was turned. The search begins with the
-/// extreme points of 200 and 2,000 directions and ends with all; the edges bound all points. Give
+/// Computes the edges of the smallest-volume oriented box about the points. Minimizes, over the
+/// directions of one edge (smallest_over_directions), the extent along it times the area of the
+/// smallest rectangle about the points seen along it (smallest_rectangle). The volume is within 0.1
+/// % of the smallest and equal in every pose. A search in the given pose, by the optimisation of
+/// Chang, Gorissen and Melchior (2011, ACM Trans. Graph. 30, 122; CGAL::oriented_bounding_box),
+/// gave axes that changed by 1.2 % when a body was turned. The search begins with the extreme
+/// points of 200 and 2,000 directions and ends with all points. The edges bound all points. Give
 /// the points of the convex hull. Throws Error(InvalidInput) for fewer than four points,
-/// coordinates that are not finite and extents not between 1e-60 and 1e60, Error(Cancelled). Takes
+/// coordinates that are not finite or extents not between 1e-60 and 1e60; Error(Cancelled). Uses
 /// one thread.
 FormAxes oriented_box_axes(const std::vector<Vector3>& points,
                            const Execution& execution = Execution(1));
 
-/// Of dimensions > 0. Throws nothing.
+/// Computes the ratios of dimensions > 0. Throws nothing.
 FormRatios form_ratios(const FormAxes& axes);
 
 }  // namespace wscvt

@@ -13,13 +13,13 @@ namespace wscvt {
 
 namespace {
 
-/// Share of the solid angle in sheets beyond the first above which a reader is told: rays to less
-/// than this are lost in what the mesh itself leaves out.
+/// Overhang, as a fraction of the solid angle, above which a warning is given. Less overhang is
+/// smaller than the details that the mesh itself leaves out.
 constexpr double told_folded_share = 0.01;
 
-/// Form in Sq, as a share of it, from which on the higher moments describe edges: bodies without
-/// roughness have 0.85 to 1.05. Waves near the cut-off count as well, and alone make 0.6 to 0.7 on
-/// rough grains.
+/// Fraction of form in Sq above which a warning is given, because the higher moments then describe
+/// edges. Bodies without roughness have 0.85 to 1.05. Waves near the cut-off also count; on rough
+/// grains they make 0.6 to 0.7.
 constexpr double told_leak_share = 0.75;
 
 MeasuredGrain measured(NamedMesh grain, const DetailedOptions& options,

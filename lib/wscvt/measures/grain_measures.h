@@ -13,7 +13,7 @@
 
 namespace wscvt {
 
-/// A mesh and what it is called: a layer or a file.
+/// A mesh and its name: a layer or a file.
 struct NamedMesh {
   std::string name;
   IndexedMesh mesh;
@@ -26,24 +26,23 @@ struct MeasuredGrain {
   DetailedDescriptors descriptors;
 };
 
-/// A grain, and perhaps a second one that errors and distances are taken against.
+/// A grain and an optional reference for errors and distances.
 struct GrainMeasures {
   MeasuredGrain grain;
   std::optional<MeasuredGrain> reference;
   std::optional<MeshDistances> distances;  ///< between the two; length
 };
 
-/// Measures one grain, or two and what lies between them. Throws Error as check_mesh and
-/// describe_shape_in_detail do, with the grain's name before the sentence; Error(Cancelled) without
-/// it.
+/// Measures one grain, or a grain, its reference and the distances between them. Throws Error as
+/// check_mesh and describe_shape_in_detail, with the grain's name before the message;
+/// Error(Cancelled) without the name.
 GrainMeasures measure_grain(NamedMesh grain, std::optional<NamedMesh> reference,
                             const DetailedOptions& options, const Execution& execution);
 
-/// The grain's descriptors against the reference's. There must be one.
+/// Compares the grain's descriptors with the reference's. There must be a reference.
 std::vector<DescriptorComparison> compare_descriptors(const GrainMeasures& measures);
 
-/// Warnings about the numbers, in sentences: parts left out, descriptors
-/// that do not exist, folds.
+/// Returns warnings about the numbers: parts left out, descriptors that do not exist, overhangs.
 std::vector<std::string> remarks(const GrainMeasures& measures);
 
 }  // namespace wscvt

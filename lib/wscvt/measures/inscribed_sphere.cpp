@@ -16,7 +16,7 @@ namespace {
 
 constexpr double tolerance = 1e-3;
 constexpr std::size_t maximum_evaluations = 50000;
-constexpr std::size_t cells_at_once = 16;  ///< refined together, whatever the number of threads
+constexpr std::size_t cells_at_once = 16;  ///< refined together, on any number of threads
 constexpr double diagonal = 1.7320508075688773;
 
 struct Cell {
@@ -29,23 +29,23 @@ struct Cell {
   bool operator<(const Cell& other) const { return bound < other.bound; }
 };
 
-/// What some points q of the surface say of the depth of all places x, with weights w that add to
-/// 1: the nearest q is not farther than their mean square, so depth^2 <= sum of w |x - q|^2 = |x -
-/// m|^2 + V, m their mean and V their variance. About the centre of a sphere that touches them on
-/// all sides m is the centre, and the bound grows with the square of the distance from there only.
+/// A bound for the depth of all places x, from some points q of the surface with weights w of sum
+/// 1. The nearest q is not farther than their root mean square, so depth^2 <= sum of w |x - q|^2 =
+/// |x - m|^2 + V, with m their mean and V their variance. If a sphere touches the points on all
+/// sides, m is its centre, and the bound grows only with the square of the distance from it.
 struct TouchingPoints {
   Vector3 mean = Vector3::Zero();
   double variance = 0.0;
 
-  /// No point of a cube is deeper.
+  /// Returns a bound for the depth of all points of a cube.
   double bound(const Vector3& centre, double half_edge) const {
     const Vector3 farthest = (centre - mean).cwiseAbs() + Vector3::Constant(half_edge);
     return std::sqrt(farthest.squaredNorm() + variance);
   }
 };
 
-/// Of the points that a sphere nearly touches, weighted so that the bound near its centre is small:
-/// by Frank and Wolfe (1956), steps towards the one point that lessens it most.
+/// Returns the points that a sphere nearly touches, weighted so that the bound near its centre is
+/// small: by Frank and Wolfe (1956), with steps towards the point that lowers it most.
 TouchingPoints touching_points(const FaceBoxes& boxes, const InscribedSphere& sphere) {
   constexpr double nearly = 1.0 + 2e-3;
   constexpr double balance = 20.0;  // of the mean against larger distances
@@ -80,17 +80,16 @@ TouchingPoints touching_points(const FaceBoxes& boxes, const InscribedSphere& sp
   return {sphere.centre + mean, std::max(0.0, square - mean.squaredNorm())};
 }
 
-/// Finds nearest points of places that are near each other, from the few faces that can be nearest
-/// there.
+/// Finds nearest points for places near each other, from the few faces that can be nearest there.
 class NearbyFaces {
  public:
   NearbyFaces(const FaceBoxes& boxes, std::size_t face) : boxes_(boxes), face_(face) {}
 
-  /// The next places lie within a few `step` of `place`.
+  /// The next places must be within a few `step` of `place`.
   Vector3 nearest_point(const Vector3& place, double step) {
     constexpr double steps = 4.0;
     constexpr double far = 8.0;
-    constexpr double few = 0.01;  // slack for few faces, over the distance
+    constexpr double few = 0.01;  // slack / distance that keeps the faces few
     const double moved = (place - about_).norm();
     if (faces_.empty() || moved > slack_ || slack_ > far * steps * step) {
       const double distance = std::sqrt(boxes_.squared_distance(place, face_, 0.0));
@@ -114,7 +113,7 @@ class NearbyFaces {
   const FaceBoxes& boxes_;
   std::size_t face_;
   Vector3 about_ = Vector3::Zero();
-  double slack_ = 0.0;  ///< the faces are those for places so near
+  double slack_ = 0.0;  ///< the faces are valid for places within this distance
   std::vector<std::size_t> faces_;
 };
 
@@ -126,7 +125,7 @@ void climb(const FaceBoxes& surface, std::size_t face, InscribedSphere& sphere, 
   while (step > 1e-7 * sphere.radius) {
     for (int attempt = 0; attempt < 4; ++attempt) {
       const Vector3 away = sphere.centre - touched;
-      // Within the sphere, so inside the body.
+      // It is inside the sphere, so inside the body.
       const Vector3 candidate = sphere.centre + step * away.normalized();
       const Vector3 nearest = faces.nearest_point(candidate, step);
       const double reached = (candidate - nearest).norm();
@@ -139,7 +138,7 @@ void climb(const FaceBoxes& surface, std::size_t face, InscribedSphere& sphere, 
   }
 }
 
-/// Branch and bound.
+/// The branch-and-bound search.
 class SphereSearch {
  public:
   explicit SphereSearch(const FaceBoxes& surface) : surface_(surface) {}
@@ -160,7 +159,7 @@ class SphereSearch {
     return static_cast<double>(evaluations_) / static_cast<double>(maximum_evaluations);
   }
 
-  /// Cuts the most promising cells in eight.
+  /// Splits the most promising cells into eight.
   void refine(const Execution& execution) {
     std::vector<Cell> children;
     for (std::size_t k = 0; k < cells_at_once && !open_.empty(); ++k) {
@@ -170,7 +169,7 @@ class SphereSearch {
       for (int corner = 0; corner < 8; ++corner) {
         const Vector3 sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
                            (corner & 4) != 0 ? 1.0 : -1.0);
-        Cell child = parent;  // its depth and bound until they are measured
+        Cell child = parent;  // keeps the parent's depth and bound until measured
         child.half_edge = 0.5 * parent.half_edge;
         child.centre = parent.centre + child.half_edge * sign;
         children.push_back(child);
@@ -192,7 +191,7 @@ class SphereSearch {
   }
 
  private:
-  /// Cells that hold no deeper place are done with.
+  /// Cells whose bound is not above this are finished.
   double most() const { return (1.0 + tolerance) * best_.radius; }
 
   bool is_settled(const Cell& cell) {
@@ -201,17 +200,17 @@ class SphereSearch {
     return true;
   }
 
-  /// Finds depth and bound, as far as the bound is above `enough`.
+  /// Computes depth and bound, if the bound is above `enough`.
   void measure(Cell& cell, bool has_parent, double enough) const {
     for (const TouchingPoints& points : touching_) {
       cell.bound = std::min(cell.bound, points.bound(cell.centre, cell.half_edge));
     }
     if (has_parent && cell.bound <= enough) return;
-    // Nearer to its parent's centre than the surface is, it lies on the same side.
+    // The centre is on the side of its parent's centre if it is nearer to it than the surface.
     const double reach = diagonal * cell.half_edge;
     const bool decided = has_parent && std::abs(cell.depth) > reach;
     const bool inside = decided ? cell.depth > 0.0 : surface_.faces_met(cell.centre) % 2 == 1;
-    // Not so early that what is found could pass for the deepest place.
+    // Does not stop so early that the result could count as the deepest place.
     const double near = inside ? std::clamp(enough - reach, 0.0, best_.radius) : 0.0;
     const double distance =
         std::sqrt(surface_.squared_distance(cell.centre, cell.face, near * near));
@@ -237,7 +236,7 @@ class SphereSearch {
   InscribedSphere best_;
   std::vector<TouchingPoints> touching_;
   std::priority_queue<Cell> open_;
-  double settled_ = 0.0;  ///< the largest bound of what is done with
+  double settled_ = 0.0;  ///< the largest bound of the finished cells
   std::size_t evaluations_ = 1;
 };
 

@@ -7,12 +7,12 @@
 
 namespace wscvt {
 
-/// The largest sphere inside a closed mesh, whose radius Wadell's roundness refers to (see
-/// roundness.h), by a search of this library: branch and bound on cubes for the point farthest from
-/// the surface (exact point-to-triangle distances, which change no faster than the point moves;
-/// points that a sphere touches bound them all about its centre). Stops when upper_bound <= 1.001
-/// radius, or after 50,000 distances (a body with a broad plateau, such as a plate between parallel
-/// faces, ends there). Throws Error(InvalidInput) if the mesh has no faces or nothing inside.
+/// Finds the largest sphere inside a closed mesh; Wadell's roundness refers to its radius (see
+/// roundness.h). A branch-and-bound search on cubes finds the point farthest from the surface. It
+/// uses exact point-to-triangle distances, which change no faster than the point moves. Points that
+/// a sphere touches bound all distances about its centre. Stops if upper_bound <= 1.001 radius, or
+/// after 50,000 distances (for bodies with a broad plateau, such as a plate with parallel faces).
+/// Throws Error(InvalidInput) if the mesh has no faces or nothing inside.
 InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

@@ -18,7 +18,7 @@ constexpr std::size_t edge_block = 16384;
 constexpr double degrees_per_radian = 180.0 / pi;
 
 /// Running mean, sum of squared deviations and extremes; two of them merge by Chan, Golub and
-/// LeVeque (1983), which keeps a small spread of large values.
+/// LeVeque (1983), which is accurate for a small spread of large values.
 class Moments {
  public:
   void add(double value) {
@@ -88,7 +88,7 @@ TriangleEdges triangle_edges(const IndexedMesh& mesh, const Triangle& t) {
   return edges;
 }
 
-/// Degrees; the angle opposite to edge k, by its tangent, which is exact near 0.
+/// Returns the angle opposite to edge k in degrees, by its tangent, which is accurate near 0.
 double angle_opposite(const TriangleEdges& edges, std::size_t k) {
   const Vector3& a = edges.vectors[(k + 1) % 3];
   const Vector3& b = edges.vectors[(k + 2) % 3];
@@ -97,7 +97,7 @@ double angle_opposite(const TriangleEdges& edges, std::size_t k) {
 
 double smallest_angle(const TriangleEdges& edges) { return angle_opposite(edges, edges.shortest); }
 
-/// In a closed oriented mesh every edge runs once in each direction, so this names it once.
+/// Selects each edge once: in a closed oriented mesh every edge occurs once in each direction.
 bool names_edge(const Triangle& t, std::size_t k) { return t[k] < t[(k + 1) % 3]; }
 
 void require_faces(const IndexedMesh& mesh) {
@@ -111,7 +111,7 @@ void require_faces(const IndexedMesh& mesh) {
 void count(Histogram& histogram, double value) {
   const auto bins = static_cast<double>(histogram.counts.size());
   const double place = (value - histogram.lower) / (histogram.upper - histogram.lower) * bins;
-  // A value that is not a number ends up in the first bin.
+  // NaN counts in the first bin.
   const double bin = place > 0.0 ? std::min(std::floor(place), bins - 1.0) : 0.0;
   ++histogram.counts[static_cast<std::size_t>(bin)];
 }

@@ -7,7 +7,7 @@
 
 namespace wscvt {
 
-/// Throws Error(InvalidInput) if the mesh has no area.
+/// Computes the tensor. Throws Error(InvalidInput) if the mesh has no area.
 OrientationTensor orientation_tensor(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

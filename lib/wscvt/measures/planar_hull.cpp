@@ -13,8 +13,8 @@ namespace {
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Removes points well inside the polygon of the points that lie farthest in eight directions (Akl
-/// and Toussaint 1978). Of a body's points nine of ten are; what is left has the same hull.
+/// Removes points well inside the polygon of the farthest points in eight directions (Akl and
+/// Toussaint 1978): nine of ten points of a body. The hull does not change.
 void remove_inner_points(std::vector<Vector2>& points) {
   constexpr std::size_t corners = 8;
   constexpr std::size_t worthwhile = 24;
@@ -37,7 +37,7 @@ void remove_inner_points(std::vector<Vector2>& points) {
       }
     }
   }
-  // More than rounding of the cross products below.
+  // Larger than the rounding of the cross products below.
   const double width = std::max(reach[0] + reach[4], reach[2] + reach[6]);
   const double margin = 1e-12 * width * width;
   std::array<Vector2, corners> starts;
@@ -91,7 +91,7 @@ Rectangle smallest_rectangle(const std::vector<Vector2>& hull) {
   Rectangle best;
   if (n < 3) return best;
   double least = std::numeric_limits<double>::infinity();
-  // The farthest corners along a side, across it and against it move on as the side does.
+  // The farthest corners along, across and against a side advance with the side.
   std::size_t right = 1;
   std::size_t top = 1;
   std::size_t left = 1;
@@ -108,7 +108,7 @@ Rectangle smallest_rectangle(const std::vector<Vector2>& hull) {
     follow(top, across);
     if (i == 0) left = top;
     follow(left, -edge);
-    // Times the length of the edge.
+    // Both are times the length of the edge.
     const double length = edge.dot(hull[right] - hull[left]);
     const double width = across.dot(hull[top] - hull[i]);
     const double area = length * width / squared;

@@ -8,12 +8,13 @@ namespace wscvt {
 
 using Vector2 = Eigen::Vector2d;
 
-/// The corners of the convex hull of points in a plane, counter-clockwise (Andrew 1979, "Another
-/// efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9, 216-219); points
-/// on its sides are left out, up to rounding. Sorts `points`, and removes inner ones.
+/// Returns the corners of the convex hull of points in a plane, counter-clockwise (Andrew 1979,
+/// "Another efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9,
+/// 216-219). Leaves out points on its sides, up to rounding. Sorts `points` and removes inner
+/// points.
 std::vector<Vector2> planar_hull(std::vector<Vector2>& points);
 
-/// planar_hull for few points, or such of which most lie near the hull: none is removed.
+/// planar_hull for few points, or if most points are near the hull: removes no points.
 std::vector<Vector2> planar_hull_of_few(std::vector<Vector2>& points);
 
 /// A rectangle about points in a plane.
@@ -24,9 +25,9 @@ struct Rectangle {
   double area() const { return length * width; }
 };
 
-/// The rectangle of least area about a convex polygon (Freeman and Shapira 1975, Commun. ACM 18,
-/// 409-413: one of its sides lies on one of the polygon's). Of no area for fewer than three
-/// corners.
+/// Returns the rectangle of least area about a convex polygon (Freeman and Shapira 1975, Commun.
+/// ACM 18, 409-413: one of its sides lies on a side of the polygon). The area is 0 for fewer than
+/// three corners.
 Rectangle smallest_rectangle(const std::vector<Vector2>& hull);
 
 /// The largest distance between two corners of a convex polygon, and the corners.

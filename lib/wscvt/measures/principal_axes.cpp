@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::size_t axes_block = 8192;
 
-/// A body whose skewness along an axis is below this is symmetric there: rounding leaves less.
+/// Below this skewness along an axis, a body counts as symmetric there. Rounding errors are
+/// smaller.
 constexpr double smallest_skewness = 1e-9;
 
-/// Of two axes at once, so that the mesh is read once: the volume and the third moments along them.
+/// The volume, and the third moments along two axes, so that the mesh is read once.
 struct AxisMoments {
   double volume = 0.0;
   Eigen::Vector2d third = Eigen::Vector2d::Zero();
@@ -27,9 +28,9 @@ struct AxisMoments {
   }
 };
 
-/// Sums over the tetrahedra that the faces span with the centroid. A coordinate is linear in each,
-/// with the values 0, a, b and c at its corners; the mean of its cube is then 1/20 of the sum of
-/// all products of three of the values, aaa + aab + ... + ccc.
+/// Sums over the tetrahedra of the faces and the centroid. A coordinate is linear in each
+/// tetrahedron, with the values 0, a, b and c at its corners. The mean of its cube is then 1/20 of
+/// the sum of all products of three of the values, aaa + aab + ... + ccc.
 AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const IndexedMesh& mesh,
                           const Vector3& centroid, const Execution& execution) {
   return execution.parallel_sum(
@@ -52,12 +53,12 @@ AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const Indexed
       });
 }
 
-/// The axis or its opposite. `skewness` is the third moment of the body's points along the axis
-/// over the cube of their spread, which has no unit.
+/// Returns the axis or its opposite. `skewness` (no unit) is the third moment of the body's points
+/// along the axis over the cube of their spread.
 Vector3 with_sign(const Vector3& axis, double skewness) {
   if (std::abs(skewness) > smallest_skewness) return skewness > 0.0 ? axis : Vector3(-axis);
   Eigen::Index largest = 0;
-  // Components that differ by rounding alone count as equal.
+  // Components that differ only by rounding count as equal.
   for (Eigen::Index k = 1; k < 3; ++k) {
     if (std::abs(axis[k]) > std::abs(axis[largest]) + smallest_skewness) largest = k;
   }
@@ -75,8 +76,8 @@ Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centro
       moments_along(solver.eigenvectors().leftCols<2>(), mesh, centroid, execution);
   Eigen::Matrix3d axes;
   for (int k = 0; k < 2; ++k) {
-    // The moment of inertia about an axis lacks what lies along it: with the trace of the tensor,
-    // integral of x_k^2 dV = (I_1 + I_2 + I_3) / 2 - I_k.
+    // The second moment along an axis follows from the moments of inertia: integral of x_k^2 dV =
+    // (I_1 + I_2 + I_3) / 2 - I_k.
     const double second = 0.5 * moments_of_inertia.sum() - moments_of_inertia[k];
     const double skewness = moments.third[k] * std::sqrt(moments.volume) / std::pow(second, 1.5);
     axes.col(k) = with_sign(solver.eigenvectors().col(k), skewness);

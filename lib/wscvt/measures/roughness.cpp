@@ -17,19 +17,19 @@ namespace {
 /// Sq / cut-off below which heights are rounding errors.
 constexpr double smallest_roughness = 1e-12;
 
-/// Edges per cut-off length that carry its waves.
+/// Edges per cut-off length that its waves need.
 constexpr double edges_per_cutoff = 3.0;
 
-/// Filtering the reference surface once more finds 0.7 to 0.9 of the form that leaked into the
-/// heights (ellipsoids to 1:3:6, capsules, rounded cubes and cylinders); this makes it whole.
+/// A second filtering of the reference surface finds 0.7 to 0.9 of the form in the heights
+/// (ellipsoids to 1:3:6, capsules, rounded cubes and cylinders). This factor corrects for it.
 constexpr double leak_factor = 1.4;
 
 struct Heights {
-  std::vector<Vector3> reference;  ///< the surface they are measured from
+  std::vector<Vector3> reference;  ///< the surface from which they are measured
   std::vector<double> z;           ///< at each vertex; length
 };
 
-/// Of `points` above their own low-pass.
+/// Returns the heights of `points` above their own low-pass.
 Heights heights_above(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                       const SurfaceLowPass& filter, const Execution& execution) {
   const std::vector<Vector3> low = filter.filter(points, execution);
@@ -104,7 +104,7 @@ Roughness surface_roughness(const IndexedMesh& mesh, double cutoff, const Execut
   filter.set_surface(first.reference, cutoff, execution.part(0.33, 0.67));
   const Heights second =
       heights_above(mesh.points, mesh.triangles, filter, execution.part(0.33, 0.67));
-  // What the filter takes off a surface without short waves is the form that leaks.
+  // The filter's change of a surface without short waves is the form that leaks.
   filter.set_surface(second.reference, cutoff, execution.part(0.67, 1.0));
   const Heights leaked =
       heights_above(second.reference, mesh.triangles, filter, execution.part(0.67, 1.0));

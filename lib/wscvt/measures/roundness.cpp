@@ -18,11 +18,11 @@ namespace wscvt {
 
 namespace {
 
-/// Balls smaller than this many mean edges read the facets.
+/// Balls smaller than this many mean edges measure the facets.
 constexpr double edges_per_ball = 2.5;
 
-/// Patches of this share of the ball's radius: the search takes the same time on dense scans, and
-/// their own size widens the ball by a few per cent.
+/// Patch radius / ball radius. With patches the time does not grow on dense scans. Their size
+/// widens the ball by a few per cent.
 constexpr double patch_share = 0.125;
 
 constexpr std::size_t most_places = 5000;
@@ -30,14 +30,14 @@ constexpr std::size_t most_places = 5000;
 /// Curvature times inscribed radius above which a point is a corner: a sphere has none.
 constexpr double corner_curvature = 1.05;
 
-/// Corners on a smaller share of the area are noise.
+/// Corners on a smaller fraction of the area are noise.
 constexpr double smallest_corner_share = 0.01;
 
-/// The second ball's radius over the first's, and the slope's factor for no ball at all.
+/// The second ball's radius / the first's, and the largest factor of the correction.
 constexpr double wider = 1.5;
 constexpr double largest_correction = 0.7;
 
-/// The smallest radius that is told apart, over the ball's.
+/// The smallest resolved radius / the ball's radius.
 constexpr double resolved_share = 0.25;
 
 double mean_edge(const IndexedMesh& mesh) {
@@ -50,7 +50,7 @@ double mean_edge(const IndexedMesh& mesh) {
   return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
 }
 
-/// Where curvature is read, and for how much of the area.
+/// The places where curvature is measured, and their areas.
 struct Places {
   std::vector<BallCentre> centres;
   std::vector<double> areas;
@@ -65,8 +65,8 @@ struct Places {
   }
 };
 
-/// All patches, or `count` places at most: one on each of so many parts of equal area that follow
-/// each other in the mesh, at random, since regular steps may all lie in one row of a regular mesh.
+/// Returns all patches, or at most `count` places: a random one in each of `count` consecutive
+/// parts of equal area. Random, because regular steps may all be in one row of a regular mesh.
 Places places_of(const SurfacePatches& patches, std::size_t count) {
   const auto all = static_cast<std::int32_t>(patches.patches.size());
   Places places;
@@ -143,7 +143,7 @@ Roundness wadell_roundness(const IndexedMesh& mesh, double inscribed_radius, dou
       ball_curvatures(patches, places.centres, {radius, wider * radius}, execution);
   const Corners narrow = corners_of(places.areas, curvatures[0], inscribed_radius);
   const Corners wide = corners_of(places.areas, curvatures[1], inscribed_radius);
-  // V grows by the same for each part of the radius.
+  // V grows linearly with the radius.
   const double correction = (wide.value - narrow.value) / (wider - 1.0);
   const double most = largest_correction * radius / inscribed_radius * (1.0 - narrow.value);
   result.roundness = narrow.value - std::clamp(correction, 0.0, std::max(most, 0.0));

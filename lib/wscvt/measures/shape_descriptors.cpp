@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t descriptor_block = 8192;
 
-/// Smallest cosine between normal and radius that Sdq takes seriously.
+/// The clip of Sdq: smallest cosine between normal and radius.
 constexpr double smallest_cosine = 0.05;
 
 using Matrix3 = Eigen::Matrix3d;
 
-/// Moments of volume about a local origin up to the second, and the area. MeshSums stops at the
+/// Moments of volume about a local origin up to the second, and the area. MeshSums has only the
 /// first moment.
 struct VolumeMoments {
   double volume = 0.0;
@@ -39,7 +39,8 @@ struct VolumeMoments {
   }
 };
 
-/// The mean of the vertices: near the centroid, so that nothing cancels for a grain far away.
+/// Returns the mean of the vertices. It is near the centroid, against cancellation for a grain far
+/// from 0.
 Vector3 local_origin(const IndexedMesh& mesh, const Execution& execution) {
   if (mesh.points.empty()) return Vector3::Zero();
   const Vector3 start = mesh.points.front();
@@ -54,7 +55,7 @@ Vector3 local_origin(const IndexedMesh& mesh, const Execution& execution) {
   return start + sum / static_cast<double>(mesh.points.size());
 }
 
-/// Sums over the tetrahedra that the faces span with `origin`.
+/// Sums over the tetrahedra of the faces and `origin`.
 VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
                              const Execution& execution) {
   return execution.parallel_sum(
@@ -80,10 +81,10 @@ VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
       });
 }
 
-/// Change of Sdq when its clip is halved from which on a reader is told.
+/// A warning is given if halving the clip changes Sdq by more than this fraction.
 constexpr double told_clip_change = 0.02;
 
-/// Integral of |grad_Omega r|^2 dOmega, with either clip, and what of it comes from clipped faces.
+/// Integral of |grad_Omega r|^2 dOmega, with either clip, and its part from clipped faces.
 struct GradientSquares {
   double whole = 0.0;
   double clipped = 0.0;
@@ -97,7 +98,7 @@ struct GradientSquares {
   }
 };
 
-/// About `centre`, face by face.
+/// Computes them about `centre`, face by face.
 GradientSquares gradient_squares(const IndexedMesh& mesh, const Vector3& centre,
                                  const Execution& execution) {
   return execution.parallel_sum(mesh.triangles.size(), descriptor_block, GradientSquares(),

@@ -23,11 +23,11 @@ namespace {
 
 /// A part of the mesh connected through edges.
 struct Part {
-  IndexedMesh mesh;  ///< turned outward
+  IndexedMesh mesh;  ///< outward
   Box box;
-  double volume = 0.0;  ///< of what is closed; else 0
+  double volume = 0.0;  ///< if closed, else 0
   std::size_t boundary_edges = 0;
-  std::vector<std::size_t> holders;  ///< closed parts that it lies in
+  std::vector<std::size_t> holders;  ///< closed parts that contain it
 };
 
 void weld(IndexedMesh& mesh, const Execution& execution) {
@@ -41,7 +41,7 @@ void weld(IndexedMesh& mesh, const Execution& execution) {
       "surfaces.");
 }
 
-/// The parts as meshes of their own, their vertices in the order in which the faces name them.
+/// Returns the parts as separate meshes, with vertices in the order of their first use by a face.
 std::vector<Part> parts_of(const IndexedMesh& mesh, const Components& components,
                            const Execution& execution) {
   std::vector<Part> parts(components.list.size());
@@ -83,9 +83,9 @@ bool holds(const Box& outer, const Box& inner) {
          (outer.high.array() >= inner.high.array()).all();
 }
 
-/// Finds for every closed part those that it lies in. Asked are the centres of some faces spread
-/// over it: corners may be shared where parts touch, and parts that cut through each other lie in
-/// each other with some of their faces only.
+/// Finds for every closed part the parts that contain it. Tests the centres of some faces spread
+/// over it, because touching parts may share corners, and parts that intersect contain only some of
+/// each other's faces.
 void find_holders(std::vector<Part>& parts, const Execution& execution) {
   constexpr std::size_t most_asked = 16;
   for (std::size_t outer = 0; outer < parts.size(); ++outer) {
@@ -145,7 +145,7 @@ std::vector<MeshBody> split_bodies(IndexedMesh mesh, const Execution& execution)
   find_holders(parts, execution);
   std::vector<MeshBody> bodies;
   std::vector<std::size_t> body_of(parts.size(), 0);
-  // A pore lies in an odd number of parts.
+  // An odd number of parts contains a pore.
   for (std::size_t c = 0; c < parts.size(); ++c) {
     Part& part = parts[c];
     if (part.holders.size() % 2 == 1) continue;

@@ -42,7 +42,7 @@ bool ByteReader::fill(std::size_t count) {
   const auto got = static_cast<std::size_t>(stream_.gcount());
   end_ += got;
   if (stream_.bad()) refuse_to_read(path_);
-  // A file that became shorter since its size was asked for ends here.
+  // The file ends here if it became shorter after its size was read.
   unread_ = got < wanted ? 0 : unread_ - got;
   return end_ >= count;
 }
@@ -87,13 +87,13 @@ std::optional<std::string_view> ByteReader::line() {
         return std::string_view(bytes, length);
       }
     }
-    if (unread_ == 0) {  // the last line, without an end
+    if (unread_ == 0) {  // the last line, without a line break
       begin_ = end_;
       ++line_number_;
       return std::string_view(bytes, held);
     }
     searched = held;
-    // Twice as much each time: a file of one line takes as long as any other.
+    // Doubles each time, so that a file of one line does not take longer than others.
     peek(std::max(bytes_at_once, 2 * held));
   }
 }

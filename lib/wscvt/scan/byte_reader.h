@@ -15,22 +15,22 @@
 
 namespace wscvt {
 
-/// Bytes of a file in order, through one buffer: records of binary files, lines of text files. The
-/// buffer grows only to what a record or line takes, and never beyond the bytes that the file
-/// holds: a count that a file claims is therefore compared with `remaining` before anything is made
-/// of it.
+/// Reads a file in order through one buffer: records of binary files, lines of text files. The
+/// buffer grows only to the size of a record or line, never beyond the size of the file. Callers
+/// therefore compare a count from a file with `remaining` before they allocate memory for it.
 class ByteReader {
  public:
-  /// Reads `stream`, which holds `size` bytes and stands at its beginning; `path` is for sentences.
-  /// Progress is reported from buffer to buffer, some milliseconds of text: what reads may throw
+  /// Reads `stream` from its beginning; it has `size` bytes. `path` is for messages. Reports
+  /// progress per buffer, some milliseconds of text, so functions that read may throw
   /// Error(Cancelled).
   ByteReader(std::istream& stream, std::uintmax_t size, std::string path,
              Execution execution = Execution(1));
 
-  /// Bytes that are not read yet.
+  /// Returns the number of bytes not read yet.
   std::uintmax_t remaining() const { return unread_ + (end_ - begin_); }
 
-  /// The next `count` bytes, valid until the next call; null when fewer are left.
+  /// Reads the next `count` bytes; they are valid until the next call. Returns null if fewer are
+  /// left.
   const char* next(std::size_t count) {
     if (end_ - begin_ < count && !fill(count)) return nullptr;
     const char* const bytes = buffer_.data() + begin_;
@@ -38,23 +38,24 @@ class ByteReader {
     return bytes;
   }
 
-  /// As `next`, for what is not needed; false when fewer bytes are left.
+  /// Skips `count` bytes. Returns false if fewer bytes are left.
   bool skip(std::uintmax_t count);
 
-  /// At most `count` of the next bytes, which stay to be read.
+  /// Returns at most `count` of the next bytes and does not consume them.
   std::string_view peek(std::size_t count);
 
-  /// The next line without its end, valid until the next call; nothing at the end of the file.
-  /// Lines end as the first of them does: LF, CR LF or CR. A byte-order mark is passed over.
+  /// Reads the next line without its line break; it is valid until the next call. Returns nothing
+  /// at the end of the file. All lines end as the first line: LF, CR LF or CR. Skips a byte-order
+  /// mark.
   std::optional<std::string_view> line();
 
-  /// The next line that holds more than white space.
+  /// Reads the next line that is not blank.
   std::optional<std::string_view> filled_line();
 
-  /// Number of the line read last, from 1.
+  /// Returns the number of the line read last, from 1.
   std::size_t line_number() const { return line_number_; }
 
-  /// Notes what is odd about the file and does no harm: "path" + what.
+  /// Adds a warning about a harmless fault of the file: "path" + what.
   void warn(const std::string& what) { warnings_.push_back("\"" + path_ + "\" " + what); }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -73,21 +74,21 @@ class ByteReader {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::uintmax_t size_;
-  std::uintmax_t unread_;  ///< in the stream
+  std::uintmax_t unread_;  ///< bytes left in the stream
   std::size_t line_number_ = 0;
   char line_end_ = '\n';
   std::vector<std::string> warnings_;
   Execution execution_;
 };
 
-/// A number of a binary file.
+/// Returns a number of a binary file.
 template <class Value, boost::endian::order Order>
 Value load(const char* bytes) {
   return boost::endian::endian_load<Value, sizeof(Value), Order>(
       reinterpret_cast<const unsigned char*>(bytes));
 }
 
-/// What to do about a file that does not hold what it should.
+/// The advice for a file with wrong content.
 inline constexpr const char* export_again = "; export it again from the program it came from.";
 
 }  // namespace wscvt

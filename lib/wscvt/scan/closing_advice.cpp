@@ -19,9 +19,9 @@ std::string where_meshlab_closes() {
 }
 
 std::string surface_of_points_advice() {
-  // Four clouds of photographs with strays inside, which had no surface here, came out so with rms
-  // .6 to .9 % at 1000 nodes, and with the volume of the meshes that their authors made, within
-  // 1e-5 where there is one.
+  // Four photogrammetric clouds with stray points inside had no surface here. This way their rms
+  // distance was 0.6 to 0.9 % at 1000 nodes. Their volume equals that of the authors' meshes, if
+  // there is one, to 1e-5.
   return "Make a surface of them first, in MeshLab by Filters > Normals, Curvatures and "
          "Orientation > Compute normals for point sets and then Filters > Remeshing, "
          "Simplification and Reconstruction > Surface Reconstruction: Screened Poisson.";

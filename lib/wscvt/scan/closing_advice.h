@@ -7,12 +7,12 @@
 
 namespace wscvt {
 
-// What refusals and warnings about scans with openings advise; tests follow it.
+// Advice in errors and warnings about scans with openings. Tests follow it.
 
-/// A scan is refused as it is, and its shrink-wrap may do.
+/// Thrown if a scan is refused but its shrink-wrap may be usable.
 class WrappableScan : public Error {
  public:
-  /// `opening_percent`: the finest opening that is worth a trial, in % of the bounding box's
+  /// `opening_percent`: the smallest opening that is worth a trial, in % of the bounding box's
   /// diagonal.
   WrappableScan(ErrorCode code, const std::string& sentence, double opening_percent)
       : Error(code, sentence), opening_percent_(opening_percent) {}
@@ -23,18 +23,18 @@ class WrappableScan : public Error {
   double opening_percent_;
 };
 
-/// The finest opening that is tried: finer ones take seconds. And the coarsest, beyond which a wrap
-/// follows its scan no more.
+/// The smallest and the largest opening that are tried. Smaller openings take seconds. With larger
+/// openings a wrap does not follow its scan.
 inline constexpr double finest_tried_percent = 5.0;
 inline constexpr double coarsest_tried_percent = 20.0;
 
-/// A sentence on a shrink-wrap that was tried.
+/// Returns a sentence on a shrink-wrap that was tried.
 std::string tried_wrap_advice(double opening_percent);
 
-/// Where MeshLab closes openings: a filter by its menu and with its settings.
+/// Returns the menu path and settings of the MeshLab filter that closes openings.
 std::string where_meshlab_closes();
 
-/// A sentence for points that have no one radius in each direction.
+/// Returns a sentence for points that do not have exactly one radius in each direction.
 std::string surface_of_points_advice();
 
 }  // namespace wscvt

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t component_block = 8192;
 
-/// Whether every edge lies between two faces that already look the same way.
+/// Whether every edge has two faces, with consistent orientation.
 bool is_closed_and_oriented(const std::vector<Triangle>& triangles,
                             const std::vector<std::int32_t>& rings, const Execution& execution) {
   const std::size_t others = execution.parallel_sum(
@@ -33,9 +33,9 @@ bool is_closed_and_oriented(const std::vector<Triangle>& triangles,
   return others == 0;
 }
 
-/// The parts of a mesh whose edges are all like that, which is what scanners write: nothing needs
-/// turning, so that faces are joined in the order of the file, and not in that of a walk, whose
-/// every step waits for memory. A million vertices take two fifths of the walk's time.
+/// Finds the parts of a mesh with only such edges, as scanners write it. No face needs turning, so
+/// faces are joined in the order of the file. A walk waits for memory at every step: for a million
+/// vertices, this function takes two fifths of its time.
 void join_faces(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& rings,
                 Components& result) {
   std::vector<std::int32_t> parent(triangles.size());
@@ -59,11 +59,11 @@ void join_faces(const std::vector<Triangle>& triangles, const std::vector<std::i
   }
 }
 
-/// The parts of any mesh.
+/// Finds the parts of any mesh.
 void walk_faces(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& rings,
                 Components& result) {
-  // One walk finds the part and turns its faces: both need every edge once. `stack` holds faces
-  // whose part and turn are known and whose neighbours are not yet looked at.
+  // One walk finds the part and turns its faces, because both need every edge once. `stack`
+  // contains faces with known part and turn and unvisited neighbours.
   std::vector<std::int32_t> stack;
   for (std::size_t start = 0; start < triangles.size(); ++start) {
     if (result.of_face[start] >= 0) continue;
@@ -84,9 +84,9 @@ void walk_faces(const std::vector<Triangle>& triangles, const std::vector<std::i
         }
         const std::size_t g = face_of(other);
         const bool manifold = rings[index(other)] == h;
-        // Faces that look the same way run along their edge in opposite ways.
+        // Consistently oriented faces use their edge in opposite directions.
         const bool same_way = triangles[f][k] == triangles[g][corner_of(other)];
-        // Where more meet, which of them belong together is not known; they keep their listing.
+        // If more faces meet, it is unknown which belong together; they keep their orientation.
         const bool turn = (manifold && same_way) != (result.turned[f] != 0);
         if (result.of_face[g] < 0) {
           result.of_face[g] = number;
@@ -116,8 +116,8 @@ Components find_components(const IndexedMesh& mesh, const std::vector<std::int32
     walk_faces(triangles, rings, result);
   }
 
-  // About a point of its own, so that a grain far from the origin keeps its digits. `origin` is
-  // that point for every component: the first corner of its first face.
+  // Each component is measured about its own point, so that a grain far from the origin keeps its
+  // digits. `origin` is this point: the first corner of the component's first face.
   std::vector<std::int32_t> origin(result.list.size(), -1);
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     const Triangle& t = triangles[f];
@@ -143,7 +143,7 @@ void keep_faces(IndexedMesh& mesh, const Components& components, std::size_t kep
 std::size_t keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept) {
   std::size_t turned = 0;
   const bool inside_out = components.list[kept].volume < 0.0;
-  // For every vertex its number afterwards; -1 when no face that stays names it.
+  // For every vertex its new index; -1 if no remaining face uses it.
   std::vector<std::int32_t> number(mesh.points.size(), -1);
   std::size_t faces = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {

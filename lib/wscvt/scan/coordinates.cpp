@@ -13,11 +13,11 @@ namespace wscvt {
 
 namespace {
 
-/// Steps above this part of the mean edge are coarse: rounding moves corners by up to half as much,
-/// which turns the edges of a face by about a degree.
+/// Steps above this fraction of the mean edge are coarse. Rounding moves corners by up to half a
+/// step, which turns the edges of a face by about a degree.
 constexpr double coarse_step = 0.03;
 
-/// Mean edge length over faces spread evenly over the list; enough of them for two digits.
+/// Returns the mean edge length over faces spread evenly over the list, enough for two digits.
 double mean_edge(const IndexedMesh& mesh) {
   constexpr std::size_t most = 10000;
   const std::size_t stride = 1 + mesh.triangles.size() / most;
@@ -49,10 +49,10 @@ bool all_coordinates(const std::vector<Vector3>& points, const Fits& fits) {
                      [&](const Vector3& p) { return fits(p.x()) && fits(p.y()) && fits(p.z()); });
 }
 
-/// Whether a number was read from at most so many decimals.
+/// Whether a number has at most this many decimals.
 bool has_decimals(double value, double power_of_ten) {
   const double scaled = value * power_of_ten;
-  // Reading and the product err by half an ulp each.
+  // Reading and the product each have an error of half an ulp.
   return std::abs(scaled - std::round(scaled)) <=
          4.0 * std::numeric_limits<double>::epsilon() * std::abs(scaled);
 }
@@ -84,7 +84,7 @@ void check_scan_size(const Vector3& extents) {
 
 namespace {
 
-/// Whether a mesh's faces have corners that it holds, its edges a length and its points a place.
+/// Whether all corners are valid indices, the mean edge is above 0 and all points are finite.
 bool is_measurable(const IndexedMesh& mesh) {
   const auto count = static_cast<std::int64_t>(mesh.points.size());
   for (const Triangle& t : mesh.triangles) {
@@ -107,7 +107,7 @@ std::string single_precision_warning(const IndexedMesh& mesh) {
   double largest = 0.0;
   for (const Vector3& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   const double edge = mean_edge(mesh);
-  // The step of floats as large as the largest coordinate, 24 binary digits below it.
+  // The step of floats as large as the largest coordinate; floats have 24 binary digits.
   const double float_step = std::ldexp(1.0, std::ilogb(largest) - 23);
   if (float_step > coarse_step * edge && all_coordinates(mesh.points, [](double value) {
         return static_cast<double>(static_cast<float>(value)) == value;
@@ -125,7 +125,7 @@ std::string precision_warning(const IndexedMesh& mesh) {
   const std::string far = single_precision_warning(mesh);
   if (!far.empty() || !is_measurable(mesh)) return far;
   const double edge = mean_edge(mesh);
-  // Scans on a lattice, of voxels, come in coarse steps too, but lose no faces.
+  // Scans of voxels also have coarse steps, but lose no faces.
   const double power_of_ten = std::pow(10.0, std::floor(-std::log10(coarse_step * edge)));
   if (!std::isfinite(power_of_ten) || !all_coordinates(mesh.points, [&](double value) {
         return has_decimals(value, power_of_ten);

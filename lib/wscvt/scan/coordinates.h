@@ -8,26 +8,26 @@
 
 namespace wscvt {
 
-/// Sizes of a scan, the largest extent along an axis, between which nothing that is computed from
-/// it leaves the range of a double: the inertia tensor goes with the fifth power of the size.
+/// Limits of a scan's size, the largest extent along an axis. Between them, all computed numbers
+/// are in the range of a double. The inertia tensor grows with the fifth power of the size.
 inline constexpr double smallest_scan_size = 1e-60;
 inline constexpr double largest_scan_size = 1e60;
 
-/// Throws Error(InvalidInput) for points whose size lies outside of these limits. Says nothing
-/// about points that are not finite or all in one place, which check_mesh and mesh_of_points
-/// refuse.
+/// Throws Error(InvalidInput) if the points' size is outside these limits. Does not check for
+/// points that are not finite or all equal: check_mesh and mesh_of_points refuse them.
 void check_scan_size(const std::vector<Vector3>& points);
 
-/// The same of the extents along the axes.
+/// Checks the extents along the axes likewise.
 void check_scan_size(const Vector3& extents);
 
-/// A sentence when the steps in which the coordinates come are coarse for the faces; empty when
-/// they are not. Steps are told from rounding to single precision, which a scan far from the origin
-/// suffers from, and to a number of decimals, which counts where faces have lost their corners.
-/// Empty too when an index does not fit, which check_mesh refuses.
+/// Returns a warning if the rounding steps of the coordinates are coarse for the faces, else an
+/// empty text. Finds two kinds of rounding: to single precision, if the scan is far from the
+/// origin, and to a number of decimals, if faces have lost their corners. Empty also if an index is
+/// out of range; check_mesh refuses such a mesh.
 std::string precision_warning(const IndexedMesh& mesh);
 
-/// Of these the sentence on coordinates in single precision far from the origin, or nothing.
+/// Returns only the warning on coordinates in single precision far from the origin, or an empty
+/// text.
 std::string single_precision_warning(const IndexedMesh& mesh);
 
 }  // namespace wscvt

@@ -11,8 +11,8 @@
 namespace wscvt {
 
 DegenerateFaces drop_degenerate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& first) {
-  // Renaming, marking and dropping in one pass over the faces: three would read the largest array
-  // three times.
+  // Renumber, mark and drop in one pass, because three passes would read the largest array three
+  // times.
   std::vector<char> used(mesh.points.size(), 0);
   std::size_t kept = 0;
   for (const Triangle& original : mesh.triangles) {
@@ -40,8 +40,8 @@ DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::in
       return key != other.key ? key < other.key : face < other.face;
     }
   };
-  // Two faces on the same vertices share their edges with each other and, unless they are a body of
-  // their own, with others: a clean scan has no candidates, and is not sorted.
+  // Two faces with equal vertices share their edges with each other and, unless they are a separate
+  // body, with other faces. A clean scan has no candidates and is not sorted.
   std::vector<Candidate> candidates;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     for (std::size_t h = 3 * f; h < 3 * f + 3; ++h) {
@@ -55,7 +55,7 @@ DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::in
   if (candidates.empty()) return {};
   std::sort(candidates.begin(), candidates.end());
 
-  // Every edge as often as different faces stand on it.
+  // Contains every edge once per different face on it.
   std::vector<Edge> edges;
   const auto edges_of = [](const Triangle& key) {
     return std::array<Edge, 3>{Edge{key[0], key[1]}, Edge{key[1], key[2]}, Edge{key[0], key[2]}};
@@ -67,7 +67,7 @@ DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::in
   std::sort(edges.begin(), edges.end());
   const auto needs_face = [&](const Edge& edge) {
     const auto range = std::equal_range(edges.begin(), edges.end(), edge);
-    return (range.second - range.first) % 2 == 0;  // an odd number beside this face
+    return (range.second - range.first) % 2 == 0;  // an odd number besides this face
   };
   std::vector<char> dropped(mesh.triangles.size(), 0);
   DuplicateFaces result;

@@ -9,29 +9,29 @@
 
 namespace wscvt {
 
-/// What was dropped with the faces that have two equal corners.
+/// Counts of drop_degenerate_faces.
 struct DegenerateFaces {
   std::size_t faces = 0;          ///< dropped
-  std::size_t used_vertices = 0;  ///< different vertices that any face names, dropped ones included
+  std::size_t used_vertices = 0;  ///< different vertices of all faces, dropped faces included
 };
 
-/// Names the vertices of all faces by `first` (see Weld; empty: as they are) and drops the faces
-/// with two equal corners. Dropping one opens nothing: its two other sides lie on each other. The
-/// points stay where they are.
+/// Replaces the vertices of all faces by `first` (see Weld; empty: no change) and drops the faces
+/// with two equal corners. This opens no hole, because the face's two other sides coincide. The
+/// points do not move.
 DegenerateFaces drop_degenerate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& first);
 
-/// What was dropped of faces on the same three vertices; areas in length^2.
+/// Counts of dropped faces with equal vertices; areas in length^2.
 struct DuplicateFaces {
-  std::size_t copies = 0;  ///< beside one that stayed
+  std::size_t copies = 0;  ///< dropped copies of a face that stayed
   double copied_area = 0.0;
-  std::size_t folded = 0;  ///< none of which stayed
+  std::size_t folded = 0;  ///< faces of which no copy stayed
   double folded_area = 0.0;
 };
 
-/// Drops faces on the same three vertices: all but one when the faces around need it to close
-/// (doubled faces), all when they close without it (a flap folded flat). Looks only at faces on
-/// edges where more than two meet (see edge_rings). If any were dropped, the rings are no longer
-/// those of the mesh.
+/// Drops faces with the same three vertices. Keeps one if the surrounding faces need it to be
+/// closed (doubled faces). Drops all if the surface is closed without them (back-to-back faces).
+/// Checks only faces on edges where more than two faces meet (see edge_rings). If any face was
+/// dropped, `rings` are no longer valid.
 DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::int32_t>& rings);
 
 }  // namespace wscvt

@@ -12,7 +12,7 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that starting a block costs nothing.
+/// Large enough that the start of a block costs little.
 constexpr std::size_t ring_block = 16384;
 
 }  // namespace
@@ -20,16 +20,16 @@ constexpr std::size_t ring_block = 16384;
 std::vector<std::int32_t> edge_rings(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
   const std::vector<Triangle>& triangles = mesh.triangles;
-  // Sorting all half-edges by both their vertices is what the stage costs. A counting sort by the
-  // lower vertex leaves buckets of about three, which are sorted in parallel by the higher one: no
-  // hash table, hence the same order on any machine, and memory is read nearly in its order.
+  // Most of the time is the sort of all half-edges by their two vertices. A counting sort by the
+  // lower vertex leaves buckets of about three, which are sorted in parallel by the higher vertex.
+  // Without a hash table the order is equal on any machine, and memory is read nearly in order.
   const Groups buckets =
       counting_sort(3 * triangles.size(), vertices, [&](std::size_t h, const auto& visit) {
         const Triangle& t = triangles[h / 3];
         visit(index(std::min(t[h % 3], t[following(h % 3)])));
       });
   std::vector<std::int32_t> rings(3 * triangles.size());
-  // Each half-edge lies in one bucket, so no two blocks write to the same place.
+  // Each half-edge is in one bucket, so no two blocks write to one entry.
   execution.parallel_for(vertices, ring_block, [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<std::int32_t, std::int32_t>> bucket;  // higher vertex, half-edge
     for (std::size_t v = begin; v < end; ++v) {

@@ -9,9 +9,10 @@
 
 namespace wscvt {
 
-/// For every half-edge (see half_edges.h) the next one on the same edge, in a ring: itself on a
-/// boundary edge, the opposite one on a manifold edge, the next higher (after the last, the first)
-/// where more than two faces meet. Which way round the faces are listed does not matter.
+/// Returns for every half-edge (see half_edges.h) the next half-edge on its edge, in a ring: itself
+/// on a boundary edge, the opposite half-edge on a manifold edge. If more than two faces meet, it
+/// is the next higher half-edge, and after the last the first. The orientation of the faces does
+/// not matter.
 std::vector<std::int32_t> edge_rings(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

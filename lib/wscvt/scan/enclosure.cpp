@@ -12,13 +12,13 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that starting a block costs nothing.
+/// Large enough that the start of a block costs little.
 constexpr std::size_t enclosure_block = 16384;
 
-/// 1 when the projection of edge a b to the plane z = 0 passes above the point (in y) rightward, -1
-/// when leftward, 0 when it does not. Both faces of an edge get the same answer with opposite
-/// signs, since it is computed from the lower vertex: whatever the rounding, the faces over a point
-/// close around it, and none is counted twice or not at all.
+/// Returns 1 if the projection of edge a b to the plane z = 0 passes above the point (in y) to the
+/// right, -1 if to the left, 0 if it does not pass. It is computed from the lower vertex, so both
+/// faces of an edge get equal results with opposite signs. For any rounding, each face over a point
+/// is counted exactly once.
 int passing(const IndexedMesh& mesh, std::int32_t a, std::int32_t b, const Vector3& point) {
   const Vector3& p = mesh.points[index(std::min(a, b))];
   const Vector3& q = mesh.points[index(std::max(a, b))];
@@ -32,7 +32,7 @@ int passing(const IndexedMesh& mesh, std::int32_t a, std::int32_t b, const Vecto
 
 std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
                              const Execution& execution) {
-  // Sorted by x, so that a face finds the points below and above it without asking all.
+  // Sorted by x, so that a face finds the points below and above it without testing all.
   std::vector<std::size_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(),
@@ -44,8 +44,8 @@ std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>
       return *this;
     }
   };
-  // One block, one list of all points: few blocks, so that many points cost no more memory than a
-  // mesh.
+  // Each block has a list of all points. Use few blocks, so that many points need no more memory
+  // than a mesh.
   const std::size_t block = std::max(enclosure_block, (mesh.triangles.size() + 15) / 16);
   const Windings windings = execution.parallel_sum(
       mesh.triangles.size(), block, Windings{std::vector<int>(points.size(), 0)},
@@ -67,7 +67,7 @@ std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>
             for (std::size_t k = 0; k < 3; ++k) covers += passing(mesh, t[k], t[following(k)], p);
             if (covers == 0) continue;
             const Vector3 normal = doubled_area_normal(a, b, c);
-            // Above the point when the point lies on the side of the face that looks down.
+            // The face is above the point if the point is on its lower side.
             const double side = normal.dot(p - a) * (normal.z() > 0.0 ? 1.0 : -1.0);
             if (side < 0.0) part.of_point[*at] += covers;
           }

@@ -8,9 +8,9 @@
 
 namespace wscvt {
 
-/// For every point 1 when it lies inside the closed oriented mesh, that is, when the mesh winds
-/// about it; points on the surface go either way. Takes time for the faces once and for the faces
-/// over each point, not for points times faces.
+/// Returns for every point 1 if it lies inside the closed oriented mesh (its winding number is not
+/// 0). For points on the surface either result is possible. Faster than points times faces: it
+/// visits the faces once, and for each point only the faces over it.
 std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
                              const Execution& execution);
 

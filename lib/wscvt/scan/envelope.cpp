@@ -27,12 +27,11 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Wrap = CGAL::Surface_mesh<Kernel::Point_3>;
 
-// What CGAL::alpha_wrap_3 is made of. It takes seconds to minutes, and the function itself cannot
-// be stopped while it makes its tree of the faces, which at a million vertices takes a second.
+// The parts of CGAL::alpha_wrap_3. It takes seconds to minutes. The function itself cannot be
+// stopped while it builds its tree of the faces, a second for a million vertices.
 namespace parts = CGAL::Alpha_wraps_3::internal;
-// Both search for what is nearest from one of some points of the scan. CGAL takes one of every
-// face, and then sorts them all at once, which at a million vertices nothing can stop for half a
-// second.
+// Both start searches for the nearest face from hint points on the scan. CGAL takes one point per
+// face and sorts all at once; for a million vertices this cannot be stopped for half a second.
 
 std::size_t hint_stride(std::size_t size) {
   constexpr std::size_t most = 100000;
@@ -81,7 +80,7 @@ constexpr const char* envelope_stage = "Wrapping the scan";
 /// Faces given to the oracle at once: some hundredths of a second.
 constexpr std::size_t faces_a_report = 1 << 17;
 
-/// Reports before each step of the wrapping, which takes milliseconds at most.
+/// Reports before each step of the wrapping. A step takes at most milliseconds.
 struct ReportingVisitor : parts::Wrapping_default_visitor {
   explicit ReportingVisitor(const Execution& to) : execution(to) {}
 
@@ -119,8 +118,9 @@ Wrap alpha_wrap(Oracle oracle, double alpha, double offset, const Execution& exe
                                          CGAL::parameters::default_values());
 #endif
   execution.report(0.9, envelope_stage);
-  // The wrap stands off, so that it has nothing of the scan's flaws; back at the scan its volume is
-  // not larger by that. A tenth stays, because vertices about one corner come from one point there.
+  // The wrap is made off the scan to avoid the scan's flaws, then moved back so that its volume is
+  // not too large. A tenth of the distance stays, because several vertices about a corner have one
+  // nearest point there.
   for (const auto v : wrap.vertices()) {
     const Kernel::Vector_3 way = oracle.closest_point(wrap.point(v)) - wrap.point(v);
     const double length = std::sqrt(way.squared_length());
@@ -147,7 +147,7 @@ FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
   return oracle;
 }
 
-/// How far from the scan the wrap is made, of the opening: nearer it takes several times as long.
+/// Distance of the wrap from the scan / opening. A smaller distance takes several times as long.
 constexpr double offset_share = 0.1;
 
 }  // namespace
@@ -182,7 +182,7 @@ IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
     refuse_nothing();
   }
   execution.report(0.0, envelope_stage);
-  // In units of the diagonal about the middle: digits do not depend on where and how large it is.
+  // Uses units of the diagonal about the middle, so that digits do not depend on position and size.
   const double unit = box.diagonal().norm();
   const Vector3 middle = box.center();
   std::vector<Kernel::Point_3> points;
@@ -192,7 +192,7 @@ IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
     points.emplace_back(local.x(), local.y(), local.z());
   }
   const double opening = 0.01 * options.opening_percent;
-  // CGAL's alpha is the radius of the empty balls that the outside is made of.
+  // CGAL's alpha is the radius of the empty balls that form the outside.
   const double alpha = 0.5 * opening;
   const double offset = offset_share * opening;
   const Wrap wrap = of_points ? alpha_wrap(PointOracle(points), alpha, offset, execution)

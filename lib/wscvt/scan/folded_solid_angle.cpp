@@ -11,7 +11,7 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that starting a block costs nothing.
+/// Large enough that the start of a block costs little.
 constexpr std::size_t fold_block = 16384;
 
 }  // namespace

@@ -6,10 +6,10 @@
 
 namespace wscvt {
 
-/// Solid angle of all sheets beyond the first that rays from `centre` meet, / 4 pi: the solid
-/// angles of the faces of the closed mesh, taken without sign, add up to 4 pi (1 + fold). A fold
-/// counts with both its sheets, the one that looks back and the one behind it. 0 for a star-shaped
-/// mesh; at least 1 when `centre` lies outside or on a face.
+/// Returns the overhang: the solid angle of all surface that rays from `centre` hit after their
+/// first hit, / 4 pi. The unsigned solid angles of the faces of the closed mesh sum to 4 pi (1 +
+/// overhang). An overhang counts twice: its surface that faces `centre` and the surface behind it.
+/// 0 for a star-shaped mesh; at least 1 if `centre` lies outside or on a face.
 double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
                           const Execution& execution);
 

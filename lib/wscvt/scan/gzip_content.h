@@ -7,11 +7,11 @@
 
 namespace wscvt {
 
-/// Whether a file begins as gzip does.
+/// Whether a file begins as a gzip file.
 bool is_gzip(const std::string& path);
 
-/// What a gzip file holds. Throws Error(InputOutput) when it cannot be read, is cut or damaged;
-/// Error(Cancelled).
+/// Returns the unpacked content of a gzip file. Throws Error(InputOutput) if it cannot be read, is
+/// cut or damaged; Error(Cancelled).
 std::string gzip_content(const std::string& path, const Execution& execution);
 
 }  // namespace wscvt

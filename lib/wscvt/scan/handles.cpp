@@ -26,27 +26,27 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr const char* handle_stage = "Cutting handles";
 
-/// Places a shortest loop is looked for at; every handle has two.
+/// Maximum number of places for the search of a shortest loop; every handle has two.
 constexpr std::size_t maximum_roots = 64;
-/// Steps of fairing, each half way to the mean of the neighbours: after five the caps are most of
-/// an edge apart, more would thin the stumps.
+/// Steps of fairing, each half way to the mean of the neighbours. After five steps the caps are
+/// most of an edge apart; more steps would thin the stumps.
 constexpr int fairing_steps = 5;
 
-/// A closed way along half-edges.
+/// A closed path along half-edges.
 struct Loop {
   double length = infinity;
   std::vector<std::int32_t> half_edges;
 };
 
-/// Shortest paths from a root and what they leave of the surface.
+/// The tree of shortest paths from a root, and the cotree of the remaining edges.
 class TreeCotree {
  public:
   TreeCotree(const IndexedMesh& mesh, const HalfEdges& links) : mesh_(mesh), links_(links) {}
 
-  /// Loops through the root's tree that do not separate the surface, of at most 2 `reach` before
-  /// the common way to them is taken off. They are independent; without a bound there are two for
-  /// every handle. `rest` is called between the steps, each of which takes tenths of a second on a
-  /// scan of a million vertices.
+  /// Returns loops through the root's tree that do not separate the surface, of length at most 2
+  /// `reach` before the common path is removed. They are independent; without a bound there are two
+  /// per handle. Calls `rest` between the steps; each step takes tenths of a second on a scan of a
+  /// million vertices.
   template <class Rest>
   std::vector<Loop> loops(std::int32_t root, double reach, const Rest& rest) {
     grow_tree(root, reach);
@@ -64,7 +64,7 @@ class TreeCotree {
       if (other < h) continue;
       const std::int32_t from = origin(h);
       const std::int32_t to = origin(other);
-      if (parents_[to] == h || parents_[from] == other) continue;  // of the tree
+      if (parents_[to] == h || parents_[from] == other) continue;  // in the tree
       if (distances_[from] < infinity && distances_[to] < infinity) {
         candidates.emplace_back(distances_[from] + distances_[to] + edge_length(h), h);
       } else {
@@ -72,9 +72,9 @@ class TreeCotree {
       }
     }
     rest();
-    // Longest first: the faces are joined across what would make long loops. An edge whose faces
-    // are joined already closes a loop that the way from the one face to the other crosses once;
-    // so the loop does not separate the surface.
+    // Longest first, so faces are joined across edges that would make long loops. If an edge's
+    // faces are already joined, the edge closes a loop. The path between the two faces crosses the
+    // loop once, so the loop does not separate the surface.
     std::sort(candidates.begin(), candidates.end(), std::greater<>());
     rest();
     std::vector<Loop> result;
@@ -116,7 +116,7 @@ class TreeCotree {
     }
   }
 
-  /// From the tree's last common vertex to the edge, over it and back.
+  /// The loop goes from the tree's last common vertex to the edge, over it and back.
   Loop loop_through(std::int32_t h) const {
     const auto way_to = [&](std::int32_t v) {
       std::vector<std::int32_t> way;
@@ -144,18 +144,18 @@ class TreeCotree {
   std::vector<std::int32_t> parents_;  ///< half-edge that leads to each vertex, -1 at the root
 };
 
-/// The first of the shortest.
+/// Returns the first of the shortest loops.
 const Loop* shortest_of(const std::vector<Loop>& loops) {
   const auto shortest = std::min_element(
       loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.length < b.length; });
   return shortest == loops.end() ? nullptr : &*shortest;
 }
 
-/// A loop as short as searches from all handles find it.
+/// Returns the shortest loop that searches from all handles find.
 Loop short_loop(const IndexedMesh& mesh, const HalfEdges& links, const Execution& execution) {
   std::vector<Loop> found =
       TreeCotree(mesh, links).loops(0, infinity, [&] { execution.report(0.0, handle_stage); });
-  // Every handle has a loop here, but from afar: the root of the next search stands on it.
+  // Every handle has a loop here, but found from afar. The next search starts on it.
   std::vector<std::int32_t> roots;
   for (const Loop& loop : found) {
     for (const std::size_t k : {std::size_t{0}, loop.half_edges.size() / 2}) {
@@ -193,8 +193,8 @@ std::vector<std::int32_t> cut_and_cap(IndexedMesh& mesh, const HalfEdges& links,
     mesh.points.emplace_back(mesh.points[right.back()]);
     middle += mesh.points[right.back()] / static_cast<double>(count);
   }
-  // The faces to the left of the loop get the copies. Corners are half-edges: collected before any
-  // is changed.
+  // The faces to the left of the loop get the copies. Collect all corners (half-edges) before the
+  // first change.
   std::vector<std::pair<std::int32_t, std::int32_t>> changes;
   for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t coming = loop.half_edges[(i + count - 1) % count];
@@ -226,9 +226,9 @@ std::vector<std::int32_t> cut_and_cap(IndexedMesh& mesh, const HalfEdges& links,
   return moved;
 }
 
-/// Moves the vertices towards the means of their neighbours. Those of a ring have neighbours on
-/// their own side only, so the two sides part: the stumps of a bridge draw back, the plug of a
-/// tunnel gets thick.
+/// Moves the vertices towards the means of their neighbours. Vertices of a ring have neighbours
+/// only on their own side, so the two sides separate: the stumps of a bridge draw back, the plug of
+/// a tunnel becomes thick.
 void fair(IndexedMesh& mesh, const HalfEdges& links, const std::vector<std::int32_t>& moved) {
   std::vector<Vector3> places(moved.size());
   for (int step = 0; step < fairing_steps; ++step) {
@@ -293,7 +293,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
       handle.place += mesh.points[origin_of(mesh.triangles, h)] / handle.edges;
     }
     if (!(loop.length <= options.length_limit * radius)) {
-      // Too long for a flaw of the scanner: this one is real, and so are those with longer loops.
+      // Too long for a scanner flaw. This handle is real, and so are handles with longer loops.
       result.report.kept = static_cast<int>(left);
       result.report.next = handle;
       break;

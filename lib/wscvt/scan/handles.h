@@ -9,32 +9,32 @@
 
 namespace wscvt {
 
-/// The number of handles of a closed, connected 2-manifold without vertices beside it.
+/// Returns the number of handles of a closed, connected 2-manifold without unused vertices.
 std::size_t genus_of(const IndexedMesh& mesh);
 
-/// A mesh without the handles that are the scanner's, and what was done to it.
+/// A mesh without the handles made by the scanner, and the report of the cuts.
 struct HandleFreeMesh {
-  IndexedMesh mesh;  ///< the input's vertices first, those of the rings moved; then new ones
+  IndexedMesh mesh;  ///< first the input's vertices (vertices of loops moved), then new vertices
   HandleReport report;
 };
 
 /// Cuts the handles of a closed, oriented, connected 2-manifold (check_mesh's result) whose loops
-/// are not above the limit; the others stay. Each is cut along a short loop that does not separate
-/// the surface, and both sides are capped: where the loop runs round a bridge the bridge is cut
-/// through, where it runs round a tunnel the tunnel is closed. The caps lie on each other at first;
-/// each is faired towards the surface on its own side, so that they part. Loops come from
+/// are not above the limit. The other handles stay. Cuts each handle along a short loop that does
+/// not separate the surface, and caps both sides. If the loop runs round a bridge, this cuts the
+/// bridge; if it runs round a tunnel, this closes the tunnel. The two caps coincide at first. Each
+/// is faired towards the surface on its own side, so that they separate. Loops come from
 /// tree-cotree decompositions (Eppstein 2003, "Dynamic generators of topologically embedded
 /// graphs"; Erickson and Whittlesey 2005, "Greedy optimal homotopy and homology generators") about
-/// the places where a first one finds handles, the shortest first; the report has the first that
-/// stays. A mesh of genus 0 comes back as it is.
+/// the places where a first decomposition finds handles, the shortest loops first. The report has
+/// the shortest loop that stays. Returns a mesh of genus 0 unchanged.
 ///
-/// Throws Error(InvalidInput) when an option is out of range, the mesh is not closed or it has more
+/// Throws Error(InvalidInput) if an option is out of range, the mesh is not closed or it has more
 /// than most_handles_cut handles; Error(Cancelled).
 HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                               const Execution& execution);
 
-/// The same for a checked scan, whose report then has the measures of what is left, but for the
-/// genus, which stays that of the scan. Throws the same.
+/// Cuts the handles of a checked scan and updates its report. Only the genus in the report remains
+/// the scan's. Throws as remove_handles.
 HandleReport cut_handles(CheckedMesh& scan, const HandleOptions& options,
                          const Execution& execution);
 

@@ -22,7 +22,7 @@ using Edge = std::pair<std::int32_t, std::int32_t>;
 
 Edge edge_of(std::int32_t a, std::int32_t b) { return std::minmax(a, b); }
 
-/// The vertex behind the i-th along the rim.
+/// Returns the vertex after the i-th along the rim.
 std::int32_t after(const Rim& rim, std::size_t i) { return rim[i + 1 < rim.size() ? i + 1 : 0]; }
 
 /// Cuts a closed walk that passes vertices more than once into walks that do not.
@@ -52,27 +52,26 @@ std::vector<Rim> find_rims(const IndexedMesh& mesh, const std::vector<std::int32
     for (std::size_t h = start; !seen[h];) {
       seen[h] = 1;
       walk.push_back(mesh.triangles[h / 3][h % 3]);
-      // The next boundary edge is found by turning about the end of this one, within its fan of
-      // faces: where several fans meet in a vertex each keeps its own rim.
+      // Turning about the end of this edge, within its fan of faces, finds the next boundary edge.
+      // If several fans meet in a vertex, each keeps its own rim.
       h = h - h % 3 + following(h % 3);
       while (index(rings[h]) != h) {
         const std::size_t other = index(rings[h]);
         h = other - other % 3 + following(other % 3);
       }
     }
-    std::reverse(walk.begin(), walk.end());  // the hole's faces run the other way
+    std::reverse(walk.begin(), walk.end());  // the hole's faces have the opposite direction
     append_simple(walk, rims);
   }
   return rims;
 }
 
-/// Triangles between the rim's vertices, as places in it; empty when there are none that fit.
+/// Returns triangles between the rim's vertices, as indices into the rim; empty if none fit.
 std::vector<Triangle> triangulate(const IndexedMesh& mesh, const Rim& rim,
                                   const std::set<Edge>& taken) {
-  // CGAL's way for large rims goes by a Delaunay triangulation whose parts it keeps in the order of
-  // their addresses: two runs may choose differently. Its plain way (Barequet and Sharir 1995)
-  // gives the same triangles always, but its time grows with the cube of the rim: 0.1 s for 200
-  // vertices.
+  // CGAL's method for large rims uses a Delaunay triangulation in the order of addresses, so two
+  // runs may differ. Its plain method (Barequet and Sharir 1995) always gives the same triangles,
+  // but its time grows with the cube of the rim: 0.1 s for 200 vertices.
   constexpr std::size_t largest_rim = 200;
   if (rim.size() == 3) return {{0, 1, 2}};
   if (rim.size() > largest_rim) return {};
@@ -90,7 +89,7 @@ std::vector<Triangle> triangulate(const IndexedMesh& mesh, const Rim& rim,
   std::vector<Triangle> triangles;
   for (const auto& [a, b, c] : found) {
     Triangle t = {a, b, c};
-    std::sort(t.begin(), t.end());  // counter-clockwise like the rim, whatever order CGAL gave
+    std::sort(t.begin(), t.end());  // counter-clockwise like the rim, for any order from CGAL
     triangles.push_back(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t i = t[k];
@@ -103,7 +102,7 @@ std::vector<Triangle> triangulate(const IndexedMesh& mesh, const Rim& rim,
   return triangles;
 }
 
-/// The edges between any two vertices of rims.
+/// Returns the edges between any two vertices of rims.
 std::set<Edge> edges_between(const IndexedMesh& mesh, const std::vector<Rim>& rims) {
   std::vector<char> on_rim(mesh.points.size(), 0);
   for (const Rim& rim : rims) {
@@ -120,7 +119,8 @@ std::set<Edge> edges_between(const IndexedMesh& mesh, const std::vector<Rim>& ri
   return edges;
 }
 
-/// The triangles that fill a rim; where its vertices allow none, about one more at its centroid.
+/// Returns the triangles that fill a rim. If its vertices allow no triangles, adds a vertex at its
+/// centroid.
 std::vector<Triangle> filling(IndexedMesh& mesh, const Rim& rim, const std::set<Edge>& taken) {
   std::vector<Triangle> faces = triangulate(mesh, rim, taken);
   if (!faces.empty()) {

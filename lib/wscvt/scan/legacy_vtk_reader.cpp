@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// https://docs.vtk.org/en/latest/vtk_file_formats/. Not by VTK itself, whose library is 100 MB.
+// https://docs.vtk.org/en/latest/vtk_file_formats/. VTK itself is not used, because its library is
+// 100 MB.
 #include "wscvt/scan/legacy_vtk_reader.h"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ namespace wscvt {
 
 namespace {
 
-/// What VTK calls a type of numbers, and what stands in a binary file: the most significant byte
-/// first.
+/// VTK's names of number types, and their form in a binary file: the most significant byte first.
 enum class VtkType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Int64, Uint64, Float, Double };
 
 struct NamedType {
@@ -100,7 +100,7 @@ class LegacyVtkReader {
   }
 
  private:
-  /// False where what points and faces carry begins, behind all of the mesh.
+  /// Returns false if the data of points and faces begins; it follows the mesh.
   bool read_section(const std::string& line) {
     TextFields fields(line);
     const std::string key = lower_case(fields.next());
@@ -148,8 +148,8 @@ class LegacyVtkReader {
     }
   }
 
-  /// Before version 5: how many lists, how many numbers in all, each list with its length before
-  /// it. From then on: how many ends, the first of which is 0, how many corners, and both as
+  /// Before version 5: the number of lists, the total of numbers, then each list with its length
+  /// first. From version 5: the number of ends (the first is 0), the number of corners, then both
   /// arrays.
   VtkPolygons polygons_of(TextFields& fields) {
     const std::size_t count = count_in(fields);
@@ -176,7 +176,7 @@ class LegacyVtkReader {
     return result;
   }
 
-  /// "OFFSETS vtktypeint64" and the numbers.
+  /// Reads "OFFSETS vtktypeint64" and the numbers.
   std::vector<std::int64_t> named_numbers(std::size_t count) {
     TextFields fields(reader_.filled_line().value_or(""));
     fields.next();
@@ -227,7 +227,7 @@ class LegacyVtkReader {
 
   template <class Number>
   std::vector<Number> numbers(VtkType type, std::size_t size, std::size_t count) {
-    // A number in text takes a digit and a blank.
+    // A number in text needs a digit and a blank.
     const std::size_t least = is_text_ ? 2 : size;
     if (count > (reader_.remaining() + 1) / least) fail_cut();
     std::vector<Number> result;
@@ -244,7 +244,7 @@ class LegacyVtkReader {
     return result;
   }
 
-  /// Of a line that holds more than that the rest is no numbers of these.
+  /// Ignores the rest of a line that has more numbers.
   template <class Number>
   void add_line(std::vector<Number>& result, std::size_t count) {
     const std::optional<std::string_view> line = reader_.line();
@@ -262,7 +262,7 @@ class LegacyVtkReader {
     }
   }
 
-  /// Of the cells of an unstructured grid those of a surface.
+  /// Keeps only the surface cells of an unstructured grid.
   void keep_surface_cells() {
     if (cell_types_.empty()) return;
     if (cell_types_.size() != polygons_.ends.size()) {
@@ -272,8 +272,8 @@ class LegacyVtkReader {
     std::int64_t begin = 0;
     for (std::size_t k = 0; k < cell_types_.size(); ++k) {
       const std::int64_t end = polygons_.ends[k];
-      // VTK's numbers for a triangle, a strip, a polygon and a quad; below 5 are vertices and
-      // lines.
+      // VTK's numbers for a triangle, a strip, a polygon and a quad; numbers below 5 are vertices
+      // and lines.
       constexpr std::int64_t triangle = 5;
       constexpr std::int64_t strip = 6;
       constexpr std::int64_t polygon = 7;

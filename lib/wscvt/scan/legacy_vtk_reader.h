@@ -6,10 +6,10 @@
 
 namespace wscvt {
 
-/// Reads a mesh from a VTK file from before XML, text or binary, of any version: polygonal data, or
-/// an unstructured grid of triangles, quads, polygons and strips. Vertices and lines are passed
-/// over; what the points and faces carry is not read. A file without faces gives points alone.
-/// Throws as read_mesh; so do grids of volumes.
+/// Reads a mesh from a legacy VTK file (not XML), text or binary, of any version: polygonal data,
+/// or an unstructured grid of triangles, quads, polygons and strips. Skips vertices, lines and the
+/// data of points and faces. A file without faces gives only points. Throws as read_mesh, also for
+/// grids of volumes.
 IndexedMesh read_legacy_vtk(ByteReader& reader);
 
 }  // namespace wscvt

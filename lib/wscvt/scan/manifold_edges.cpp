@@ -15,37 +15,37 @@ namespace wscvt {
 
 namespace {
 
-/// A patch's faces on one edge of more than two.
+/// A patch's faces on an edge with more than two faces.
 struct Share {
   std::int32_t edge;
-  std::array<int, 2> own = {0, 0};  // faces that run forward, backward along the edge
+  std::array<int, 2> own = {0, 0};  // number of its faces that run forward, backward along the edge
 };
 
-/// A part of the surface connected through edges of two faces.
+/// A part of the surface connected through edges with two faces.
 struct Patch {
   double area = 0.0;
   std::size_t faces = 0;
-  std::size_t turned_faces = 0;  // against their listing, to look the same way as the first
+  std::size_t turned_faces = 0;  // turned to agree with the first face
   std::size_t boundary_edges = 0;
-  std::vector<Share> shares;  // of the edges of more than two faces
+  std::vector<Share> shares;  // on the edges with more than two faces
   bool turned = false;        // as a whole
   bool dropped = false;
 };
 
-/// A face on an edge of more than two.
+/// A face on an edge with more than two faces.
 struct Side {
   std::int32_t half_edge;
   std::int32_t patch;
-  bool forward;  // runs from the edge's lower vertex to its higher one, its patch not turned
+  bool forward;  // runs from the edge's lower to its higher vertex, if its patch is not turned
 };
 
 struct Edge {
   std::vector<Side> sides;
-  std::array<int, 2> faces = {0, 0};  // not dropped, that run forward, backward
+  std::array<int, 2> faces = {0, 0};  // number of remaining faces that run forward, backward
 };
 
-/// How far an edge is from having as many faces one way as the other. No face at all is fine; one
-/// face is a boundary edge.
+/// Returns the imbalance of an edge: the difference of its faces in the two directions. An edge
+/// without faces is balanced; an edge with one face is a boundary edge.
 int imbalance(int forward, int backward) { return std::abs(forward - backward); }
 
 class Sheets {
@@ -63,7 +63,7 @@ class Sheets {
       return patches_[a].area < patches_[b].area;
     });
     order.pop_back();  // the largest is the body
-    // Every change leaves fewer edges out of balance, so this comes to an end.
+    // Every change leaves fewer unbalanced edges, so the loop ends.
     for (bool changed = true; changed;) {
       changed = false;
       for (const std::size_t p : order) {
@@ -87,7 +87,7 @@ class Sheets {
   }
 
  private:
-  bool is_single(std::size_t h) const {  // shares its edge with one other at most
+  bool is_single(std::size_t h) const {  // shares its edge with at most one other
     return index(rings_[index(rings_[h])]) == h;
   }
 
@@ -125,7 +125,7 @@ class Sheets {
       }
       patches_.push_back(std::move(patch));
     }
-    // Most faces of a patch are listed the right way round.
+    // Most faces of a patch have the right orientation.
     for (std::size_t f = 0; f < triangles.size(); ++f) {
       const Patch& patch = patches_[index(patch_of_[f])];
       if (2 * patch.turned_faces > patch.faces) turned_[f] = static_cast<char>(1 - turned_[f]);
@@ -191,13 +191,13 @@ class Sheets {
     }
   }
 
-  /// Pairs of places in `sides`; a side alone is paired with itself.
+  /// Returns pairs of indices into `sides`. A single side is paired with itself.
   std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side>& sides,
                                                             const Vector3& low,
                                                             const Vector3& high) const {
-    // Seen along the edge from its lower vertex to its higher one, angles grow the way a screw
-    // turns. A face that runs forward looks the way of growing angles, so the body lies before it,
-    // and behind a face that runs backward: between a backward face and the next forward one.
+    // Along the edge from its lower to its higher vertex, angles grow as a right-handed screw
+    // turns. A forward face faces growing angles, so the body lies before it, and behind a backward
+    // face: between a backward face and the next forward face.
     const Vector3 axis = (high - low).normalized();
     const Vector3 x = axis.unitOrthogonal();
     const Vector3 y = axis.cross(x);
@@ -216,8 +216,8 @@ class Sheets {
     }
     std::stable_sort(turns.begin(), turns.end(),
                      [](const Turn& a, const Turn& b) { return a.angle < b.angle; });
-    // Like brackets on a circle: backward opens, forward closes. Going round twice finds the
-    // partners of brackets opened before the first angle.
+    // Pairs are like brackets on a circle: backward opens, forward closes. Two rounds find the
+    // partners of brackets that open before the first angle.
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     std::vector<std::size_t> open;
     std::vector<char> done(turns.size(), 0);
@@ -239,10 +239,10 @@ class Sheets {
     return pairs;
   }
 
-  /// Steps 2 and 3. Returns how many vertices were added.
+  /// Does steps 2 and 3. Returns the number of added vertices.
   std::size_t cut_edges() {
     std::size_t added = 0;
-    // Where half-edges went whose face was cut before: the same side of the edge in another slot.
+    // New indices of half-edges whose face was cut before. They are on their old side of the edge.
     std::unordered_map<std::int32_t, std::int32_t> moved;
     const auto slot_of = [&](std::int32_t h) {
       for (auto at = moved.find(h); at != moved.end(); at = moved.find(h)) h = at->second;
@@ -274,8 +274,8 @@ class Sheets {
     return added;
   }
 
-  /// Cuts the face of half-edge h in two at the vertex `middle` on it. The first piece stays in the
-  /// face's place; the second, at the end, takes the side that follows h with it.
+  /// Cuts the face of half-edge h in two at the vertex `middle` on h. The first piece keeps the
+  /// face's index. The second piece, at the end, gets the side that follows h.
   void cut_face(std::int32_t h, std::int32_t middle,
                 std::unordered_map<std::int32_t, std::int32_t>& moved) {
     const std::size_t f = face_of(h);
@@ -302,9 +302,9 @@ class Sheets {
   IndexedMesh& mesh_;
   const std::vector<std::int32_t>& rings_;
   std::vector<Patch> patches_;
-  std::vector<Edge> edges_;             // those of more than two faces
+  std::vector<Edge> edges_;             // edges with more than two faces
   std::vector<std::int32_t> patch_of_;  // of every face
-  std::vector<char> turned_;            // of every face: against its listing, within its patch
+  std::vector<char> turned_;            // for every face: turned within its patch
 };
 
 }  // namespace

@@ -9,28 +9,28 @@
 
 namespace wscvt {
 
-/// What was done about edges on which more than two faces meet.
+/// Counts of the repairs of edges on which more than two faces meet.
 struct ManifoldRepair {
   std::size_t edges = 0;           ///< found
-  std::size_t dropped_faces = 0;   ///< of flaps and inner walls that ended there
+  std::size_t dropped_faces = 0;   ///< of flaps and internal walls that ended there
   double dropped_area = 0.0;       ///< length^2
-  std::size_t added_vertices = 0;  ///< on edges that two sheets share from now on
+  std::size_t added_vertices = 0;  ///< on edges that two sheets now share
 };
 
-/// Takes the surface apart into sheets at the edges where more than two faces meet, so that at most
-/// two meet anywhere:
+/// Separates the surface into sheets at the edges where more than two faces meet, so that no edge
+/// has more than two faces:
 ///
-/// 1. The edges cut the surface into patches. A patch without which fewer edges are out of balance
-///    (as many faces that look one way as the other) is a flap or a wall inside the body and is
-///    dropped, the smallest first; the largest never is. A patch that balances more edges when
-///    turned round is turned.
-/// 2. The faces left on an edge, sorted by angle about it, are paired so that each pair has the
-///    body between them: where two parts of a body touch in an edge they come apart. A face without
-///    a partner is left with a boundary edge.
-/// 3. Each pair after the first gets a vertex of its own on the edge, which cuts its faces in two.
-///    No position changes.
+/// 1. The edges cut the surface into patches. An edge is balanced if equally many faces use it in
+///    each direction. If fewer edges are unbalanced without a patch, the patch is a flap or an
+///    internal wall and is dropped. Small patches are dropped first, the largest never. A patch
+///    that balances more edges when turned is turned.
+/// 2. The remaining faces on an edge are sorted by angle and paired, with the body between the
+///    faces of a pair. If two parts of a body touch in an edge, this separates them. A face without
+///    a partner gets a boundary edge.
+/// 3. Each pair after the first gets its own vertex on the edge, which splits its faces in two. No
+///    position changes.
 ///
-/// `rings` as edge_rings makes them; they are no longer those of the mesh.
+/// `rings` as edge_rings returns them; they are not valid afterwards.
 ManifoldRepair separate_sheets(IndexedMesh& mesh, const std::vector<std::int32_t>& rings);
 
 }  // namespace wscvt

@@ -31,10 +31,10 @@ namespace wscvt {
 namespace {
 
 /// Below this volume / area^1.5 (0.094 for a sphere, a third of the thickness for a plate) the
-/// surface is a sheet within rounding.
+/// surface is flat within rounding.
 constexpr double flat_limit = 1e-9;
 
-/// "1 face", "2 faces".
+/// Returns "1 face", "2 faces".
 std::string count_of(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
@@ -43,11 +43,11 @@ std::string count_of(std::size_t count, const std::string& noun) {
 struct OtherComponent {
   std::size_t faces = 0;
   double volume = 0.0;
-  Vector3 point = Vector3::Zero();  // on it, and not on the one kept if that can be
+  Vector3 point = Vector3::Zero();  // on it, if possible not on the kept component
 };
 
-/// The component of largest absolute volume. Absolute, because nothing has been turned outward yet;
-/// and not of most faces, because a finely scanned crumb has more than the grain.
+/// Returns the component of largest absolute volume. Absolute, because no component was turned
+/// outward yet. Not the most faces, because a finely scanned crumb may have more than the grain.
 std::size_t largest_of(const Components& components) {
   std::size_t main = 0;
   for (std::size_t c = 1; c < components.list.size(); ++c) {
@@ -56,7 +56,7 @@ std::size_t largest_of(const Components& components) {
   return main;
 }
 
-/// Appends all components but one, before they are dropped.
+/// Appends all components except `main`, before they are dropped.
 void append_others(const IndexedMesh& mesh, const Components& components, std::size_t main,
                    std::vector<OtherComponent>& others) {
   if (components.list.size() == 1) return;
@@ -65,8 +65,8 @@ void append_others(const IndexedMesh& mesh, const Components& components, std::s
     if (index(components.of_face[f]) != main) continue;
     for (const std::int32_t v : mesh.triangles[f]) on_main[index(v)] = 1;
   }
-  // Parts may touch in a vertex, or in an edge before the sheets were taken apart: there neither
-  // inside nor outside can be told. The centre of a face will do where all vertices are shared.
+  // Parts may touch in a vertex, or in an edge before the sheets are separated. Such points are
+  // neither inside nor outside. If all vertices are shared, the centre of a face is used.
   std::vector<OtherComponent> list(components.list.size());
   std::vector<char> found(list.size(), 0);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -89,7 +89,7 @@ void append_others(const IndexedMesh& mesh, const Components& components, std::s
   }
 }
 
-/// Says what the others are, and refuses when those outside are too large.
+/// Reports the other components, and refuses the mesh if the outer components are too large.
 void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& others,
                   const MeshCheckOptions& options, const Execution& execution,
                   MeshCheckReport& report) {
@@ -119,8 +119,8 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   }
 }
 
-/// Refuses when more area was mended than allowed. `widest_share`: of the holes, of the bounding
-/// box's diagonal.
+/// Refuses the mesh if more area was repaired than allowed. `widest_share`: width of the widest
+/// hole / diagonal of the bounding box.
 void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, double widest_share,
                    const MeshCheckReport& report) {
   const double mended = report.flap_area_share + report.filled_area_share;
@@ -141,7 +141,7 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, 
       std::string(mended_area_limit_option.key) + " above " + format_percent(mended) +
       " and check the result against the scan, close the openings first (" +
       where_meshlab_closes() + "), or scan the grain again.";
-  // A ball as wide as the hole still sinks into it a little.
+  // A ball as wide as the hole still enters it a little.
   const double percent = std::max(finest_tried_percent, std::ceil(120.0 * widest_share));
   throw WrappableScan(ErrorCode::InvalidInput, sentence, percent);
 }
@@ -149,13 +149,14 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, 
 }  // namespace
 
 void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
-  // About a point of the mesh: about the origin a scan in map coordinates would lose its digits.
+  // Sums about a point of the mesh, because a scan in map coordinates would lose digits about the
+  // origin.
   const Vector3 origin = mesh.points[index(mesh.triangles[0][0])];
   const MeshSums sums = mesh_sums(mesh.points, mesh.triangles, origin, execution);
   report.volume = sums.volume();
   report.area = sums.area();
   if (!(report.volume > flat_limit * std::pow(report.area, 1.5))) {
-    // Far from the origin single precision leaves a few places for all corners.
+    // Far from the origin, single precision leaves only a few different positions.
     const std::string precision = single_precision_warning(mesh);
     if (!precision.empty()) refuse("The mesh encloses no volume. " + precision);
     refuse("The mesh encloses no volume: it is flat, with an area of " +
@@ -179,13 +180,12 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   require_in_range(options.mended_area_limit_percent, mended_area_limit_option);
   require_in_range(options.dropped_volume_limit, dropped_volume_limit_option);
   const std::string stage = "Checking the mesh";
-  // The order of the repairs. Each needs what the ones before it made so: equal points are welded
-  // before faces are compared, because a copy of a face may have corners of its own; copies go
-  // before edges are counted, because they would make every edge of theirs one of four faces;
-  // sheets are taken apart before faces are turned, because across a non-manifold edge there is no
-  // outside; holes are filled on faces that all turn alike, because the rim's direction says on
-  // which side the filling has its outside; and vertices that only touch are split last, because
-  // both separate_sheets and fill_holes may leave some.
+  // Each repair needs the repairs before it. Points are welded before faces are compared, because a
+  // copy of a face may have its own corners. Copies are dropped before edges are counted, because
+  // they would give their edges four faces. Sheets are separated before faces are turned, because a
+  // non-manifold edge has no outside. Holes are filled after faces are turned, because the rim's
+  // direction gives the filling's outside. Touching vertices are split last, because
+  // separate_sheets and fill_holes may leave some.
   CheckedMesh result;
   MeshCheckReport& report = result.report;
   report.input_vertices = mesh.points.size();
@@ -226,7 +226,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   Components components = find_components(mesh, rings, execution);
   std::size_t main = largest_of(components);
   append_others(mesh, components, main, others);
-  // The repairs below are of the part that stays; what they cost a clean scan is looking at counts.
+  // The repairs below are for the kept part. On a clean scan they only read counts.
   const auto look_again = [&] {
     rings = edge_rings(mesh, execution);
     components = find_components(mesh, rings, execution);
@@ -262,7 +262,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
     report.filled_holes = filled.holes;
     report.filling_faces = filled.faces;
     look_again();
-    // The side on which an open surface has its volume is a guess.
+    // The side of an open surface's volume was a guess.
     if (components.list[main].volume < 0.0)
       report.reoriented_faces = faces - report.reoriented_faces;
   }

@@ -49,8 +49,7 @@ using LibraryPoint = CGAL::Simple_cartesian<double>::Point_3;
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
 }
 
-/// Bytes that are put together before they are written: a stream takes ten times as long for each
-/// vertex.
+/// Collects bytes before they are written, because a stream takes ten times as long per vertex.
 class Bytes {
  public:
   explicit Bytes(std::ostream& stream) : stream_(stream), bytes_(std::size_t{1} << 16) {}
@@ -63,7 +62,7 @@ class Bytes {
     used_ += sizeof(Number);
   }
 
-  /// Writes what is left.
+  /// Writes the remaining bytes.
   void flush() {
     stream_.write(reinterpret_cast<const char*>(bytes_.data()),
                   static_cast<std::streamsize>(used_));
@@ -82,7 +81,7 @@ const char* ply_name(ScalarType type) {
   return names[static_cast<std::size_t>(type)];
 }
 
-/// Adds the nearest whole number that the type holds.
+/// Adds the nearest whole number in the type's range.
 template <class Whole>
 void add_rounded(Bytes& bytes, double value) {
   const double low = std::numeric_limits<Whole>::min();
@@ -146,7 +145,7 @@ bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coo
   return write_ply_with(stream, mesh, coordinates, MeshAttributes());
 }
 
-/// Number of points that single precision puts where another, different one is.
+/// Returns the number of points that single precision makes equal to a different point.
 std::size_t fallen_together(const std::vector<Vector3>& points) {
   struct Rounded {
     std::array<float, 3> place;
@@ -189,7 +188,7 @@ bool write_off(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
                              CGAL::parameters::stream_precision(17));
 }
 
-/// A writer that leaves no choice.
+/// A writer without a choice of coordinates.
 template <void (*Write)(std::ostream&, const IndexedMesh&)>
 bool write_by(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
   Write(stream, mesh);
@@ -200,13 +199,13 @@ void write_plain_vtp(std::ostream& stream, const IndexedMesh& mesh) { write_vtp(
 
 struct Format {
   std::string_view extension;
-  IndexedMesh (*read)(ByteReader& reader);  ///< null: it is only written
-  /// Null: it is only read.
+  IndexedMesh (*read)(ByteReader& reader);  ///< null: only written
+  /// Null: only read.
   bool (*write)(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates);
-  bool has_faces = true;  ///< else points alone
+  bool has_faces = true;  ///< else only points
 };
 
-/// Its files end as those of binary STL do, whose readers take both.
+/// The extension of text STL also ends in that of binary STL; readers accept both forms.
 constexpr std::string_view text_stl = ".ascii.stl";
 
 constexpr Format formats[] = {
@@ -229,7 +228,7 @@ bool is_of(const Format& format, MeshUse use) {
   return use == MeshUse::Read ? format.read != nullptr : format.write != nullptr;
 }
 
-/// Null where there is none. What is read may be packed.
+/// Returns null if there is no such format. Files to read may be packed.
 const Format* known_format(const std::string& path, MeshUse use) {
   std::string extension = ending_of(path);
   constexpr std::string_view packed = ".gz";
@@ -269,7 +268,7 @@ MeshFile read_as(ByteReader& reader, const Format& format) {
   return file;
 }
 
-/// What is at hand as a text.
+/// Reads a mesh from content in memory.
 MeshFile read_content(std::string content, const std::string& path, const Format& format,
                       const Execution& execution) {
   const std::size_t size = content.size();
@@ -280,11 +279,11 @@ MeshFile read_content(std::string content, const std::string& path, const Format
 
 }  // namespace
 
-// Why not CGAL's read_polygon_soup (5.5): of 28 small hostile files it took memory for what two
-// claimed (80 bytes: 3.8 GB and 16 to 31 s), ended the program at two, read an STL text that is cut
-// off as no faces and OBJ's vertex 0 as a vertex, and left out PLY's triangle strips. On a million
-// faces it takes 5 to 7 times as long (OBJ 1.5 s, ours .3 s) and 1.3 to 2.5 times the memory. Where
-// both read a file, 30 scans and bodies, they read as many faces.
+// CGAL's read_polygon_soup (5.5) is not used. Of 28 small hostile files it allocated memory as two
+// claimed (80 bytes: 3.8 GB and 16 to 31 s) and ended the program at two. It read a cut STL text as
+// no faces and OBJ's vertex 0 as a vertex, and left out PLY's triangle strips. On a million faces
+// it takes 5 to 7 times as long (OBJ 1.5 s, ours 0.3 s) and 1.3 to 2.5 times the memory. For 30
+// scans and bodies that both read, the numbers of faces agree.
 IndexedMesh read_mesh(const std::string& path, const Execution& execution) {
   return read_mesh_file(path, execution).mesh;
 }
@@ -301,9 +300,9 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse_to_open(path, errno);
   if (is_pipe) {
-    // How much a pipe holds is known at its end.
+    // The size of a pipe is known only at its end.
     std::stringstream content;
-    content.exceptions(std::ios::badbit);  // or memory that is refused would be the pipe's end
+    content.exceptions(std::ios::badbit);  // else refused memory would look like the pipe's end
     content << file.rdbuf();
     return read_content(content.str(), path, format, execution);
   }
@@ -353,7 +352,7 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates
   if (!is_single && !is_short) return mesh;
   for (Vector3& p : mesh.points) {
     for (double& coordinate : p) {
-      // Volatile: optimised, GCC 12 leaves the rounding to single precision out.
+      // Volatile, because GCC 12 optimises the rounding to single precision away.
       volatile const auto single = static_cast<float>(coordinate);
       coordinate = is_short ? kept_by_abaqus(coordinate) : static_cast<double>(single);
     }

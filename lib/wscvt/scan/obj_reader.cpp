@@ -18,7 +18,7 @@ namespace wscvt {
 
 namespace {
 
-/// The next statement: a line without its comment, with those it is continued on.
+/// Returns the next statement: a line without its comment, and its continuation lines.
 std::optional<std::string_view> next_statement(ByteReader& reader, std::string& joined) {
   const auto without_comment = [](std::string_view line) { return line.substr(0, line.find('#')); };
   const auto is_continued = [](std::string_view line) {
@@ -43,7 +43,7 @@ constexpr std::int32_t no_number = -1;
 
 class ObjReader {
  public:
-  /// Without `libraries` colours and texture are passed over.
+  /// Without `libraries`, skips colours and texture.
   ObjReader(ByteReader& reader, MeshAttributes& attributes, std::vector<std::string>* libraries)
       : reader_(reader), attributes_(attributes), libraries_(libraries) {}
 
@@ -125,7 +125,8 @@ class ObjReader {
     }
   }
 
-  /// Number of the place that a corner names, such as 7 of "5/7/2"; one without is no_number.
+  /// Returns the number of a corner's texture coordinates, such as 7 of "5/7/2"; no_number if there
+  /// is none.
   std::int32_t place_number(std::string_view corner) const {
     const std::size_t slash = corner.find('/');
     if (slash == std::string_view::npos) return no_number;
@@ -140,7 +141,7 @@ class ObjReader {
 
   void finish_attributes() {
     constexpr std::array<const char*, 3> parts{"red", "green", "blue"};
-    const bool has_colours = colours_.size() == mesh_.points.size();  // each has, or none
+    const bool has_colours = colours_.size() == mesh_.points.size();  // all vertices or none
     for (std::size_t k = 0; has_colours && k < parts.size(); ++k) {
       MeshAttribute part{parts[k], ScalarType::Uint8, {}};
       for (const Vector3& colour : colours_) {
@@ -184,7 +185,7 @@ class ObjReader {
         reader_.fail_line("names vertex " + std::to_string(*number) + ", but there are " +
                           std::to_string(known) + " up to it" + export_again);
       }
-      // A vertex may stand after the faces that name it.
+      // A vertex may follow the faces that use it.
       if (index > largest_index_) {
         largest_index_ = index;
         largest_index_line_ = reader_.line_number();

@@ -11,16 +11,16 @@
 namespace wscvt {
 
 /// Reads the vertices and faces of an OBJ file: polygons, indices with texture and normal, counted
-/// from the end when negative, lines continued by a backslash. Lines, groups, materials and the
-/// like are passed over. A file without faces gives points alone. Throws as read_mesh.
+/// from the end when negative, lines continued by a backslash. Skips lines, groups, materials and
+/// the like. A file without faces gives only points. Throws as read_mesh.
 ///
-/// The library that the writer comes from stops in silence at the first line it does not know,
-/// which makes half a scan out of a whole one.
+/// CGAL, which writes OBJ here, is not used for reading: it stops silently at the first unknown
+/// line and so returns a part of the scan.
 IndexedMesh read_obj(ByteReader& reader);
 
-/// Reads an OBJ file as read_obj, with red, green and blue of its vertices, if three numbers from 0
-/// to 1 follow each one's coordinates, and with its texture, if faces name places (vt) and a
-/// library of materials is named. `libraries` become the names of these.
+/// Reads an OBJ file as read_obj. Also reads red, green and blue of its vertices, if three numbers
+/// from 0 to 1 follow each vertex's coordinates, and its texture, if faces have texture coordinates
+/// (vt) and the file names a material library. Writes the names of the libraries to `libraries`.
 IndexedMesh read_obj_attributes(ByteReader& reader, MeshAttributes& attributes,
                                 std::vector<std::string>& libraries);
 

@@ -15,7 +15,7 @@ namespace wscvt {
 
 namespace {
 
-/// The next line that holds more than a comment.
+/// Returns the next line with more than a comment.
 std::optional<std::string_view> next_line(ByteReader& reader) {
   while (const std::optional<std::string_view> line = reader.line()) {
     const std::string_view text = line->substr(0, line->find('#'));
@@ -24,8 +24,8 @@ std::optional<std::string_view> next_line(ByteReader& reader) {
   return {};
 }
 
-/// The header's keyword is [ST][C][N][4][n]OFF; what it promises stands after the three
-/// coordinates, but for a fourth one or another number of them.
+/// Checks the header's keyword, [ST][C][N][4][n]OFF. Normals and the like follow the three
+/// coordinates. Refuses 4 and n, which change the number of coordinates.
 void check_keyword(ByteReader& reader, std::string_view keyword) {
   const std::string form(keyword.substr(0, keyword.find("OFF")));
   if (keyword.find("OFF") == std::string_view::npos || keyword.substr(form.size()) != "OFF" ||
@@ -64,7 +64,7 @@ IndexedMesh read_off(ByteReader& reader) {
   if (field == "BINARY") {
     reader.fail("is a binary OFF file, which is not read; export it as text, or as PLY.");
   }
-  if (field.empty()) {  // the counts may stand beside the word or below it
+  if (field.empty()) {  // the counts may be beside the keyword or below it
     line = next_line(reader);
     header = TextFields(line.value_or(""));
     field = header.next();
@@ -74,8 +74,8 @@ IndexedMesh read_off(ByteReader& reader) {
   if (vertices > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     reader.fail("declares more vertices than can be numbered; reduce the scan first.");
   }
-  // The shortest vertex is "0 0 0" and an end of line, the shortest face "0" and one; the last line
-  // needs no end. A header that promises more is not believed.
+  // The shortest vertex is "0 0 0" and a line break, the shortest face "0" and a line break. The
+  // last line needs no line break. Refuses a header that declares more than fits.
   const std::uintmax_t left = reader.remaining() + 1;
   if (vertices > left / 6 || faces > (left - 6 * vertices) / 2) {
     reader.fail("declares " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
@@ -107,7 +107,7 @@ IndexedMesh read_off(ByteReader& reader) {
     if (!(line = next_line(reader))) fail_cut(reader, "face", f, faces);
     TextFields fields(*line);
     const std::size_t count = whole_number(reader, fields.next(), "a face's number of corners");
-    // A corner takes a digit and a blank.
+    // A corner needs a digit and a blank.
     if (count > (fields.rest().size() + 1) / 2) {
       reader.fail_line("(face " + std::to_string(f) + ") claims " + std::to_string(count) +
                        " corners, more than it names" + export_again);

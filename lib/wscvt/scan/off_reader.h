@@ -6,13 +6,12 @@
 
 namespace wscvt {
 
-/// Reads an OFF file in text form, also one with normals, colours or texture coordinates (NOFF,
-/// COFF, STOFF), which are passed over as are the colours of faces. A file without faces gives
-/// points alone. Throws as read_mesh; the binary form and coordinates in other than three
-/// dimensions are refused.
+/// Reads an OFF file in text form. Skips normals, colours and texture coordinates (NOFF, COFF,
+/// STOFF) and the colours of faces. A file without faces gives only points. Throws as read_mesh.
+/// Refuses the binary form and coordinates that are not three-dimensional.
 ///
-/// The library that the writer comes from makes room for as many corners as a face claims to have,
-/// 4 GB out of fifty bytes.
+/// CGAL, which writes OFF here, is not used for reading: it allocates memory for as many corners as
+/// a face claims, 4 GB for a file of fifty bytes.
 IndexedMesh read_off(ByteReader& reader);
 
 }  // namespace wscvt

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// https://pointclouds.org/documentation/tutorials/pcd_file_format.html. Not by PCL, whose library
-// for files alone brings VTK.
+// https://pointclouds.org/documentation/tutorials/pcd_file_format.html. PCL is not used, because
+// its file library needs VTK.
 #include "wscvt/scan/pcd_reader.h"
 
 #include <array>
@@ -43,8 +43,8 @@ double number_at(const Field& field, const char* bytes) {
   }
 }
 
-/// What Marc Lehmann's LZF packs, as PCL has it: a byte below 32 says that one more than so many
-/// bytes follow; others, how many bytes are to be copied from how far back. Empty where it is
+/// Unpacks Marc Lehmann's LZF, as PCL uses it. A byte b below 32 means that b + 1 bytes follow.
+/// Other bytes give the length and distance of a copy. Returns an empty text if the data are
 /// damaged.
 std::string unpacked(std::string_view packed, std::size_t size) {
   std::string out;
@@ -67,7 +67,7 @@ std::string unpacked(std::string_view packed, std::size_t size) {
     length += 2;
     const std::size_t back = ((control & 31U) << 8 | next()) + 1;
     if (back > out.size() || length > size - out.size()) return "";
-    // Byte by byte: what is copied may reach into what is being written.
+    // Copies byte by byte, because the source may overlap the destination.
     for (std::size_t k = 0; k < length; ++k) out.push_back(out[out.size() - back]);
   }
   return out.size() == size ? out : "";
@@ -98,7 +98,7 @@ class PcdReader {
   }
 
  private:
-  /// Of DATA what follows it.
+  /// Returns the word after DATA.
   std::string read_header() {
     std::optional<std::size_t> points;
     std::size_t width = 0;
@@ -227,7 +227,7 @@ class PcdReader {
     }
   }
 
-  /// All of a field together, and all fields packed.
+  /// Reads packed data: all values of a field together.
   void read_columns() {
     using boost::endian::order;
     const char* const sizes = reader_.next(8);
@@ -235,7 +235,7 @@ class PcdReader {
     const std::size_t packed = load<std::uint32_t, order::little>(sizes);
     const std::size_t size = load<std::uint32_t, order::little>(sizes + 4);
     const char* const bytes = reader_.next(packed);
-    // Three bytes stand for 264 at most.
+    // Three bytes encode at most 264.
     constexpr std::size_t most_packed = 90;
     if (bytes == nullptr || size / most_packed > packed || points_ > size / record_ ||
         points_ * record_ != size) {
@@ -263,7 +263,7 @@ class PcdReader {
   std::size_t points_ = 0;
   std::size_t record_ = 0;  ///< bytes of a point
   std::array<std::size_t, 3> columns_{};
-  std::array<std::size_t, 3> offsets_{};  ///< bytes of a point's fields before x, y, z
+  std::array<std::size_t, 3> offsets_{};  ///< offset of x, y, z in a point, bytes
   std::array<Field, 3> types_;
   std::size_t left_out_ = 0;
   IndexedMesh mesh_;

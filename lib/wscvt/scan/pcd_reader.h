@@ -6,9 +6,9 @@
 
 namespace wscvt {
 
-/// Reads the points of a file of the Point Cloud Library: text, binary or packed. Other fields than
-/// x, y and z are passed over; points without a finite place, which clouds in rows have where
-/// nothing was seen, are left out with a warning. Throws as read_mesh.
+/// Reads the points of a file of the Point Cloud Library: text, binary or packed. Skips all fields
+/// except x, y and z. Leaves out points without a finite position, with a warning; clouds in rows
+/// have such points where nothing was seen. Throws as read_mesh.
 IndexedMesh read_pcd(ByteReader& reader);
 
 }  // namespace wscvt

@@ -25,9 +25,9 @@ enum class Encoding { Text, LittleEndian, BigEndian };
 
 struct Property {
   std::string name;
-  ScalarType type = ScalarType::Float32;  ///< of a list: of its items
+  ScalarType type = ScalarType::Float32;  ///< of a list: type of its items
   bool is_list = false;
-  ScalarType count_type = ScalarType::Uint8;  ///< of a list
+  ScalarType count_type = ScalarType::Uint8;  ///< of the length of a list
   bool is_kept = false;                       ///< as an attribute
 };
 
@@ -40,7 +40,7 @@ struct Element {
 struct Header {
   Encoding encoding = Encoding::Text;
   std::vector<Element> elements;
-  std::vector<std::string> pictures;  ///< that are wanted
+  std::vector<std::string> pictures;  ///< names of the wanted pictures
 };
 
 constexpr std::size_t no_list = std::numeric_limits<std::size_t>::max();
@@ -83,8 +83,8 @@ std::size_t size_of(ScalarType type) {
   return 4;
 }
 
-/// Calls use(read), where read(bytes) gives a number of the type: loops over a million of them
-/// decide on the type once.
+/// Calls use(read); read(bytes) returns a number of the type. Loops over a million numbers so
+/// choose the type only once.
 template <order Order, class Use>
 void with_type(ScalarType type, const Use& use) {
   switch (type) {
@@ -107,7 +107,7 @@ void with_type(ScalarType type, const Use& use) {
   }
 }
 
-/// Every number of a PLY file fits a double.
+/// Every number type of a PLY file fits a double.
 template <order Order>
 double load_as_double(ScalarType type, const char* bytes) {
   double value = 0.0;
@@ -191,20 +191,20 @@ Header read_header(ByteReader& reader) {
   reader.fail("has a header without the line \"end_header\"" + std::string(export_again));
 }
 
-/// Index of the first property that fits; the number of properties when there is none.
+/// Returns the index of the first property that fits, or the number of properties.
 template <class Fits>
 std::size_t find_property(const Element& element, const Fits& fits) {
   const auto& all = element.properties;
   return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), fits) - all.begin());
 }
 
-/// Names of the places of vertices in a picture, by which programs write them.
+/// Names that programs use for the texture coordinates of vertices.
 constexpr std::array<std::array<const char*, 2>, 3> picture_places{
     {{"texture_u", "texture_v"}, {"u", "v"}, {"s", "t"}}};
 
-/// Marks the numbers that a remesh can carry: not the place, which the remesh has of its own, nor
-/// normals, texture coordinates and flags, which tell of this mesh alone. Texture coordinates are
-/// marked if there are pictures, since the body makes the texture of them.
+/// Marks the numbers that can be transferred to a remesh. Excludes positions, normals, texture
+/// coordinates and flags, because they belong only to this mesh. Marks texture coordinates if there
+/// are pictures, because Body makes the texture from them.
 void mark_attributes(Header& header) {
   const auto is_wanted_place = [&](const Element& element, const std::string& name) {
     return !header.pictures.empty() && element.name == "vertex" &&
@@ -226,7 +226,7 @@ void mark_attributes(Header& header) {
   }
 }
 
-/// Empty columns for what is marked.
+/// Returns empty columns for the marked properties.
 std::vector<MeshAttribute> begin_attributes(const Element& element) {
   std::vector<MeshAttribute> attributes;
   for (const Property& property : element.properties) {
@@ -235,7 +235,7 @@ std::vector<MeshAttribute> begin_attributes(const Element& element) {
   return attributes;
 }
 
-/// What follows the header: the records of the elements, in the header's order.
+/// Reads the data after the header: the records of the elements, in the header's order.
 class Body {
  public:
   Body(ByteReader& reader, const Header& header, MeshAttributes& attributes)
@@ -294,14 +294,14 @@ class Body {
     reader_.fail(named);
   }
 
-  /// A header that promises more than the file can hold is not believed.
+  /// Refuses a header that declares more than the file can contain.
   void check_size(const Element& element) const {
     std::uint64_t least = is_text() ? 1 : 0;  // a record of text is a line
     for (const Property& property : element.properties) {
       least += is_text() ? 1 : size_of(property.is_list ? property.count_type : property.type);
     }
     if (element.properties.empty()) return;
-    // The last line needs no end.
+    // The last line needs no line break.
     if (element.count > (reader_.remaining() + 1) / least) {
       reader_.fail("declares " + std::to_string(element.count) + " elements \"" + element.name +
                    "\", but only " + std::to_string(reader_.remaining()) +
@@ -354,7 +354,7 @@ class Body {
       }
       return;
     }
-    // Nearly all files: records of one size, in blocks.
+    // Nearly all files have records of one size; read them in blocks.
     std::vector<std::size_t> offsets(1, 0);
     for (const Property& property : properties) {
       offsets.push_back(offsets.back() + size_of(property.type));
@@ -379,7 +379,7 @@ class Body {
     });
   }
 
-  /// Keeps the numbers of the record read last, for so many elements of the mesh.
+  /// Stores the numbers of the last record for `count` elements of the mesh.
   void keep_attributes(const Element& element, std::size_t count,
                        std::vector<MeshAttribute>& attributes) {
     auto attribute = attributes.begin();
@@ -390,7 +390,7 @@ class Body {
     }
   }
 
-  /// The attribute of that name, which is taken out of the vertices'.
+  /// Removes the attribute with this name from the vertices' attributes and returns it.
   std::vector<double> taken_out(const char* name) {
     std::vector<MeshAttribute>& all = attributes_.of_vertices;
     const auto found = std::find_if(all.begin(), all.end(),
@@ -401,7 +401,7 @@ class Body {
     return values;
   }
 
-  /// Corners without a place take their vertex's; a mesh without any has no texture.
+  /// Corners without texture coordinates get their vertex's. A mesh without any has no texture.
   void finish_texture() {
     MeshTexture& texture = attributes_.texture;
     texture.corners.resize(mesh_.triangles.size(), no_corners);
@@ -426,7 +426,7 @@ class Body {
     if (!has_places) texture = MeshTexture();
   }
 
-  /// The places of the triangles of the polygon that was read last, in its picture.
+  /// Adds the texture coordinates of the last polygon's triangles.
   void add_places(const Element& element) {
     MeshTexture& texture = attributes_.texture;
     const std::size_t number = find_property(
@@ -446,7 +446,7 @@ class Body {
     }
   }
 
-  /// Faces, or strips of triangles.
+  /// Reads faces, or strips of triangles.
   void read_polygons(const Element& element, bool strips) {
     const std::size_t list = find_property(element, [](const Property& property) {
       return property.is_list &&
@@ -461,7 +461,7 @@ class Body {
         header_.pictures.empty() ? no_list : find_property(element, [](const Property& property) {
           return property.is_list && property.name == "texcoord";
         });
-    // A strip's number of triangles is not known before it is read.
+    // The number of triangles of a strip is unknown before it is read.
     if (!strips) mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
     switch (header_.encoding) {
       case Encoding::Text:
@@ -493,7 +493,7 @@ class Body {
       }
       return;
     }
-    // Nearly all files: one list with a one-byte count among numbers.
+    // Nearly all files have one list with a one-byte count among numbers.
     std::size_t before = 0;
     std::size_t after = 0;
     for (std::size_t k = 0; k < properties.size(); ++k) {
@@ -510,7 +510,7 @@ class Body {
         if (bytes == nullptr) fail_cut(element, f);
         for (std::size_t i = 0; i < count; ++i) {
           const auto index = number(bytes + index_size * i);
-          // A negative one becomes larger than any count.
+          // A negative index becomes larger than any count.
           corners[i] = static_cast<std::uint32_t>(static_cast<std::int64_t>(index));
           if (corners[i] >= vertices_) fail_index(element, f, static_cast<double>(index));
         }
@@ -519,7 +519,7 @@ class Body {
     });
   }
 
-  /// Adds the polygon, or the strip, that the record read last holds.
+  /// Adds the polygon or strip of the last record.
   void add_polygon(const Element& element, std::uint64_t record, bool strip) {
     corners_.clear();
     const auto end_strip = [&] {
@@ -547,7 +547,7 @@ class Body {
   }
 
   [[noreturn]] void fail_index(const Element& element, std::uint64_t record, double index) const {
-    // Indices are at most 32 bits long; what a text gives beyond need not be shown.
+    // Indices have at most 32 bits, so larger numbers in a text need not be shown.
     const std::string shown = index > -1e15 && index < 1e15
                                   ? std::to_string(static_cast<long long>(index))
                                   : "beyond all";
@@ -556,7 +556,7 @@ class Body {
                     ", numbered from 0" + export_again);
   }
 
-  /// Passes over the records of an element that is not needed.
+  /// Skips the records of an element that is not needed.
   void pass_over(const Element& element) {
     if (element.properties.empty()) return;
     const bool has_list = std::any_of(element.properties.begin(), element.properties.end(),
@@ -564,7 +564,7 @@ class Body {
     if (!is_text() && !has_list) {
       std::uint64_t size = 0;
       for (const Property& property : element.properties) size += size_of(property.type);
-      // check_size has seen that the product is not larger than the file.
+      // check_size has verified that the product is at most the file's size.
       if (!reader_.skip(size * element.count)) fail_cut(element, 0);
       return;
     }
@@ -583,7 +583,7 @@ class Body {
     }
   }
 
-  /// Reads a record: scalars_[k] becomes the number of property k, items_ the list that is wanted.
+  /// Reads a record: scalars_[k] becomes the number of property k, items_ the wanted list.
   template <order Order>
   void read_binary_record(const Element& element, std::uint64_t record, std::size_t wanted_list) {
     scalars_.resize(element.properties.size());
@@ -629,7 +629,7 @@ class Body {
       scalars_[k] = next_number();
       if (!element.properties[k].is_list) continue;
       const std::uint64_t count = list_count(element, record, scalars_[k]);
-      // An item takes a digit and a blank.
+      // An item needs a digit and a blank.
       if (count > (fields.rest().size() + 1) / 2) fail_list(element, record, count);
       std::vector<double>* const read = k == wanted_list    ? &items_
                                         : k == places_list_ ? &places_
@@ -671,7 +671,7 @@ class Body {
   std::vector<double> scalars_;
   std::vector<double> items_;
   std::size_t places_list_ = no_list;
-  std::vector<double> places_;  ///< of the polygon's corners in its picture
+  std::vector<double> places_;  ///< texture coordinates of the polygon's corners
   std::vector<std::int32_t> corners_;
 };
 

@@ -26,7 +26,7 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
   mesh.points = different_points(std::move(points), execution);
   Vector3 centre = Vector3::Zero();
   for (const Vector3& p : mesh.points) centre += p / static_cast<double>(mesh.points.size());
-  // The points' mean leans to where they are dense; the second round stands on the volume's.
+  // The mean of the points is biased to dense regions. The second round uses the volume's centroid.
   std::vector<Vector3> directions(mesh.points.size());
   for (int round = 0; round < 2; ++round) {
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -36,7 +36,7 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
     const auto triangulation =
         SphereTriangulation::try_build(directions, std::vector<double>(), part);
     if (!triangulation) {
-      // The wrap falls through gaps between points that are as wide as its opening.
+      // The wrap enters gaps between points that are as wide as its opening.
       constexpr double first_percent = 10.0;
       throw WrappableScan(ErrorCode::NumericalFailure,
                           "No surface with one radius in each direction goes through the points: "

@@ -10,24 +10,25 @@
 
 namespace wscvt {
 
-/// Closed, star-shaped mesh with the given points as vertices, in any order: the Delaunay
-/// triangulation of their directions from the centre of what they enclose. This is how a scan given
-/// as points without faces enters (the paper's starting point). Equal points are merged.
+/// Returns a closed, star-shaped mesh with the given points as vertices, in any order: the Delaunay
+/// triangulation of their directions from the centre of the enclosed body. It is used for scans of
+/// points without faces (the paper's starting point). Merges equal points.
 ///
-/// The surface has no folds, whatever the body has: each direction from the centre has one radius.
-/// Its volume and area are its own, not the body's.
+/// The surface has no overhangs, even if the body has: each direction from the centre has one
+/// radius. Its volume and area may differ from the body's.
 ///
-/// Throws as different_points (usable_scan.h); Error(NumericalFailure) when the points do not
-/// surround their centre or two lie on one ray; Error(Cancelled).
+/// Throws as different_points (usable_scan.h); Error(NumericalFailure) if the points do not
+/// surround their centre or two points lie on one ray; Error(Cancelled).
 IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& execution = Execution(1));
 
-/// The scan itself, or, with `points_only`, mesh_of_points of its points. Throws
-/// Error(InvalidInput), which says how to choose points, for points without faces that were not
-/// chosen: a scan that has lost its faces must not pass for a cloud. Throws as mesh_of_points does.
+/// Returns the scan itself or, with `points_only`, mesh_of_points of its points. Throws
+/// Error(InvalidInput), with the option to set, if the scan has no faces and `points_only` is
+/// false, because a scan that has lost its faces must not pass for a cloud. Throws as
+/// mesh_of_points.
 IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution);
 
-/// Puts into the report on a surface made of points, or of an envelope, what was given: so many
-/// points, of which so many were different, and faces that were not used.
+/// Writes the input's counts into the report on a surface made from points or a shrink-wrap:
+/// points, different points, and unused faces.
 void count_given(std::size_t points, std::size_t faces, std::size_t different,
                  MeshCheckReport& report);
 

@@ -14,7 +14,7 @@ namespace wscvt {
 
 namespace {
 
-/// The fields of a line; between commas or semicolons, where it has some, a field may be empty.
+/// Splits a line into fields. If it has commas or semicolons, a field between them may be empty.
 void split(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   const char separator = line.find(',') != std::string_view::npos   ? ','
@@ -39,7 +39,7 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-/// Which axis a column is of; none: another thing.
+/// Returns the axis of a column, or nothing for other columns.
 std::optional<std::size_t> axis_of(std::string_view name) {
   const std::string lower = lower_case(name);
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -6,10 +6,10 @@
 
 namespace wscvt {
 
-/// Reads points from a text, a line each: x, y and z, and more that is passed over, between blanks,
-/// tabs, commas or semicolons. Lines that begin with # and empty ones are passed over. The first
-/// line may name the columns, of which x, y and z are taken, whatever their place and case
-/// (Points:0 to Points:2, as ParaView names them, too). Throws as read_mesh.
+/// Reads points from a text, one per line: x, y, z and ignored columns, separated by blanks, tabs,
+/// commas or semicolons. Skips empty lines and lines that begin with #. The first line may name the
+/// columns. Columns x, y and z (or Points:0 to Points:2, as ParaView names them) are then read, in
+/// any position and case. Throws as read_mesh.
 IndexedMesh read_point_text(ByteReader& reader);
 
 }  // namespace wscvt

@@ -9,8 +9,7 @@
 
 namespace wscvt {
 
-/// Adds the fan of a polygon whose corners are known to fit. Fewer than three corners enclose
-/// nothing and are passed over.
+/// Adds the fan of a polygon with valid corners. Skips polygons with fewer than three corners.
 template <class Index>
 void add_fan(const Index* corners, std::size_t count, std::vector<Triangle>& triangles) {
   for (std::size_t i = 2; i < count; ++i) {
@@ -20,8 +19,8 @@ void add_fan(const Index* corners, std::size_t count, std::vector<Triangle>& tri
   }
 }
 
-/// Adds the triangles of a strip, whose every second one turns the other way. Those without three
-/// different corners, which join strips, are passed over.
+/// Adds the triangles of a strip and turns every second one. Skips triangles without three
+/// different corners, which join strips.
 template <class Index>
 void add_strip(const Index* corners, std::size_t count, std::vector<Triangle>& triangles) {
   for (std::size_t i = 2; i < count; ++i) {

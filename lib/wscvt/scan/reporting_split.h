@@ -7,8 +7,8 @@
 
 namespace wscvt {
 
-/// Splits the faces of a node of CGAL's tree of boxes in two as its traits do, and reports: the
-/// tree of two million faces takes seconds. For AABB_tree::custom_build.
+/// Splits the faces of a node of CGAL's tree of boxes in two, as its traits do, and reports
+/// progress, because a tree of two million faces takes seconds. For AABB_tree::custom_build.
 template <class Traits>
 class ReportingSplit {
  public:

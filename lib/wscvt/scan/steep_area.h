@@ -6,11 +6,12 @@
 
 namespace wscvt {
 
-/// A surface is steep where its normal turns from the radius by more than this, in degrees.
+/// A surface is steep if the angle between its normal and the radius is larger than this, in
+/// degrees.
 inline constexpr double steep_angle = 75.0;
 
-/// Fraction of the area of a closed, outward mesh that is steep as seen from `centre`, or looks
-/// back at it. A face is judged as a whole, at its middle. Throws Error(Cancelled).
+/// Returns the fraction of the area of a closed, outward mesh that is steep as seen from `centre`
+/// or faces it. Judges each face as a whole, at its centroid. Throws Error(Cancelled).
 double steep_area_fraction(const IndexedMesh& mesh, const Vector3& centre,
                            const Execution& execution);
 

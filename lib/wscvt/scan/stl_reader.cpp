@@ -38,8 +38,8 @@ IndexedMesh read_binary(ByteReader& reader) {
     reader.fail("is no text and announces " + std::to_string(triangles) + " triangles, but holds " +
                 std::to_string(held) + "; it is no STL file or was cut off" + export_again);
   }
-  // Some programs leave bytes behind the last triangle, a line's end or zeros; as much as a
-  // triangle takes is a count that is wrong.
+  // Some programs leave bytes after the last triangle, a line break or zeros. If there is room for
+  // a triangle, the count is wrong.
   if (held > triangles) {
     reader.fail("is no text and announces " + std::to_string(triangles) + " triangles, but holds " +
                 std::to_string(held) + "; it is no STL file" + export_again);
@@ -73,16 +73,16 @@ IndexedMesh read_binary(ByteReader& reader) {
   return mesh;
 }
 
-/// The words of a text STL file, which lines separate no more than blanks do.
+/// Reads the words of a text STL file; line breaks separate words as blanks do.
 class TextReader {
  public:
   explicit TextReader(ByteReader& reader) : reader_(reader) {}
 
   IndexedMesh read() {
     IndexedMesh mesh;
-    do {  // several solids may follow each other
+    do {  // a file may have several solids
       expect("solid");
-      fields_ = TextFields("");  // the name, which may hold any words
+      fields_ = TextFields("");  // skips the name, which may have any words
       for (std::string word = next_word(); word != "endsolid"; word = next_word()) {
         if (word != "facet") fail(word, "\"facet\" or \"endsolid\"");
         read_facet(mesh);
@@ -95,7 +95,7 @@ class TextReader {
 
  private:
   void read_facet(IndexedMesh& mesh) {
-    // The normal follows from the corners, whatever is written.
+    // Ignores the file's normal, because the normal follows from the corners.
     std::string word = next_word();
     for (int k = 0; word != "outer"; ++k) {
       if (k > 4) fail(word, "\"outer loop\"");
@@ -124,7 +124,7 @@ class TextReader {
     if (word != due) fail(word, in_quotes(due));
   }
 
-  /// The next word in lower case; empty at the end of the file.
+  /// Returns the next word in lower case; empty at the end of the file.
   std::string next_word() {
     if (!has_more()) return "";
     return lower_case(std::exchange(word_, std::string_view()));
@@ -153,7 +153,7 @@ class TextReader {
   std::string_view word_;
 };
 
-/// By its size, or by what no text holds, since a binary header may begin with "solid" too.
+/// Checks the size, or bytes that no text has, because a binary header may also begin with "solid".
 bool is_binary(ByteReader& reader) {
   const std::string_view header = reader.peek(header_size);
   if (header.size() == header_size) {

@@ -6,13 +6,12 @@
 
 namespace wscvt {
 
-/// Reads an STL file, binary or text, in either case of its letters; a binary one may begin with
-/// the word "solid", and end with less bytes than a triangle takes,
-/// of which it warns. The corners of each triangle come back as points of their own. Throws as
-/// read_mesh; a file without triangles is an error.
+/// Reads an STL file, binary or text, in upper or lower case. A binary file may begin with "solid".
+/// Warns about extra bytes at its end, fewer than a triangle takes. Each triangle has three points
+/// of its own. Throws as read_mesh; a file without triangles is an error.
 ///
-/// The library that the writer comes from takes a text that breaks off for an empty file, and does
-/// not know capitals.
+/// CGAL, which writes STL here, is not used for reading: it reads a text that breaks off as an
+/// empty file, and does not read capital letters.
 IndexedMesh read_stl(ByteReader& reader);
 
 }  // namespace wscvt

@@ -10,7 +10,7 @@ namespace {
 
 template <class Number>
 std::optional<Number> parse(std::string_view field) {
-  // std::from_chars knows no plus sign, and only itself would let "+-1" pass.
+  // std::from_chars accepts no plus sign. "+-1" must not become valid.
   if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);
   Number value{};
   const char* const end = field.data() + field.size();

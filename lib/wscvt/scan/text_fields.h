@@ -11,14 +11,14 @@
 
 namespace wscvt {
 
-// Fields of a line of text and the numbers they hold, the same in every locale.
+// Reads the fields of a line of text and their numbers, independent of the locale.
 
-/// The fields of a line, which blanks and tabs separate.
+/// The fields of a line, separated by blanks and tabs.
 class TextFields {
  public:
   explicit TextFields(std::string_view line) : rest_(line) {}
 
-  /// The next field; empty when there is none.
+  /// Returns the next field; empty at the end.
   std::string_view next() {
     std::size_t begin = 0;
     while (begin < rest_.size() && is_space(rest_[begin])) ++begin;
@@ -29,7 +29,7 @@ class TextFields {
     return field;
   }
 
-  /// What stands after the field read last.
+  /// Returns the text after the field read last.
   std::string_view rest() const { return rest_; }
 
  private:
@@ -38,14 +38,14 @@ class TextFields {
   std::string_view rest_;
 };
 
-/// The number a field holds, whole field, also "nan" and "inf"; nothing when it is none, or one
-/// that no double comes near.
+/// Returns the number that the whole field contains, also "nan" and "inf". Returns nothing if the
+/// field is no number or is out of range of a double.
 std::optional<double> number_in(std::string_view field);
 
-/// The same for whole numbers.
+/// Returns the whole number that the field contains, or nothing.
 std::optional<std::int64_t> whole_number_in(std::string_view field);
 
-/// One of the two, by the type: double, or any whole number's.
+/// Calls number_in or whole_number_in, by the type: double or any integer.
 template <class Number>
 std::optional<Number> number_of_type(std::string_view field) {
   if constexpr (std::is_same_v<Number, double>) {
@@ -55,13 +55,13 @@ std::optional<Number> number_of_type(std::string_view field) {
   }
 }
 
-/// A text without the white space at its ends.
+/// Returns a text without the white space at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// A field as a sentence shows it: cut when long, without control characters.
+/// Returns a field for a message: shortened if long, without control characters.
 std::string shown(std::string_view field);
 
-/// The same in quotes.
+/// Returns `shown` in quotes.
 std::string in_quotes(std::string_view field);
 
 }  // namespace wscvt

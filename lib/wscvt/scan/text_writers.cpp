@@ -16,7 +16,7 @@ std::string text_of(const Vector3& p) {
   return format_exact(p.x()) + " " + format_exact(p.y()) + " " + format_exact(p.z());
 }
 
-/// The corners' numbers, from `first` on.
+/// Returns the corners' indices, counted from `first`.
 std::string text_of(const Triangle& t, std::int64_t first, const char* between) {
   return std::to_string(t[0] + first) + between + std::to_string(t[1] + first) + between +
          std::to_string(t[2] + first);
@@ -34,7 +34,7 @@ std::string lines_of(const std::vector<Triangle>& triangles) {
   return text;
 }
 
-/// 3, 6, 9, ...: where each triangle's corners end.
+/// Returns 3, 6, 9, ...: the end of each triangle's corners.
 std::string ends_of(std::size_t triangles) {
   std::string text;
   for (std::size_t f = 1; f <= triangles; ++f) text += std::to_string(3 * f) + "\n";
@@ -60,7 +60,7 @@ std::string vtk_corners(const IndexedMesh& mesh) {
          vtk_data_array("Int64", "Name=\"offsets\"", ends_of(mesh.triangles.size()));
 }
 
-/// A number of at most 20 characters.
+/// Returns a number in at most 20 characters.
 std::string short_text(double value) {
   constexpr std::size_t longest = 20;
   std::string text = format_exact(value);
@@ -133,7 +133,7 @@ void write_gmsh(std::ostream& stream, const IndexedMesh& mesh) {
   }
   const std::string nodes = std::to_string(mesh.points.size());
   const std::string faces = std::to_string(mesh.triangles.size());
-  // One surface with the number 1: its box, no physical groups and no curves.
+  // One surface, number 1: its box, no physical groups and no curves.
   stream << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 " << text_of(low) << " "
          << text_of(high) << " 0 0\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes
          << "\n2 1 0 " << nodes << "\n";

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that another one names, in its folder: under the name as it is, or with slashes for
-/// backslashes, or without folders. The first of them if none is there.
+/// Returns the path of a file that another file names, in its folder. Tries the name unchanged,
+/// with slashes for backslashes, and without folders. Returns the first if no file exists.
 fs::path named_file(const fs::path& folder, const std::string& name) {
   std::string with_slashes = name;
   std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
@@ -37,17 +37,17 @@ fs::path named_file(const fs::path& folder, const std::string& name) {
 }
 
 struct Material {
-  std::string picture;             ///< name; empty: none
+  std::string picture;             ///< file name; empty: none
   fs::path folder;                 ///< of its library
   std::optional<Vector3> diffuse;  ///< colour, 0 to 1
 };
 
-/// The name behind the options of a map, which may hold blanks.
+/// Returns the name after the options of a map; it may contain blanks.
 std::string map_name(TextFields fields) {
   std::string_view name = trimmed(fields.rest());
   std::string_view field = fields.next();
   while (!field.empty() && field.front() == '-') {
-    // Of options with a word it is one; of those with numbers there are up to three.
+    // Some options have one word as argument, others up to three numbers.
     const bool has_numbers = field == "-o" || field == "-s" || field == "-t" || field == "-mm";
     name = trimmed(fields.rest());
     field = fields.next();
@@ -86,7 +86,7 @@ void read_materials(const fs::path& path, std::map<std::string, Material>& mater
   }
 }
 
-/// One pixel.
+/// Returns a picture of one pixel.
 TexturePicture plain_picture(const Vector3& colour) {
   TexturePicture picture{1, 1, {}};
   for (const double part : colour) {
@@ -95,7 +95,7 @@ TexturePicture plain_picture(const Vector3& colour) {
   return picture;
 }
 
-/// The files of materials, of which one name may hold blanks, or blanks lie between several.
+/// Reads the material files. Blanks may be part of a name or separate several names.
 std::map<std::string, Material> materials_of(const std::vector<std::string>& libraries,
                                              const fs::path& folder,
                                              std::vector<std::string>& warnings) {
@@ -138,7 +138,7 @@ std::vector<TexturePicture> pictures_of(const std::vector<std::string>& names,
     materials = materials_of(libraries, folder, warnings);
   }
   std::vector<TexturePicture> pictures(names.size());
-  std::map<fs::path, std::size_t> known;  // several materials may show one picture
+  std::map<fs::path, std::size_t> known;  // several materials may use one picture
   bool has_picture = false;
   for (std::size_t k = 0; k < pictures.size(); ++k) {
     execution.report(static_cast<double>(k) / static_cast<double>(pictures.size()),

@@ -10,7 +10,7 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that starting a block costs nothing.
+/// Large enough that the start of a block costs little.
 constexpr std::size_t fan_block = 16384;
 
 }  // namespace
@@ -20,9 +20,9 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
                                     std::int32_t component, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
   const std::vector<Triangle>& triangles = mesh.triangles;
-  // A vertex has one fan when a walk around it, from edge to edge, meets as many corners as there
-  // are. `first_corner` is where that walk starts for every vertex, `valence` the number of
-  // corners; a corner of a face is named by the half-edge that starts there.
+  // A vertex has one fan if a walk around it, from edge to edge, visits all its corners.
+  // `first_corner` is the start of this walk for every vertex, `valence` the number of corners. The
+  // half-edge that starts at a corner identifies the corner.
   std::vector<std::int32_t> first_corner(vertices, -1);
   std::vector<std::int32_t> valence(vertices, 0);
   for (std::size_t f = 0; f < triangles.size(); ++f) {
@@ -32,7 +32,7 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
       if (valence[v]++ == 0) first_corner[v] = static_cast<std::int32_t>(3 * f + k);
     }
   }
-  // Calls visit(corner) for the corners of one fan, whatever way round its faces are listed.
+  // Calls visit(corner) for the corners of one fan, for any orientation of its faces.
   const auto walk_fan = [&](std::int32_t start, const auto& visit) {
     const std::int32_t v = triangles[face_of(start)][corner_of(start)];
     std::int32_t exit = start;  // the half-edge through which the walk leaves the face
@@ -48,7 +48,7 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
       exit = static_cast<std::int32_t>(3 * f + (starts_here ? preceding(here) : here));
     } while (corner != start);
   };
-  // One list a block, joined in order: the same list on any number of threads.
+  // One list per block, joined in order, so the result does not depend on the number of threads.
   std::vector<std::vector<std::int32_t>> found((vertices + fan_block - 1) / fan_block);
   execution.parallel_for(vertices, fan_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
@@ -82,7 +82,7 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
       std::int32_t name = touching[i];
       if (j > 0) {
         name = static_cast<std::int32_t>(mesh.points.size());
-        // A copy first: the vector may move its points while it grows.
+        // Copy first, because the vector may move its points when it grows.
         mesh.points.push_back(Vector3(mesh.points[index(touching[i])]));
         ++added;
       }
@@ -92,7 +92,7 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
         renamed.emplace_back(corner, name);
       });
     }
-    // Not before all fans are walked, since the walk reads the names.
+    // Only after all fans are walked, because the walk reads the indices.
     for (const auto& [corner, name] : renamed)
       mesh.triangles[face_of(corner)][corner_of(corner)] = name;
   }

@@ -10,10 +10,10 @@
 
 namespace wscvt {
 
-/// Where more than one fan of faces of a closed component meets in a vertex, that is, where the
-/// surface touches itself in a point, gives every fan after the first a copy of the vertex. Returns
-/// how many vertices were added. `rings` as edge_rings makes them; they name faces and corners, not
-/// vertices, and stay right. `of_face` and `component` as in Components.
+/// Finds vertices of a closed component where the surface touches itself: more than one fan of
+/// faces meets there. Gives every fan after the first a copy of the vertex. Returns the number of
+/// added vertices. `rings` as edge_rings returns them; they refer to faces and corners, not
+/// vertices, and stay valid. `of_face` and `component` as in Components.
 std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
                                     const std::vector<std::int32_t>& of_face,
                                     std::int32_t component, const Execution& execution);

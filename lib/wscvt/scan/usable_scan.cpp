@@ -17,11 +17,11 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that starting a block costs nothing.
+/// Large enough that the start of a block costs little.
 constexpr std::size_t usable_block = 16384;
 
-/// First index in [0, count) for which `wrong` holds, or count. The first and not any, so that the
-/// message names the same one on any number of threads.
+/// Returns the first index in [0, count) for which `wrong` is true, or count. The first, so that
+/// the message does not depend on the number of threads.
 template <class Predicate>
 std::size_t first_wrong(std::size_t count, const Execution& execution, const Predicate& wrong) {
   std::vector<std::size_t> first((count + usable_block - 1) / usable_block, count);
@@ -66,7 +66,7 @@ void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
   }
 }
 
-/// Drops the faces with a corner at no finite position.
+/// Drops the faces with a corner that is not finite.
 std::size_t drop_lost_faces(IndexedMesh& mesh, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
   const std::size_t first =
@@ -110,7 +110,7 @@ std::vector<Vector3> different_points(std::vector<Vector3> points, const Executi
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   };
   std::sort(points.begin(), points.end(), less);
-  execution.report(0.0, "Sorting the points");  // a million points take tenths of a second to sort
+  execution.report(0.0, "Sorting the points");  // sorting a million points takes tenths of a second
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 4) {
     throw Error(ErrorCode::InvalidInput, "The scan has " + std::to_string(points.size()) +

@@ -14,11 +14,11 @@ namespace wscvt {
 
 namespace {
 
-/// Coordinates nearer than that, in parts of the largest, are of one plane: what single precision
-/// does to them.
+/// Coordinates nearer than this fraction of the largest are in one plane, because of single
+/// precision.
 constexpr double plane_tolerance = 1e-6;
 
-/// The axis that a face lies across; -1: none, -2: it has no area.
+/// Returns the axis perpendicular to a face; -1: none, -2: the face has no area.
 Eigen::Index axis_across(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 normal = doubled_area_normal(a, b, c);
   Eigen::Index axis = 0;
@@ -41,7 +41,7 @@ std::size_t count_of_planes(std::vector<double>& places) {
 }  // namespace
 
 bool has_voxel_steps(const IndexedMesh& mesh) {
-  // Other meshes end at one of their first faces.
+  // Other meshes return at one of their first faces.
   std::array<std::vector<double>, 3> places;
   for (const Triangle& t : mesh.triangles) {
     const Vector3& corner = mesh.points[index(t[0])];

@@ -7,12 +7,12 @@
 
 namespace wscvt {
 
-/// Whether a closed mesh is made of the faces of voxels: every face lies across an axis, in at
-/// least 4 planes along each axis and 18 in all, so that a box and simple parts are none. A ball of
-/// 3 voxels' radius has 21. The step need not be the same along the axes.
+/// Whether a closed mesh consists of voxel faces: every face is perpendicular to an axis, and there
+/// are at least 4 planes along each axis and 18 in total, so that a box and simple parts do not
+/// count. A ball with a radius of 3 voxels has 21 planes. The step may differ between the axes.
 bool has_voxel_steps(const IndexedMesh& mesh);
 
-/// What to know of such a mesh, called `name`, and what to do.
+/// Returns advice on such a mesh, called `name`.
 std::string voxel_steps_advice(const std::string& name);
 
 }  // namespace wscvt

@@ -9,14 +9,14 @@
 
 namespace wscvt {
 
-/// Lists of corners as VTK keeps them: behind each other, and where each ends.
+/// Lists of corners as in VTK: all corners in one array, and the end of each list.
 struct VtkPolygons {
   std::vector<std::int64_t> corners;
   std::vector<std::int64_t> ends;
 };
 
-/// Adds their triangles, or those of strips, with corners counted from `first` on. Throws
-/// Error(InputOutput) for corners that are not below `points` and ends that do not ascend.
+/// Adds the triangles of the polygons or strips, with corners counted from `first`. Throws
+/// Error(InputOutput) if a corner is not below `points` or the ends do not ascend.
 void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first, std::size_t points,
                   const ByteReader& reader, std::vector<Triangle>& triangles);
 

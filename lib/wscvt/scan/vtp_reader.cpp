@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Not by VTK itself, whose library is 100 MB. Its XML is a few tags with attributes, read here
-// without a parser of XML: that would be one more library for whoever links this one.
+// VTK itself is not used, because its library is 100 MB. Its XML has only a few tags with
+// attributes. An XML parser would be one more library to link.
 #include "wscvt/scan/vtp_reader.h"
 
 #include <zlib.h>
@@ -30,14 +30,14 @@ std::string value_of(const Attributes& attributes, const std::string& key,
 }
 
 struct Tag {
-  std::string name;  ///< with its slash where it ends an element
+  std::string name;  ///< with its slash if it ends an element
   Attributes attributes;
-  std::size_t end = 0;  ///< the byte behind it
+  std::size_t end = 0;  ///< the byte after it
 };
 
 struct Array {
   Attributes attributes;
-  std::size_t data = 0;  ///< the byte behind its tag
+  std::size_t data = 0;  ///< the byte after its tag
 };
 
 struct Piece {
@@ -45,7 +45,7 @@ struct Piece {
   std::map<std::string, Array> arrays;  ///< "Points/", "Polys/offsets"
 };
 
-/// Elements that hold arrays. Others may stand in an array.
+/// Whether an element contains arrays. Other elements may be inside an array.
 bool is_section(const std::string& name) {
   constexpr std::string_view sections[] = {"Points", "Verts",     "Lines",    "Strips",
                                            "Polys",  "PointData", "CellData", "FieldData"};
@@ -54,18 +54,18 @@ bool is_section(const std::string& name) {
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// Bytes of an array, from base64 or as they stand.
+/// The bytes of an array, from base64 or unchanged.
 class ArrayBytes {
  public:
   ArrayBytes(std::string_view text, bool is_base64) : text_(text), is_base64_(is_base64) {}
 
-  /// At most what the bytes that are left can hold.
+  /// Returns the maximum number of bytes that the remaining text can encode.
   std::size_t most() const {
     const std::size_t left = text_.size() - at_;
     return is_base64_ ? left / 4 * 3 + 3 + held_.size() : left;
   }
 
-  /// Nothing where fewer are left.
+  /// Returns nothing if fewer bytes are left.
   std::optional<std::string> next(std::size_t count) {
     if (count > most()) return {};
     std::string bytes;
@@ -83,7 +83,7 @@ class ArrayBytes {
   }
 
  private:
-  /// Texts may stand behind each other, each filled up with "=".
+  /// Several base64 texts may follow each other, each padded with "=".
   bool decode_four() {
     constexpr std::string_view digits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -130,7 +130,7 @@ class VtpReader {
     reader_.fail("is not the XML of a .vtp file" + std::string(export_again));
   }
 
-  /// The next tag from a byte on; nothing at the end of the text.
+  /// Returns the next tag from a byte on; nothing at the end of the text.
   std::optional<Tag> tag_from(std::size_t at) const {
     for (;;) {
       at = text_.find('<', at);
@@ -194,7 +194,7 @@ class VtpReader {
         is_base64_ = value_of(tag->attributes, "encoding", "base64") != "raw";
         while (at < text_.size() && is_blank(text_[at])) ++at;
         if (at < text_.size() && text_[at] == '_') appendix_ = at + 1;
-        return;  // what follows need be no XML
+        return;  // the rest need not be XML
       } else if (is_section(tag->name)) {
         section = tag->name;
       }
@@ -290,7 +290,7 @@ class VtpReader {
     return is_long ? at<std::uint64_t>(text->data()) : at<std::uint32_t>(text->data());
   }
 
-  /// Behind the lengths that VTK puts before an array.
+  /// Returns the bytes after the lengths that VTK puts before an array.
   std::string bytes_of(ArrayBytes bytes) const {
     const std::string packer = value_of(file_, "compressor");
     if (packer.empty()) {
@@ -312,7 +312,7 @@ class VtpReader {
     std::string all;
     for (std::uint64_t k = 0; k < blocks; ++k) {
       const std::uint64_t size = k + 1 == blocks && last != 0 ? last : block;
-      // What no packing can reach is not made room for.
+      // Refuses sizes that no compression can reach, before it allocates memory.
       constexpr std::uint64_t most_packed = 1100;
       if (packed_sizes[k] > bytes.most() || size / most_packed > packed_sizes[k]) fail_cut();
       const std::optional<std::string> packed =
@@ -331,7 +331,7 @@ class VtpReader {
     return all;
   }
 
-  /// In the byte order of the file.
+  /// Reads a value in the byte order of the file.
   template <class Value>
   Value at(const char* bytes) const {
     using boost::endian::order;
@@ -372,7 +372,7 @@ class VtpReader {
   std::string_view text_;  ///< all of the file
   Attributes file_;        ///< of VTKFile
   std::vector<Piece> pieces_;
-  std::size_t appendix_ = 0;  ///< the first byte of the appended data; 0: there are none
+  std::size_t appendix_ = 0;  ///< the first byte of the appended data; 0: no data
   bool is_base64_ = true;     ///< of the appended data
 };
 

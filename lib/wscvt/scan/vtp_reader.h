@@ -7,8 +7,8 @@
 namespace wscvt {
 
 /// Reads the polygons and strips of VTK's XML PolyData, all pieces: ascii, base64 or appended,
-/// plain or by ZLib. Vertices, lines and what points and faces carry are passed over. A file
-/// without faces gives points alone. Throws as read_mesh.
+/// plain or by ZLib. Skips vertices, lines and the data of points and faces. A file without faces
+/// gives only points. Throws as read_mesh.
 IndexedMesh read_vtp(ByteReader& reader);
 
 }  // namespace wscvt

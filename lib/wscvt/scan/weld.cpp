@@ -11,7 +11,7 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that starting a block costs nothing.
+/// Large enough that the start of a block costs little.
 constexpr std::size_t weld_block = 16384;
 
 using Cell = std::array<std::int64_t, 3>;
@@ -25,28 +25,28 @@ std::uint64_t hash_of(const Cell& cell) {
   return hash * 0xD6E8FEB86659FD93U;
 }
 
-/// Cubes into which the box is cut, to look for the neighbours of a point where they can be.
+/// Cubes of the box, to limit the search for the neighbours of a point.
 struct Grid {
   Vector3 low;
   double cells_per_length;
-  double reach;  ///< tolerance in cells, and what rounding may add to it
+  double reach;  ///< tolerance in cells, plus a margin for rounding
 
-  /// In cells, where a point is.
+  /// Returns the position of a point, in cells.
   Eigen::Array3d position(const Vector3& point) const {
     return (point - low).array() * cells_per_length;
   }
 };
 
 Grid grid_of(const Box& box, double tolerance, std::size_t points) {
-  // Of 64 tolerances, so that 9 points in 10 are further than one from the sides of their cube,
-  // and one look-up finds all that are near. But not larger than the spacing of points spread over
-  // the surface, or one cube would hold many of them; and not smaller than 2^-36 of the box, so
-  // that a double tells the cubes apart to 2^-17 of one.
+  // A cube's side is 64 tolerances, so that 9 points in 10 are more than a tolerance from the sides
+  // of their cube, and one look-up finds all near points. It is at most the spacing of points
+  // spread over the surface, else a cube would contain many points. It is at least 2^-36 of the
+  // box, so that a double resolves positions to 2^-17 of a cube.
   const double extent = (box.high - box.low).maxCoeff();
   const double spacing = extent / std::sqrt(static_cast<double>(points));
   const double size = std::max(std::min(64.0 * tolerance, std::max(spacing, 4.0 * tolerance)),
                                std::ldexp(extent, -36));
-  if (!(size > 0.0)) return {box.low, 0.0, 0.0};  // all points are one
+  if (!(size > 0.0)) return {box.low, 0.0, 0.0};  // all points are equal
   return {box.low, 1.0 / size, tolerance > 0.0 ? tolerance / size + 1e-4 : 0.0};
 }
 
@@ -85,11 +85,10 @@ Box box_of_faces(const IndexedMesh& mesh, const Execution& execution) {
 
 Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, double tolerance,
                        const Execution& execution) {
-  // A hash table of the points kept, open addressing, with the cube of a point as its key. What is
-  // slow about it, the cubes and their hashes, is done in parallel beforehand; the table itself is
-  // filled in the order of the points, so that the result does not depend on threads. CGAL's and
-  // MeshLab's ways, sorting the points or a map of them, take three times as long and know exact
-  // copies only.
+  // A hash table of the kept points, with open addressing; the key is the cube of a point. The slow
+  // part, the cubes and their hashes, is computed in parallel beforehand. The table is filled in
+  // the order of the points, so that the result does not depend on threads. CGAL and MeshLab sort
+  // the points or use a map; both take three times as long and find only exact copies.
   const std::size_t count = points.size();
   const Grid grid = grid_of(box, tolerance, count);
   unsigned bits = 2;
@@ -98,14 +97,14 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
   const auto slot_of = [&](const Cell& cell) {
     return static_cast<std::uint32_t>(hash_of(cell) >> (64U - bits));
   };
-  // For every point the slot of its cube (at most 31 bits), and the marks.
-  constexpr std::uint32_t at_side = 1U << 31U;    // equals may lie in the next cubes too
-  constexpr std::uint32_t outside = 0xFFFFFFFFU;  // not looked at
+  // For every point the slot of its cube (at most 31 bits), and these marks.
+  constexpr std::uint32_t at_side = 1U << 31U;    // equal points may be in the next cubes
+  constexpr std::uint32_t outside = 0xFFFFFFFFU;  // not compared
   std::vector<std::uint32_t> slots(count);
   execution.parallel_for(count, weld_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& p = points[i];
-      // Asked so that what is not a number is outside: it has no cell.
+      // Written so that NaN counts as outside, because it has no cell.
       if (!((p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all())) {
         slots[i] = outside;
         continue;
@@ -118,8 +117,8 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
   });
 
   std::vector<std::int32_t> table(mask + 1, -1);
-  // Of the points in the slots from `slot` up to the next free one the earliest that equals point
-  // i, or -1; `slot` is then the free one.
+  // Returns the first point equal to point i in the slots from `slot` to the next free slot. If
+  // there is none, returns -1 and sets `slot` to the free slot.
   const auto find = [&](std::size_t i, std::size_t& slot) {
     for (; table[slot] >= 0; slot = (slot + 1) & mask) {
       const Vector3& other = points[index(table[slot])];

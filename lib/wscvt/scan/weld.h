@@ -16,21 +16,22 @@ struct Box {
   Vector3 high = Vector3::Zero();
 };
 
-/// Box of all corners of the faces. A vertex of no face does not count: it may lie anywhere.
+/// Returns the box of all corners of the faces. Vertices without a face do not count, because they
+/// may lie anywhere.
 Box box_of_faces(const IndexedMesh& mesh, const Execution& execution);
 
-/// Which points are the same.
+/// The result of find_equal_points.
 struct Weld {
-  /// For every vertex the one that takes its place, itself or an earlier one; empty when all stay.
+  /// For every vertex its replacement: itself or an earlier vertex. Empty if all stay.
   std::vector<std::int32_t> first;
   std::size_t welded = 0;  ///< vertices merged into another
 };
 
-/// Merges points that differ by at most `tolerance` (length, >= 0; 0: exact copies, where -0 equals
-/// 0) in each coordinate. In their order, each point is merged into the earliest one kept that is
-/// so near, or is kept: no two kept points are within the tolerance of each other, and none is
-/// moved by more than it. Points outside of `box` (see box_of_faces), and those at no finite
-/// position, are no corners of faces and are left alone.
+/// Merges points that differ by at most `tolerance` in each coordinate (length, >= 0; 0: exact
+/// copies; -0 equals 0). In their order, each point is kept or merged into the earliest kept point
+/// within the tolerance. No two kept points are then within the tolerance, and no point moves by
+/// more than it. Leaves points outside `box` (see box_of_faces) and points that are not finite
+/// unchanged; they are no corners of faces.
 Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, double tolerance,
                        const Execution& execution);
 

@@ -10,15 +10,15 @@
 
 namespace wscvt {
 
-/// Directions sorted into the cells of a cube: six faces of resolution^2 squares, on which every
-/// plane through the centre cuts a straight line.
+/// Sorts directions into the cells of a cube: six faces of resolution^2 squares. Planes through the
+/// centre cut the faces in straight lines.
 class CubeMap {
  public:
-  /// `resolution` >= 1, which is not checked.
+  /// `resolution` >= 1; this is not checked.
   explicit CubeMap(int resolution) : resolution_(resolution) {}
 
-  /// About two triangles of an even mesh to a cell: a cell is touched by about five, and a walk
-  /// from a cell's own triangle is a few steps long.
+  /// Returns the resolution for about two triangles of an even mesh per cell. About five triangles
+  /// then touch a cell, and a walk from a cell's own triangle takes a few steps.
   static int resolution_for(std::size_t triangles) {
     return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles) / 12.0)), 1, 4096);
   }
@@ -27,7 +27,7 @@ class CubeMap {
     return 6 * static_cast<std::size_t>(resolution_) * static_cast<std::size_t>(resolution_);
   }
 
-  /// The cell of a direction; its length does not matter, zero must not be.
+  /// Returns the cell of a direction. The length is arbitrary, but not zero.
   std::size_t cell(const Vector3& direction) const {
     int axis = 0;
     direction.cwiseAbs().maxCoeff(&axis);
@@ -36,7 +36,7 @@ class CubeMap {
                 coordinate(direction[(axis + 2) % 3] / depth));
   }
 
-  /// Where a point is seen on the cube. Of the corners of many triangles it is found once for all.
+  /// The image of a point on the cube. A vertex of several triangles needs only one.
   struct Image {
     Vector3 point;
     int face = -1;   ///< -1 on and beside the cube's edges
@@ -59,9 +59,9 @@ class CubeMap {
     return image;
   }
 
-  /// Calls visit(cell) for a set of cells that holds every direction in which the triangle a, b, c
-  /// is seen from the origin, and some more: those of the rectangle about its image on each face of
-  /// the cube. Cells come in ascending order on each face, none twice.
+  /// Calls visit(cell) for all cells in which the triangle a, b, c is seen from the origin, and
+  /// some more: all cells of the rectangle about its image on each face of the cube. Visits the
+  /// cells of each face in ascending order, each cell once.
   template <class Visit>
   void visit_cells(const Image& a, const Image& b, const Image& c, const Visit& visit) const {
     visit_rectangles(a, b, c, [&](int face, const Rectangle& rectangle) {
@@ -74,7 +74,7 @@ class CubeMap {
     });
   }
 
-  /// How many cells visit_cells visits, without going through them.
+  /// Returns the number of cells that visit_cells visits, without visiting them.
   std::size_t count_cells(const Image& a, const Image& b, const Image& c) const {
     std::size_t count = 0;
     visit_rectangles(a, b, c, [&](int, const Rectangle& rectangle) {
@@ -86,7 +86,7 @@ class CubeMap {
   }
 
  private:
-  /// By how much images are made larger, against rounding; the side of the cube is 2.
+  /// Images are enlarged by this much against rounding; the side of the cube is 2.
   static constexpr double margin = 1e-9;
 
   struct Rectangle {
@@ -102,8 +102,7 @@ class CubeMap {
 
   static int face_of(int axis, bool negative) { return 2 * axis + (negative ? 1 : 0); }
 
-  /// Calls visit(face, rectangle) for the image of the triangle on every face of the cube that it
-  /// is seen on.
+  /// Calls visit(face, rectangle) for the triangle's image on every face of the cube that shows it.
   template <class Visit>
   static void visit_rectangles(const Image& a, const Image& b, const Image& c, const Visit& visit) {
     if (a.face >= 0 && a.face == b.face && a.face == c.face) {
@@ -141,7 +140,7 @@ class CubeMap {
             coordinate(rectangle.low[1] - margin), coordinate(rectangle.high[1] + margin)};
   }
 
-  /// A rectangle about the image of the part of a triangle in front of one face of the cube.
+  /// Returns a rectangle about the image of the triangle's part in front of one face of the cube.
   static Rectangle clipped(const std::array<const Vector3*, 3>& corners, int axis, bool negative) {
     struct Polygon {
       std::array<Vector3, 8> points;
@@ -156,8 +155,8 @@ class CubeMap {
       polygon.points[polygon.count++] = p;
     }
     if (ahead) {
-      // As of most triangles across an edge of the cube: the whole triangle is seen on the face's
-      // plane, and what of its rectangle lies on the face holds the part on the face.
+      // The face's plane shows the whole triangle, as for most triangles across an edge of the
+      // cube. The part of its rectangle on the face then contains the triangle's part there.
       Rectangle whole;
       for (std::size_t i = 0; i < 3; ++i) {
         const Vector3& p = polygon.points[i];
@@ -170,12 +169,12 @@ class CubeMap {
       }
       return whole;
     }
-    // Else it is cut by the four planes through the origin and the face's edges.
+    // Otherwise the four planes through the origin and the face's edges cut the triangle.
     const auto height = [](int plane, const Vector3& p) {
       const double side = plane % 2 == 0 ? p[plane / 2] : -p[plane / 2];
       return p.z() * (1.0 + margin) - side;
     };
-    // Most faces of the cube see nothing of a triangle, which one of their planes tells.
+    // Most faces of the cube do not show the triangle, and one of their planes already proves it.
     for (int plane = 0; plane < 4; ++plane) {
       if (height(plane, polygon.points[0]) < 0.0 && height(plane, polygon.points[1]) < 0.0 &&
           height(plane, polygon.points[2]) < 0.0) {

@@ -9,15 +9,16 @@
 
 namespace wscvt {
 
-/// Signed solid angle in [-2 pi, 2 pi], in steradians, of the triangle a, b, c of unit vectors seen
-/// from the origin; positive when they run counter-clockwise seen from outside the sphere (Van
-/// Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126, eq. 8).
+/// Returns the signed solid angle in [-2 pi, 2 pi], in steradians, of the triangle of unit vectors
+/// a, b, c seen from the origin. It is positive if they are counter-clockwise seen from outside the
+/// sphere (Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126, eq. 8).
 inline double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) {
   // Edge vectors keep the relative precision of a triangle far smaller than the sphere.
   const double numerator = a.dot(doubled_area_normal(a, b, c));
   const double denominator = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
   if (std::abs(numerator) < 0.02 * denominator) {
-    // The arctangent's series, to the last bit in this range: a dense scan has no other triangles.
+    // The arctangent's series, exact to the last bit in this range. A dense scan has only such
+    // triangles.
     const double x = numerator / denominator;
     const double s = x * x;
     return 2.0 * x * (1.0 + s * (-1.0 / 3.0 + s * (0.2 + s * (-1.0 / 7.0 + s * (1.0 / 9.0)))));
@@ -25,10 +26,10 @@ inline double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) 
   return 2.0 * std::atan2(numerator, denominator);
 }
 
-/// Solid angles of the faces of a closed surface, added up.
+/// Sums of the solid angles of a closed surface's faces.
 struct SolidAngleSums {
   double outward = 0.0;   ///< of the faces that look away from the origin
-  double backward = 0.0;  ///< of those that look back at it, >= 0
+  double backward = 0.0;  ///< of the faces that look towards it, >= 0
   bool touched = false;   ///< a face fills half the sphere: the origin lies on it
 
   void add(double angle) {
@@ -47,9 +48,9 @@ struct SolidAngleSums {
   /// See folded_solid_angle in folded_solid_angle.h.
   double folded_share() const {
     constexpr double four_pi = 4.0 * pi;
-    // The signed angles add up to 4 pi seen from inside and to 0 from outside.
+    // The signed angles sum to 4 pi seen from inside and to 0 seen from outside.
     const bool inside = !touched && outward - backward > 0.5 * four_pi;
-    const double folded = 2.0 * backward / four_pi;  // as much again looks outward
+    const double folded = 2.0 * backward / four_pi;  // an equal amount looks outward
     return inside ? folded : 1.0 + folded;
   }
 };

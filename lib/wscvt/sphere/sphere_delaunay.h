@@ -8,9 +8,9 @@
 
 namespace wscvt {
 
-/// Triangles of the Delaunay triangulation of finite unit vectors on the sphere (CGAL's), in no
-/// order; empty when they do not cover the sphere or a seed is lost, because CGAL takes it for a
-/// neighbour. A million seeds take seconds on the one thread that `execution` reports from.
+/// Returns the triangles of CGAL's Delaunay triangulation of finite unit vectors on the sphere, in
+/// no order. Empty if they do not cover the sphere, or if CGAL merges a seed with a neighbour. Uses
+/// the one thread that `execution` reports from; a million seeds take seconds.
 std::vector<Triangle> sphere_delaunay(const std::vector<Vector3>& seeds,
                                       const Execution& execution);
 

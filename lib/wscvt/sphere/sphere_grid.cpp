@@ -12,13 +12,13 @@ namespace wscvt {
 
 namespace {
 
-/// Points a partial grid of `spread` gathers at least, and how many such grids there may be: the
+/// Minimum number of points per partial grid of `spread`, and maximum number of such grids. The
 /// sums must not depend on the threads, and every grid costs memory.
 constexpr std::size_t points_per_slab = 65536;
 constexpr std::size_t maximum_slabs = 8;
 
-/// Inverse tangent on [0, 1] to 2e-16: Cephes' rational approximation (Moshier 1992) on
-/// [-0.21, 0.66]. Well ahead of std::atan2, and the same bits with every C library.
+/// Computes the inverse tangent on [0, 1] to 2e-16 by Cephes' rational approximation (Moshier 1992)
+/// on [-0.21, 0.66]. Faster than std::atan2, and equal bits with every C library.
 inline double arc_tangent_of_ratio(double smaller, double larger) {
   const bool upper = smaller > 0.66 * larger;
   const double numerator = upper ? smaller - larger : smaller;
@@ -38,7 +38,7 @@ inline double arc_tangent_of_ratio(double smaller, double larger) {
   return (upper ? 0.25 * pi : 0.0) + (t + t * (z * p / q));
 }
 
-/// atan2(y, x) in [0, 2 pi); the smallest positive number keeps 0/0 away.
+/// Returns atan2(y, x) in [0, 2 pi). The smallest positive number prevents 0/0.
 inline double azimuth_of(double y, double x) {
   const double ax = std::abs(x);
   const double ay = std::abs(y);
@@ -49,7 +49,7 @@ inline double azimuth_of(double y, double x) {
   return y < 0.0 ? 2.0 * pi - angle : angle;
 }
 
-/// Lagrange weights of the nodes 1 - stencil/2 ... stencil/2 at t in [0, 1].
+/// Computes the Lagrange weights of the nodes 1 - stencil/2 ... stencil/2 at t in [0, 1].
 template <int stencil>
 inline void lagrange_weights(double t, double (&weights)[stencil]);
 
@@ -82,7 +82,7 @@ inline void lagrange_weights<6>(double t, double (&weights)[6]) {
   weights[5] = ab * td * e * (1.0 / 120.0);
 }
 
-/// Where a stencil starts and how its nodes weigh.
+/// The start of a stencil and the weights of its nodes.
 template <int stencil>
 struct Stencil {
   std::size_t start;
@@ -96,17 +96,18 @@ inline Stencil<stencil> make_stencil(const Vector3& u, int rows, std::size_t str
   const double sine = std::sqrt(u.x() * u.x() + u.y() * u.y());
   const double s = azimuth_of(sine, u.z()) * (rows / pi) - 0.5;
   const double phi = azimuth_of(u.y(), u.x()) * (rows / pi);
-  // Rows lie half a step off the poles. The clamps meet rounding and directions off unit length.
+  // Rows are half a step off the poles. The clamps are for rounding and directions not of unit
+  // length.
   const int j = std::clamp(static_cast<int>(s + 1.0) - 1, -1, rows - 1);
   const int k = std::clamp(static_cast<int>(phi), 0, 2 * rows - 1);
   lagrange_weights<stencil>(s - j, result.row);
   lagrange_weights<stencil>(phi - k, result.column);
-  // The halo is stencil/2 wide and the stencil starts stencil/2 - 1 nodes before (j, k).
+  // The halo is stencil/2 wide, and the stencil starts stencil/2 - 1 nodes before (j, k).
   result.start = static_cast<std::size_t>(j + 1) * stride + static_cast<std::size_t>(k + 1);
   return result;
 }
 
-/// Of `fields` grids, nodes[k] to values[k].
+/// Interpolates `fields` grids, from nodes[k] to values[k].
 template <int stencil>
 void interpolate_stencils(const double* const* nodes, std::size_t fields, int rows,
                           std::size_t stride, const Vector3* directions, std::size_t count,
@@ -219,8 +220,8 @@ std::vector<double> SphereGrid::values() const {
 
 namespace {
 
-/// Calls visit(halo row, halo column, row, column) for every node of the halo and the node of the
-/// grid it repeats.
+/// Calls visit(halo row, halo column, row, column) for every node of the halo and the grid node
+/// that it copies.
 template <class Visit>
 void for_each_halo_node(int rows, int halo, const Visit& visit) {
   const int columns = 2 * rows;

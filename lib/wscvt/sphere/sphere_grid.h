@@ -10,24 +10,24 @@
 
 namespace wscvt {
 
-/// Fills `values` (end - begin of them) for the points [begin, end) of an array; called from
-/// several threads at once.
+/// Fills the end - begin `values` for the points [begin, end) of an array. Called from several
+/// threads at once.
 using PointValueFunction = std::function<void(std::size_t begin, std::size_t end, double* values)>;
 
-/// A field tabulated on an equal-angle grid of the sphere: rows at theta = (j + 1/2) pi / rows,
-/// columns at phi = k pi / rows, 2 rows of them. Over a pole a field goes on in the row half a turn
+/// A field tabulated on an equal-angle grid of the sphere: rows at theta = (j + 1/2) pi / rows, and
+/// 2 rows columns at phi = k pi / rows. Beyond a pole a field continues in the row half a turn
 /// away, so the grid has no edge.
 ///
-/// Look-up is by local Lagrange interpolation over stencil x stencil nodes, which errs by at most
-/// C (degree pi / rows)^stencil of a harmonic's size, C = 0.024 (stencil 4) or 0.005 (stencil 6),
-/// in each of the two angles. It is continuous, but only piecewise smooth.
+/// Look-up is local Lagrange interpolation over stencil x stencil nodes. For a harmonic, its error
+/// in each of the two angles is at most C (degree pi / rows)^stencil of the harmonic's size, with C
+/// = 0.024 (stencil 4) or 0.005 (stencil 6). The result is continuous but only piecewise smooth.
 class SphereGrid {
  public:
-  /// All zero. Throws Error(InvalidInput) unless rows >= 8, stencil 4 or 6.
+  /// Sets all nodes to zero. Throws Error(InvalidInput) unless rows >= 8 and stencil is 4 or 6.
   SphereGrid(int rows, int stencil);
 
-  /// Takes over node values, row by row. Throws as the first, and Error(InvalidInput) unless there
-  /// are rows x 2 rows of them.
+  /// Copies node values, row by row. Throws as the first constructor, and Error(InvalidInput)
+  /// unless there are rows x 2 rows values.
   SphereGrid(int rows, int stencil, const std::vector<double>& values);
 
   int rows() const { return rows_; }
@@ -42,20 +42,20 @@ class SphereGrid {
   /// Node values, row by row.
   std::vector<double> values() const;
 
-  /// The interpolated field in `count` directions (unit vectors). May be called from several
-  /// threads at once; the value for one does not depend on the others.
+  /// Interpolates the field in `count` directions (unit vectors). Thread-safe. A value does not
+  /// depend on the other directions.
   void interpolate(const Vector3* directions, std::size_t count, double* values) const;
 
-  /// The same of several fields at once, each into its own array: finding a direction's place on
-  /// the grid is more than half of a look-up. Throws Error(InvalidInput) unless all `grids` have
-  /// the rows and the stencil of the first and there is an array for each.
+  /// Interpolates several fields at once, each into its own array, because finding a direction's
+  /// position on the grid takes more than half of a look-up. Throws Error(InvalidInput) unless all
+  /// `grids` have equal rows and stencil and there is one array per grid.
   static void interpolate(const std::vector<const SphereGrid*>& grids, const Vector3* directions,
                           std::size_t count, const std::vector<double*>& values);
 
-  /// The transpose of `interpolate`: every point's value is shared out over its stencil, so that
-  /// the sum over the nodes of (node value x f) is the sum over the points of (value x f) for every
-  /// f the interpolation reproduces. Same bytes on any number of threads. Throws as the first
-  /// constructor.
+  /// Computes the transpose of `interpolate`: spreads every point's value over its stencil. For
+  /// every f that the interpolation reproduces, the sum over the nodes of (node value x f) then
+  /// equals the sum over the points of (value x f). The bytes do not depend on the number of
+  /// threads. Throws as the first constructor.
   static SphereGrid spread(int rows, int stencil, const std::vector<Vector3>& directions,
                            const PointValueFunction& point_values, const Execution& execution);
 

@@ -28,7 +28,8 @@ Vector3 direction(double z, double azimuth) {
   return {s * std::cos(azimuth), s * std::sin(azimuth), z};
 }
 
-// Azimuths of the lattice in turns, in [0, 1): the fractional part of (i + 1/2) * golden ratio.
+// Returns an azimuth of the lattice in turns, in [0, 1): the fractional part of (i + 1/2) * golden
+// ratio.
 double lattice_turn(int i) {
   const double golden_ratio = 0.5 * (1.0 + std::sqrt(5.0));
   const double turns = (i + 0.5) * golden_ratio;
@@ -39,8 +40,8 @@ double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1.0p-53;
 }
 
-// Inverse of the piecewise linear cumulative distribution `cumulative` (first 0, last 1) at
-// `value`, in units of intervals.
+// Returns the inverse of the piecewise linear cumulative distribution `cumulative` (first 0, last
+// 1) at `value`, in units of intervals.
 template <class Cumulative>
 double invert(const Cumulative& cumulative, std::size_t intervals, double value) {
   std::size_t low = 0;
@@ -62,7 +63,7 @@ GaussLegendre gauss_legendre(int count) {
   GaussLegendre rule;
   rule.nodes.resize(count);
   rule.weights.resize(count);
-  // Boost gives the zeros that are not negative, in ascending order; the rest mirror them.
+  // Boost returns the zeros >= 0 in ascending order; the other zeros mirror them.
   const std::vector<double> zeros = boost::math::legendre_p_zeros<double>(count);
   for (std::size_t i = 0; i < zeros.size(); ++i) {
     const double x = zeros[zeros.size() - 1 - i];
@@ -115,7 +116,7 @@ std::vector<Vector3> warped_lattice(int count, const DensityFunction& density, i
   require_at_least(count, 1, "number of lattice points");
   require_at_least(rows, 2, "number of latitude bands");
   const std::size_t columns = 2 * static_cast<std::size_t>(rows);
-  std::vector<double> bounds(rows + 1);  // z at the bounds of the bands, falling
+  std::vector<double> bounds(rows + 1);  // z at the bounds of the bands, descending
   for (int j = 0; j <= rows; ++j) bounds[j] = std::cos(pi * j / rows);
   std::vector<Vector3> centres;
   centres.reserve(rows * columns);
@@ -126,7 +127,8 @@ std::vector<Vector3> warped_lattice(int count, const DensityFunction& density, i
     }
   }
   const std::vector<double> values = density(centres);
-  // Per band the cumulative share over azimuth, columns + 1 values; over the bands, of their mass.
+  // Cumulative fractions: per band over azimuth, columns + 1 values, and of the mass over the
+  // bands.
   std::vector<double> conditional(rows * (columns + 1));
   std::vector<double> marginal(rows + 1, 0.0);
   for (int j = 0; j < rows; ++j) {
@@ -198,7 +200,7 @@ std::vector<Vector3> subdivided_icosahedron(int frequency) {
       corners.emplace_back(b, 0.0, a);
     }
   }
-  // Corners of one edge are 2 apart, all others at least 3.2.
+  // The corners of an edge are 2 apart, all other pairs at least 3.2.
   const auto joined = [&](std::size_t i, std::size_t j) {
     return (corners[i] - corners[j]).squaredNorm() < 4.5;
   };

@@ -18,8 +18,8 @@ namespace wscvt {
 
 namespace {
 
-/// Beyond this many steradian exp(w / 2) may leave the range in which the predicates' products
-/// neither overflow nor underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
+/// Largest absolute weight in steradian. Beyond it, the predicates' products of exp(w / 2) may
+/// overflow or underflow: exp(200 / 2)^3 = 1e130. The whole sphere has 4 pi.
 constexpr double weight_limit = 200.0;
 
 constexpr std::size_t triangle_block = 4096;
@@ -36,10 +36,10 @@ bool is_nearly_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
   return !(six_volumes(a, b, c) > 1e-6 * longest);
 }
 
-/// The points whose convex hull is the regular triangulation. That of circles of angular radius r
-/// about p is the hull of p / cos(r) (Sugihara 2002, "Laguerre Voronoi diagram on the sphere", J.
-/// Geom. Graph. 6, 69-81); exp(w / 2) is 1 / cos(r) for w = r^2 up to terms in r^4, and goes on to
-/// weights below 0, for which there is no circle.
+/// Returns the points whose convex hull is the regular triangulation. For circles of angular radius
+/// r about p these are p / cos(r) (Sugihara 2002, "Laguerre Voronoi diagram on the sphere", J.
+/// Geom. Graph. 6, 69-81); exp(w / 2) equals 1 / cos(r) for w = r^2 up to terms in r^4, and is also
+/// defined for weights below 0, which have no circle.
 std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
   std::vector<Vector3> lifted(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) lifted[i] = seeds[i] * std::exp(0.5 * weights[i]);
@@ -51,8 +51,8 @@ std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<d
               "The seeds cannot be triangulated on the sphere: " + what);
 }
 
-/// Whether the triangles are as many as cover the sphere once, and all counter-clockwise: by
-/// Euler's formula they then leave no gap and lie on each other nowhere.
+/// Whether the triangles have the number that covers the sphere once, and are all
+/// counter-clockwise. By Euler's formula they then leave no gap and do not overlap.
 bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vector3>& seeds,
                    const Execution& execution) {
   if (triangles.size() != 2 * seeds.size() - 4) return false;
@@ -97,7 +97,7 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
                                              " weights for " + std::to_string(seeds.size()) +
                                              " seeds; give one each, or none.");
   }
-  // The exact numbers behind the predicates end the program at what is not a number.
+  // The exact arithmetic of the predicates ends the program at NaN.
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (seeds[i].allFinite()) continue;
     throw Error(ErrorCode::InvalidInput,
@@ -108,12 +108,12 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
            "nodes, or another weighting.";
   }
   // The Delaunay triangulation and flips are several times as fast as a convex hull, and with
-  // moderate weights few edges differ. Far apart, weights may leave edges that no flip gets rid of
-  // (Edelsbrunner and Shah 1996: flips in the plane get stuck); then the hull decides.
+  // moderate weights few edges differ. Very different weights may leave edges that flips cannot
+  // remove (Edelsbrunner and Shah 1996: flips in the plane get stuck). Then the hull is used.
   std::vector<Triangle> triangles = sphere_delaunay(seeds, execution);
   if (covers_sphere(triangles, seeds, execution)) {
     set_triangles(std::move(triangles), seeds.size(), execution);
-    // Also brings CGAL's choice among cocircular seeds under our own predicate.
+    // Also applies our own predicate to cocircular seeds, instead of CGAL's choice.
     if (restore_regular(seeds, weights, execution).complete()) {
       set_triangles(std::move(triangles_), seeds.size(), execution);
       return nullptr;
@@ -151,9 +151,9 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
 
 void SphereTriangulation::set_triangles(std::vector<Triangle> triangles, std::size_t vertices,
                                         const Execution& execution) {
-  // Triangles in an order of their own, from their smallest corner on: the same seeds get the same
-  // arrays, whichever way they were triangulated. Grouping two million by that corner, in parallel,
-  // took as long as this sort (.23 s).
+  // Sort the triangles, each from its smallest corner: equal seeds get equal arrays, however they
+  // were triangulated. Grouping two million by that corner, in parallel, took as long as this sort
+  // (0.23 s).
   triangles_ = std::move(triangles);
   for (Triangle& t : triangles_) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
@@ -185,8 +185,8 @@ template <class NeedsFlip>
 SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Vector3>& seeds,
                                                             const NeedsFlip& needs_flip,
                                                             const Execution& execution) {
-  // The search for edges to flip is the bulk of the work and runs in parallel; flips are few and
-  // run in one order. Blocks are small enough for the coarsest levels' hundreds of triangles.
+  // The search for edges to flip takes most of the time and runs in parallel. Flips are few and run
+  // in a fixed order. Blocks are small enough for the coarsest levels' hundreds of triangles.
   constexpr std::size_t block = 256;
   const std::size_t count = triangles_.size();
   std::vector<std::vector<std::int32_t>> found((count + block - 1) / block);
@@ -215,12 +215,11 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
   std::vector<std::int32_t> stack;
   for (const auto& edges : found) stack.insert(stack.end(), edges.begin(), edges.end());
   std::vector<std::int32_t> stuck;
-  // Why flips end. Regular ones: a flip replaces a valley of the lifted surface by a ridge, so the
-  // surface only ever rises, and there are finitely many triangulations (Lawson 1977). Those by the
-  // angles of a surface lower the Dirichlet energy of functions linear on the triangles as long as
-  // the surface stays the same (Bobenko and Springborn 2007); but here the new edge runs straight
-  // through space, which bends the surface, so they might in principle run in circles: hence the
-  // limit.
+  // Regular flips end: each replaces a valley of the lifted surface by a ridge, so the surface only
+  // rises, and there are finitely many triangulations (Lawson 1977). Flips by the surface's angles
+  // lower the Dirichlet energy of functions linear on the triangles if the surface does not change
+  // (Bobenko and Springborn 2007). But here the new edge is straight in space and changes the
+  // surface, so flips could cycle. The limit prevents that.
   const int limit = static_cast<int>(std::min<std::size_t>(50 * count, 1U << 30));
   bool progress = true;
   while (progress) {
@@ -229,8 +228,8 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       const std::int32_t h = stack.back();
       stack.pop_back();
       if (!needs_flip(h)) continue;
-      // An edge whose two triangles make no convex quadrilateral stays, for now: a flip beside it
-      // may make room.
+      // If the edge's two triangles make no convex quadrilateral, it stays for now. A neighbouring
+      // flip may make it possible.
       if (!is_flippable(h, seeds)) {
         stuck.push_back(h);
         continue;
@@ -242,7 +241,7 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       progress = true;
       for (const std::int32_t edge : {t0, t0 + 1, t1, t1 + 1}) stack.push_back(edge);
     }
-    // Not swapped: what the limit leaves on the stack counts as stuck too.
+    // Not swapped, because edges that the limit leaves on the stack also count as stuck.
     stack.insert(stack.end(), stuck.begin(), stuck.end());
     stuck.clear();
     if (stack.empty()) break;
@@ -281,7 +280,7 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         const Vector3& b = positions[origin(other)];
         const Vector3& c = positions[origin(previous(h))];
         const Vector3& d = positions[origin(previous(other))];
-        // The angles at c and d sum to more than pi when cot + cot < 0.
+        // The angles at c and d sum to more than pi if cot + cot < 0.
         const double cosine_c = (a - c).dot(b - c);
         const double cosine_d = (a - d).dot(b - d);
         if (cosine_c >= 0.0 && cosine_d >= 0.0) return false;
@@ -289,12 +288,12 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         const double sine_d = (a - d).cross(b - d).norm();
         const double left = sine_c * cosine_d;
         const double right = cosine_c * sine_d;
-        // Of four points on a circle both diagonals are equal: rounding, some 1e-15 here, must not
-        // flip them to and fro.
+        // For four points on a circle both diagonals are equal. Rounding, some 1e-15 here, must not
+        // flip them repeatedly.
         if (!(left + right < -1e-12 * (std::abs(left) + std::abs(right)))) return false;
-        // Three seeds of a lattice often lie on one great circle but for rounding, and the exact
-        // predicate then allows a triangle between them that the rounding of its corners' places
-        // makes flat.
+        // Three seeds of a lattice often lie on one great circle, except for rounding. The exact
+        // predicate then allows a triangle between them, but rounding of its positions makes it
+        // flat.
         const std::int32_t ends[] = {origin(h), origin(other)};
         const Vector3& apex_c = seeds[origin(previous(h))];
         const Vector3& apex_d = seeds[origin(previous(other))];

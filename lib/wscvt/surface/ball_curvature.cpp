@@ -20,19 +20,19 @@ namespace {
 
 constexpr std::size_t ball_block = 64;
 
-/// Added to the diagonal of the fit, as a share of its trace: where the patches lie in one line,
-/// nothing is known of the curvature across it, and it comes out as 0.
+/// Added to the diagonal of the fit, as a fraction of its trace. If the patches lie in one line,
+/// the curvature across it is unknown; this makes it 0.
 constexpr double ridge = 1e-9;
 
-/// Four numbers, so that two at a time are worked on.
+/// Four numbers, so that the processor handles two at a time.
 using Row = Eigen::Vector4d;
 
 /// Sums over the patches of a ball about a point: of weights, positions, normals and their
-/// products, in units of the ball, so that nothing underflows; turned to the tangent plane at the
-/// end, when the normal is known.
+/// products, in units of the ball against underflow. They are projected to the tangent plane at the
+/// end, because the normal is known only then.
 struct BallSums {
-  /// For each coordinate of the positions, then of the normals: its weighted product with the
-  /// position, and its weighted sum.
+  /// For each coordinate of the positions, then of the normals: the weighted sums of its product
+  /// with the position and of itself.
   std::array<Row, 6> products;
   double weights = 0.0;
   std::size_t counted = 0;
@@ -56,7 +56,7 @@ struct BallSums {
   }
 };
 
-/// Finds what hangs together in a ball; one of these per thread, because its marks are kept.
+/// Finds the connected patches in a ball. Use one per thread, because it keeps marks.
 class BallSearch {
  public:
   explicit BallSearch(const SurfacePatches& patches)
@@ -65,8 +65,8 @@ class BallSearch {
         found_(new Found[patches.patches.size() + 1]),
         beyond_(new Found[patches.patches.size() + 1]) {}
 
-  /// Sums over the patches in each ball that can be reached from the first inside it; the first is
-  /// always one. `radii` ascend.
+  /// Sums over the patches that can be reached inside each ball from the first patch, which always
+  /// counts. `radii` ascend.
   void sum(const BallCentre& centre, const std::vector<double>& radii,
            std::vector<BallSums>& sums) {
     ++ball_;
@@ -74,11 +74,11 @@ class BallSearch {
     found_[0] = found(centre.patch, centre.point);
     seen_in_[index(centre.patch)] = ball_;
     std::size_t next = 0;
-    std::size_t left = 0;  // next to those found, but outside
+    std::size_t left = 0;  // neighbours of found patches outside the ball
     for (std::size_t k = 0; k < radii.size(); ++k) {
       const double square = radii[k] * radii[k];
       const double inverse = 1.0 / radii[k];
-      // What the smaller ball has left out begins where it touches what hangs together.
+      // Patches that the smaller ball left out and this ball contains are new starts.
       const std::size_t before = left;
       left = 0;
       for (std::size_t i = 0; i < before; ++i) {
@@ -95,7 +95,8 @@ class BallSearch {
         for (const std::int32_t* n = patches_.neighbours.begin(patch); n != end; ++n) {
           if (seen_in_[index(*n)] == ball_) continue;
           seen_in_[index(*n)] = ball_;
-          // In both lists, of which one forgets it: no processor foresees in which it belongs.
+          // Write to both lists and advance only one, because a processor cannot predict the
+          // branch.
           const Found one = found(*n, centre.point);
           const bool inside = one.square < square;
           found_[count] = one;
@@ -128,7 +129,7 @@ class BallSearch {
   const SurfacePatches& patches_;
   std::vector<std::uint32_t> seen_in_;
   std::uint32_t ball_ = 0;
-  // Not vectors, which would be filled for each block anew.
+  // Not vectors, because vectors would be filled again for each block.
   std::unique_ptr<Found[]> found_;
   std::unique_ptr<Found[]> beyond_;
 };
@@ -155,9 +156,9 @@ PrincipalCurvatures fit_normals(const BallSums& sums, double radius) {
   tangents.col(1) = n.cross(tangents.col(0));
   const Eigen::Matrix2d s =
       tangents.transpose() * (squares - positions * positions.transpose() / weights) * tangents;
-  // The mean of the normals is along n, and needs no taking off.
+  // The mean of the normals is along n, so it need not be subtracted.
   const Eigen::Matrix2d p = tangents.transpose() * products * tangents;
-  // Least squares for the symmetric matrix (a b; b c) that takes positions to normals.
+  // Least squares for the symmetric matrix (a b; b c) that maps positions to normals.
   const double trace = s.trace();
   Eigen::Matrix3d equations;
   equations << s(0, 0), s(0, 1), 0.0, s(0, 1), trace, s(0, 1), 0.0, s(0, 1), s(1, 1);
@@ -170,7 +171,7 @@ PrincipalCurvatures fit_normals(const BallSums& sums, double radius) {
   return {mean + deviation, mean - deviation};
 }
 
-/// Finds the patches that share an edge with each.
+/// Finds the neighbours of each patch across edges.
 void link_patches(const HalfEdges& edges, SurfacePatches& patches) {
   const std::size_t count = patches.patches.size();
   const auto beyond = [&](std::size_t half_edge) {
@@ -185,7 +186,7 @@ void link_patches(const HalfEdges& edges, SurfacePatches& patches) {
         if (to >= 0 && to != from) visit(index(from));
       });
   for (std::int32_t& item : neighbours.items) item = beyond(index(item));
-  // Each once.
+  // Keep each neighbour once.
   std::size_t kept = 0;
   std::size_t begin = 0;
   for (std::size_t patch = 0; patch < count; ++patch) {
@@ -275,7 +276,7 @@ std::vector<std::vector<PrincipalCurvatures>> ball_curvatures(
   }
   std::vector<std::vector<PrincipalCurvatures>> result(
       radii.size(), std::vector<PrincipalCurvatures>(centres.size()));
-  // Blocks of blocks, so that the marks of a search are not made anew for a few balls.
+  // Large blocks, so that the marks of a search serve many balls.
   const std::size_t block = std::max(ball_block, centres.size() / 64 + 1);
   execution.parallel_for(centres.size(), block, [&](std::size_t begin, std::size_t end) {
     BallSearch search(patches);

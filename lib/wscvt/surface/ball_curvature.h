@@ -11,12 +11,11 @@
 
 namespace wscvt {
 
-/// A small connected part of a mesh. Three numbers stand for its faces; ball_curvatures reads no
-/// others.
+/// A small connected part of a mesh. These three values represent its faces in ball_curvatures.
 struct SurfacePatch {
   Vector3 centre = Vector3::Zero();  ///< centroid; length
-  /// Vector area over area: the mean unit normal, shorter than 1 where the patch bends. Zero for a
-  /// patch without area.
+  /// Vector area / area: the mean unit normal, shorter than 1 if the patch bends. Zero for a patch
+  /// without area.
   Vector3 normal = Vector3::Zero();
   double area = 0.0;  ///< length^2
 };
@@ -28,36 +27,36 @@ struct SurfacePatches {
   std::vector<std::int32_t> of_faces;  ///< the patch of each face of the mesh
 };
 
-/// Groups the faces of a closed mesh: a patch grows over edges from a face that has none yet, while
-/// the centroids of the faces lie within `radius` >= 0 (length) of the first. With radius 0 every
-/// face is a patch. Takes time linear in the faces. Throws nothing.
+/// Groups the faces of a closed mesh into patches. A patch starts at a face without a patch and
+/// grows over edges, while the faces' centroids are within `radius` >= 0 (length) of the first.
+/// With radius 0 every face is a patch. Takes time linear in the faces. Throws nothing.
 SurfacePatches surface_patches(const IndexedMesh& mesh, double radius);
 
-/// Where curvature is asked for: a point, and a patch at it to start from.
+/// The centre of a ball: a point, and a patch at it where the search starts.
 struct BallCentre {
   Vector3 point = Vector3::Zero();
   std::int32_t patch = 0;
 };
 
-/// Principal curvatures by a weighted linear fit of normals to positions, over the patches that lie
-/// in the ball of `radius` > 0 about a point and hang together with it inside the ball. Weights are
-/// area times (1 - d^2 / radius^2)^2, d the distance of a patch's centre. On a sphere and on a
-/// cylinder the normal is linear in the position, so their curvature comes out exactly, whatever
-/// the radius. Around an edge the turn is conserved: it is spread over the ball. In 1/length,
-/// positive where convex; 0 where fewer than three patches lie in the ball.
+/// Computes principal curvatures by a weighted linear fit of normals to positions, over the patches
+/// in the ball of `radius` > 0 about a point that are connected to it inside the ball. Weights are
+/// area times (1 - d^2 / radius^2)^2, d the distance of a patch's centre. On spheres and cylinders
+/// the normal is linear in the position, so their curvature is exact for every radius. Around an
+/// edge the total turn is conserved and spread over the ball. In 1/length, positive where convex; 0
+/// if the ball contains fewer than three patches.
 ///
 /// The fit of the shape operator to normals follows Rusinkiewicz (2004), "Estimating curvatures and
-/// their derivatives on triangle meshes", 3DPVT, 486-493; balls in place of rings make it the same
-/// for coarse and fine meshes.
+/// their derivatives on triangle meshes", 3DPVT, 486-493; balls instead of rings make the result
+/// independent of the mesh's fineness.
 ///
-/// The same bits on any number of threads. Throws Error(InvalidInput) for a radius that is not
-/// positive, Error(Cancelled).
+/// The bits do not depend on the number of threads. Throws Error(InvalidInput) if the radius is not
+/// positive, and Error(Cancelled).
 std::vector<PrincipalCurvatures> ball_curvatures(const SurfacePatches& patches,
                                                  const std::vector<BallCentre>& centres,
                                                  double radius, const Execution& execution);
 
-/// For balls of several ascending radii about the same points, in little more time than the largest
-/// take: a list of curvatures for each radius.
+/// Computes curvatures for several ascending radii about the same points and returns a list for
+/// each radius. Takes little more time than the largest radius.
 std::vector<std::vector<PrincipalCurvatures>> ball_curvatures(
     const SurfacePatches& patches, const std::vector<BallCentre>& centres,
     const std::vector<double>& radii, const Execution& execution);

@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::size_t quadric_block = 256;
 
-/// Below this share of the largest pivot a column of the fit does not count.
+/// Below this fraction of the largest pivot a column of the fit does not count.
 constexpr double rank_tolerance = 1e-10;
 
-/// The corners of all faces sorted by vertex. Corner 3 f + k is where half-edge k of face f starts,
-/// so the corners of a vertex give both its faces and its neighbours.
+/// The corners of all faces sorted by vertex. Half-edge k of face f starts at corner 3 f + k, so
+/// the corners of a vertex give both its faces and its neighbours.
 class VertexCorners {
  public:
   explicit VertexCorners(const IndexedMesh& mesh)
@@ -48,7 +48,8 @@ class VertexCorners {
   Groups corners_;
 };
 
-/// Normal of a vertex: the normals of its faces, each by its angle there; zero where all cancel.
+/// Returns the normal of a vertex: its faces' normals, weighted by their angles there; zero if they
+/// cancel.
 Vector3 angle_weighted_normal(const IndexedMesh& mesh, const VertexCorners& corners,
                               std::int32_t v) {
   const Vector3& p = mesh.points[index(v)];
@@ -63,7 +64,7 @@ Vector3 angle_weighted_normal(const IndexedMesh& mesh, const VertexCorners& corn
   return sum.normalized();
 }
 
-/// The vertices within `rings` edges of v, v itself first, each once.
+/// Collects the vertices within `rings` edges of v, v first, each once.
 void collect_rings(const VertexCorners& corners, std::int32_t v, int rings,
                    std::vector<std::int32_t>& result) {
   result.assign(1, v);
@@ -90,7 +91,7 @@ PrincipalCurvatures fit_quadric(const std::vector<Vector3>& points,
     const Vector3 d = points[index(vertices[static_cast<std::size_t>(i)])] - origin;
     local.row(i) << d.dot(axis_x), d.dot(axis_y), d.dot(normal);
   }
-  // In units of the ring, so that the columns are of one size.
+  // Uses units of the ring, so that the columns have similar size.
   const double unit = std::sqrt(local.leftCols<2>().squaredNorm() / static_cast<double>(count));
   if (!(unit > 0.0)) return {};
   local /= unit;

@@ -9,23 +9,23 @@
 
 namespace wscvt {
 
-/// Principal curvatures at every vertex of a closed, oriented mesh (see check_mesh) by the
-/// least-squares quadric z = a x^2 + b y^2 + c x y + d x + e y + f over the vertex and those within
-/// `rings` edges of it, in the frame of the angle-weighted normal (the paper, section 2.3). The
-/// paper's one ring is often under-determined on scans, where the quadric of least norm is taken;
-/// two rings are the working choice. First derivatives are kept in the curvature formula. 1/length
-/// of the mesh, positive where convex; zero at a vertex whose ring lies in one point. Throws
+/// Computes principal curvatures at every vertex of a closed, oriented mesh (see check_mesh) by the
+/// least-squares quadric z = a x^2 + b y^2 + c x y + d x + e y + f over the vertex and the vertices
+/// within `rings` edges, in the frame of the angle-weighted normal (the paper, section 2.3). On
+/// scans, the paper's one ring is often under-determined; the quadric of least norm is then used.
+/// Two rings are the working choice. The curvature formula includes the first derivatives. 1/length
+/// of the mesh, positive where convex; zero if all vertices of the ring coincide. Throws
 /// Error(InvalidInput) if rings < 1.
 std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh, int rings,
                                                         const Execution& execution);
 
-/// Largest absolute principal curvature of a surface in each direction, 1 / length.
+/// Returns the largest absolute principal curvature of a surface in each direction, 1 / length.
 std::vector<double> largest_curvatures(const SphereSurface& surface,
                                        const std::vector<Vector3>& directions,
                                        const Execution& execution);
 
-/// Largest absolute principal curvature at the vertices of a closed mesh, by quadrics over two
-/// rings, 1 / length.
+/// Returns the largest absolute principal curvature at the vertices of a closed mesh, by quadrics
+/// over two rings, 1 / length.
 std::vector<double> largest_curvatures(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

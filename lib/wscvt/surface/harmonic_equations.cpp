@@ -16,11 +16,11 @@ namespace wscvt {
 
 namespace {
 
-/// Up to this many points the basis is stored; above, the points are spread to a grid.
+/// Up to this many points the basis is stored. More points are spread to a grid.
 constexpr std::size_t maximum_stored_points = 2000;
 
-/// Grid rows per degree, and points of its interpolation along each angle. With 8 rows the moments
-/// of the weights err by at most 1e-3 at the top, which the second pass of the fit squares.
+/// Grid rows per degree, and interpolation points along each angle. With 8 rows the error of the
+/// weights' moments is at most 1e-3 at the highest degree; the second pass of the fit squares it.
 constexpr int moment_rows_per_degree = 8;
 constexpr int fit_stencil = 6;
 constexpr int smallest_moment_grid = 32;
@@ -39,7 +39,7 @@ std::vector<double> to_array(const Vector& values) {
 
 Eigen::Index unknowns(int degree) { return static_cast<Eigen::Index>(harmonic_count(degree)); }
 
-/// Few points: the basis at each is stored.
+/// For few points: stores the basis at each point.
 class StoredBasis : public HarmonicEquations {
  public:
   StoredBasis(const WeightedDirections& samples, int degree)
@@ -76,9 +76,10 @@ class StoredBasis : public HarmonicEquations {
   Eigen::Index used_;
 };
 
-/// Many points: A depends on them only through the moments of the weights up to twice the degree.
-/// The points are spread to a grid that keeps these, and A is applied as a product on the smallest
-/// Gauss-Legendre grid that integrates it: multiply by the weight density of the same moments.
+/// For many points. A depends on them only through the moments of the weights up to twice the
+/// degree. The points are spread to a grid that keeps these moments. A is applied on the smallest
+/// Gauss-Legendre grid that integrates it, as a product with the weight density that has these
+/// moments.
 class SpreadMoments : public HarmonicEquations {
  public:
   SpreadMoments(const WeightedDirections& samples, int degree, const Execution& execution)
@@ -158,18 +159,18 @@ class SpreadMoments : public HarmonicEquations {
   std::vector<double> weight_moments_;
   std::unique_ptr<HarmonicTransform> on_points_grid_;
   std::unique_ptr<HarmonicTransform> on_quadrature_;
-  std::vector<double> density_;  ///< with the quadrature's weights
+  std::vector<double> density_;  ///< times the quadrature's weights
 };
 
-/// What conjugate gradients found.
+/// The result of conjugate gradients.
 struct Solution {
   Vector unknowns;
   double condition = 0.0;  ///< ratio of the extreme Ritz values
   bool converged = false;
 };
 
-/// Conjugate gradients (Hestenes and Stiefel 1952) to `tolerance` relative to the right-hand side;
-/// the eigenvalues of the Lanczos matrix they build estimate those of the equations.
+/// Solves by conjugate gradients (Hestenes and Stiefel 1952) to `tolerance` relative to the
+/// right-hand side. The eigenvalues of their Lanczos matrix estimate the equations' eigenvalues.
 Solution solve(const HarmonicEquations& equations, const Vector& right, double tolerance,
                const Execution& execution) {
   constexpr int maximum_iterations = 300;
@@ -215,8 +216,8 @@ Solution solve(const HarmonicEquations& equations, const Vector& right, double t
   return solution;
 }
 
-/// A right-hand side in which every eigenvector has its part, so that the condition shows even
-/// where the data are a perfect sphere.
+/// Returns a right-hand side with a part of every eigenvector, so that the condition is found even
+/// if the data are a perfect sphere.
 Vector probe(Eigen::Index size) {
   const std::vector<Vector3> random = random_directions(static_cast<int>(size), 1);
   Vector result(size);

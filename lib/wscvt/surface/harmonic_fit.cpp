@@ -22,19 +22,18 @@ namespace {
 
 constexpr const char* fit_stage = "Fitting spherical harmonics";
 
-/// Rows of the first grid. What the surface holds beyond the degree folds back into the
-/// coefficients at random where the grid does not resolve it: with four rows a degree a noise of
-/// the radii reaches the series at a fifth of its size or less, (degree + 1) over the square root
-/// of the number of rays.
+/// Rows per degree of the first grid. Details that the grid does not resolve alias into the
+/// coefficients at random. With four rows per degree, noise of the radii enters the series with a
+/// fifth of its size or less: (degree + 1) / square root of the number of rays.
 constexpr int ray_rows_per_degree = 4;
 constexpr int smallest_rows = 96;
 
-/// A needle's tip may lie between the rays. Then its volume changes with the grid.
+/// A needle's tip may lie between the rays. Its volume then changes with the grid.
 constexpr int largest_rows = 768;
 constexpr double volume_tolerance = 1e-3;
 
-/// The residual is read at so many points, by area: on a bar of 4 : 1 as many directions of equal
-/// solid angle leave it 10 % off, since few of them see the ends.
+/// Number of points for the residual, spread by area. On a bar of 4 : 1 as many directions of equal
+/// solid angle give an error of 10 %, because few hit the ends.
 constexpr std::size_t residual_points = 3000;
 constexpr std::size_t residual_block = 256;
 
@@ -88,7 +87,7 @@ RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& ex
 RadialGrid read_resolved_grid(const RadialSurface& surface, int degree,
                               const Execution& execution) {
   int rows = std::max(smallest_rows, ray_rows_per_degree * (degree + 1));
-  // A quarter of the rays tell whether the volume stays.
+  // A grid with a quarter of the rays shows whether the volume changes.
   double coarser_volume = read_grid(surface, rows / 2, execution).volume();
   for (;; rows *= 2) {
     execution.report(0.2, fit_stage);
@@ -111,15 +110,16 @@ std::vector<double> project(const RadialGrid& grid, int degree, const Execution&
   return transform.analyze(products, execution);
 }
 
-/// Distances from points to the series: steps along its tangent plane find the foot of each, until
-/// the plane is as good as the series. Most points are so near that the first plane is.
+/// Returns the distances from points to the series. Steps along its tangent plane find the foot of
+/// each point, until the plane is as good as the series. For most points the first plane is good
+/// enough.
 std::vector<double> distances_to(const HarmonicSurface& series,
                                  const std::vector<Vector3>& points) {
   constexpr int steps = 3;
-  // How far a series of degree L bends away from the plane over a step: half its curvature times
-  // the step squared, and with slopes of a half its waves' curvature is L / (2 r). So much of the
-  // distance it may be, outward and inward: beside a third as much that changes the rms of fifteen
-  // scans and four degrees by 0.1 % in the mean and 1.7 % at most.
+  // Largest bend / distance. The bend of a series of degree L away from the plane is half its
+  // curvature times the step squared. With slopes of a half, its waves' curvature is L / (2 r).
+  // Compared with a third of this limit, the rms of fifteen scans and four degrees changes by 0.1 %
+  // in the mean and at most 1.7 %.
   constexpr double most_bend = 0.03;
   const double waves = 0.25 * std::max(2, series.degree());
   std::vector<std::size_t> moving(points.size());
@@ -147,7 +147,7 @@ std::vector<double> distances_to(const HarmonicSurface& series,
         continue;
       }
       nearest[moving[i]] = std::min(nearest[moving[i]], offset.norm());
-      // A point far off a bend may be sent past the origin: then the foot stays where it is.
+      // A point far from a bend may be moved past the origin. Then the foot is kept.
       const Vector3 next = foot + along;
       if (!(next.dot(direction) > 0.0)) continue;
       directions[kept] = next.normalized();
@@ -159,16 +159,16 @@ std::vector<double> distances_to(const HarmonicSurface& series,
   return nearest;
 }
 
-/// Points of a surface, and how many times its even share of the area each stands for.
+/// Points of a surface, each with its area / the mean area per point.
 struct AreaSamples {
   std::vector<Vector3> points;
   std::vector<double> weights;
 };
 
-/// One point for each of residual_points equal slices of the area, anywhere in the share of the
-/// sphere that its node stands for. Not at the node: that is where the series was fitted, and at a
-/// tip or an edge one node stands for more than it saw. Where the area element at the point is not
-/// the node's, the weight makes up for it.
+/// Returns one point for each of residual_points equal slices of the area, anywhere in the part of
+/// the sphere of its node. Not at the node, because the series was fitted there, and at a tip or an
+/// edge the node's part contains more than the node. The weight corrects for an area element
+/// different from the node's.
 AreaSamples sample_by_area(const RadialSurface& surface, const RadialGrid& grid,
                            const Execution& execution) {
   const double area = std::accumulate(grid.areas.begin(), grid.areas.end(), 0.0);
@@ -178,11 +178,11 @@ AreaSamples sample_by_area(const RadialSurface& surface, const RadialGrid& grid,
   directions.reserve(residual_points);
   nodes.reserve(residual_points);
   double passed = 0.0;
-  double row_top = 1.0;  // the rows' weights are the heights of their bands and add up to 2
+  double row_top = 1.0;  // the rows' weights are the heights of their bands; their sum is 2
   for (std::size_t i = 0; i < grid.radii.size(); ++i) {
     const std::size_t row = i / columns;
     passed += grid.areas[i];
-    // The middle of the next slice; a large element may hold several.
+    // The middle of the next slice; a large element may contain several.
     while (directions.size() < residual_points &&
            (static_cast<double>(directions.size()) + 0.5) * area <
                passed * static_cast<double>(residual_points)) {
@@ -224,7 +224,7 @@ double rms_distance(const AreaSamples& samples, const HarmonicSurface& series,
   return std::sqrt(squares / std::accumulate(samples.weights.begin(), samples.weights.end(), 0.0));
 }
 
-/// A grid read once, and the series of every degree up to that it was read for.
+/// A grid that is read once, and its series of every degree up to the grid's degree.
 class Fitter {
  public:
   Fitter(const RadialSurface& surface, int highest_degree, const Execution& execution)
@@ -238,8 +238,8 @@ class Fitter {
     execution.report(0.8, fit_stage);
   }
 
-  /// A lower degree is a part of the higher one's coefficients. Empty where it is not positive
-  /// everywhere.
+  /// Returns the series of a lower degree: the first coefficients of the highest degree. Empty if
+  /// it is not positive everywhere.
   std::optional<HarmonicFit> of_degree(int degree) const {
     HarmonicSurface series(
         {coefficients_.begin(),
@@ -253,8 +253,8 @@ class Fitter {
     return HarmonicFit{std::move(series), report};
   }
 
-  /// The highest degree up to `degree` that is positive everywhere: one by one, so that a higher
-  /// degree asked for never yields a lower one than a lower request.
+  /// Returns the series of the highest degree up to `degree` that is positive everywhere. Tries
+  /// every degree, so that a higher request never gives a lower degree than a lower request.
   HarmonicFit highest(int degree) const {
     for (int trial = degree; trial >= 0; --trial) {
       execution_.report(0.8, fit_stage);

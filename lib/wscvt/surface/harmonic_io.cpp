@@ -44,14 +44,14 @@ std::ifstream open_for_reading(const std::string& path) {
   refuse_file(path, "line " + std::to_string(line) + " " + what);
 }
 
-/// One line of the text form; `line` is 0 where none was read.
+/// One line of the text form; `line` is 0 if no line was read.
 struct ComplexCoefficient {
   std::size_t line = 0;
   std::complex<double> value;
 };
 
-/// Coefficients in the order of harmonic_index, as many as the highest degree read needs. Commas
-/// may stand between numbers where `with_commas`.
+/// Returns coefficients in the order of harmonic_index, up to the highest degree in the file.
+/// Allows commas between numbers if `with_commas`.
 std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_commas) {
   std::ifstream stream = open_for_reading(path);
   std::vector<ComplexCoefficient> coefficients;
@@ -95,13 +95,13 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_co
   return coefficients;
 }
 
-/// The degree up to which coefficients are used.
+/// Returns the degree up to which coefficients are used.
 int used_degree(const std::vector<ComplexCoefficient>& coefficients, int degree) {
   const int highest = static_cast<int>(std::lround(std::sqrt(coefficients.size()))) - 1;
   return degree < 0 ? highest : std::min(degree, highest);
 }
 
-/// Two families of programs write the same four numbers: a file that fits both is read by neither.
+/// Two families of programs write four numbers per row. Refuses a file that fits both conventions.
 void check_convention(const std::vector<ComplexCoefficient>& coefficients,
                       const std::string& path) {
   if (coefficients.size() == 1) return;
@@ -117,11 +117,12 @@ void check_convention(const std::vector<ComplexCoefficient>& coefficients,
               "(normalization 4pi, csphase 1).");
 }
 
-/// SHTOOLS's harmonics for m >= 0 without the Condon-Shortley phase, normalized so that their mean
-/// square over the sphere is 1, in ours: ours have the phase, and their squares' integral is 1.
+/// Returns the factor from SHTOOLS's coefficients for m >= 0 to ours. SHTOOLS's harmonics have no
+/// Condon-Shortley phase and a mean square over the sphere of 1. Ours have the phase, and the
+/// integral of their squares is 1.
 double shtools_factor(int m) { return (m % 2 == 0 ? 1.0 : -1.0) * std::sqrt(4.0 * pi); }
 
-/// The surface of a file, checked to be one.
+/// Returns the surface of a file after checks.
 HarmonicSurface make_surface(const std::string& path, std::vector<double> coefficients) {
   HarmonicSurface surface(std::move(coefficients));
   if (!(smallest_radius(surface, Execution(1)) > 0.0)) {
@@ -130,7 +131,7 @@ HarmonicSurface make_surface(const std::string& path, std::vector<double> coeffi
   return surface;
 }
 
-/// Opens and parses the file, checks its format and hands it to `read`.
+/// Opens and parses the file, checks its format and calls `read`.
 template <class Read>
 auto read_json(const std::string& path, const Read& read) {
   std::ifstream stream = open_for_reading(path);
@@ -141,7 +142,7 @@ auto read_json(const std::string& path, const Read& read) {
     }
     return read(json);
   } catch (const nlohmann::json::exception& error) {
-    // The parser's message holds the line and column.
+    // The parser's message contains the line and column.
     refuse_file(path, error.what());
   }
 }
@@ -157,7 +158,7 @@ HarmonicKind kind_of(const std::string& path, const nlohmann::json& json) {
 
 std::vector<double> coefficients_of(const std::string& path, const nlohmann::json& degree_json,
                                     const nlohmann::json& values) {
-  // The library would cut 2.7 to 2, take 1e30 for any number and true for 1.
+  // The JSON library would read 2.7 as 2, 1e30 as any number and true as 1.
   if (!degree_json.is_number_integer() || degree_json < 0 ||
       degree_json > maximum_harmonic_degree) {
     refuse_file(path, "its \"degree\" is no whole number from 0 to " +

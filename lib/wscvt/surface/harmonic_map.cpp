@@ -20,22 +20,22 @@ namespace {
 
 constexpr std::size_t series_block = 8192;
 
-/// Sides of the quadrature's triangles on the sphere, times the degree. The midpoint rule is wrong
-/// by about spacing^2 / 24 of the highest harmonics, one per cent.
+/// Side length of the quadrature's triangles on the sphere times the degree. The midpoint rule's
+/// error is about spacing^2 / 24 for the highest harmonics, one per cent.
 constexpr double spacing_times_degree = 0.5;
 
-/// Points of the quadrature are taken closer only as long as they are fewer than this; scans of a
-/// million vertices have one a face.
+/// Maximum number of quadrature points, unless there are more faces. Scans of a million vertices
+/// have one point per face.
 constexpr std::size_t quadrature_limit = 500000;
 
-/// Middles of the pieces that faces are cut into.
+/// The centres of the pieces of the faces.
 struct Quadrature {
   std::vector<Vector3> directions;
   std::array<std::vector<double>, 3> coordinates;
   std::vector<double> weights;  ///< areas
 };
 
-/// Pieces along each side of the faces.
+/// Returns the number of pieces along each side of the faces.
 std::vector<std::int32_t> pieces_of(const MappedSurface& surface, int degree) {
   const std::vector<Triangle>& triangles = surface.mesh().triangles;
   const std::vector<Vector3>& u = surface.directions();
@@ -49,7 +49,8 @@ std::vector<std::int32_t> pieces_of(const MappedSurface& surface, int degree) {
       pieces[f] = std::max(1, static_cast<std::int32_t>(std::ceil(longest / spacing)));
       total += static_cast<std::size_t>(pieces[f]) * static_cast<std::size_t>(pieces[f]);
     }
-    // Wider where faces are needles all along the sphere, whose number goes with the square.
+    // Use a wider spacing if needle faces extend along the sphere, because their pieces grow with
+    // the square.
     if (total <= std::max(quadrature_limit, triangles.size())) return pieces;
   }
 }

@@ -11,32 +11,32 @@ namespace wscvt {
 
 class MappedSurface;
 
-/// How the fit of a harmonic map went.
+/// The report of a harmonic map's fit.
 struct HarmonicMapReport {
   int requested_degree = 0;
-  int degree = 0;  ///< lowered when the surface cannot carry the requested one
+  int degree = 0;  ///< lowered if the surface cannot support the requested degree
   DegreeLimit limit = DegreeLimit::None;
   std::size_t points = 0;  ///< of the quadrature over the faces
-  double residual = 0.0;   ///< rms over the area of the distance of equal directions, length
-  double condition = 0.0;  ///< estimate for the equations, which all coordinates share
-  /// Share of the series' area that looks the other way than the scan there: folds, at edges and
-  /// limbs that the degree is too low for.
+  double residual = 0.0;   ///< rms over the area of the distance at equal directions, length
+  double condition = 0.0;  ///< estimate for the equations, common to all coordinates
+  /// Fraction of the series' area with a normal opposite to the scan's: folds at edges and limbs,
+  /// because the degree is too low there.
   double turned_area_share = 0.0;
 };
 
-/// A series and how its fit went.
+/// A series and the report of its fit.
 struct HarmonicMapFit {
   HarmonicMap map;
   HarmonicMapReport report;
 };
 
-/// Least squares for x, y and z over the mapped scan, weighted by the scan's area: one matrix with
-/// three right-hand sides. Faces enter by quadrature, points closer than half a radian over the
-/// degree, so the result depends on the surface and its map and not on how it is triangulated.
+/// Fits x, y and z over the mapped scan by least squares, weighted by the scan's area: one matrix
+/// with three right-hand sides. Quadrature over the faces uses points closer than half a radian /
+/// degree, so the result depends on the surface and its map, not on its triangulation.
 ///
-/// The degree is lowered until the surface carries it: at least two points a coefficient and a
-/// condition of at most 1000. Throws Error(InvalidInput) for a degree not in [0, 60] and a surface
-/// without area, Error(NumericalFailure) when not even degree 0 has a solution.
+/// The degree is lowered until there are at least two points per coefficient and the condition is
+/// at most 1000. Throws Error(InvalidInput) if the degree is not in [0, 60] or the surface has no
+/// area, and Error(NumericalFailure) if even degree 0 has no solution.
 HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
                                 const Execution& execution);
 

@@ -25,10 +25,10 @@ namespace wscvt {
 // orthonormal harmonics with the same phase, Y_l,m = sqrt(2) Re Y_l^m and Y_l,-m = sqrt(2) Im
 // Y_l^m.
 
-/// Largest degree the harmonics are computed for; accuracy is tested up to 60.
+/// Largest degree of the harmonics; accuracy is tested up to 60.
 constexpr int maximum_harmonic_degree = 200;
 
-/// Place of Y_lm in an array of coefficients: l^2 + l + m, for -l <= m <= l.
+/// Returns the index of Y_lm in an array of coefficients: l^2 + l + m, for -l <= m <= l.
 constexpr std::size_t harmonic_index(int l, int m) {
   const int index = l * l + l + m;
   return static_cast<std::size_t>(index);
@@ -39,26 +39,27 @@ constexpr std::size_t harmonic_count(int degree) {
   return static_cast<std::size_t>(degree + 1) * static_cast<std::size_t>(degree + 1);
 }
 
-/// A series f(u) = sum a_lm Y_lm(u), laid out for summing it in many directions without storing the
-/// basis. It is summed in the Cartesian form Y_lm = Q_lm(z) Re or Im (x + iy)^m with
+/// A series f(u) = sum a_lm Y_lm(u), arranged for fast sums in many directions without a stored
+/// basis. The sum uses the Cartesian form Y_lm = Q_lm(z) Re or Im (x + iy)^m with
 /// Q_lm = P_lm / sin^m theta and dQ_lm/dz proportional to Q_l,m+1, which is regular at the poles.
 class HarmonicSeries {
  public:
   /// `coefficients`: (degree + 1)^2 values in the order of `harmonic_index`. Throws
-  /// Error(InvalidInput) when their number is not a square or the degree is above
+  /// Error(InvalidInput) if their number is not a square or the degree is above
   /// maximum_harmonic_degree.
   explicit HarmonicSeries(const std::vector<double>& coefficients);
 
   int degree() const { return degree_; }
 
-  /// f in `count` directions (unit vectors); the value for one does not depend on the others.
+  /// Computes f in `count` directions (unit vectors). A value does not depend on the other
+  /// directions.
   void sum(const Vector3* directions, std::size_t count, double* values) const;
 
-  /// f with the derivatives RadialJet describes, filled in as far as `derivatives` says.
+  /// Computes f and its derivatives as in RadialJet, up to the order `derivatives`.
   void sum(const Vector3* directions, std::size_t count, Derivatives derivatives,
            RadialJet* jets) const;
 
-  /// What Q_lm stands in front of, and how it follows from the two before it at the same m.
+  /// The factors of Q_lm in the sums, and its recurrence from the two terms before it with equal m.
   struct Term {
     double alpha, beta;  ///< Q_lm = alpha z Q_l-1,m - beta Q_l-2,m; alpha = Q_mm at l = m
     double value[2];     ///< cosine and sine factors of f
@@ -76,7 +77,7 @@ class HarmonicSeries {
 class HarmonicSurface : public RadialSurface {
  public:
   /// `coefficients`: (degree + 1)^2 values in length units, a_lm at index l^2 + l + m. Throws
-  /// Error(InvalidInput) when there are none, their number is not a square, the degree is above
+  /// Error(InvalidInput) if there are no values, their number is not a square, the degree is above
   /// maximum_harmonic_degree (200), or a value is not finite.
   explicit HarmonicSurface(std::vector<double> coefficients);
 
@@ -94,12 +95,12 @@ class HarmonicSurface : public RadialSurface {
 
 /// A closed surface of genus 0 given by a series of real orthonormal spherical harmonics for each
 /// coordinate, x(u) = sum of a_lm Y_lm(u) (Brechbuehler, Gerig and Kuebler 1995, "Parametrization
-/// of closed surfaces for 3-D shape description").
-/// Shells and hooks have such series, and smooth curvatures with them.
+/// of closed surfaces for 3-D shape description"). Grains with overhangs also have such series,
+/// with smooth curvatures.
 class HarmonicMap : public SphereSurface {
  public:
   /// `coefficients` of x, y and z: (degree + 1)^2 values each in length units, a_lm at index
-  /// l^2 + l + m. Throws Error(InvalidInput) when there are none, their numbers differ or are no
+  /// l^2 + l + m. Throws Error(InvalidInput) if there are no values, their numbers differ or are no
   /// square, the degree is above maximum_harmonic_degree, or a value is not finite.
   explicit HarmonicMap(std::array<std::vector<double>, 3> coefficients);
 
@@ -114,41 +115,40 @@ class HarmonicMap : public SphereSurface {
   std::array<HarmonicSeries, 3> series_;
 };
 
-// Files of such surfaces. All of these throw Error(InputOutput) when the file cannot be opened,
-// read or written, and Error(InvalidInput), naming the file and the line, when what it holds is not
-// such a surface: wrong syntax, a coefficient missing or given twice, a radius that is not real and
-// positive everywhere.
+// Files of such surfaces. All functions below throw Error(InputOutput) if the file cannot be
+// opened, read or written. They throw Error(InvalidInput), naming the file and the line, if the
+// file contains no such surface: wrong syntax, a coefficient missing or given twice, or a radius
+// that is not real and positive everywhere.
 
 /// Reads the text form of the NIST particle shape sets (VCCTL, THAMES): lines `n m Re Im`, the
 /// coefficients of complex orthonormal harmonics with the Condon-Shortley phase, in any order.
-/// Those with m < 0 follow from those with m > 0 and may be left out; where given they must agree
-/// to 1e-6 of the largest. `degree` >= 0 cuts the series there, as the tables beside the sets do;
-/// -1 keeps all.
+/// Coefficients with m < 0 follow from those with m > 0 and may be left out. If present, they must
+/// agree to 1e-6 of the largest coefficient. `degree` >= 0 cuts the series there, as the tables
+/// beside the sets do; -1 keeps all.
 HarmonicSurface read_complex_harmonics(const std::string& path, int degree = -1);
 
-/// Content of a file of `write_harmonics` or `write_harmonic_map` holds.
+/// Content of a file of `write_harmonics` or `write_harmonic_map`.
 enum class HarmonicKind {
   Radial,  ///< one series, of the radius
   Map,     ///< three, of x, y and z over the map to the sphere
 };
 
-/// Returns the kind that a file holds; Radial if it has no "kind".
+/// Returns the kind of a file; Radial if it has no "kind".
 HarmonicKind read_harmonic_kind(const std::string& path);
 
-/// Reads what `write_harmonics` writes. A file without "kind" is taken for a radial one.
+/// Reads a file of `write_harmonics`. A file without "kind" is read as a radial series.
 HarmonicSurface read_harmonics(const std::string& path);
 
 /// Writes {"format": "wscvt-harmonics-1", "kind": "radial", "degree": L, "coefficients": [...]}:
-/// real orthonormal harmonics as above, a_lm at place l^2 + l + m. Reading gives
-/// the same bits back. Written whole or not at all, see write_file.
+/// real orthonormal harmonics as above, a_lm at index l^2 + l + m. Reading returns the same bits.
+/// Writes the file completely or not at all, see write_file.
 void write_harmonics(const std::string& path, const HarmonicSurface& surface);
 
-/// Reads what `write_harmonic_map` writes. Refuses series that enclose no volume or are turned
-/// inside out.
+/// Reads a file of `write_harmonic_map`. Refuses series that enclose no volume or are inside out.
 HarmonicMap read_harmonic_map(const std::string& path);
 
-/// As `write_harmonics`, with "kind": "map" and "coefficients": {"x": [...], "y": [...], "z":
-/// [...]}.
+/// Writes as `write_harmonics`, with "kind": "map" and "coefficients": {"x": [...], "y": [...],
+/// "z": [...]}.
 void write_harmonic_map(const std::string& path, const HarmonicMap& map);
 
 }  // namespace wscvt

@@ -16,17 +16,17 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Rows a block of the azimuthal products holds: enough for Eigen, few enough to share out.
+/// Rows per block of the azimuthal products: enough for Eigen, few enough for several threads.
 constexpr std::size_t row_block = 32;
 
-/// Grid rows per degree on which the smallest radius is looked for: a series has no dip narrower
-/// than half a wavelength, pi / degree, and eight rows see its bottom to 2 % of its depth.
+/// Grid rows per degree in the search for the smallest radius. A series has no dip narrower than
+/// half a wavelength, pi / degree; eight rows find its bottom to 2 % of its depth.
 constexpr int dip_rows_per_degree = 8;
 constexpr int smallest_dip_grid = 32;
 
 Eigen::Index signed_index(std::size_t value) { return static_cast<Eigen::Index>(value); }
 
-/// Columns of the azimuthal functions of order m: cosine, and (for m > 0) sine after it.
+/// Returns the column of the azimuthal functions of order m: cosine, then (for m > 0) sine.
 Eigen::Index first_column(int m) { return m > 0 ? 2 * m - 1 : 0; }
 
 }  // namespace
@@ -55,8 +55,8 @@ HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosi
                     std::to_string(cosines.size()) + " cosines and " +
                     std::to_string(sines.size()) + " sines.");
   }
-  // The angles of all orders are among those of the azimuths themselves, whose numbers are reduced
-  // as whole numbers: equal angles get equal bits.
+  // The angles of all orders are among the azimuths. Their indices are reduced as integers, so that
+  // equal angles get equal bits.
   const std::vector<Eigen::Vector2d> circle = azimuth_circle(azimuths);
   trigonometric_.resize(azimuths_, 2 * degree + 1);
   for (Eigen::Index k = 0; k < azimuths_; ++k) {

@@ -9,18 +9,19 @@
 
 namespace wscvt {
 
-/// Cosine and sine of each of `count` azimuths phi_k = 2 pi k / count.
+/// Returns the cosine and sine of each of `count` azimuths phi_k = 2 pi k / count.
 std::vector<Eigen::Vector2d> azimuth_circle(int count);
 
-/// Sums of a series on a grid of parallels, and their transpose, in (degree) rather than (degree)^2
-/// operations a node: Legendre functions along the rows, sines and cosines along the azimuth.
+/// Computes sums of a series on a grid of parallels, and their transpose, in (degree) rather than
+/// (degree)^2 operations per node: Legendre functions along the rows, sines and cosines along the
+/// azimuth.
 ///
-/// The grid has one row a latitude and `azimuths` columns phi_k = 2 pi k / azimuths; values stand
+/// The grid has one row per latitude and `azimuths` columns phi_k = 2 pi k / azimuths. Values are
 /// row by row. Coefficients are in the order of `harmonic_index`.
 class HarmonicTransform {
  public:
-  /// `cosines`, `sines`: cos(theta) and sin(theta) of the rows. Throws Error(InvalidInput) when the
-  /// two differ in length, or for a degree not in [0, maximum_harmonic_degree] or azimuths < 1.
+  /// `cosines`, `sines`: cos(theta) and sin(theta) of the rows. Throws Error(InvalidInput) if their
+  /// lengths differ, the degree is not in [0, maximum_harmonic_degree], or azimuths < 1.
   HarmonicTransform(int degree, const std::vector<double>& cosines,
                     const std::vector<double>& sines, int azimuths, const Execution& execution);
 
@@ -33,8 +34,8 @@ class HarmonicTransform {
   std::vector<double> synthesize(const std::vector<double>& coefficients,
                                  const Execution& execution) const;
 
-  /// coefficients[l, m] = sum over (j, k) of values[j, k] Y_lm(theta_j, phi_k): the transpose, with
-  /// no weights of its own. Throws Error(InvalidInput) unless there are rows x azimuths values.
+  /// coefficients[l, m] = sum over (j, k) of values[j, k] Y_lm(theta_j, phi_k): the transpose,
+  /// without weights. Throws Error(InvalidInput) unless there are rows x azimuths values.
   std::vector<double> analyze(const std::vector<double>& values, const Execution& execution) const;
 
  private:
@@ -45,8 +46,8 @@ class HarmonicTransform {
   std::vector<Eigen::MatrixXd> legendre_;  ///< of every m: rows x (degree + 1 - m)
 };
 
-/// Smallest radius of the series on an equal-angle grid of eight rows a degree (32 at least),
-/// length; a surface that is not positive everywhere is not star-shaped about the origin.
+/// Returns the smallest radius of the series on an equal-angle grid of eight rows per degree (at
+/// least 32), length. If a radius is not positive, the surface is not star-shaped about the origin.
 double smallest_radius(const HarmonicSurface& surface, const Execution& execution);
 
 }  // namespace wscvt

@@ -20,7 +20,7 @@ bool is_in_kernel(const Vector3& p, const std::vector<Vector3>& ring) {
   return true;
 }
 
-/// Whether all triangles about p are larger than `floor` (twice their area), to rounding.
+/// Whether twice the area of every triangle about p exceeds `floor`, up to rounding.
 bool is_well_inside(const Vector3& p, const std::vector<Vector3>& ring, double floor) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vector3& a = ring[i];
@@ -30,7 +30,7 @@ bool is_well_inside(const Vector3& p, const std::vector<Vector3>& ring, double f
   return true;
 }
 
-/// The part of a convex polygon where value + slope . x >= 0 (Sutherland and Hodgman 1974).
+/// Clips a convex polygon to value + slope . x >= 0 (Sutherland and Hodgman 1974).
 void clip(std::vector<Vector2>& polygon, double value, const Vector2& slope,
           std::vector<Vector2>& scratch) {
   scratch.clear();
@@ -45,7 +45,7 @@ void clip(std::vector<Vector2>& polygon, double value, const Vector2& slope,
   polygon.swap(scratch);
 }
 
-/// Centroid of a convex polygon; nothing when it has no area.
+/// Returns the centroid of a convex polygon; nothing if it has no area.
 std::optional<Vector2> centroid(const std::vector<Vector2>& polygon) {
   double doubled = 0.0;
   Vector2 moment = Vector2::Zero();
@@ -60,20 +60,22 @@ std::optional<Vector2> centroid(const std::vector<Vector2>& polygon) {
   return moment / doubled + polygon[0];
 }
 
-/// Centroid of the kernel in the gnomonic plane about the apex, in which great circles are lines.
+/// Returns the centroid of the kernel in the gnomonic plane about the apex, where great circles are
+/// lines.
 std::optional<Vector3> kernel_centroid(const std::vector<Vector3>& ring, std::size_t apex,
                                        double size) {
   const Vector3& o = ring[apex];
   const Vector3 e1 = o.unitOrthogonal();
   const Vector3 e2 = o.cross(e1);
-  // The plane in units of the ring's size; the box about it cuts off nothing that matters, and for
-  // rings round half the sphere it stays 76 degrees from the apex.
+  // The plane is in units of the ring's size. The box cuts off nothing important; for rings round
+  // half the sphere it ends 76 degrees from the apex.
   const double unit = std::min(size, 1.0);
   std::vector<Vector2> polygon{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}};
   std::vector<Vector2> scratch;
   for (std::size_t i = 0; i < ring.size() && polygon.size() >= 3; ++i) {
     const std::size_t next = i + 1 < ring.size() ? i + 1 : 0;
-    // Normal of the great circle through two neighbours, from differences: relative precision.
+    // The normal of the great circle through two neighbours, from differences to keep relative
+    // precision.
     const Vector3 a = ring[i] - o;
     const Vector3 b = ring[next] - o;
     const Vector3 ab = a.cross(b);
@@ -106,17 +108,18 @@ std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
     Vector3 mean = Vector3::Zero();
     for (std::size_t i = 0; i < count; ++i) mean += ring[i] / (distances[i] + floor);
     mean.normalize();
-    // A triangle thinner than this is not worth having where the centroid may do better.
+    // If a triangle would be thinner than this, the kernel's centroid may be better.
     if (is_well_inside(mean, ring, 1e-4 * size * size)) return Insertion{mean, false};
   }
   const std::optional<Vector3> centre = kernel_centroid(ring, apex, size);
   if (centre && is_in_kernel(*centre, ring)) return Insertion{*centre, true};
-  // Ever closer to the apex, along the middle of its angle: there the kernel is never empty.
+  // Tries points ever closer to the apex, along the middle of its angle, where the kernel is never
+  // empty.
   const Vector3 forward = (ring[(apex + 1) % count] - o).normalized();
   const Vector3 backward = (ring[(apex + count - 1) % count] - o).normalized();
   Vector3 along = forward + backward;
   along -= along.dot(o) * o;
-  // An angle of more than 180 degrees has its middle on the other side.
+  // The middle of an angle above 180 degrees is on the other side.
   if (forward.cross(backward).dot(o) < 0.0) along = -along;
   if (along.norm() < 1e-6) along = o.cross(forward - backward);
   along.normalize();

@@ -9,21 +9,21 @@
 
 namespace wscvt {
 
-/// Where a vertex was put.
+/// The position of an inserted vertex.
 struct Insertion {
   Vector3 direction = Vector3::UnitZ();
-  bool clipped = false;  ///< the mean of its ring was of no use, the kernel's centroid was taken
+  bool clipped = false;  ///< the kernel's centroid was used, because the mean of the ring failed
 };
 
-/// Finds a place on the sphere for a vertex whose neighbours are at `ring` (unit vectors,
-/// counter-clockwise), such that all its triangles are counter-clockwise, by exact predicates: a
-/// point of the kernel of the ring. `distances` are those to the neighbours on the surface.
+/// Finds a point of the ring's kernel: a position on the sphere for a vertex with neighbours at
+/// `ring` (unit vectors, counter-clockwise) such that all its triangles are counter-clockwise by
+/// exact predicates. `distances` are the distances to the neighbours on the surface.
 ///
-/// Without the vertex the ring must be triangulated, counter-clockwise, by the edges from
-/// ring[apex] to the others, as after a collapse: then the kernel holds points close to ring[apex].
-/// First the mean of the ring, weighted by inverse distance, is tried, then the centroid of the
-/// kernel clipped from the gnomonic plane about ring[apex], then points ever closer to ring[apex].
-/// Nothing is returned when the kernel is too thin for doubles.
+/// The edges from ring[apex] to the others must triangulate the ring counter-clockwise, as after a
+/// collapse. Then the kernel contains points close to ring[apex]. Tries first the mean of the ring,
+/// weighted by inverse distance, then the centroid of the kernel clipped from the gnomonic plane
+/// about ring[apex], then points ever closer to ring[apex]. Returns nothing if the kernel is too
+/// thin for doubles.
 std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
                                             const std::vector<double>& distances, std::size_t apex);
 

@@ -39,7 +39,7 @@ void VertexFan::add(const Vector3& q, const Vector3& r, double cotangent, double
   t.cotangent_r = cotangent_r;
   t.opposite_edge = cotangent * edge.squaredNorm();
   t.area_square = area_square;
-  // The determinant (p - q) . (q x r) is wrong by a few 1e-16 |p - q| |q x r|.
+  // The error of the determinant (p - q) . (q x r) is a few 1e-16 |p - q| |q x r|.
   t.certain = 0.25e-28 * t.normal.squaredNorm();
   triangles_.push_back(t);
 }
@@ -70,7 +70,7 @@ double VertexFan::improve(Vector3& p) const {
   double g1 = 0.0, g2 = 0.0;               // gradient
   double h11 = 0.0, h12 = 0.0, h22 = 0.0;  // Hessian without its isotropic part
   double isotropic = 0.0;
-  double radial = 0.0;  // gradient along p, which bends the tangent plane's Hessian to the sphere's
+  double radial = 0.0;  // gradient along p, for the sphere's Hessian
   for (const FanTriangle& t : triangles_) {
     const Vector3 from_q = p - t.q;
     const Vector3 from_r = p - t.r;
@@ -103,7 +103,7 @@ double VertexFan::improve(Vector3& p) const {
   }
   h11 += isotropic - radial;
   h22 += isotropic - radial;
-  // Eigenvalues clamped from below: else the step may lead uphill.
+  // Eigenvalues are clamped from below, because otherwise the step may go uphill.
   const double middle = 0.5 * (h11 + h22);
   const double spread = std::sqrt(0.25 * (h11 - h22) * (h11 - h22) + h12 * h12);
   const double largest = std::abs(middle + spread);

@@ -19,7 +19,7 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t mapped_block = 8192;
-/// Directions that follow each other from the first one's search through the table.
+/// Number of directions per block.
 constexpr std::size_t search_block_size = 256;
 
 [[noreturn]] void refuse_directions(const std::string& what) {
@@ -95,14 +95,14 @@ MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
 MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) const {
   const auto faces = static_cast<std::int32_t>(mesh_.triangles.size());
   std::int32_t f = hint >= 0 && hint < faces ? hint : starts_[cube_.cell(direction)];
-  // A walk that always tried the edges in the same order could go round in circles on triangles
-  // that are not Delaunay; in random order it ends with probability 1 (Devillers, Pion and
-  // Teillaud 2002, "Walking in a triangulation"). The numbers are the walk's own, so that the
-  // result depends on nothing but the arguments.
+  // A walk with a fixed order of edges could cycle on triangles that are not Delaunay. In random
+  // order it ends with probability 1 (Devillers, Pion and Teillaud 2002, "Walking in a
+  // triangulation"). The walk has its own random numbers, so that the result depends only on the
+  // arguments.
   std::uint32_t random = 1;
   std::int32_t entered = -1;
-  // A walk crosses about the square root of the triangles. One far longer is given up for a search
-  // through all: exact signs guarantee that one of them holds the direction.
+  // A walk crosses about the square root of the number of triangles. If it is far longer, all
+  // triangles are searched: exact signs guarantee that one contains the direction.
   const std::int64_t longest = 1000 + 20 * std::llround(std::sqrt(static_cast<double>(faces)));
   std::int64_t steps = 0;
   std::int32_t exhaustive = 0;
@@ -115,7 +115,7 @@ MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) con
     std::int32_t crossed = -1;
     for (std::int32_t j = 0; j < 3 && crossed < 0; ++j) {
       const std::int32_t k = (first + j) % 3;
-      if (3 * f + k == entered) continue;  // the direction was found to lie on this side of it
+      if (3 * f + k == entered) continue;  // the direction is known to be on this side of it
       if (sphere_orientation(direction, *corners[k], *corners[(k + 1) % 3]) < 0) crossed = k;
     }
     if (crossed < 0) {
@@ -123,8 +123,8 @@ MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) con
       for (std::int32_t k = 0; k < 3; ++k) {
         const Vector3& q = *corners[(k + 1) % 3];
         const Vector3& r = *corners[(k + 2) % 3];
-        // From differences, which keep the relative precision of small triangles. The signs are
-        // known; what is below zero is rounding.
+        // Differences keep the relative precision of small triangles. The signs are known, so
+        // values below zero are rounding errors.
         weights[k] = std::max(0.0, direction.dot(doubled_area_normal(direction, q, r)));
       }
       const double sum = weights.sum();
@@ -148,7 +148,7 @@ void MappedSurface::evaluate_jets(const Vector3* directions, std::size_t count,
     const Vector3& u = directions[i];
     SurfaceJet& jet = jets[i];
     jet = SurfaceJet();
-    // Without a hint: the value must not depend on the other directions.
+    // Uses no hint, because the value must not depend on the other directions.
     const MeshPlace place = locate(u);
     jet.position = position(place);
     if (derivatives == Derivatives::None) continue;
@@ -158,16 +158,16 @@ void MappedSurface::evaluate_jets(const Vector3* directions, std::size_t count,
     Vector3 sum = Vector3::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3& a = directions_[t[(k + 1) % 3]];
-      // The cross product from differences, for the sake of small triangles.
+      // The cross product uses differences, for precision of small triangles.
       const Vector3 n = a.cross(directions_[t[(k + 2) % 3]] - a);
-      // Relative to x the products with points are as small as the face, and M u = x n . u holds.
+      // Relative to x, the products with points are as small as the face, and M u = x n . u.
       numerator += (mesh_.points[t[k]] - jet.position) * n.transpose();
       sum += n;
     }
     const double scale = sum.dot(u);
     if (!(scale > 0.0)) continue;  // too thin for doubles
     jet.jacobian = numerator / scale;
-    // Exactly tangential, whatever the rounding.
+    // Makes it exactly tangential despite rounding.
     jet.jacobian -= jet.jacobian * u * u.transpose();
     if (derivatives == Derivatives::First) continue;
     for (Eigen::Index k = 0; k < 3; ++k) {

@@ -17,21 +17,20 @@ namespace wscvt {
 
 namespace {
 
-/// A vertex of more neighbours waits until some of them are gone. It is never the last to go: a
-/// planar triangulation always has vertices of at most five neighbours.
+/// A vertex with more neighbours waits until some of them are removed. This never blocks, because a
+/// planar triangulation always has vertices with at most five neighbours.
 constexpr std::int32_t largest_collapsed_valence = 16;
-/// From here on a vertex counts as a hub, whose ring is not walked to look for one neighbour.
+/// A vertex of higher valence is a hub. A hub's ring is not walked to find one neighbour.
 constexpr std::int32_t hub_valence = 24;
-/// How many collapses pass between two reports of progress, and how many vertices and faces are
-/// made ready for them.
+/// Number of collapses between two progress reports, and of vertices and faces in the preparation.
 constexpr std::size_t collapses_a_report = 4096;
 constexpr std::size_t preparation_interval = 65536;
 constexpr std::size_t choice_block = 4096;
-/// Down to so many vertices they may go in rounds; below, one by one.
+/// Down to this many vertices, vertices are removed in rounds, then one by one.
 constexpr std::size_t fewest_for_rounds = 100000;
 constexpr const char* collapse_stage = "Collapsing the scan";
 
-/// What is wrong with a mesh that ought to be one sphere; returns its half-edges.
+/// Checks that a mesh is one sphere. Returns its half-edges.
 HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
   const std::string advice = " Run check_mesh on it first, and close holes and handles it reports.";
@@ -72,7 +71,8 @@ HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
     }
   }
   execution.report(0.0, collapse_stage);
-  // Every corner must be met going once round its vertex, and every face from the first one.
+  // One round about each vertex must visit all its corners, and all faces must be reached from the
+  // first.
   std::size_t corners = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
     if (links.first[v] < 0) {
@@ -143,8 +143,8 @@ struct Quadric {
   }
 };
 
-/// Positions about their mean in the unit that makes the area 4 pi. A body of no area, or of far
-/// larger extent than its area, is scaled by its extent: all figures stay far from overflow.
+/// Returns positions about their mean in the unit that makes the area 4 pi. If the area is 0 or far
+/// too small for the extent, the extent gives the unit, to prevent overflow.
 std::vector<Vector3> normalised(const IndexedMesh& mesh) {
   constexpr double largest_extent = 1e6;
   Vector3 low = mesh.points[0];
@@ -194,8 +194,8 @@ void MeshCollapse::collapse(std::int32_t h) {
   const std::int32_t w = target(h);
   const std::int32_t left = target(next_half_edge(h));
   const std::int32_t right = target(next_half_edge(g));
-  // Every corner of v but those of the two triangles that go becomes w. The two keep their corners
-  // and links: they are all that `undo` needs.
+  // Every corner of v becomes w, except in the two removed triangles. These two keep their corners
+  // and links, which are all that `undo` needs.
   visit_outgoing(v, [&](std::int32_t outgoing) {
     if (outgoing / 3 != h / 3 && outgoing / 3 != g / 3) {
       triangles_[outgoing / 3][outgoing % 3] = w;
@@ -232,7 +232,7 @@ MeshCollapse::Undone MeshCollapse::undo() {
   const std::int32_t w_to_left = opposite_[previous_half_edge(h)];
   const std::int32_t right_to_w = opposite_[next_half_edge(g)];
   const std::int32_t w_to_right = opposite_[previous_half_edge(g)];
-  // The corners of w from the left triangle counter-clockwise to the right one were those of v.
+  // The corners of w from the left triangle counter-clockwise to the right triangle belonged to v.
   std::int32_t corners = 0;
   for (std::int32_t outgoing = w_to_left;; outgoing = opposite_[previous_half_edge(outgoing)]) {
     triangles_[outgoing / 3][outgoing % 3] = v;
@@ -257,13 +257,13 @@ MeshCollapse::Undone MeshCollapse::undo() {
   return {v, w};
 }
 
-/// What every vertex costs, and the order in which they go.
+/// The cost of every vertex, and the order of removal.
 class MeshCollapse::Queue {
  public:
   Queue(MeshCollapse& mesh, const Execution& execution) : mesh_(mesh) {
     const std::size_t count = mesh.points_.size();
     quadrics_.resize(count);
-    // What no triangle stands behind still has a weight to divide by.
+    // A small weight, because vertices without area must have a divisor.
     areas_.assign(count, 1e-14);
     choices_.resize(count);
     states_.assign(count, stale);
@@ -290,8 +290,8 @@ class MeshCollapse::Queue {
     }
   }
 
-  /// Collapses vertices that are not neighbours, of the cheaper half, in the order of their numbers
-  /// and no further than to `aim`; returns how many.
+  /// Collapses non-neighbouring vertices of the cheaper half, in the order of their indices, down
+  /// to at most `aim` vertices. Returns the number of collapses.
   std::size_t collapse_round(std::size_t aim, const Execution& execution) {
     choose_stale(execution);
     std::vector<float> costs;
@@ -306,7 +306,7 @@ class MeshCollapse::Queue {
     const std::size_t before = mesh_.alive_;
     for (std::size_t i = 0; i < choices_.size() && mesh_.alive_ > aim; ++i) {
       const auto v = static_cast<std::int32_t>(i);
-      // A neighbour of one that went in this round is stale.
+      // A neighbour of a vertex removed in this round is stale.
       if (!may_go(v) || (states_[i] & stale) != 0 || !(choices_[i].cost <= limit)) continue;
       if (choices_[i].half_edge < 0 || !may_collapse(choices_[i].half_edge)) continue;
       carry_out(choices_[i].half_edge);
@@ -314,7 +314,7 @@ class MeshCollapse::Queue {
     return before - mesh_.alive_;
   }
 
-  /// Makes ready for collapse_next.
+  /// Prepares collapse_next.
   void fill(const Execution& execution) {
     choose_stale(execution);
     for (std::size_t i = 0; i < choices_.size(); ++i) {
@@ -338,22 +338,22 @@ class MeshCollapse::Queue {
       const Entry entry = pop();
       const std::int32_t v = entry.vertex;
       if (!may_go(v)) continue;
-      // The ring may be as it was and the link condition broken all the same, by collapses
-      // farther off.
+      // Collapses farther away may break the link condition even if the ring did not change.
       if ((states_[v] & stale) != 0 || choices_[v].half_edge < 0 ||
           !may_collapse(choices_[v].half_edge)) {
         update(v, workspace_);
         const Choice& choice = choices_[v];
         if (choice.half_edge < 0) continue;
-        // Nearly as cheap as the next one is taken: going back into the heap costs more.
+        // If the vertex is nearly as cheap as the next, it is removed now: returning it to the heap
+        // costs more.
         if (!entries_.empty() && choice.cost > entries_.front().cost * 1.0001F) {
           push({choice.cost, v});
           continue;
         }
       }
       carry_out(choices_[v].half_edge);
-      // A neighbour whose valence has come down enough joins at the cost of the day; its own is
-      // computed when its turn comes.
+      // A neighbour with a valence that is now low enough joins with the present cost. Its own cost
+      // is computed at its turn.
       for (const std::int32_t u : workspace_.ring) {
         if ((states_[u] & waiting) == 0 && mesh_.valences_[u] <= largest_collapsed_valence) {
           push({entry.cost, u});
@@ -364,7 +364,7 @@ class MeshCollapse::Queue {
   }
 
  private:
-  /// The cheapest half-edge along which a vertex may be collapsed; -1 where there is none.
+  /// The cheapest half-edge along which a vertex may be collapsed, or -1.
   struct Choice {
     float cost = 0.0F;
     std::int32_t half_edge = -1;
@@ -373,15 +373,15 @@ class MeshCollapse::Queue {
     float cost;
     std::int32_t vertex;
   };
-  /// Ties go to the lower index, so that the order does not depend on the heap's inner one.
+  /// In a tie the lower index is first, so that the order does not depend on the heap.
   static bool dearer(const Entry& a, const Entry& b) {
     return a.cost != b.cost ? a.cost > b.cost : a.vertex > b.vertex;
   }
   static constexpr unsigned char waiting = 1;  ///< bits of a vertex's state: in the heap
   static constexpr unsigned char stale = 2;    ///< its choice is out of date
 
-  /// The neighbours of one vertex, and what its collapse onto any of them needs. Not longer than
-  /// `largest_collapsed_valence`: it is searched from end to end.
+  /// The neighbours of one vertex, and data for its collapse onto any of them. At most
+  /// `largest_collapsed_valence` long, because searches are linear.
   struct Workspace {
     std::vector<std::int32_t> ring;
     std::vector<std::int32_t> outgoing;
@@ -389,7 +389,7 @@ class MeshCollapse::Queue {
     std::vector<Vector3> normals;    ///< of the triangles about the vertex, times twice their areas
     std::vector<double> lengths;     ///< of the normals
     std::vector<double> squares;     ///< squared lengths of the ring's edges
-    std::vector<double> costs;       ///< of the collapse onto each, but for the shapes
+    std::vector<double> costs;       ///< of the collapse onto each, without the shapes
     std::vector<std::size_t> order;  ///< of the ring, by these costs
   };
 
@@ -416,8 +416,8 @@ class MeshCollapse::Queue {
     return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
   }
 
-  /// Once a hub, always a hub. Two hubs' being neighbours is looked up: walking round either would
-  /// make a fan cost the square of its size.
+  /// Makes a vertex a hub for good. A table stores which hubs are neighbours, because a walk round
+  /// a hub would make the time quadratic in the fan's size.
   void make_hub(std::int32_t v) {
     hubs_[v] = 1;
     mesh_.visit_outgoing(v, [&](std::int32_t h) {
@@ -445,8 +445,8 @@ class MeshCollapse::Queue {
     });
   }
 
-  /// The link condition: the vertex whose ring is loaded and its neighbour w share no neighbours
-  /// but the two opposite to their edge.
+  /// Whether the link condition is met: the vertex of the loaded ring and its neighbour w share
+  /// only the two neighbours opposite to their edge.
   bool link_condition(std::int32_t w, const Workspace& work) const {
     int common = 0;
     if (hubs_[w] == 0) {
@@ -467,7 +467,7 @@ class MeshCollapse::Queue {
     return link_condition(mesh_.target(half_edge), workspace_);
   }
 
-  /// Every choice anew that a collapse has put out of date.
+  /// Computes all stale choices again.
   void choose_stale(const Execution& execution) {
     execution.parallel_for(choices_.size(), choice_block, [&](std::size_t begin, std::size_t end) {
       Workspace work;
@@ -478,7 +478,7 @@ class MeshCollapse::Queue {
     });
   }
 
-  /// Writes nothing but what belongs to v.
+  /// Writes only data of v.
   void update(std::int32_t v, Workspace& work) {
     states_[v] &= static_cast<unsigned char>(~stale);
     choices_[v] = choose(v, work);
@@ -514,16 +514,16 @@ class MeshCollapse::Queue {
       const std::int32_t valence = mesh_.valences_[v] + mesh_.valences_[w] - 4;
       if (valence > 9) cost *= 1.0 + 0.15 * (valence - 9) * (valence - 9);
       work.costs[i] = cost;
-      // In ascending order, by insertion: there are six or so.
+      // Insertion sort in ascending order; there are about six entries.
       std::size_t place = i;
       for (; place > 0 && work.costs[work.order[place - 1]] > cost; --place) {
         work.order[place] = work.order[place - 1];
       }
       work.order[place] = i;
     }
-    // Shapes and links, which are most of the work, are only looked at where the rest leaves room:
-    // cheapest first. A million vertices to 1,000 nodes take 7 % less by it. Of equal ones the
-    // first of the ring is taken.
+    // Shapes and links are most of the work, so they are computed cheapest first and only if the
+    // other costs leave room. This saves 7 % for a million vertices to 1,000 nodes. In a tie the
+    // first of the ring is used.
     std::size_t best = count;
     double lowest = std::numeric_limits<double>::infinity();
     for (const std::size_t i : work.order) {
@@ -538,9 +538,10 @@ class MeshCollapse::Queue {
     return {static_cast<float>(lowest), best < count ? work.outgoing[best] : -1};
   }
 
-  /// Of the triangles that the loaded vertex's become when it is collapsed to its neighbour i: the
-  /// largest sum of squared edges over area, 1 for an equilateral one; 100 at least where one turns
-  /// by more than 78 degrees. Any figure above `enough` where it is above that.
+  /// Returns the worst shape of the triangles after a collapse of the loaded vertex to its
+  /// neighbour i: the largest sum of squared edges over area, scaled to 1 for an equilateral
+  /// triangle. At least 100 if a triangle turns by more than 78 degrees. May return any value above
+  /// `enough` if the shape is above it.
   static double worst_shape(std::size_t i, const Workspace& work, double enough) {
     const std::size_t count = work.ring.size();
     const Vector3& q = work.corners[i];
@@ -562,7 +563,7 @@ class MeshCollapse::Queue {
     return worst;
   }
 
-  /// Leaves the ring of the vertex that went in the workspace.
+  /// Leaves the ring of the removed vertex in the workspace.
   void carry_out(std::int32_t half_edge) {
     const std::int32_t v = mesh_.origin(half_edge);
     const std::int32_t w = mesh_.target(half_edge);
@@ -582,10 +583,10 @@ class MeshCollapse::Queue {
 
   MeshCollapse& mesh_;
   std::vector<Quadric> quadrics_;
-  std::vector<double> areas_;  ///< of the surface behind each vertex
+  std::vector<double> areas_;  ///< of the surface that each vertex represents
   std::vector<Choice> choices_;
   std::vector<unsigned char> states_;
-  std::vector<char> hubs_;      ///< apart from the states: threads read it of each other's vertices
+  std::vector<char> hubs_;      ///< apart from the states, because other threads read it
   std::vector<Entry> entries_;  ///< a heap, cheapest first
   std::unordered_set<std::uint64_t> hub_edges_;
   Workspace workspace_;
@@ -601,9 +602,9 @@ void MeshCollapse::collapse_to(std::size_t vertices, const Execution& execution)
       execution.report(static_cast<double>(start - alive_) / static_cast<double>(start - aim),
                        collapse_stage);
     };
-    // One by one, cheapest first, the vertices of a dense scan are jumped to all over the memory;
-    // whole rounds take half of the time, on two threads a quarter, and the queue still has the
-    // last choice of every other vertex.
+    // One by one, cheapest first, the vertices of a dense scan are accessed all over the memory.
+    // Rounds take half of the time, on two threads a quarter. The queue still decides about every
+    // second vertex.
     const std::size_t rounds_to = std::max(2 * aim, fewest_for_rounds);
     while (alive_ > rounds_to) {
       report();

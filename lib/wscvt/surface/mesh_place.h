@@ -13,9 +13,10 @@ struct MeshPlace {
   Vector3 weights = Vector3::Zero();
 };
 
-/// The point of a mesh at a place on it.
+/// Returns the point of a mesh at a place.
 inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
-  // From a corner, so that on a large offset only what is small is multiplied.
+  // Starts from a corner, so that only small differences are multiplied if the mesh is far from the
+  // origin.
   const auto& [a, b, c] = mesh.triangles[place.triangle];
   const Vector3& p = mesh.points[a];
   return p + place.weights[1] * (mesh.points[b] - p) + place.weights[2] * (mesh.points[c] - p);

@@ -14,8 +14,7 @@ namespace {
 
 constexpr std::size_t ray_block = 8192;
 
-/// More entries in the bins than this for each triangle are not worth their memory. Even meshes
-/// have about three.
+/// Maximum number of bin entries per triangle, because of memory. Even meshes have about three.
 constexpr std::size_t entries_per_triangle = 20;
 
 }  // namespace
@@ -60,8 +59,8 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
           return part;
         });
   };
-  // A needle, as of a fan about a pole, is entered in the whole rectangle of cells about it: as
-  // many entries for each as there are triangles.
+  // A needle, as in a fan about a pole, gets an entry in every cell of the rectangle about it, so
+  // each may have as many entries as there are triangles.
   int resolution = CubeMap::resolution_for(mesh_.triangles.size());
   while (resolution > 1 && entries() > entries_per_triangle * mesh_.triangles.size()) {
     resolution /= 2;
@@ -76,9 +75,9 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
 }
 
 MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
-  // Points are sheared so that the ray becomes the z axis. The sheared position of a point is the
-  // same for all its triangles, and the sign of a difference of two rounded products is never
-  // wrong, only zero: so the sheared triangles cover the ray without a gap.
+  // Points are sheared so that the ray becomes the z axis. A point has one sheared position for all
+  // its triangles. The sign of a difference of two rounded products is never wrong, only zero, so
+  // the sheared triangles cover the ray without a gap.
   int axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
   const int axis_x = (axis + 1) % 3;
@@ -101,8 +100,8 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
     const double u = cx * by - cy * bx;
     const double v = ax * cy - ay * cx;
     const double w = bx * ay - by * ax;
-    // By extremes and not one by one: which of the three fails first no processor foresees, and its
-    // wrong guesses took a third of the time of a ray.
+    // Tests the extremes, because a processor cannot predict which of three single tests fails
+    // first. Wrong predictions took a third of the time of a ray.
     const double low = std::min(std::min(u, v), w);
     const double high = std::max(std::max(u, v), w);
     const double sum = u + v + w;
@@ -110,7 +109,7 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
     const double radius = (u * a[axis] + v * b[axis] + w * c[axis]) / (sum * direction[axis]);
     if (!(radius > hit.radius)) continue;
     hit = {*triangle, radius};
-    // No other triangle is there, where none folds over another; an edge has two, though.
+    // On a star-shaped mesh there is no other triangle, except on an edge.
     if (star_shaped_ && (low > 0.0 || high < 0.0)) break;
   }
   if (hit.triangle < 0) {
@@ -140,7 +139,7 @@ void MeshSurface::evaluate(const Vector3* directions, std::size_t count, Derivat
       const Vector3& c = mesh_.points[static_cast<std::size_t>(t[2])];
       const Vector3 normal = doubled_area_normal(a, b, c);
       const Vector3 slope = normal / normal.dot(u);
-      // Of d / (n . x): -r s and 2 r s s^T with s = n / (n . u).
+      // Derivatives of d / (n . x): -r s and 2 r s s^T with s = n / (n . u).
       const Vector3 gradient = -hit.radius * slope;
       jet = derivatives == Derivatives::First
                 ? jet_from_extension(hit.radius, gradient, u)

@@ -10,18 +10,18 @@
 namespace wscvt {
 
 /// A closed triangle mesh seen from the origin: r(u) is the distance to the outermost point that
-/// the ray along u meets. Triangles are binned by direction, so a ray tests only a few. The
-/// gradient is that of the plane met, the Hessian that of a plane's radius, d / (n . u).
+/// the ray along u hits. Triangles are binned by direction, so a ray tests only a few. Gradient and
+/// Hessian are derivatives of the radius of the hit plane, d / (n . u).
 class MeshSurface : public RadialSurface {
  public:
-  /// Keeps a copy of the closed, outward mesh moved by -centre and scaled by 1/unit. Throws
-  /// Error(InvalidInput) when the mesh is empty, the unit is not positive, or the centre lies on
-  /// the mesh or outside.
+  /// Stores a copy of the closed, outward mesh, moved by -centre and scaled by 1/unit. Throws
+  /// Error(InvalidInput) if the mesh is empty, the unit is not positive, or the centre lies on the
+  /// mesh or outside.
   MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
               const Execution& execution);
 
-  /// The same where `folded_share`, the mesh's folded_solid_angle about the centre, is known
-  /// already: finding it is a sixth of the construction.
+  /// Constructs with a known `folded_share`, the mesh's folded_solid_angle about the centre. This
+  /// saves a sixth of the construction time.
   MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit, double folded_share,
               const Execution& execution);
 
@@ -37,16 +37,17 @@ class MeshSurface : public RadialSurface {
     double radius = 0.0;
   };
 
-  /// A ray through an edge or a vertex is not missed: the test of Woop, Benthin and Wald (J.
-  /// Comput. Graph. Tech. 2 (2013) 65-82). Of triangles met at the same distance, the first. Throws
-  /// Error(NumericalFailure) when nothing is met, which a closed mesh about the origin rules out.
+  /// Returns the outermost hit. Rays through an edge or a vertex are not missed: the test of Woop,
+  /// Benthin and Wald (J. Comput. Graph. Tech. 2 (2013) 65-82). If triangles are hit at equal
+  /// distances, the first counts. Throws Error(NumericalFailure) if nothing is hit. This cannot
+  /// happen for a closed mesh about the origin.
   Hit outermost_hit(const Vector3& direction) const;
 
  private:
   IndexedMesh mesh_;
-  bool star_shaped_ = false;  ///< every ray from the origin meets one point
+  bool star_shaped_ = false;  ///< every ray from the origin hits one point
   CubeMap cube_;
-  Groups bins_;  ///< the triangles that each cell may show
+  Groups bins_;  ///< the triangles that may be seen in each cell
 };
 
 }  // namespace wscvt

@@ -22,7 +22,7 @@ void check_semi_axes(const Vector3& semi_axes) {
   }
 }
 
-/// base^exponent for base >= 0; negative powers stop growing at a millionth.
+/// Returns base^exponent for base >= 0. Negative powers use at least a millionth as base.
 double bounded_power(double base, double exponent) {
   return std::pow(exponent < 0.0 ? std::max(base, 1e-6) : base, exponent);
 }
@@ -40,8 +40,8 @@ ImplicitJet superellipsoid_function(const Vector3& t, double p, double q) {
   const Vector3 size = t.cwiseAbs();
   const double s = q / p;
   ImplicitJet jet;
-  // The larger of the two horizontal coordinates is taken out of the sum, so that nothing
-  // underflows towards the poles. On the axis itself the limit along the diagonal stands.
+  // The larger of the two horizontal coordinates is factored out of the sum, against underflow near
+  // the poles. On the axis itself the limit along the diagonal is used.
   const double m = std::max(size.x(), size.y());
   const double x = m > 0.0 ? size.x() / m : 1.0;
   const double y = m > 0.0 ? size.y() / m : 1.0;
@@ -65,7 +65,7 @@ ImplicitJet superellipsoid_function(const Vector3& t, double p, double q) {
   return jet;
 }
 
-/// Cuts the derivatives down to those asked for.
+/// Sets derivatives above the requested order to zero.
 RadialJet limited(RadialJet jet, Derivatives derivatives) {
   if (derivatives != Derivatives::Second) jet.hessian.setZero();
   if (derivatives == Derivatives::None) jet.gradient.setZero();
@@ -84,7 +84,7 @@ void Ellipsoid::evaluate(const Vector3* directions, std::size_t count, Derivativ
     // r = (x^T D x)^(-1/2) with D = diag(1/a^2, 1/b^2, 1/c^2), homogeneous of degree -1.
     const Vector3& u = directions[i];
     const double r = 1.0 / u.cwiseQuotient(semi_axes_).norm();
-    // r D x r: of the size of 1, whatever the unit of length.
+    // r D x r is of order 1 for any unit of length.
     const Vector3 slope = (r * u.cwiseQuotient(semi_axes_)).cwiseQuotient(semi_axes_) * r;
     const Vector3 inverse_square = (r * semi_axes_.cwiseInverse()).cwiseAbs2();
     const Matrix3 hessian =
@@ -108,8 +108,8 @@ void Superellipsoid::evaluate(const Vector3* directions, std::size_t count, Deri
   const double p = 2.0 / azimuthal_exponent_;
   const double q = 2.0 / polar_exponent_;
   for (std::size_t i = 0; i < count; ++i) {
-    // r(x) = F(x / semi-axes)^(-1/q), homogeneous of degree -1; F is taken where its largest
-    // coordinate is 1, so that large powers keep their range.
+    // r(x) = F(x / semi-axes)^(-1/q), homogeneous of degree -1; F is evaluated with a largest
+    // coordinate of 1, so that large powers stay in range.
     const Vector3& u = directions[i];
     const Vector3 relative = u.cwiseQuotient(semi_axes_);
     const double scale = 1.0 / relative.cwiseAbs().maxCoeff();

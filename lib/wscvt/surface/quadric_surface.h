@@ -27,10 +27,10 @@ inline constexpr NumberOption<double> azimuthal_exponent_option = {
 
 /// Superellipsoid (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) = 1 (Barr 1981,
 /// "Superquadrics and angle-preserving transformations", IEEE Comput. Graph. Appl. 1 (1), 11-23),
-/// with e1 = `polar_exponent`, e2 = `azimuthal_exponent`; both 1 give the ellipsoid, towards 0 a
-/// box. Derivatives are analytic. Second ones do not exist on the coordinate planes when an
-/// exponent exceeds 1, nor at the poles when the polar one is 1 and the azimuthal one is not: there
-/// they stay finite, and mean nothing.
+/// with e1 = `polar_exponent`, e2 = `azimuthal_exponent`; both 1 give the ellipsoid, values near 0
+/// a box. Derivatives are analytic. Second derivatives do not exist on the coordinate planes if an
+/// exponent exceeds 1, nor at the poles if e1 is 1 and e2 is not. There the values are finite but
+/// have no meaning.
 class Superellipsoid : public RadialSurface {
  public:
   /// Semi-axes in length units, each > 0 and finite, exponents 0.1 to 2, else Error(InvalidInput).

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t radius_block = 1024;
 
-/// The point r u and its derivatives, as far as `derivatives` says.
+/// Returns the point r u and its derivatives, up to the order `derivatives`.
 SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives) {
   SurfaceJet result;
   const Vector3& u = direction;

@@ -10,7 +10,7 @@ namespace wscvt {
 /// A star-shaped surface in another unit of length.
 class ScaledSurface : public RadialSurface {
  public:
-  /// Lengths are those of `surface` / unit; unit > 0. The surface must outlive this.
+  /// Lengths are lengths of `surface` / unit; unit > 0. The surface must outlive this.
   ScaledSurface(const RadialSurface& surface, double unit) : surface_(surface), unit_(unit) {}
 
   void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,

@@ -23,20 +23,21 @@ namespace {
 
 constexpr std::size_t map_block = 8192;
 constexpr std::size_t insertions_a_report = 4096;
-/// A neighbour of more is left to the sweeps: each insertion into its ring would go round it.
+/// Neighbours of higher valence are moved only by the sweeps, because each insertion would visit
+/// their whole ring.
 constexpr std::int32_t largest_inserted_valence = 32;
 
-/// The map is optimised as a whole once a level has so many times the vertices of the one before.
+/// The whole map is optimised if a level has this many times the vertices of the level before.
 constexpr double level_growth = 1.5;
-/// Sweeps over all vertices at most, at levels of up to so many vertices; there are none above,
-/// where they change nothing.
+/// Maximum number of sweeps over all vertices, at levels of up to this many vertices. Larger levels
+/// have no sweeps, because sweeps change nothing there.
 constexpr int coarse_sweeps = 40;
 constexpr int fine_sweeps = 10;
 constexpr std::size_t coarse_vertices = 4000;
 constexpr std::size_t fine_vertices = 30000;
-/// A level is done when four sweeps lower the energy by less than this share.
+/// A level ends if four sweeps lower the energy by less than this fraction.
 constexpr double level_tolerance = 2e-4;
-/// A vertex that moves by less than the root of this of its edges' length is still.
+/// A vertex is still if it moves by less than the square root of this times its edges' length.
 constexpr double still = 1e-5;
 
 /// Puts the vertices of a collapsed mesh on the sphere, one after another.
@@ -127,8 +128,8 @@ class Embedding {
     return insert_into_kernel(ring_, distances_, apex);
   }
 
-  /// Makes room about a vertex that has none: its ring, without it, is moved towards equal
-  /// triangles, whatever the surface's are.
+  /// Makes room for a vertex. Moves its ring, without the vertex, towards equal triangles,
+  /// independent of the surface's triangles.
   void widen(std::int32_t v, std::int32_t neighbour) {
     const double equilateral = 1.0 / std::sqrt(3.0);
     const double area = 4.0 * pi / static_cast<double>(mesh_.present_triangles().size());
@@ -137,7 +138,7 @@ class Embedding {
                          [&](std::int32_t h) { moved.push_back(target_of(mesh_.triangles(), h)); });
     for (int sweep = 0; sweep < 10; ++sweep) {
       for (const std::int32_t u : moved) {
-        // The vertex stands where its neighbour does: a triangle that both have has no image.
+        // The vertex is at its neighbour's position, so triangles with both have no image.
         const auto place = [&](std::int32_t x) { return directions_[x == v ? neighbour : x]; };
         fan_.clear();
         mesh_.visit_outgoing(u, [&](std::int32_t h) {
@@ -149,7 +150,7 @@ class Embedding {
           fan_.add(place(q), place(r), equilateral, equilateral, equilateral, area * area);
         });
         if (u == neighbour) {
-          // Its own triangles and those it stands in for.
+          // Its own triangles and the vertex's triangles.
           mesh_.visit_outgoing(v, [&](std::int32_t h) {
             const std::int32_t q = target_of(mesh_.triangles(), h);
             const std::int32_t r = target_of(mesh_.triangles(), next_half_edge(h));
@@ -168,8 +169,8 @@ class Embedding {
     return reference_triangle(mesh_.points()[t[0]], mesh_.points()[t[1]], mesh_.points()[t[2]]);
   }
 
-  /// Reference areas count in the unit that gives the level's surface, which shrinks as vertices
-  /// go, the area of the sphere.
+  /// Sets the unit of reference areas in which the level's surface has the area of the sphere. The
+  /// surface shrinks when vertices are removed.
   void set_area_unit() {
     double area = 0.0;
     for (const std::int32_t f : mesh_.present_triangles()) {
@@ -206,8 +207,8 @@ class Embedding {
     references_.resize(mesh_.triangles().size());
     for (const std::int32_t f : mesh_.present_triangles()) references_[f] = reference_of(f);
     const auto stored = [&](std::int32_t f) -> const ReferenceTriangle& { return references_[f]; };
-    // A vertex is passed over once neither it nor a neighbour moves any more: its step lowers the
-    // energy by the square of the way only.
+    // A vertex is skipped if neither it nor a neighbour moves, because its step lowers the energy
+    // only by the square of the distance.
     awake_.resize(directions_.size());
     for (const std::int32_t v : order_) awake_[v] = 1;
     double before = energy();
@@ -263,7 +264,7 @@ class Embedding {
   std::vector<double> distances_;
 };
 
-/// Exact signs of all triangles, and their solid angles' sum.
+/// Checks the exact signs of all triangles and the sum of their solid angles.
 void verify(const std::vector<Triangle>& triangles, const std::vector<Vector3>& directions,
             const Execution& execution) {
   struct Sums {
@@ -288,7 +289,7 @@ void verify(const std::vector<Triangle>& triangles, const std::vector<Vector3>& 
                                              }
                                              return part;
                                            });
-  // Counter-clockwise triangles about every vertex cover the sphere a whole number of times.
+  // If all triangles are counter-clockwise, they cover the sphere a whole number of times.
   if (sums.turned > 0 || !(std::abs(sums.solid_angle / (4.0 * pi) - 1.0) < 1e-3)) {
     throw Error(ErrorCode::NumericalFailure,
                 "The map to the sphere has " + std::to_string(sums.turned) +
@@ -331,7 +332,7 @@ void measure_distortion(const std::vector<Vector3>& points, const std::vector<Tr
           const double area = 0.5 * ab.cross(ac).norm();
           const double ab_square = ab.squaredNorm();
           const double ac_square = ac.squaredNorm();
-          // What rounding leaves of a triangle without area says nothing.
+          // For a triangle without area, only rounding errors remain.
           if (!(area > 1e-12 * std::max(ab_square, ac_square))) continue;
           const Vector3& p = directions[t[0]];
           const Vector3 pq = directions[t[1]] - p;

@@ -70,8 +70,8 @@ std::vector<double> SphereSurface::distances(const std::vector<Vector3>& directi
 }
 
 Vector3 area_normal(const SurfaceJet& jet, const Vector3& direction) {
-  // J e1 x J e2 for tangents with e1 x e2 = u is the cofactor matrix of J times u: no tangents need
-  // to be chosen.
+  // J e1 x J e2 for tangents with e1 x e2 = u is the cofactor matrix of J times u, so no tangents
+  // are needed.
   const Vector3 x = jet.jacobian.col(0);
   const Vector3 y = jet.jacobian.col(1);
   const Vector3 z = jet.jacobian.col(2);
@@ -92,8 +92,8 @@ PrincipalCurvatures principal_curvatures(const SurfaceJet& jet, const Vector3& d
   const Vector3 x1 = jet.jacobian * e1;
   const Vector3 x2 = jet.jacobian * e2;
   const Vector3 normal = x1.cross(x2).stableNormalized();
-  // Along a great circle u'' = -u, which J takes to zero: the second derivatives of x are those of
-  // the Hessians alone.
+  // Along a great circle u'' = -u, and J u = 0, so the second derivatives of x come only from the
+  // Hessians.
   Matrix3 bending = Matrix3::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     bending -= normal[static_cast<Eigen::Index>(k)] * jet.hessians[k];

@@ -23,17 +23,17 @@ struct PrincipalCurvatures {
   double minimum = 0.0;
 };
 
-/// What a surface is like in a direction, in numbers that do not hang on coordinates. Of a radial
-/// surface they are had without the coordinates' derivatives.
+/// The shape of a surface in a direction, in numbers that do not depend on coordinates. A radial
+/// surface computes them without derivatives of the coordinates.
 struct LocalShape {
-  double distance = 0.0;           ///< |x|, length; of a radial surface its radius
-  double area_element = 0.0;       ///< g = dA/dOmega, length^2; filled in from First on
-  PrincipalCurvatures curvatures;  ///< filled in from Second on
+  double distance = 0.0;           ///< |x|, length; the radius if the surface is radial
+  double area_element = 0.0;       ///< g = dA/dOmega, length^2; from First on, else 0
+  PrincipalCurvatures curvatures;  ///< with Second, else 0
 };
 
-/// The point of a surface over the direction u, with its derivatives on the unit sphere.
+/// The point of a surface in the direction u, with its derivatives on the unit sphere.
 ///
-/// All derivatives are those of the degree-0 homogeneous extension x(p) = x(p/|p|), taken at
+/// All derivatives are derivatives of the degree-0 homogeneous extension x(p) = x(p/|p|), taken at
 /// |p| = 1, in Cartesian coordinates of the sphere. So jacobian * u = 0, and jacobian * e is the
 /// derivative along a tangent e of the sphere.
 struct SurfaceJet {
@@ -44,26 +44,25 @@ struct SurfaceJet {
   std::array<Matrix3, 3> hessians{Matrix3::Zero(), Matrix3::Zero(), Matrix3::Zero()};
 };
 
-/// A closed surface spread over the unit sphere: a point x(u) for every unit vector u. A radial
-/// surface, x = r u, is one case (RadialSurface), which can be asked for radii as well; a scan
-/// mapped to the sphere (MappedSurface), which can be walked on, and a series for each coordinate
-/// (HarmonicMap) are others.
+/// A closed surface over the unit sphere: a point x(u) for every unit vector u. Examples are a
+/// radial surface x = r u (RadialSurface, which also returns radii), a scan with a spherical
+/// parametrization (MappedSurface) and a series for each coordinate (HarmonicMap).
 class SphereSurface {
  public:
   virtual ~SphereSurface() = default;
 
-  /// Positions and derivatives for `count` unit vectors. Fields beyond `derivatives` are left at
-  /// zero. Must be callable from several threads at once, and the value for a direction must not
-  /// depend on what other directions stand in the same call.
+  /// Computes positions and derivatives for `count` unit vectors. Fields beyond `derivatives` stay
+  /// zero. Must be callable from several threads at once. The value for a direction must not depend
+  /// on the other directions in the call.
   virtual void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
                              SurfaceJet* jets) const = 0;
 
-  /// Points only, for `count` unit vectors. The default goes through `evaluate_jets`.
+  /// Computes positions only, for `count` unit vectors. The default calls `evaluate_jets`.
   virtual void evaluate_positions(const Vector3* directions, std::size_t count,
                                   Vector3* positions) const;
 
-  /// Distance from the origin, area element and curvatures, as far as `derivatives` says, for
-  /// `count` unit vectors; under the same rules as `evaluate_jets`, through which the default goes.
+  /// Computes distance from the origin, area element and curvatures, up to the order `derivatives`,
+  /// for `count` unit vectors. Follows the rules of `evaluate_jets`, which the default calls.
   virtual void evaluate_shapes(const Vector3* directions, std::size_t count,
                                Derivatives derivatives, LocalShape* shapes) const;
 
@@ -75,62 +74,64 @@ class SphereSurface {
   std::vector<Vector3> positions(const std::vector<Vector3>& directions,
                                  const Execution& execution) const;
 
-  /// The distances from the origin alone of `evaluate_shapes`, likewise; length.
+  /// Like `evaluate_shapes`, but only distances from the origin; length.
   std::vector<double> distances(const std::vector<Vector3>& directions,
                                 const Execution& execution) const;
 };
 
-/// Normal of the surface at direction u, as long as the surface's area per solid angle,
-/// g = dA/dOmega in length^2; outward where the map keeps the orientation. From first derivatives.
+/// Returns the normal of the surface at direction u. Its length is the surface's area per solid
+/// angle, g = dA/dOmega in length^2. It is outward if the map keeps the orientation. Needs first
+/// derivatives.
 Vector3 area_normal(const SurfaceJet& jet, const Vector3& direction);
 
-/// Area of the surface per solid angle, g = dA/dOmega; length^2.
+/// Returns the area of the surface per solid angle, g = dA/dOmega; length^2.
 double area_element(const SurfaceJet& jet, const Vector3& direction);
 
-/// Outward unit normal; zero where g is.
+/// Returns the outward unit normal; zero if g is zero.
 Vector3 surface_normal(const SurfaceJet& jet, const Vector3& direction);
 
-/// Principal curvatures at direction u from a jet with second derivatives: the eigenvalues of the
-/// shape operator in the first fundamental form. A sphere of radius R gives 1/R twice, a flat face
-/// of a mesh 0. Not finite where g is zero.
+/// Returns the principal curvatures at direction u from a jet with second derivatives: the
+/// eigenvalues of the shape operator in the first fundamental form. A sphere of radius R gives 1/R
+/// twice, a flat face of a mesh 0. Not finite if g is zero.
 PrincipalCurvatures principal_curvatures(const SurfaceJet& jet, const Vector3& direction);
 
 /// Integrals over the body that a surface encloses.
 struct BodyIntegrals {
-  double volume = 0.0;                 ///< length^3; negative where the map turns it inside out
+  double volume = 0.0;                 ///< length^3; negative if the map is inside out
   double area = 0.0;                   ///< length^2
-  Vector3 centroid = Vector3::Zero();  ///< of the volume; zero without one
+  Vector3 centroid = Vector3::Zero();  ///< of the volume; zero if there is no volume
 };
 
-/// By Gauss-Legendre x trapezoid quadrature on the sphere, with `polar_nodes` rows and twice as
-/// many columns; volume and centroid of series are exact from rows of 1.5 and 2 times the degree
-/// on. Throws Error(InvalidInput) if polar_nodes < 1.
+/// Computes the integrals by Gauss-Legendre x trapezoid quadrature on the sphere, with
+/// `polar_nodes` rows and twice as many columns. For series, the volume is exact if the rows are at
+/// least 1.5 times the degree, the centroid if they are at least twice the degree. Throws
+/// Error(InvalidInput) if polar_nodes < 1.
 BodyIntegrals body_integrals(const SphereSurface& surface, int polar_nodes,
                              const Execution& execution);
 
-/// A surface as a mesh, with its points in the directions of subdivided_sphere(frequency). Throws
-/// as that, and what the surface throws.
+/// Returns a surface as a mesh, with points in the directions of subdivided_sphere(frequency).
+/// Throws as subdivided_sphere and as the surface.
 IndexedMesh mesh_of_surface(const SphereSurface& surface, int frequency,
                             const Execution& execution);
 
-/// Distances and area elements, one value a direction.
+/// Distances and area elements, one value per direction.
 struct AreaElements {
-  std::vector<double> distances;  ///< |x|, length; of a radial surface its radii
+  std::vector<double> distances;  ///< |x|, length; the radii if the surface is radial
   std::vector<double> elements;   ///< dA/dOmega, see area_element; length^2
 };
 
-/// Both in `directions`, unit vectors, without keeping a jet of many numbers a direction. Throws
-/// what the surface throws, and Error(Cancelled).
+/// Computes both in `directions`, unit vectors, and stores no jets. Throws as the surface, and
+/// Error(Cancelled).
 AreaElements area_elements(const SphereSurface& surface, const std::vector<Vector3>& directions,
                            const Execution& execution);
 
-/// Area of a surface by the quadrature of body_integrals, which needs no normals; length^2. Throws
-/// Error(InvalidInput) if polar_nodes < 1.
+/// Returns the area of a surface by the quadrature of body_integrals, without normals; length^2.
+/// Throws Error(InvalidInput) if polar_nodes < 1.
 double surface_area(const SphereSurface& surface, int polar_nodes, const Execution& execution);
 
 /// Radius of a star-shaped surface in one direction u, with its derivatives on the unit sphere.
 ///
-/// Both derivatives are those of the degree-0 homogeneous extension r(x) = r(x/|x|), taken at
+/// Both derivatives are derivatives of the degree-0 homogeneous extension r(x) = r(x/|x|), taken at
 /// |x| = 1, in Cartesian coordinates. So `gradient` is tangential (gradient . u = 0) and equals
 /// grad_Omega r; `hessian` is symmetric, its tangential block is the covariant Hessian on the
 /// sphere, and hessian * u = -gradient.
@@ -140,19 +141,19 @@ struct RadialJet {
   Matrix3 hessian = Matrix3::Zero();   ///< length units per radian^2
 };
 
-/// A star-shaped surface about the origin, x(u) = r(u) u for every unit vector u: the case of a
-/// surface over the sphere that the published method is for. Only what has no meaning without one
-/// number a direction asks for it: the fit of the series, cells that are moved along rays, nodes
-/// fitted along them, roughness and Sdq as printed.
+/// A star-shaped surface about the origin, x(u) = r(u) u for every unit vector u. The published
+/// method is for such surfaces. Only functions that need one radius per direction use this class:
+/// the fit of the series, cells moved along rays, nodes fitted along rays, roughness and Sdq as
+/// printed.
 class RadialSurface : public SphereSurface {
  public:
-  /// Radii and derivatives for `count` unit vectors. Fields beyond `derivatives` are left at zero.
-  /// Must be callable from several threads at once, and the value for a direction must not depend
-  /// on what other directions stand in the same call.
+  /// Computes radii and derivatives for `count` unit vectors. Fields beyond `derivatives` stay
+  /// zero. Must be callable from several threads at once. The value for a direction must not depend
+  /// on the other directions in the call.
   virtual void evaluate(const Vector3* directions, std::size_t count, Derivatives derivatives,
                         RadialJet* jets) const = 0;
 
-  /// Radii only, for `count` unit vectors. The default goes through `evaluate`.
+  /// Computes radii only, for `count` unit vectors. The default calls `evaluate`.
   virtual void evaluate_radii(const Vector3* directions, std::size_t count, double* radii) const;
 
   /// Like `evaluate`, for a whole array and on the threads of `execution`.
@@ -163,30 +164,31 @@ class RadialSurface : public SphereSurface {
   std::vector<double> radii(const std::vector<Vector3>& directions,
                             const Execution& execution) const;
 
-  /// Radius in one direction, a unit vector; length.
+  /// Returns the radius in one direction, a unit vector; length.
   double radius(const Vector3& direction) const;
 
-  /// From `evaluate`.
+  /// Calls `evaluate`.
   void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
                      SurfaceJet* jets) const override;
-  /// From `evaluate_radii`.
+  /// Calls `evaluate_radii`.
   void evaluate_positions(const Vector3* directions, std::size_t count,
                           Vector3* positions) const override;
-  /// From `evaluate`, or `evaluate_radii` where that is enough: one number instead of three.
+  /// Calls `evaluate`, or `evaluate_radii` if radii are enough.
   void evaluate_shapes(const Vector3* directions, std::size_t count, Derivatives derivatives,
                        LocalShape* shapes) const override;
 };
 
-/// Surface area per solid angle, g = dA/dOmega = r sqrt(r^2 + |grad_Omega r|^2); length^2.
+/// Returns the surface area per solid angle, g = dA/dOmega = r sqrt(r^2 + |grad_Omega r|^2);
+/// length^2.
 inline double area_element(const RadialJet& jet) {
   return jet.radius * std::sqrt(jet.radius * jet.radius + jet.gradient.squaredNorm());
 }
 
-/// Outward unit normal of x(u) = r(u) u at direction u, along r u - grad_Omega r.
+/// Returns the outward unit normal of x(u) = r(u) u at direction u, along r u - grad_Omega r.
 Vector3 surface_normal(const RadialJet& jet, const Vector3& direction);
 
-/// Principal curvatures at direction u from a jet with second derivatives: the shape operator of
-/// the level set |x| - r(x/|x|) = 0. A sphere of radius R gives 1/R twice.
+/// Returns the principal curvatures at direction u from a jet with second derivatives: eigenvalues
+/// of the shape operator of the level set |x| - r(x/|x|) = 0. A sphere of radius R gives 1/R twice.
 PrincipalCurvatures principal_curvatures(const RadialJet& jet, const Vector3& direction);
 
 /// Extends the tangential derivatives of any smooth extension f of r near |x| = 1 to a RadialJet:
@@ -194,8 +196,9 @@ PrincipalCurvatures principal_curvatures(const RadialJet& jet, const Vector3& di
 RadialJet jet_from_extension(double radius, const Vector3& gradient, const Matrix3& hessian,
                              const Vector3& direction);
 
-/// The same without second derivatives, which are zero in the result: for Derivatives::First.
-/// Inline, as area_element is: what tabulates a surface calls both tens of thousands of times.
+/// The function above without second derivatives, which are zero in the result: for
+/// Derivatives::First. Inline, as area_element, because tables of a surface call both tens of
+/// thousands of times.
 inline RadialJet jet_from_extension(double radius, const Vector3& gradient,
                                     const Vector3& direction) {
   RadialJet jet;
@@ -218,10 +221,10 @@ struct SurfaceIntegrals {
 SurfaceIntegrals integrate(const RadialSurface& surface, int polar_nodes,
                            const Execution& execution);
 
-/// The same on grids of 200, 400, 800 and 1600 polar nodes, until volume and area change by at most
-/// 1e-5 of themselves from one to the next, or by 1e-4 to the last (sharp edges converge slowly).
-/// Throws Error(InvalidInput) when they do not, as for discs of more than about 20 : 1, and when
-/// the surface encloses no volume about its origin.
+/// Computes the integrals on grids of 200, 400, 800 and 1600 polar nodes. Stops if volume and area
+/// change by at most 1e-5 of themselves from one grid to the next, or by 1e-4 to the last grid
+/// (sharp edges converge slowly). Throws Error(InvalidInput) if they change more, as for discs of
+/// more than about 20 : 1, or if the surface encloses no volume about its origin.
 SurfaceIntegrals integrate(const RadialSurface& surface, const Execution& execution);
 
 }  // namespace wscvt

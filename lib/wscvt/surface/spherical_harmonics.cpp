@@ -9,9 +9,9 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 
-// The hot loops are compiled three times on x86-64: for every such processor, for those with AVX2
-// and for those with AVX-512. All give the same bits: the operations and their order are the same,
-// and none may fuse a multiply with an add.
+// The hot loops are compiled three times on x86-64: for every processor, with AVX2 and with
+// AVX-512. All give the same bits, because they have the same operations in the same order and
+// never fuse a multiply with an add.
 #if defined(__GNUC__) && defined(__x86_64__)
 #define WSCVT_HAS_CLONES 1
 #define WSCVT_INLINE inline __attribute__((always_inline))
@@ -56,7 +56,7 @@ struct Recurrence {
   double alpha, beta;
 };
 
-/// Q_lm = alpha z Q_l-1,m - beta Q_l-2,m for l > m; the same holds for P_lm.
+/// Q_lm = alpha z Q_l-1,m - beta Q_l-2,m for l > m; also for P_lm.
 Recurrence recurrence(int l, int m) {
   const double l2 = static_cast<double>(l) * l;
   const double m2 = static_cast<double>(m) * m;
@@ -108,14 +108,14 @@ struct ExtensionLanes {
   Lanes value, gradient[3], hessian[5];
 };
 
-/// What a series comes to on the lanes' latitudes, of one order m: the factors of the cosine and of
-/// the sine, with as many derivatives by z as are asked for.
+/// The sums of a series for one order m on the lanes' latitudes: the factors of the cosine and of
+/// the sine, with the requested derivatives by z.
 struct LatitudeSums {
   Lanes cosine[3];
   Lanes sine[3];
 };
 
-/// Sums a series over its degrees. `order` = 0, 1, 2: how many derivatives.
+/// Sums a series over its degrees. `order` = 0, 1, 2: number of derivatives.
 template <int order>
 WSCVT_INLINE void sum_degrees(int degree, const HarmonicSeries::Term* term, const Lanes& z,
                               LatitudeSums* sums) {
@@ -155,13 +155,13 @@ WSCVT_INLINE void sum_degrees(int degree, const HarmonicSeries::Term* term, cons
   }
 }
 
-/// Sums what `sum_degrees` gives over the orders.
+/// Sums the results of `sum_degrees` over the orders.
 template <int order>
 WSCVT_INLINE void sum_orders(int degree, const LatitudeSums* sums, const Lanes& x, const Lanes& y,
                              ExtensionLanes& out) {
   const Lanes zero{};
   out = {};
-  // (x + iy)^m and the two powers before it; the missing ones meet factors that are zero.
+  // (x + iy)^m and the two powers before it; missing powers have zero factors.
   Lanes c;
   for (double& value : c.v) value = 1.0;
   Lanes s = zero;
@@ -195,7 +195,7 @@ WSCVT_INLINE void sum_orders(int degree, const LatitudeSums* sums, const Lanes& 
   }
 }
 
-/// The two sums, as they are compiled for a processor.
+/// The two sums, compiled for a processor.
 struct SumFunctions {
   void (*degrees)(int, const HarmonicSeries::Term*, const Lanes&, LatitudeSums*);
   void (*orders)(int, const LatitudeSums*, const Lanes&, const Lanes&, ExtensionLanes&);
@@ -239,7 +239,8 @@ SumFunctions sum_functions() {
   return {degrees_portable<order>, orders_portable<order>};
 }
 
-/// Calls store(index, lane, sums) for every direction; a last incomplete set repeats the last one.
+/// Calls store(index, lane, sums) for every direction. An incomplete last set repeats the last
+/// direction.
 template <int order, class Store>
 void for_each_sum(int degree, const HarmonicSeries::Term* terms, const Vector3* directions,
                   std::size_t count, const Store& store) {
@@ -257,7 +258,7 @@ void for_each_sum(int degree, const HarmonicSeries::Term* terms, const Vector3* 
       y.v[i] = u.y();
       z.v[i] = u.z();
     }
-    // Along the row of a grid the latitude stays, and with it all but the azimuths' part.
+    // Along a grid row the latitude is constant, so only the azimuths' part changes.
     if (begin == 0 || !std::equal(z.v, z.v + lanes, z_before.v)) {
       functions.degrees(degree, terms, z, sums.data());
       z_before = z;

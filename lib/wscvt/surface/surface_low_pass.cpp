@@ -19,13 +19,13 @@ namespace {
 
 constexpr const char* low_pass_stage = "Filtering the surface";
 
-/// Doubled area below this share of the square of the longest edge: the cotangents of a thinner
-/// face are so large that it would hold its corners together.
+/// Smallest doubled area / square of the longest edge. The cotangents of a thinner face are so
+/// large that they would tie its corners together.
 constexpr double thinnest = 1e-4;
 
 using Triplet = Eigen::Triplet<double>;
 
-/// M and L: M the sixth of the doubled areas of the faces about each vertex.
+/// M and L. M is a sixth of the doubled areas of the faces about each vertex.
 struct Operators {
   Eigen::VectorXd areas;
   std::vector<Triplet> entries;  ///< of M + t L, its lower half
@@ -48,7 +48,7 @@ Operators operators(const std::vector<Triangle>& triangles, const std::vector<Ve
     }
     const double area = std::max(doubled_area_normal(p[0], p[1], p[2]).norm(), thinnest * longest);
     if (!(area > 0.0)) continue;
-    std::array<double, 3> weights;  // of the edges across from the corners
+    std::array<double, 3> weights;  // of the edges opposite to the corners
     for (std::size_t k = 0; k < 3; ++k) {
       weights[k] = 0.5 * t / area * (p[following(k)] - p[k]).dot(p[preceding(k)] - p[k]);
     }
@@ -68,11 +68,11 @@ Eigen::SparseMatrix<double> matrix_of(const std::vector<Triplet>& entries, std::
   return matrix;
 }
 
-/// Three functions; the fourth number is 0, so that two at a time are worked on.
+/// Three functions and a 0, so that the processor handles two numbers at a time.
 using Value = Eigen::Vector4d;
 
-/// Solves L L^T x = b in place, all functions at once: Eigen takes them one by one, and twice the
-/// time (a filter of 7,228 vertices 12 ms in place of 5), of which a batch has three a grain.
+/// Solves L L^T x = b in place for all functions at once. Eigen solves them one by one, in twice
+/// the time (a filter of 7,228 vertices: 12 ms instead of 5; a batch has three filters per grain).
 void solve(const Eigen::SparseMatrix<double>& factor, std::vector<Value>& b) {
   const int* const starts = factor.outerIndexPtr();
   const int* const rows = factor.innerIndexPtr();
@@ -102,7 +102,7 @@ void solve(const Eigen::SparseMatrix<double>& factor, std::vector<Value>& b) {
 
 SurfaceLowPass::SurfaceLowPass(const std::vector<Triangle>& triangles, std::size_t vertices)
     : triangles_(triangles), vertices_(vertices) {
-  // Values do not matter for the order: each face connects its corners.
+  // The order does not depend on values: each face connects its corners.
   std::vector<Triplet> entries;
   entries.reserve(6 * triangles.size());
   for (const Triangle& face : triangles) {
@@ -135,7 +135,7 @@ void SurfaceLowPass::set_surface(const std::vector<Vector3>& points, double cuto
   const double wave = cutoff / (2.0 * pi);
   Operators o = operators(triangles_, points, wave * wave);
   const SparseMatrix matrix = matrix_of(o.entries, vertices_);
-  o.entries = {};  // before the factor needs memory
+  o.entries = {};  // freed before the factor needs memory
   solver_.factorize(matrix);
   if (solver_.info() != Eigen::Success) {
     throw Error(ErrorCode::NumericalFailure,
@@ -148,7 +148,7 @@ void SurfaceLowPass::set_surface(const std::vector<Vector3>& points, double cuto
 std::vector<Vector3> SurfaceLowPass::filter(const std::vector<Vector3>& values,
                                             const Execution& execution) const {
   check_count(values.size());
-  // In the order of elimination.
+  // Sorted in the order of elimination.
   const auto rows = static_cast<Eigen::Index>(vertices_);
   const auto& order = solver_.permutationP().indices();
   const SparseMatrix& factor = solver_.matrixL().nestedExpression();
@@ -159,7 +159,7 @@ std::vector<Vector3> SurfaceLowPass::filter(const std::vector<Vector3>& values,
     step[row] << values[static_cast<std::size_t>(i)], 0.0;
     areas[row] = areas_[i];
   }
-  // p(h) by Horner's rule would need h of each power anew; the powers one after another are it.
+  // Sums the powers of h one after another. This takes as many steps as Horner's rule.
   std::vector<Value> sum(vertices_, Value::Zero());
   constexpr std::array<double, 6> polynomial = {0.0, 0.0, 0.0, 10.0, -15.0, 6.0};
   for (std::size_t power = 1; power < polynomial.size(); ++power) {
