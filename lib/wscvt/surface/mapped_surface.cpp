@@ -19,8 +19,6 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t mapped_block = 8192;
-/// Number of directions per block.
-constexpr std::size_t search_block_size = 256;
 
 [[noreturn]] void refuse_directions(const std::string& what) {
   throw Error(ErrorCode::InvalidInput,
