@@ -14,17 +14,17 @@
 
 namespace wscvt {
 
-// What the values of an enumeration are called, in one table beside the enumeration. Reports,
-// programs, dialogs, checks and messages all read it, so that a value has one name everywhere and a
-// new one is a row.
+// The names of an enumeration's values, in one table beside the enumeration. Reports, programs,
+// dialogs, checks and messages read this table. A value therefore has one name everywhere, and a
+// new value is one row.
 
 /// A row of a table: one value.
 template <class Enumeration>
 struct Enumerator {
   Enumeration value;
-  std::string_view key;    ///< what one types and what files hold: lower case, words joined by "-"
-  std::string_view label;  ///< what a person reads, in the middle of a sentence
-  std::string_view meaning = {};  ///< what it does, for help texts; empty where the label says it
+  std::string_view key;    ///< typed by users and written to files: lower case, words joined by "-"
+  std::string_view label;  ///< shown to people, in the middle of a sentence
+  std::string_view meaning = {};  ///< effect, for help texts; empty if the label says it
 };
 
 /// The table of an enumeration; specialised beside it with `key` and `subject`, as in
@@ -38,8 +38,8 @@ constexpr const auto& enumerators() {
   return EnumerationTable<Enumeration>::rows;
 }
 
-/// Whether a table's rows hold the values 0, 1, 2, ... and keys of their own: what the functions
-/// below and saved scripts, which hold the values as numbers, rely on.
+/// Returns whether a table's rows have the values 0, 1, 2, ... and different keys. The functions
+/// below rely on this, and so do saved scripts, which contain the values as numbers.
 template <class Enumeration>
 constexpr bool is_table_in_order() {
   std::size_t index = 0;
@@ -52,7 +52,7 @@ constexpr bool is_table_in_order() {
   return true;
 }
 
-/// Whether a value is one of the table's; a cast number may be none.
+/// Returns whether the table has the value; a cast number may be no value of it.
 template <class Enumeration>
 constexpr bool is_valid(Enumeration value) {
   static_assert(is_table_in_order<Enumeration>());
@@ -60,7 +60,7 @@ constexpr bool is_valid(Enumeration value) {
   return index >= 0 && index < static_cast<long long>(std::size(enumerators<Enumeration>()));
 }
 
-/// The keys as a choice: "a, b or c".
+/// Returns the keys as a choice: "a, b or c".
 template <class Enumeration>
 std::string keys_of() {
   std::string text;
@@ -73,24 +73,24 @@ std::string keys_of() {
   return text;
 }
 
-/// Throws Error(InvalidInput), naming the choices, for a value that is not the table's.
+/// Throws Error(InvalidInput), which names the choices, if the table does not have the value.
 template <class Enumeration>
 void require_valid(Enumeration value) {
   if (is_valid(value)) return;
   throw Error(ErrorCode::InvalidInput,
               "The " + std::string(EnumerationTable<Enumeration>::subject) + " is number " +
-                  std::to_string(static_cast<long long>(value)) + ", which there is not; give " +
+                  std::to_string(static_cast<long long>(value)) + ", which does not exist. Give " +
                   keys_of<Enumeration>() + ".");
 }
 
-/// The row of a value. Throws as require_valid.
+/// Returns the row of a value. Throws as require_valid.
 template <class Enumeration>
 const Enumerator<Enumeration>& row_of(Enumeration value) {
   require_valid(value);
   return enumerators<Enumeration>()[static_cast<std::size_t>(value)];
 }
 
-/// Returns the text that one types for a value. Throws as require_valid.
+/// Returns the text that users type for a value. Throws as require_valid.
 template <class Enumeration>
 std::string key_of(Enumeration value) {
   return std::string(row_of(value).key);
@@ -102,7 +102,8 @@ std::string label_of(Enumeration value) {
   return std::string(row_of(value).label);
 }
 
-/// The value of a key. Throws Error(InvalidInput), naming the choices, for any other text.
+/// Returns the value of a key. Throws Error(InvalidInput), which names the choices, for any other
+/// text.
 template <class Enumeration>
 Enumeration from_key(std::string_view key) {
   static_assert(is_table_in_order<Enumeration>());
@@ -111,27 +112,27 @@ Enumeration from_key(std::string_view key) {
   }
   throw Error(ErrorCode::InvalidInput,
               "The " + std::string(EnumerationTable<Enumeration>::subject) + " is \"" +
-                  std::string(key) + "\", which there is not; give " + keys_of<Enumeration>() +
+                  std::string(key) + "\", which does not exist. Give " + keys_of<Enumeration>() +
                   ".");
 }
 
-// What an option that is a number or a flag is called and what it may be, in one constant beside
-// its struct, which is read in the same places.
+// The names and the range of an option that is a number or a flag, in one constant beside the
+// option's struct. The same readers use it.
 
-/// The ends that belong to a range.
+/// Ends of a range that belong to it.
 enum class Ends { Both, NotMinimum, NotMaximum, Neither };
 
-/// An option that is a number. The largest number of its type, or infinity, is no limit.
+/// An option that is a number. The largest number of its type, or infinity, means no upper limit.
 template <class Number>
 struct NumberOption {
-  std::string_view key;      ///< what one types, as of an Enumerator
-  std::string_view subject;  ///< what it is, to follow "The" in a sentence
+  std::string_view key;      ///< typed by users, as Enumerator::key
+  std::string_view subject;  ///< name of the option, to follow "The" in a sentence
   Number minimum;
   Number maximum;
   Ends ends = Ends::Both;
-  std::string_view meaning = {};  ///< what it does, for help texts; may be empty
+  std::string_view meaning = {};  ///< effect, for help texts; may be empty
 
-  /// False for what is not a number.
+  /// Returns whether the value is in the range; false for NaN.
   constexpr bool contains(Number value) const {
     const bool above = excludes_minimum() ? value > minimum : value >= minimum;
     const bool below = excludes_maximum() ? value < maximum : value <= maximum;
@@ -153,8 +154,8 @@ struct FlagOption {
   std::string_view meaning;
 };
 
-/// A number as one types it: every digit it needs, none that it does not, and no exponent where a
-/// person would write none (see format_typed, text_format.h).
+/// Returns a number as a person types it: only the digits it needs, and no exponent if a person
+/// would write none (see format_typed, text_format.h).
 std::string typed_text(double value);
 
 template <class Number>
@@ -163,10 +164,11 @@ std::string typed_text(Number value) {
   return std::to_string(value);
 }
 
-/// A label, a subject or a range with its first letter as at the beginning of a sentence.
+/// Returns the text with a capital first letter.
 std::string capitalised(std::string_view text);
 
-/// The range: "4 to 1000000", "above 0", "0 or more", "0 to below 1", "above 0 and below 2".
+/// Returns the range: "4 to 1000000", "above 0", "0 or more", "0 to below 1", "above 0 and below
+/// 2".
 template <class Number>
 std::string range_text(const NumberOption<Number>& option) {
   const std::string minimum = typed_text(option.minimum);
@@ -177,7 +179,7 @@ std::string range_text(const NumberOption<Number>& option) {
          (option.excludes_maximum() ? "below " : "") + typed_text(option.maximum);
 }
 
-/// The sentence that refuses a value.
+/// Returns the message that refuses a value.
 template <class Number>
 std::string refusal(std::string_view value, const NumberOption<Number>& option) {
   const std::string before = option.excludes_minimum() ? ""
@@ -188,15 +190,16 @@ std::string refusal(std::string_view value, const NumberOption<Number>& option) 
          range_text(option) + ".";
 }
 
-/// Throws Error(InvalidInput), with the range, for a value outside of it or not a number.
+/// Throws Error(InvalidInput), with the range, for a value outside of it and for NaN.
 template <class Number>
 void require_in_range(Number value, const NumberOption<Number>& option) {
   if (option.contains(value)) return;
   throw Error(ErrorCode::InvalidInput, refusal(typed_text(value), option));
 }
 
-/// The value of a text, the way back from typed_text; the decimal sign is a point in every locale.
-/// Throws Error(InvalidInput), with the range, for any other text and for values outside of it.
+/// Reads a number from a text; the inverse of typed_text. The decimal sign is a point in every
+/// locale. Throws Error(InvalidInput), with the range, for any other text and for values outside of
+/// it.
 template <class Number>
 Number from_typed(std::string_view text, const NumberOption<Number>& option) {
   Number value{};
@@ -208,7 +211,7 @@ Number from_typed(std::string_view text, const NumberOption<Number>& option) {
   return value;
 }
 
-/// The threads of an Execution. They change no result, so reports do not hold them.
+/// Number of threads of an Execution. It changes no result, so reports do not contain it.
 inline constexpr NumberOption<int> threads_option = {
     "threads", "number of threads", 0, std::numeric_limits<int>::max(), Ends::Both, "0 for all"};
 

@@ -7,9 +7,9 @@
 
 namespace wscvt {
 
-/// The sentence with each option that it names as the program takes it ("--max-overhang") replaced
-/// by what `name_of` returns for its key ("max-overhang"). The library's sentences name options so;
-/// each host shows its user the name that stands on the screen or in the script.
+/// Returns the sentence with every option name of the program ("--max-overhang") replaced by the
+/// result of `name_of` for its key ("max-overhang"). The library's messages contain the program's
+/// names. Each host replaces them by the names that its user sees on the screen or in the script.
 std::string with_option_names(std::string_view sentence,
                               const std::function<std::string(std::string_view key)>& name_of);
 

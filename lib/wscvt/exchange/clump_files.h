@@ -11,17 +11,17 @@
 
 namespace wscvt {
 
-// Files of a clump. The ending of the name says which:
-//   .csv          x,y,z,r with a header, in the frame of the options; read back by read_clump
+// Files of a clump. The ending of the name selects the format:
+// .csv x,y,z,r with a header, in the frame of the options; read_clump reads it
 //   .multisphere  LIGGGHTS: lines "x y z r"; beside it NAME.multisphere.in with the fix clump_NAME
 //   .py           Yade: a script with the template, and a function that adds a clump
 //   .chrono.csv   Chrono DEM-Engine: x,y,z,r, then mass and moments as comments
-//   .mclump       MercuryDPM: a folder as its tool MClump leaves it
+// .mclump MercuryDPM: a folder like the output of its tool MClump
 //   .p3dat        PFC: the command "clump template create"
 //   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
-// All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
-// is diagonal, and hold the grain's mass properties: at unit density, but .molecule at a density
-// that is given, because LAMMPS cannot change it.
+// All formats except .csv use the grain's principal axes about its centroid, so that the inertia
+// tensor is diagonal. They contain the grain's mass properties at unit density. Only .molecule uses
+// a given density, because LAMMPS cannot change it.
 
 /// Density of the grain in a .molecule file.
 inline constexpr NumberOption<double> clump_density_option = {
@@ -30,19 +30,18 @@ inline constexpr NumberOption<double> clump_density_option = {
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::Neither,
-    "mass of a unit of volume in .molecule; for the other formats the engine's "
-    "script gives it"};
+    "mass per unit volume in .molecule. For the other formats the engine's script sets it"};
 
-/// The endings, as above.
+/// Returns the endings listed above.
 const std::vector<std::string>& clump_endings();
 
-/// Whether a name has one of the endings, in either case.
+/// Returns whether a name has one of the endings, in upper or lower case.
 bool is_clump_name(const std::string& path);
 
-/// Throws Error(InvalidInput), with the endings, for another one.
+/// Throws Error(InvalidInput), with the endings, for any other ending.
 void check_clump_path(const std::string& path);
 
-/// The files that one path makes, itself among them.
+/// Returns the files that one path makes, including the path itself.
 std::vector<std::string> files_of_clump(const std::string& path);
 
 /// Writes the clump. Throws Error: InvalidInput for another ending or a density out of range,
@@ -50,10 +49,11 @@ std::vector<std::string> files_of_clump(const std::string& path);
 void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
                  double density = 1.0);
 
-/// Whether a file is a table of spheres: its first line is x,y,z,r. False where it cannot be read.
+/// Returns whether a file is a table of spheres, with the first line x,y,z,r; false if it cannot be
+/// read.
 bool is_clump_file(const std::string& path);
 
-/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for another
+/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for any other
 /// content; InputOutput.
 std::vector<Sphere> read_clump(const std::string& path);
 

@@ -10,33 +10,34 @@
 
 namespace wscvt {
 
-/// Throws Error(InvalidInput) for a name that does not end as a table of nodes does: .csv, .vtp or
-/// .shp, the last in the principal frame only.
+/// Throws Error(InvalidInput) if a name does not have an ending of a node table: .csv, .vtp or
+/// .shp. The ending .shp needs the principal frame.
 void check_nodes_path(const std::string& path, const SimulationOptions& options);
 
-/// Throws Error(InvalidInput) for a name that does not end as a grid does: .npy, .vti or .json.
+/// Throws Error(InvalidInput) if a name does not have an ending of a grid: .npy, .vti or .json.
 void check_grid_path(const std::string& path);
 
-/// The description that goes beside a grid of that name: that name and ".json" for a .npy, which
-/// has no place for it; empty for the others.
+/// Returns the path of the description of a grid: the path and ".json" for a .npy, which cannot
+/// contain a description; else empty.
 std::string grid_description_path(const std::string& path);
 
-/// Throws Error(InvalidInput), naming the option, where the grid asked for is too large for this
-/// scan, before it is remeshed: it is mended for that as remesh does. What is wrong with the scan
-/// is left to remesh to say.
+/// Throws Error(InvalidInput), which names the option, if the grid is too large for this scan. For
+/// this check, before the remesh, the scan is repaired as in remesh. Errors of the scan are left to
+/// remesh.
 void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const SimulationOptions& options,
                    const Execution& execution);
 
-/// Writes the nodes of a remesh in the frame asked for, by the name's ending: nodes_csv, nodes_vtp
-/// or rockable_shape. Throws Error as check_nodes_path and write_file do.
+/// Writes the nodes of a remesh in the frame of the options, by the name's ending: nodes_csv,
+/// nodes_vtp or rockable_shape. Throws Error as check_nodes_path and write_file.
 void write_nodes(const std::string& path, const RemeshResult& result,
                  const SimulationOptions& options);
 
-/// Writes signed distances in the frame asked for, by the name's ending: grid_npy with a
-/// description beside it (frame, origin, spacing, mass properties of the scan at unit density in
-/// that frame), grid_vti or grid_netdem. The scan is the result's repaired_scan. Throws Error as
-/// check_grid_path, distance_grid and write_file do, and InvalidInput where the scan is asked for
-/// and the result holds none: it came from a formula, or without `measures.repaired_scan`.
+/// Writes signed distances in the frame of the options, by the name's ending: grid_npy, grid_vti or
+/// grid_netdem. Beside a grid_npy it writes a description: frame, origin, spacing, and mass
+/// properties of the scan at unit density in that frame. The scan is the result's repaired_scan.
+/// Throws Error as check_grid_path, distance_grid and write_file. Throws InvalidInput if the
+/// options need the scan and the result has no scan: its surface is a formula, or
+/// `measures.repaired_scan` was false.
 void write_distance_grid(const std::string& path, const RemeshResult& result,
                          const SimulationOptions& options, const ReportOrigin& origin,
                          const Execution& execution);

@@ -13,7 +13,7 @@
 
 namespace wscvt {
 
-/// The length that is a grain's size.
+/// Length used as the size of a grain.
 enum class SizeMeasure { Sieve, EquivalentDiameter, LargestFeret, SmallestFeret };
 
 template <>
@@ -22,7 +22,8 @@ struct EnumerationTable<SizeMeasure> {
   static constexpr std::string_view subject = "size of a grain";
   static constexpr Enumerator<SizeMeasure> rows[] = {
       {SizeMeasure::Sieve, "sieve", "sieve size: second largest edge of the smallest box",
-       "second largest edge of the smallest oriented box, which a sieve's mesh lets through"},
+       "second largest edge of the smallest oriented box, which sets the sieve opening that it "
+       "passes"},
       {SizeMeasure::EquivalentDiameter, "equivalent-diameter",
        "diameter of the sphere of equal volume", "diameter of the sphere of equal volume"},
       {SizeMeasure::LargestFeret, "feret-max", "largest Feret diameter", "largest Feret diameter"},
@@ -31,7 +32,7 @@ struct EnumerationTable<SizeMeasure> {
   };
 };
 
-/// The meshes of a table of shapes that statistics are of.
+/// Meshes of a table of shapes whose statistics are computed.
 enum class SampledMesh { Scan, Remesh };
 
 template <>
@@ -47,9 +48,9 @@ struct EnumerationTable<SampledMesh> {
 struct SampleOptions {
   SizeMeasure size = SizeMeasure::Sieve;
   SampledMesh of = SampledMesh::Scan;
-  /// Mass / volume of all grains, > 0. Without it the table says, or it is 1; see sample_of.
+  /// Mass / volume of all grains, > 0. Without it, the table's density or 1; see sample_of.
   std::optional<double> density;
-  std::uint64_t seed = 1;  ///< of the repetitions behind intervals and p
+  std::uint64_t seed = 1;  ///< of the random repetitions for intervals and p
   int repetitions = 1000;  ///< 0: no intervals and no p
 };
 
@@ -61,7 +62,8 @@ inline constexpr NumberOption<int> repetitions_option = {
     0,
     100000,
     Ends::Both,
-    "of the bootstrap behind 95 % intervals and of the permutations behind p; 0: none"};
+    "for the bootstrap of the 95 % intervals and for the permutations of p; 0: no intervals and no "
+    "p"};
 
 /// A sample ready for statistics: sizes, masses and the descriptors of one mesh of each grain.
 struct GrainSample {
@@ -71,20 +73,20 @@ struct GrainSample {
   std::string size_unit;           ///< such as "length"; may be empty
   Eigen::VectorXd sizes;
   Eigen::VectorXd masses;
-  double density = 1.0;              ///< of all grains; NaN if the table tells masses or densities
-  std::vector<GrainColumn> columns;  ///< names without "scan."; no positions and no directions
+  double density = 1.0;              ///< of all grains; NaN if the table has masses or densities
+  std::vector<GrainColumn> columns;  ///< names without "scan."; without positions and directions
   Eigen::MatrixXd values;            ///< grains x columns; NaN: missing
   std::size_t failed = 0;            ///< of the table
   std::vector<std::string> notes;    ///< for people: grains left out, masses from sizes
 };
 
-/// Chooses a sample's columns from a table: those named "scan." or "remesh." by options.of if there
-/// are such, else all. Of a table of remeshes only, the remeshes are taken, with a note. Grains
-/// without a size are left out, with a note. A mass is the density times the volume, or times
-/// pi / 6 size^3 if the table has no column "volume". Without options.density a column "mass" of
-/// the table has the masses, or a column "density" the densities. Throws Error(InvalidInput) for
-/// options out of range, if the table has no column for the size, and if fewer than two grains
-/// remain.
+/// Chooses a sample's columns from a table: the columns named "scan." or "remesh." by options.of,
+/// or all columns if the table has no such names. If the table has only remeshes, they are used,
+/// with a note. Grains without a size are left out, with a note. A mass is the density times the
+/// volume, or times pi / 6 size^3 if the table has no column "volume". Without options.density, the
+/// column "mass" of the table gives the masses, or the column "density" the densities. Throws
+/// Error(InvalidInput) for options out of range, if the table has no column for the size, and if
+/// fewer than two grains remain.
 GrainSample sample_of(const GrainTable& table, const SampleOptions& options);
 
 }  // namespace wscvt
