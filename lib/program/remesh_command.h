@@ -20,10 +20,10 @@ struct RemeshArguments {
   SimulationArguments simulation;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, RemeshArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const RemeshArguments& arguments);
 
 }  // namespace wscvt::program

@@ -12,7 +12,7 @@ namespace wscvt::program {
 
 /// Files for a simulation, and the frame that they and the remesh are written in.
 struct SimulationArguments {
-  std::vector<std::string> nodes;  ///< files; the ending says what each becomes
+  std::vector<std::string> nodes;  ///< files; the ending selects the format
   std::vector<std::string> grids;  ///< files of signed distances, likewise
   SimulationOptions options;
 };

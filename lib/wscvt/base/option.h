@@ -185,7 +185,7 @@ std::string refusal(std::string_view value, const NumberOption<Number>& option) 
   const std::string before = option.excludes_minimum() ? ""
                              : option.has_maximum()    ? "from "
                                                        : "of ";
-  return "The " + std::string(option.subject) + " is " + std::string(value) + "; give " +
+  return "The " + std::string(option.subject) + " is " + std::string(value) + ". Give " +
          (std::is_integral_v<Number> ? "a whole number " : "a number ") + before +
          range_text(option) + ".";
 }

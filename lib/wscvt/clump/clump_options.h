@@ -32,7 +32,7 @@ inline constexpr NumberOption<double> clump_error_option = {
     100.0,
     Ends::NotMaximum,
     "use the fewest spheres with at most this rms distance from scan to clump, in % of the "
-    "equivalent radius; 0: use the number of spheres"};
+    "equivalent radius; 0: use the given number of spheres"};
 inline constexpr NumberOption<int> most_spheres_option = {"max-spheres",
                                                           "max. number of spheres",
                                                           1,

@@ -12,11 +12,11 @@
 namespace wscvt {
 
 // Files of a clump. The ending of the name selects the format:
-// .csv x,y,z,r with a header, in the frame of the options; read_clump reads it
+//   .csv          x,y,z,r with a header, in the frame of the options; read_clump reads it
 //   .multisphere  LIGGGHTS: lines "x y z r"; beside it NAME.multisphere.in with the fix clump_NAME
 //   .py           Yade: a script with the template, and a function that adds a clump
 //   .chrono.csv   Chrono DEM-Engine: x,y,z,r, then mass and moments as comments
-// .mclump MercuryDPM: a folder like the output of its tool MClump
+//   .mclump       MercuryDPM: a folder like the output of its tool MClump
 //   .p3dat        PFC: the command "clump template create"
 //   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
 // All formats except .csv use the grain's principal axes about its centroid, so that the inertia

@@ -22,7 +22,7 @@ struct EnumerationTable<SizeMeasure> {
   static constexpr std::string_view subject = "size of a grain";
   static constexpr Enumerator<SizeMeasure> rows[] = {
       {SizeMeasure::Sieve, "sieve", "sieve size: second largest edge of the smallest box",
-       "second largest edge of the smallest oriented box, which sets the sieve opening that it "
+       "second largest edge of the smallest oriented box; it sets the sieve opening that the grain "
        "passes"},
       {SizeMeasure::EquivalentDiameter, "equivalent-diameter",
        "diameter of the sphere of equal volume", "diameter of the sphere of equal volume"},
