@@ -39,7 +39,7 @@ class BatchGrains {
   /// `file_of` returns the output file of a grain.
   std::string label_table(const std::function<std::string(const std::string&)>& file_of) const;
 
-  /// Returns whether more of a volume is left out than the exit code Done allows.
+  /// Returns whether so much of a volume is left out that the exit code is SomeFailed.
   bool is_much_left_out() const;
 
   /// Declares that grains before `first` will not be read.

@@ -53,7 +53,7 @@ void add_common_arguments(CLI::App& app, CommonArguments& arguments,
          "-j,--json", [&arguments](const std::string& file) { arguments.reports.push_back(file); })
       ->group("");
   add_threads_argument(app, arguments.threads);
-  app.add_flag("--overwrite", arguments.overwrite, "Let an output replace an input");
+  app.add_flag("--overwrite", arguments.overwrite, "Allow an output to replace an input");
   app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings");
 }
 

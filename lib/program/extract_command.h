@@ -8,7 +8,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt extract`: the grains of a volume of labels become dense meshes.
+/// `wscvt extract`: makes a dense mesh of each grain of a volume of labels.
 struct ExtractArguments {
   std::string volume;
   VolumeOptions options;

@@ -10,7 +10,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt grow`: virtual grains with the statistics of a sample.
+/// `wscvt grow`: makes virtual grains with the statistics of a sample.
 struct GrowArguments {
   std::vector<std::string> inputs;
   std::string folder;

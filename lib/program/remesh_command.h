@@ -10,11 +10,11 @@
 
 namespace wscvt::program {
 
-/// `wscvt remesh`: one scan in, one remesh and its reports out.
+/// `wscvt remesh`: reads one scan and writes its remesh and reports.
 struct RemeshArguments {
   std::string scan;
   std::string output;
-  std::string coefficients;  ///< file; empty: none
+  std::string coefficients;  ///< file; empty: no file
   CommonArguments common;
   RemeshOptions options;
   SimulationArguments simulation;

@@ -10,7 +10,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt sample`: statistics of a sample, or of two and what lies between them.
+/// `wscvt sample`: computes the statistics of a sample, or compares two samples.
 struct SampleArguments {
   std::vector<std::string> samples;  ///< folders of a batch, or tables; one or two
   SampleOptions options;

@@ -8,7 +8,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt segment`: grey values, or a mask, become labelled grains.
+/// `wscvt segment`: labels the grains of a grey-value volume or a mask.
 struct SegmentArguments {
   std::string scan;
   std::string labels;

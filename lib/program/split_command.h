@@ -8,7 +8,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt split`: the bodies that one file of a mesh holds become files of their own.
+/// `wscvt split`: writes each body of a mesh file to its own file.
 struct SplitArguments {
   std::string mesh;
   std::string folder;

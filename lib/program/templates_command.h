@@ -9,7 +9,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt templates`: K grains that stand for a sample.
+/// `wscvt templates`: chooses K grains that represent a sample.
 struct TemplatesArguments {
   std::vector<std::string> inputs;
   std::string folder;

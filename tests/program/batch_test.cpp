@@ -401,7 +401,7 @@ TEST_F(Batch, TellsRateAndTimeLeftOnATerminal) {
     return std::regex_search(seen, wanted);
   };
   EXPECT_TRUE(read_until(std::regex(
-      "50 %  1 of 2 grains, [0-9.e-]+ a second, ([0-9]+ h )?([0-9]+ min )?([0-9]+ s )?left")))
+      "50 %  1 of 2 grains, [0-9.e-]+ per second, ([0-9]+ h )?([0-9]+ min )?([0-9]+ s )?left")))
       << seen;
   std::ofstream(folder_ / scan(1), std::ios::binary) << kept;
   EXPECT_TRUE(read_until(std::regex("2 grains: 2 remeshed"))) << seen;

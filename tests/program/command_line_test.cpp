@@ -160,7 +160,7 @@ TEST_F(CommandLine, NoTwoOutputsHaveOneName) {
       SCOPED_TRACE(call);
       const Outcome outcome = run(call);
       EXPECT_EQ(outcome.exit_code, 2);
-      EXPECT_NE(outcome.errors.find("give two names"), std::string::npos) << outcome.errors;
+      EXPECT_NE(outcome.errors.find("Give two names"), std::string::npos) << outcome.errors;
     }
   }
 }
