@@ -9,7 +9,7 @@ std::string typed_text(double value) { return format_typed(value); }
 
 std::string capitalised(std::string_view text) {
   std::string result(text);
-  // std::toupper depends on the locale.
+  // Not std::toupper, because it depends on the locale.
   if (!result.empty() && result[0] >= 'a' && result[0] <= 'z') {
     result[0] = static_cast<char>(result[0] - 'a' + 'A');
   }

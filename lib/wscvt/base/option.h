@@ -14,21 +14,21 @@
 
 namespace wscvt {
 
-// The names of an enumeration's values, in one table beside the enumeration. Reports, programs,
-// dialogs, checks and messages read this table. A value therefore has one name everywhere, and a
-// new value is one row.
+// The names of an enumeration's values are in one table beside the enumeration. Reports, programs,
+// dialogs, checks and messages read it, so each value has one name everywhere. A new value needs
+// only a new row.
 
 /// A row of a table: one value.
 template <class Enumeration>
 struct Enumerator {
   Enumeration value;
-  std::string_view key;    ///< typed by users and written to files: lower case, words joined by "-"
-  std::string_view label;  ///< shown to people, in the middle of a sentence
-  std::string_view meaning = {};  ///< effect, for help texts; empty if the label says it
+  std::string_view key;           ///< in commands and files: lower case, words joined by "-"
+  std::string_view label;         ///< for people, in the middle of a sentence
+  std::string_view meaning = {};  ///< its effect, for help texts; empty if the label says it
 };
 
-/// The table of an enumeration; specialised beside it with `key` and `subject`, as in
-/// NumberOption, and `rows`, an array of Enumerator in the order of the values 0, 1, 2, ...
+/// The table of an enumeration, specialised beside it. Has `key` and `subject`, as in NumberOption,
+/// and `rows`, an array of Enumerator in the order of the values 0, 1, 2, ...
 template <class Enumeration>
 struct EnumerationTable;
 
@@ -38,8 +38,8 @@ constexpr const auto& enumerators() {
   return EnumerationTable<Enumeration>::rows;
 }
 
-/// Returns whether a table's rows have the values 0, 1, 2, ... and different keys. The functions
-/// below rely on this, and so do saved scripts, which contain the values as numbers.
+/// Whether a table's rows have the values 0, 1, 2, ... and different keys. The functions below rely
+/// on it, and so do saved scripts, which store the values as numbers.
 template <class Enumeration>
 constexpr bool is_table_in_order() {
   std::size_t index = 0;
@@ -52,7 +52,7 @@ constexpr bool is_table_in_order() {
   return true;
 }
 
-/// Returns whether the table has the value; a cast number may be no value of it.
+/// Whether a value is in the table; a cast number may not be.
 template <class Enumeration>
 constexpr bool is_valid(Enumeration value) {
   static_assert(is_table_in_order<Enumeration>());
@@ -73,7 +73,7 @@ std::string keys_of() {
   return text;
 }
 
-/// Throws Error(InvalidInput), which names the choices, if the table does not have the value.
+/// Throws Error(InvalidInput), naming the choices, if a value is not in the table.
 template <class Enumeration>
 void require_valid(Enumeration value) {
   if (is_valid(value)) return;
@@ -90,7 +90,7 @@ const Enumerator<Enumeration>& row_of(Enumeration value) {
   return enumerators<Enumeration>()[static_cast<std::size_t>(value)];
 }
 
-/// Returns the text that users type for a value. Throws as require_valid.
+/// Returns the key of a value. Throws as require_valid.
 template <class Enumeration>
 std::string key_of(Enumeration value) {
   return std::string(row_of(value).key);
@@ -102,8 +102,7 @@ std::string label_of(Enumeration value) {
   return std::string(row_of(value).label);
 }
 
-/// Returns the value of a key. Throws Error(InvalidInput), which names the choices, for any other
-/// text.
+/// Returns the value of a key. Throws Error(InvalidInput), naming the choices, for any other text.
 template <class Enumeration>
 Enumeration from_key(std::string_view key) {
   static_assert(is_table_in_order<Enumeration>());
@@ -116,21 +115,21 @@ Enumeration from_key(std::string_view key) {
                   ".");
 }
 
-// The names and the range of an option that is a number or a flag, in one constant beside the
-// option's struct. The same readers use it.
+// The name and range of an option that is a number or a flag are in one constant beside its struct.
+// The same texts read it.
 
-/// Ends of a range that belong to it.
+/// The ends that belong to a range.
 enum class Ends { Both, NotMinimum, NotMaximum, Neither };
 
-/// An option that is a number. The largest number of its type, or infinity, means no upper limit.
+/// An option that is a number. The largest number of its type, or infinity, is no limit.
 template <class Number>
 struct NumberOption {
-  std::string_view key;      ///< typed by users, as Enumerator::key
-  std::string_view subject;  ///< name of the option, to follow "The" in a sentence
+  std::string_view key;      ///< as in Enumerator
+  std::string_view subject;  ///< its name, to follow "The" in a sentence
   Number minimum;
   Number maximum;
   Ends ends = Ends::Both;
-  std::string_view meaning = {};  ///< effect, for help texts; may be empty
+  std::string_view meaning = {};  ///< its effect, for help texts; may be empty
 
   /// Returns whether the value is in the range; false for NaN.
   constexpr bool contains(Number value) const {
@@ -154,8 +153,8 @@ struct FlagOption {
   std::string_view meaning;
 };
 
-/// Returns a number as a person types it: only the digits it needs, and no exponent if a person
-/// would write none (see format_typed, text_format.h).
+/// Returns a number as a user would type it: as many digits as it needs, and no exponent if a
+/// person would write none (see format_typed, text_format.h).
 std::string typed_text(double value);
 
 template <class Number>
@@ -164,11 +163,11 @@ std::string typed_text(Number value) {
   return std::to_string(value);
 }
 
-/// Returns the text with a capital first letter.
+/// Returns a text with a capital first letter, for the beginning of a sentence.
 std::string capitalised(std::string_view text);
 
-/// Returns the range: "4 to 1000000", "above 0", "0 or more", "0 to below 1", "above 0 and below
-/// 2".
+/// Returns the range as text: "4 to 1000000", "above 0", "0 or more", "0 to below 1", "above 0 and
+/// below 2".
 template <class Number>
 std::string range_text(const NumberOption<Number>& option) {
   const std::string minimum = typed_text(option.minimum);
@@ -190,16 +189,16 @@ std::string refusal(std::string_view value, const NumberOption<Number>& option) 
          range_text(option) + ".";
 }
 
-/// Throws Error(InvalidInput), with the range, for a value outside of it and for NaN.
+/// Throws Error(InvalidInput), with the range, if a value is out of range or NaN.
 template <class Number>
 void require_in_range(Number value, const NumberOption<Number>& option) {
   if (option.contains(value)) return;
   throw Error(ErrorCode::InvalidInput, refusal(typed_text(value), option));
 }
 
-/// Reads a number from a text; the inverse of typed_text. The decimal sign is a point in every
-/// locale. Throws Error(InvalidInput), with the range, for any other text and for values outside of
-/// it.
+/// Returns the number that a text contains, the inverse of typed_text. The decimal sign is a point
+/// in every locale. Throws Error(InvalidInput), with the range, for any other text and for values
+/// out of range.
 template <class Number>
 Number from_typed(std::string_view text, const NumberOption<Number>& option) {
   Number value{};
@@ -211,7 +210,7 @@ Number from_typed(std::string_view text, const NumberOption<Number>& option) {
   return value;
 }
 
-/// Number of threads of an Execution. It changes no result, so reports do not contain it.
+/// The threads of an Execution. They change no result, so reports do not hold them.
 inline constexpr NumberOption<int> threads_option = {
     "threads", "number of threads", 0, std::numeric_limits<int>::max(), Ends::Both, "0 for all"};
 

@@ -32,16 +32,16 @@ inline constexpr NumberOption<double> clump_density_option = {
     Ends::Neither,
     "mass per unit volume in .molecule. For the other formats the engine's script sets it"};
 
-/// Returns the endings listed above.
+/// Returns the endings above.
 const std::vector<std::string>& clump_endings();
 
-/// Returns whether a name has one of the endings, in upper or lower case.
+/// Returns whether a name has one of the endings, in either case.
 bool is_clump_name(const std::string& path);
 
-/// Throws Error(InvalidInput), with the endings, for any other ending.
+/// Throws Error(InvalidInput), with the endings, for another ending.
 void check_clump_path(const std::string& path);
 
-/// Returns the files that one path makes, including the path itself.
+/// Returns the files that are written for one path, including itself.
 std::vector<std::string> files_of_clump(const std::string& path);
 
 /// Writes the clump. Throws Error: InvalidInput for another ending or a density out of range,
@@ -49,12 +49,12 @@ std::vector<std::string> files_of_clump(const std::string& path);
 void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
                  double density = 1.0);
 
-/// Returns whether a file is a table of spheres, with the first line x,y,z,r; false if it cannot be
+/// Returns whether a file is a table of spheres: its first line is x,y,z,r. False if it cannot be
 /// read.
 bool is_clump_file(const std::string& path);
 
-/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for any other
-/// content; InputOutput.
+/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for other content;
+/// InputOutput.
 std::vector<Sphere> read_clump(const std::string& path);
 
 }  // namespace wscvt

@@ -11,7 +11,7 @@
 
 namespace wscvt {
 
-/// Density of a grain in files that contain masses.
+/// Density of a grain in the files of engines that need masses.
 inline constexpr NumberOption<double> parts_density_option = {
     "density",     "density",
     0.0,           std::numeric_limits<double>::infinity(),
@@ -20,7 +20,7 @@ inline constexpr NumberOption<double> parts_density_option = {
 /// Returns the endings of files of parts: ".obj", ".urdf", ".xml".
 const std::vector<std::string>& part_endings();
 
-/// Throws Error(InvalidInput), with the endings, for any other ending.
+/// Throws Error(InvalidInput), with the endings, for a name with another ending.
 void check_part_file(const std::string& path);
 
 /// Writes parts in the format of the ending, completely or not at all (see write_file):

@@ -13,7 +13,7 @@
 
 namespace wscvt {
 
-/// Length used as the size of a grain.
+/// The length used as a grain's size.
 enum class SizeMeasure { Sieve, EquivalentDiameter, LargestFeret, SmallestFeret };
 
 template <>
@@ -32,7 +32,7 @@ struct EnumerationTable<SizeMeasure> {
   };
 };
 
-/// Meshes of a table of shapes whose statistics are computed.
+/// The meshes of a table of shapes that are measured.
 enum class SampledMesh { Scan, Remesh };
 
 template <>
@@ -48,9 +48,9 @@ struct EnumerationTable<SampledMesh> {
 struct SampleOptions {
   SizeMeasure size = SizeMeasure::Sieve;
   SampledMesh of = SampledMesh::Scan;
-  /// Mass / volume of all grains, > 0. Without it, the table's density or 1; see sample_of.
+  /// Mass / volume of all grains, > 0. If not given, the table's density or 1; see sample_of.
   std::optional<double> density;
-  std::uint64_t seed = 1;  ///< of the random repetitions for intervals and p
+  std::uint64_t seed = 1;  ///< of the random numbers for intervals and p
   int repetitions = 1000;  ///< 0: no intervals and no p
 };
 
@@ -74,19 +74,18 @@ struct GrainSample {
   Eigen::VectorXd sizes;
   Eigen::VectorXd masses;
   double density = 1.0;              ///< of all grains; NaN if the table has masses or densities
-  std::vector<GrainColumn> columns;  ///< names without "scan."; without positions and directions
+  std::vector<GrainColumn> columns;  ///< names without "scan."; no positions and no directions
   Eigen::MatrixXd values;            ///< grains x columns; NaN: missing
   std::size_t failed = 0;            ///< of the table
   std::vector<std::string> notes;    ///< for people: grains left out, masses from sizes
 };
 
-/// Chooses a sample's columns from a table: the columns named "scan." or "remesh." by options.of,
-/// or all columns if the table has no such names. If the table has only remeshes, they are used,
-/// with a note. Grains without a size are left out, with a note. A mass is the density times the
-/// volume, or times pi / 6 size^3 if the table has no column "volume". Without options.density, the
-/// column "mass" of the table gives the masses, or the column "density" the densities. Throws
-/// Error(InvalidInput) for options out of range, if the table has no column for the size, and if
-/// fewer than two grains remain.
+/// Chooses a sample's columns from a table: the columns "scan." or "remesh." by options.of if there
+/// are such, else all. If a table has only remeshes, they are used, with a note. Grains without a
+/// size are left out, with a note. A mass is the density times the volume, or times pi / 6 size^3
+/// if the table has no column "volume". Without options.density, masses come from the table's
+/// column "mass", or densities from its column "density". Throws Error(InvalidInput) for options
+/// out of range, if the table has no column for the size, and if fewer than two grains remain.
 GrainSample sample_of(const GrainTable& table, const SampleOptions& options);
 
 }  // namespace wscvt
