@@ -237,7 +237,7 @@ TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
                                                  {"describe", false},
                                                  {"compare", false},
                                                  {"create", false}}) {
-    EXPECT_EQ(run(command + " --help").output.find(", 3 done, but some") != std::string::npos,
+    EXPECT_EQ(run(command + " --help").output.find("; 3 done, but some") != std::string::npos,
               may_be_three)
         << command;
   }

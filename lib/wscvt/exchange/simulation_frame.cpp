@@ -15,8 +15,8 @@ void check_frame_options(const FrameOptions& options) {
   if (options.size > 0.0 && options.scale != 1.0) {
     throw Error(ErrorCode::InvalidInput,
                 "The grain is given an equivalent diameter of " + format_typed(options.size) +
-                    " and a factor of lengths of " + format_typed(options.scale) +
-                    ", and each says how large it is; give one of them.");
+                    " and a scale factor of " + format_typed(options.scale) +
+                    ". Give only one of them.");
   }
 }
 

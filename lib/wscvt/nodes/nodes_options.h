@@ -62,7 +62,7 @@ struct NodeCountTrial {
 struct NodeCountSearch {
   bool met = false;  ///< a tried count has at most the allowed error
   int node_count =
-      0;  ///< smallest count found to meet the target; the largest allowed if none does
+      0;  ///< smallest count found with at most the allowed error; else the largest count allowed
   std::vector<NodeCountTrial> trials;  ///< in the order made
 };
 

@@ -138,8 +138,8 @@ struct EnumerationTable<HandleAction> {
 struct HandleOptions {
   HandleAction action = HandleAction::Cut;
   /// Longest loop along which a handle is cut, in equivalent radii; >= 0. Scanner noise makes
-  /// handles of a few voxels, up to half a radius on a rough scan. A ring has a real hole. It has
-  /// no loop below 0.7 radii, unless its tube is 150 times thinner than the ring is wide.
+  /// handles of a few voxels, up to half a radius on a rough scan. A ring, with a real hole, has no
+  /// loop below 0.7 radii, unless its tube is 150 times thinner than the ring is wide.
   double length_limit = 0.7;
 };
 
