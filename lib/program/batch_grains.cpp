@@ -126,10 +126,9 @@ GrainScan BatchGrains::read(std::size_t grain, bool with_pictures, const Executi
   }
   LabelGrain label = volumes_[place.volume]->read(place.grain, execution);
   if (label.mesh.points.empty()) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "The label is in " + std::to_string(label.pieces) +
-            " pieces, and the largest is smaller than the limit (--smallest). Segment it again.");
+    throw Error(ErrorCode::InvalidInput,
+                "The label is in " + std::to_string(label.pieces) +
+                    " pieces, and the largest has too few voxels for a grain. Segment it again.");
   }
   return {std::move(label.mesh), {}, warnings_of(label)};
 }
