@@ -193,7 +193,7 @@ BatchArguments::BatchArguments() { options.measures.suggestions = false; }
 void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
   add_typed(app, "--shard",
             [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Remesh only part I of N of the grains; the grains' names select the part")
+      ->description("Remesh only part I of N of the grains, selected by their names")
       ->type_name("I/N");
   add_format_argument(app, arguments.format);
   app.add_flag("--seconds", arguments.seconds,

@@ -56,10 +56,11 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
        "own values.\nwscvt compare clump.csv scan.ply measures a clump.",
        true,
        true});
-  app.add_option("scans", arguments.inputs,
-                 mesh_argument_text("Scan", MeshUse::Read) +
-                     "; or several, folders, patterns in quotes, volumes of labels, or @FILE with "
-                     "one of these per line")
+  app.add_option(
+         "scans", arguments.inputs,
+         mesh_argument_text("Scan", MeshUse::Read) +
+             "; or several scans, folders, patterns in quotes, volumes of labels, or @FILE with "
+             "one of these per line")
       ->type_name("INPUT")
       ->required();
   app.add_option("-o,--output", arguments.outputs,
@@ -76,7 +77,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
       ->group(finer_settings);
   add_typed(app, "--shard",
             [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Use only part I of N of several scans; the scans' names select the part")
+      ->description("Use only part I of N of several scans, selected by their names")
       ->type_name("I/N")
       ->group(finer_settings);
   AddClumpOption add{app};

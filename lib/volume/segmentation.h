@@ -36,8 +36,8 @@ inline constexpr NumberOption<double> separate_option = {
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::Neither,
-    "in voxels: how much closer to the surface the neck's middle is than the smaller grain's "
-    "middle. Larger values join parts, smaller values cut them"};
+    "in voxels. It says how much closer to the surface the neck's middle is than the smaller "
+    "grain's middle. Larger values join parts, smaller values cut them"};
 inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
     "smallest", "number of voxels of the smallest grain",
     1,          std::numeric_limits<std::int64_t>::max(),

@@ -103,8 +103,7 @@ inline constexpr NumberOption<double> edge_ratio_option = {
     least_edge_ratio,
     most_edge_ratio,
     Ends::Both,
-    "wanted mean of longest / shortest edge. Small values give even triangles, large values a mesh "
-    "closer to the scan"};
+    "wanted mean of longest / shortest edge. Small: even triangles; large: closer to scan"};
 
 /// Placement of the nodes along their directions.
 enum class PublishedPlacement {
@@ -180,9 +179,8 @@ inline constexpr FlagOption points_option = {
     "points", "ignore faces",
     "and build a star-shaped surface from the points. Without this option a scan without faces is "
     "an error"};
-inline constexpr FlagOption distances_option = {
-    "distances", "measure distances",
-    "between remesh and scan in both directions, and report them"};
+inline constexpr FlagOption distances_option = {"distances", "measure distances",
+                                                "from remesh to scan and back, and report them"};
 inline constexpr FlagOption suggestions_option = {
     "suggestions", "suggest better settings",
     "if the remesh is not accurate: try another setting at no more cost than the run, and name it "

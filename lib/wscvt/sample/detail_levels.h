@@ -41,8 +41,8 @@ inline constexpr NumberOption<double> mark_option = {
     0.0,
     100.0,
     Ends::NotMinimum,
-    "in %, for several numbers of nodes: report the number from which 90 % of the grains have less "
-    "error"};
+    "in %. With several numbers of nodes, report the number from which 90 % of the grains have "
+    "less error"};
 
 /// Errors of the remeshes in tables of shapes, one per number of nodes, in any order. Left out are
 /// errors of which a table lacks a column, and descriptors of which an error in % says nothing
