@@ -245,7 +245,7 @@ int run(const BatchArguments& arguments) {
     check_options(arguments.options);
     if (!arguments.levels.empty() &&
         (arguments.options.target.percent > 0.0 || arguments.options.measures.suggestions)) {
-      refuse("Several numbers of nodes exclude --max-error and --suggestions. Leave these out.");
+      refuse("--max-error and --suggestions need a single number of nodes. Leave them out.");
     }
     if (arguments.shapes.contacts && arguments.shapes.described == Described::None) {
       refuse(

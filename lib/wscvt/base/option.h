@@ -78,8 +78,8 @@ template <class Enumeration>
 void require_valid(Enumeration value) {
   if (is_valid(value)) return;
   throw Error(ErrorCode::InvalidInput,
-              "The " + std::string(EnumerationTable<Enumeration>::subject) + " is number " +
-                  std::to_string(static_cast<long long>(value)) + ", which does not exist. Give " +
+              "Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": number " +
+                  std::to_string(static_cast<long long>(value)) + ". Give " +
                   keys_of<Enumeration>() + ".");
 }
 
@@ -110,13 +110,12 @@ Enumeration from_key(std::string_view key) {
     if (row.key == key) return row.value;
   }
   throw Error(ErrorCode::InvalidInput,
-              "The " + std::string(EnumerationTable<Enumeration>::subject) + " is \"" +
-                  std::string(key) + "\", which does not exist. Give " + keys_of<Enumeration>() +
-                  ".");
+              "Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": \"" +
+                  std::string(key) + "\". Give " + keys_of<Enumeration>() + ".");
 }
 
 // The name and range of an option that is a number or a flag are in one constant beside its struct.
-// The same texts read it.
+// Reports, programs, dialogs, checks and messages read it too.
 
 /// The ends that belong to a range.
 enum class Ends { Both, NotMinimum, NotMaximum, Neither };

@@ -19,9 +19,9 @@ namespace wscvt {
 //   .mclump       MercuryDPM: a folder like the output of its tool MClump
 //   .p3dat        PFC: the command "clump template create"
 //   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
-// All formats except .csv use the grain's principal axes about its centroid, so that the inertia
-// tensor is diagonal. They contain the grain's mass properties at unit density. Only .molecule uses
-// a given density, because LAMMPS cannot change it.
+// All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
+// is diagonal. They contain the grain's mass properties at unit density; .molecule at the chosen
+// density, because LAMMPS cannot change it.
 
 /// Density of the grain in a .molecule file.
 inline constexpr NumberOption<double> clump_density_option = {

@@ -23,13 +23,13 @@ const std::vector<std::string>& part_endings();
 /// Throws Error(InvalidInput), with the endings, for a name with another ending.
 void check_part_file(const std::string& path);
 
-/// Writes parts in the format of the ending, completely or not at all (see write_file):
+/// Writes parts in the format of the ending, whole or not at all (see write_file):
 /// - .obj: all parts, one group per part, "part_1" to "part_K";
-/// - .urdf: a robot of one link, with the mass and inertia of `mass` times `density`. The parts are
-///   OBJ files beside it, "NAME_1.obj" to "NAME_K.obj", written first;
-/// - .xml: MuJoCo's MJCF, a free body with this mass and inertia, and the parts in the same file.
-/// Coordinates keep all their digits. Throws Error(InputOutput) if a file cannot be written, and as
-/// check_part_file.
+/// - .urdf: a robot of one link, with the mass and inertia of `mass` times `density`. Its parts are
+///   OBJ files beside it, "NAME_1.obj" to "NAME_K.obj", which are written first;
+/// - .xml: MuJoCo's MJCF, a free body with the same mass and inertia; the file contains the parts.
+/// Coordinates keep all their digits. Throws Error(InputOutput) when a file cannot be written, and
+/// as check_part_file.
 void write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,
                  double density);
 

@@ -21,9 +21,9 @@ void check_grid_path(const std::string& path);
 /// cannot contain it; empty for the others.
 std::string grid_description_path(const std::string& path);
 
-/// Throws Error(InvalidInput), naming the option, if the grid would be too large for this scan.
-/// Repairs the scan as remesh does, so that it can be called before. Does not report faults of the
-/// scan; remesh reports them.
+/// Throws Error(InvalidInput), naming the option, if the grid would be too large for this scan. Is
+/// called before remesh, and repairs the scan as remesh does. Does not report faults of the scan;
+/// remesh reports them.
 void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const SimulationOptions& options,
                    const Execution& execution);
 
