@@ -46,7 +46,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What a batch that is started again has to have been called with. Not the number of threads.
+/// Returns the options that must be equal when a batch is started again, so without the number of
+/// threads.
 std::string call_text(const BatchArguments& arguments) {
   return json_document({{"format", "wscvt-batch"},
                         {"made_by", made_by()},
@@ -59,7 +60,7 @@ std::string call_text(const BatchArguments& arguments) {
                         {"options", wscvt::json_of(arguments.options)}});
 }
 
-/// The remesh of a grain, or one for each level.
+/// Returns the remesh of a grain, or one remesh per level.
 std::vector<RemeshResult> remeshes_of(const BatchArguments& arguments, IndexedMesh scan,
                                       const RemeshOptions& options, const Execution& execution) {
   if (!arguments.levels.empty()) {
@@ -70,14 +71,14 @@ std::vector<RemeshResult> remeshes_of(const BatchArguments& arguments, IndexedMe
   return results;
 }
 
-/// What was measured of a grain's scan with its first level.
+/// Measures of a grain's scan, made with its first level.
 struct MeasuredScan {
   std::optional<DetailedDescriptors> shape;
   std::optional<ScanContacts> contacts;
 };
 
-/// The measures of a level. What cannot be measured becomes a warning of the remesh; the sentence
-/// is put in `error`.
+/// Returns the measures of a level. A failed measurement becomes a warning of the remesh, and its
+/// message is written to `error`.
 GrainShape measure_level(const ShapeMeasures& measures, RemeshResult& result, MeasuredScan& scan,
                          std::string& error, const Execution& execution) {
   const Described what = measures.described;
@@ -102,7 +103,7 @@ GrainShape measure_level(const ShapeMeasures& measures, RemeshResult& result, Me
   return shape;
 }
 
-/// Puts the records of a grain in a row.
+/// Returns the row of a grain with these records.
 GrainRow row_of(std::vector<std::string> records, const std::string& error) {
   GrainRow row{std::move(records.front()), error, {}};
   row.others.assign(std::make_move_iterator(records.begin() + 1),
@@ -110,7 +111,7 @@ GrainRow row_of(std::vector<std::string> records, const std::string& error) {
   return row;
 }
 
-/// The row of a grain, whose meshes are then written. Throws as row_or_failure.
+/// Remeshes a grain, writes its meshes and returns its row. Throws as row_or_failure.
 GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output,
                       BatchGrains& grains, std::size_t k, const Execution& execution) {
   const std::string& grain = grains.names()[k];
@@ -170,7 +171,7 @@ void write_summaries(const OutputFolder& folder, bool quiet) {
   print(summary_lines(summary), quiet);
 }
 
-/// Reads "500", or "100,300,1000" into levels; gives the largest for the options.
+/// Reads "500", or "100,300,1000" into levels. Returns the largest number for the options.
 std::string largest_level(const std::string& text, std::vector<int>& levels) {
   levels.clear();
   if (text.find(',') == std::string::npos) return text;
@@ -180,7 +181,7 @@ std::string largest_level(const std::string& text, std::vector<int>& levels) {
   }
   std::sort(levels.begin(), levels.end());
   if (std::adjacent_find(levels.begin(), levels.end()) != levels.end()) {
-    refuse("The list \"" + text + "\" names a number of nodes twice; name it once.");
+    refuse("The list \"" + text + "\" contains a number of nodes twice. Give it once.");
   }
   return std::to_string(levels.back());
 }
@@ -192,19 +193,19 @@ BatchArguments::BatchArguments() { options.measures.suggestions = false; }
 void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
   add_typed(app, "--shard",
             [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Only the I-th of N parts of the grains, by their names")
+      ->description("Remesh only part I of N of the grains, selected by their names")
       ->type_name("I/N");
   add_format_argument(app, arguments.format);
   app.add_flag("--seconds", arguments.seconds,
-               "A column of the table for how long each grain took; it differs from run to run");
+               "Add the run time of each grain to the table; it differs between runs");
   add_choice(app, "--describe", arguments.shapes.described);
   app.add_flag("--contacts", arguments.shapes.contacts,
-               "Columns of shape.csv for the error of first contact of two remeshes against two "
-               "scans, over random pairs of poses");
+               "Add the error of first contact to shape.csv: two remeshes against two scans, over "
+               "random pairs of poses");
   add_remesh_arguments(app, arguments.options);
   CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
   nodes->description(nodes->get_description() +
-                     "; several, such as 100,300,1000, get a folder each");
+                     ". Several numbers, such as 100,300,1000, get one folder each");
   nodes->transform([&arguments](const std::string& text) {
     try {
       return largest_level(text, arguments.levels);
@@ -218,28 +219,24 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
   CLI::App& app = add_command(
       program,
       {"batch",
-       "Remesh the grains of a sample, with a table and a summary",
+       "Remesh the grains of a sample and write a table and a summary",
        {"scans -o out -n 500 --method as-published",
         "'scans/*.stl' @more.txt -o other --format stl", "scans -o out --shard 1/2"},
-       "OUT gets a mesh per grain, grains.csv, shape.csv, summary.html and summary.json. A batch\n"
-       "that was killed and is started again goes on where it was. A part gets tables of its own:\n"
-       "see wscvt collect.",
+       "OUT gets a mesh per grain, grains.csv, shape.csv, summary.html and summary.json. After an\n"
+       "interruption, the same call continues the batch. With --shard each part has its own\n"
+       "tables; join them with wscvt collect.",
        true,
        true});
-  app.add_option(
-         "inputs", arguments.inputs,
-         "Meshes, volumes of labels, folders, patterns in quotes, or @FILE with one of these a "
-         "line")
+  app.add_option("inputs", arguments.inputs,
+                 "Meshes, volumes of labels, folders, patterns in quotes, or @FILE with one of "
+                 "these per line")
       ->type_name("INPUT")
       ->required();
-  app.add_option("-o,--output", arguments.folder, "Folder for all that is made")
-      ->type_name("OUT")
-      ->required();
+  app.add_option("-o,--output", arguments.folder, "Output folder")->type_name("OUT")->required();
   add_sample_arguments(app, arguments);
   add_volume_arguments(app, arguments.volume, finer_settings);
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet,
-               "No summary on the standard output, no progress; failures stay");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and failures");
   return app;
 }
 
@@ -248,11 +245,11 @@ int run(const BatchArguments& arguments) {
     check_options(arguments.options);
     if (!arguments.levels.empty() &&
         (arguments.options.target.percent > 0.0 || arguments.options.measures.suggestions)) {
-      refuse("Several numbers of nodes allow no error target and no suggestions. Leave these out.");
+      refuse("--max-error and --suggestions need a single number of nodes. Leave them out.");
     }
     if (arguments.shapes.contacts && arguments.shapes.described == Described::None) {
       refuse(
-          "--contacts adds columns to shape.csv, which --describe none leaves out. Choose "
+          "--contacts adds columns to shape.csv, but --describe none does not write this file. Use "
           "--describe remesh, or leave out --contacts.");
     }
     check_format(arguments.format);
@@ -289,7 +286,7 @@ int run(const BatchArguments& arguments) {
   all.count = grains.size();
   all.threads = arguments.threads;
   all.quiet = arguments.quiet;
-  all.when_stopped = "The same call goes on from there.";
+  all.when_stopped = "The same call continues from there.";
   all.name = [&](std::size_t k) { return grains[k]; };
   all.work = [&](std::size_t k, const Execution& execution) {
     return remeshed_row(arguments, output, inputs, k, execution);

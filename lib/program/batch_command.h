@@ -12,7 +12,8 @@
 
 namespace wscvt::program {
 
-/// `wscvt batch`: the grains of a sample, one a thread, and a table and a summary of them.
+/// `wscvt batch`: remeshes the grains of a sample, one grain per thread, and writes a table and a
+/// summary.
 struct BatchArguments {
   BatchArguments();
 
@@ -20,22 +21,22 @@ struct BatchArguments {
   std::string folder;          ///< of the output
   std::string format = "ply";  ///< ending of the meshes
   Shard shard;
-  bool seconds = false;  ///< a column of the table says how long each grain took
+  bool seconds = false;  ///< the table has a column with the run time of each grain
   int threads = 0;       ///< 0: all
   bool quiet = false;
-  RemeshOptions options;    ///< without advice, which is for a person at one grain
-  std::vector<int> levels;  ///< numbers of nodes if there are several, ascending; else empty
-  ShapeMeasures shapes;     ///< of the table of shapes
+  RemeshOptions options;    ///< without suggestions
+  std::vector<int> levels;  ///< several numbers of nodes, ascending; empty for one number
+  ShapeMeasures shapes;     ///< of shape.csv
   VolumeOptions volume;     ///< of inputs that are volumes
 };
 
-/// Adds what is asked of a sample as a whole: shard, format, seconds, and the remesh of its grains.
+/// Adds the options of a sample: shard, format, seconds, and the remesh of its grains.
 void add_sample_arguments(CLI::App& app, BatchArguments& arguments);
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, BatchArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const BatchArguments& arguments);
 
 }  // namespace wscvt::program

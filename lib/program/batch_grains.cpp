@@ -16,7 +16,7 @@ namespace wscvt::program {
 
 namespace {
 
-/// Of a mesh; none where it cannot be read or split.
+/// Returns the bodies of a mesh; an empty list if it cannot be read or split.
 std::vector<MeshBody> bodies_of(const std::string& path, bool quiet) {
   note_signals();
   ProgressLine line(!quiet);
@@ -128,8 +128,7 @@ GrainScan BatchGrains::read(std::size_t grain, bool with_pictures, const Executi
   if (label.mesh.points.empty()) {
     throw Error(ErrorCode::InvalidInput,
                 "The label is in " + std::to_string(label.pieces) +
-                    " pieces, of which the largest is smaller than the smallest grain that is "
-                    "taken; segment it again.");
+                    " pieces, and the largest has too few voxels for a grain. Segment it again.");
   }
   return {std::move(label.mesh), {}, warnings_of(label)};
 }

@@ -15,46 +15,46 @@
 
 namespace wscvt::program {
 
-/// A grain as it was scanned.
+/// Scan of a grain.
 struct GrainScan {
   IndexedMesh mesh;
-  MeshAttributes attributes;          ///< of a file; of its bodies none
-  std::vector<std::string> warnings;  ///< about how it came to be
+  MeshAttributes attributes;          ///< of a file; empty for its bodies
+  std::vector<std::string> warnings;  ///< about reading it
 };
 
-/// The grains that the inputs of a batch name: files of meshes, and the labels of volumes.
+/// Grains of the inputs of a batch: mesh files, and labels of volumes.
 class BatchGrains {
  public:
-  /// Of what grain_files gives. Counts the labels of volumes and, with options.parts, reads the
-  /// meshes and holds the bodies of those that have several; with a line on a terminal unless
-  /// quiet. Throws as LabelGrains does; a mesh that cannot be read fails later, in its row.
+  /// `files` are the result of grain_files. Counts the labels of volumes. With options.parts, reads
+  /// the meshes and stores the bodies of meshes with several bodies. Shows a line on a terminal
+  /// unless quiet. Throws as LabelGrains. A mesh that cannot be read fails later, in its row.
   BatchGrains(const std::vector<std::string>& files, const VolumeOptions& options,
               const Shard& shard, bool quiet);
 
-  /// Of the part of the sample, in the order of the inputs. A file's is its path, a label's that of
-  /// its volume, a slash and the label, a body's that of its mesh, a slash and its number, from 1.
+  /// Returns the names of the grains in this part of the sample, in the order of the inputs. A file
+  /// has its path, a label VOLUME/LABEL, a body MESH/NUMBER from 1.
   const std::vector<std::string>& names() const { return names_; }
 
-  /// The labels of all volumes, and what becomes of each, as a table; empty where there is no
-  /// volume. `file_of` names the file that a grain is written to.
+  /// Returns a table of the labels of all volumes with their outcomes; empty if there is no volume.
+  /// `file_of` returns the output file of a grain.
   std::string label_table(const std::function<std::string(const std::string&)>& file_of) const;
 
-  /// Whether so much of a volume is left out that the exit code says so.
+  /// Returns whether so much of a volume is left out that the exit code is SomeFailed.
   bool is_much_left_out() const;
 
-  /// Says that grains before the `first` are not going to be read.
+  /// Declares that grains before `first` will not be read.
   void begin(std::size_t first);
 
-  /// Reads a grain; each once. On several threads at once.
-  /// `with_pictures`: of a file's texture too.
+  /// Reads a grain. Each grain may be read once, on several threads at once. `with_pictures`: also
+  /// reads the pictures of a file's texture.
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution);
 
  private:
-  /// What a name stands for.
+  /// Grain of a name.
   struct Place {
     enum Kind { File, Label, Body } kind;
     std::size_t volume;  ///< of a label, of volumes_
-    std::size_t grain;   ///< of what LabelGrains takes, or of bodies_
+    std::size_t grain;   ///< index in LabelGrains::taken, or in bodies_
   };
 
   void add_volume(const std::string& path, const VolumeOptions& options, const Shard& shard,

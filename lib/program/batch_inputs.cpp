@@ -28,39 +28,41 @@ void add_folder(const std::string& folder, std::vector<std::string>& files) {
   }
   if (files.size() == before) {
     refuse("The folder \"" + folder +
-           "\" holds no mesh, such as .ply or .stl, and no .tif or .png slices; check its name. "
-           "Tables, points and volumes have to be named.");
+           "\" contains no mesh, such as .ply or .stl, and no .tif or .png slices. Check its name. "
+           "Tables, points and volumes must be named.");
   }
   std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
 }
 
 void add_matches(const std::string& pattern, std::vector<std::string>& files) {
   glob_t found{};
-  // Sorted by bytes in the program's locale, which is the classic one.
+  // glob sorts by bytes, because the program's locale is the classic one.
   const int outcome = ::glob(pattern.c_str(), 0, nullptr, &found);
   if (outcome == 0) files.insert(files.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
   ::globfree(&found);
-  if (outcome != 0) refuse("No file matches \"" + pattern + "\"; check the pattern.");
+  if (outcome != 0) refuse("No file matches \"" + pattern + "\". Check the pattern.");
 }
 
 void add_input(const std::string& input, std::vector<std::string>& files);
 
 [[noreturn]] void refuse_list_in(const std::string& list, const std::string& named) {
-  refuse("The list \"" + list + "\" names the list \"" + named + "\"; name it in the call.");
+  refuse("The list \"" + list + "\" contains the list \"" + named +
+         "\". Give this list in the call.");
 }
 
 void add_list(const std::string& list, std::vector<std::string>& files) {
   std::ifstream lines(list);
   if (!lines.is_open()) {
     throw Error(ErrorCode::InputOutput,
-                "The list \"" + list + "\" cannot be opened; check that the file is there.");
+                "The list \"" + list + "\" cannot be opened. Check that the file exists.");
   }
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    // A list of lists could name itself.
+    // A list of lists could contain itself.
     if (!line.empty() && line.front() == '@') refuse_list_in(list, line);
     if (line.find('\0') != std::string::npos) {
-      refuse("The list \"" + list + "\" holds a NUL, which no file's name does; correct it.");
+      refuse("The list \"" + list +
+             "\" contains a NUL character, which no file name has. Correct it.");
     }
     if (!line.empty()) add_input(line, files);
   }
@@ -103,7 +105,7 @@ std::vector<std::string> grain_files(const std::vector<std::string>& inputs) {
 Shard shard_of(std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) {
-    refuse("The part is \"" + std::string(text) + "\"; give it as I/N, the I-th of N.");
+    refuse("The part is \"" + std::string(text) + "\". Give it as I/N: part I of N.");
   }
   constexpr int most = std::numeric_limits<int>::max();
   const NumberOption<int> count = {"shard", "number of parts", 1, most};

@@ -53,11 +53,11 @@ void BatchOutput::check_meshes(const std::vector<std::string>& grains) const {
       const auto [other, is_new] = made.emplace(folder.mesh(grain), &grain);
       if (!is_new) {
         refuse("\"" + *other->second + "\" and \"" + grain + "\" would both be remeshed to \"" +
-               other->first + "\"; give them in two batches or rename one.");
+               other->first + "\". Use two batches, or rename one of them.");
       }
       if (same_file(other->first, grain)) {
         refuse("The remesh of \"" + grain +
-               "\" would take its place; give another folder with -o, or another --format.");
+               "\" would replace the scan. Give another folder with -o, or another --format.");
       }
     }
   }
@@ -81,7 +81,7 @@ std::size_t BatchOutput::open_tables(const std::vector<std::string>& grains,
 }
 
 void BatchOutput::append(const GrainRow& row) {
-  // The first table comes last: with its row the grain is done.
+  // The first table is written last, because its row marks the grain as done.
   for (std::size_t k = tables_.size() - 1; k > 0; --k) tables_[k]->append(row.others[k - 1]);
   tables_.front()->append(row.record);
 }
@@ -102,8 +102,8 @@ void check_call(const std::string& path, const std::string& call, bool is_begun)
   if (before == call) return;
   if (is_begun) {
     throw Error(ErrorCode::InvalidInput,
-                "A batch of other options or another version stands in that folder: see \"" + path +
-                    "\"; call it as that says, or give another folder with -o.");
+                "The folder contains a batch with other options or of another version: see \"" +
+                    path + "\". Use the options of that file, or give another folder with -o.");
   }
   write_file(path, call);
 }

@@ -13,7 +13,7 @@
 
 namespace wscvt::program {
 
-/// The names of the files of a batch with one number of nodes.
+/// Names of the files of a batch with one number of nodes.
 class OutputFolder {
  public:
   OutputFolder(std::filesystem::path folder, const BatchArguments& arguments);
@@ -23,7 +23,7 @@ class OutputFolder {
   std::string mesh_name(const std::string& grain) const;  ///< without the folder
   std::string table() const { return file("grains", ".csv"); }
   std::string shapes() const { return file("shape", ".csv"); }
-  /// The same for every part: what a volume holds.
+  /// Table of the labels of the volumes; equal for every part.
   std::string labels() const { return (folder_ / "labels.csv").string(); }
   std::string call() const { return file("call", ".json"); }
   std::string summary(const std::string& ending) const { return file("summary", ending); }
@@ -36,8 +36,8 @@ class OutputFolder {
   std::string part_;
 };
 
-/// Where a batch puts its meshes and tables. With several numbers of nodes each has a folder, such
-/// as n100, and each folder is a sample of its own.
+/// Meshes and tables of a batch. With several numbers of nodes, each number has a folder, such as
+/// n100, which is a sample of its own.
 class BatchOutput {
  public:
   explicit BatchOutput(const BatchArguments& arguments);
@@ -48,17 +48,17 @@ class BatchOutput {
   /// Refuses grains whose meshes would replace each other, or a scan. Throws Error(InvalidInput).
   void check_meshes(const std::vector<std::string>& grains) const;
 
-  /// Opens or begins the tables. All are cut to as many rows as the shortest has: a killed batch
-  /// may have added a row to some of them only. Returns this number. Throws as SampleTable does.
+  /// Opens or creates the tables and cuts all to the length of the shortest, because a killed batch
+  /// may have added a row to only some of them. Returns the number of rows. Throws as SampleTable.
   std::size_t open_tables(const std::vector<std::string>& grains, const BatchArguments& arguments);
 
   std::size_t failed_rows() const { return tables_.front()->failed_rows(); }
 
-  /// Adds the records of the next grain to the tables: of each level the row of its table and, if
-  /// shapes are described, the row of its shapes.
+  /// Adds the records of the next grain to the tables of each level: grains.csv and, if shapes are
+  /// described, shape.csv.
   void append(const GrainRow& row);
 
-  /// Removes half-written files that a killed batch left, of the grains from `first` on.
+  /// Removes half-written files of a killed batch, for the grains from `first` on.
   void remove_parts(const std::vector<std::string>& grains, std::size_t first) const;
 
  private:
@@ -67,8 +67,8 @@ class BatchOutput {
   std::vector<std::unique_ptr<SampleTable>> tables_;
 };
 
-/// Notes in the file `path` what a batch was called with, or refuses a batch that is begun and was
-/// called otherwise. Throws Error.
+/// Writes the options of a batch to the file `path`. Throws Error if the batch is begun and the
+/// file has other options.
 void check_call(const std::string& path, const std::string& call, bool is_begun);
 
 }  // namespace wscvt::program

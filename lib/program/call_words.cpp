@@ -19,7 +19,7 @@ namespace {
   throw CLI::ParseError(sentence, CLI::ExitCodes::InvalidError);
 }
 
-/// How many letters are to be put in, taken out or exchanged (Levenshtein 1966).
+/// Returns the number of letters to insert, remove or replace (Levenshtein 1966).
 std::size_t edits_between(const std::string& one, const std::string& other) {
   std::vector<std::size_t> row(other.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -35,13 +35,13 @@ std::size_t edits_between(const std::string& one, const std::string& other) {
   return row.back();
 }
 
-/// " Did you mean WORD?" of the nearest of the words; empty if all are far.
+/// Returns " Did you mean WORD?" with the nearest of the words; empty if all differ too much.
 std::string meant_word(const std::string& word, const std::vector<std::string>& words) {
   const auto nearest =
       std::min_element(words.begin(), words.end(), [&](const std::string& a, const std::string& b) {
         return edits_between(word, a) < edits_between(word, b);
       });
-  // Two slips of the finger; more are another word.
+  // At most two typing errors; more make another word.
   const bool is_near = nearest != words.end() && edits_between(word, *nearest) <= 2;
   return is_near ? " Did you mean " + *nearest + "?" : "";
 }
@@ -52,8 +52,8 @@ std::string meant_word(const std::string& word, const std::vector<std::string>& 
   for (const std::string& name : commands) {
     names += (names.empty() ? "" : &name == &commands.back() ? " or " : ", ") + name;
   }
-  if (word.empty()) refuse_call("No command is given; give " + names + ".");
-  refuse_call("There is no command \"" + word + "\"; give " + names + "." +
+  if (word.empty()) refuse_call("No command is given. Give " + names + ".");
+  refuse_call("There is no command \"" + word + "\". Give " + names + "." +
               meant_word(word, commands));
 }
 
@@ -69,7 +69,7 @@ bool is_given(const std::vector<std::string>& words, const std::string& brief,
                      [&](const std::string& word) { return is_option(word, brief, name); });
 }
 
-/// Throws CLI::ParseError for an output of several remeshes that is or would be a mesh.
+/// Throws CLI::ParseError if the output of several remeshes is or would be a file.
 void check_batch_output(const std::string& output) {
   std::error_code ignored;
   const bool is_mesh = is_mesh_file(output) && !std::filesystem::is_directory(output, ignored);
@@ -79,11 +79,12 @@ void check_batch_output(const std::string& output) {
               "SCANS... -o OUT\".");
 }
 
-/// The first `count` words are inputs, and perhaps the last of them the output; options follow.
+/// Returns the call of a batch. The first `count` words are inputs, and possibly the output;
+/// options follow.
 CallWords batch_call(std::vector<std::string> words, std::ptrdiff_t count) {
   if (!is_given(words, "-o", "--output")) {
     if (count < 2) {
-      refuse_call("The output is missing; \"wscvt batch " + words.front() +
+      refuse_call("The output is missing. \"wscvt batch " + words.front() +
                   " -o OUT\" remeshes the scans in \"" + words.front() + "\".");
     }
     --count;
@@ -93,13 +94,13 @@ CallWords batch_call(std::vector<std::string> words, std::ptrdiff_t count) {
   words.insert(words.begin(), "batch");
   CallWords call{words, ""};
   if (is_given(words, "-q", "--quiet")) return call;
-  // A shell may have put in the names of a thousand files.
+  // A shell may have expanded a pattern to a thousand names.
   if (count > 3) words.erase(words.begin() + 3, words.begin() + 1 + count);
   for (std::size_t k = 0; k < words.size(); ++k) {
     call.notice += " " + words[k] + (count > 3 && k == 2 ? " ..." : "");
   }
   call.notice = "This is \"wscvt" + call.notice +
-                "\", a remesh of each scan. \"wscvt help batch\" lists its options.";
+                "\", which remeshes each scan. \"wscvt help batch\" lists its options.";
   return call;
 }
 
@@ -122,7 +123,7 @@ CallWords call_words(std::vector<std::string> words, const std::vector<std::stri
     if (first.substr(0, first.find('=')) == own) return {words, ""};
   }
   const bool is_many = names_files(first);
-  // A file has a point for its ending, or a slash.
+  // A file name has a point or a slash.
   if (!is_many && first.find_first_of("-./") == std::string::npos) refuse_unknown(first, commands);
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const std::string& word) { return word.rfind('-', 0) == 0; });

@@ -7,21 +7,21 @@
 
 namespace wscvt::program {
 
-/// A call as the command-line parser takes it.
+/// Words of a call for the command-line parser.
 struct CallWords {
-  /// First the name of a command or an option of the program itself.
+  /// The first word is a command or an option of the program itself.
   std::vector<std::string> words;
-  std::string notice;  ///< a sentence for who did not name the command; may be empty
+  std::string notice;  ///< tells the user which command was added; may be empty
 };
 
-/// Puts in the command that the words of a call leave out. `SCAN OUTPUT` is a remesh; several
-/// scans, a folder, a pattern or a list and an output are a batch; `help COMMAND` is `COMMAND
-/// --help`, and `-v` is `--version`. Throws CLI::ParseError, with what to type instead, for a word
-/// that is no command and no file, and for a batch whose output is missing or is a file.
+/// Adds the command to a call without one. `SCAN OUTPUT` is a remesh. An output with several scans,
+/// a folder, a pattern or a list is a batch. `help COMMAND` is `COMMAND --help`, and `-v` is
+/// `--version`. Throws CLI::ParseError, with the correct call, for a word that is no command and no
+/// file, and for a batch without an output or with a file as output.
 CallWords call_words(std::vector<std::string> words, const std::vector<std::string>& commands);
 
-/// What is wrong with a call, where the parser has no good words for it: an option that the command
-/// does not have, with the one that was perhaps meant, and an output that is missing. Else empty.
+/// Returns a better message than the parser's for an unknown option, with the nearest option's
+/// name, and for a missing output; else empty.
 std::string refusal_text(const CLI::App& program, const CLI::ParseError& error);
 
 }  // namespace wscvt::program

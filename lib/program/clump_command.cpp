@@ -46,36 +46,38 @@ struct AddClumpOption {
 
 CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
   CLI::App& app = add_command(
-      program, {"clump",
-                "Fit overlapping spheres to a grain, for engines that take clumps",
-                {"scan.ply -k 20 -o clump.csv --report clump.html",
-                 "scan.ply --max-error 3 -o clump.multisphere -o clump.chrono.csv --size 0.01",
-                 "scan.ply -k 50 --inside -o clump.py", "scans -k 10 -o clumps"},
-                "Mass, centre and inertia are the grain's. The report has the errors of taking the "
-                "spheres' own.\nwscvt compare clump.csv scan.ply measures a clump.",
-                true,
-                true});
-  app.add_option("scans", arguments.inputs,
-                 mesh_argument_text("Scan", MeshUse::Read) +
-                     "; or several, folders, patterns in quotes, volumes of labels, or @FILE with "
-                     "one of these a line")
+      program,
+      {"clump",
+       "Fit overlapping spheres to a grain, for engines that use clumps",
+       {"scan.ply -k 20 -o clump.csv --report clump.html",
+        "scan.ply --max-error 3 -o clump.multisphere -o clump.chrono.csv --size 0.01",
+        "scan.ply -k 50 --inside -o clump.py", "scans -k 10 -o clumps"},
+       "Mass, centre and inertia are the grain's. The report has the errors of the spheres' "
+       "own values.\nwscvt compare clump.csv scan.ply measures a clump.",
+       true,
+       true});
+  app.add_option(
+         "scans", arguments.inputs,
+         mesh_argument_text("Scan", MeshUse::Read) +
+             "; or several scans, folders, patterns in quotes, volumes of labels, or @FILE with "
+             "one of these per line")
       ->type_name("INPUT")
       ->required();
   app.add_option("-o,--output", arguments.outputs,
-                 "Write the clump to this file, by its ending: .csv (x,y,z,r), .multisphere "
-                 "(LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for "
-                 "MercuryDPM), .p3dat (PFC), .molecule (LAMMPS). May be given more than once. For "
-                 "several scans: the folder of their clumps and of the table grains.csv")
+                 "Write the clump to this file. Endings: .csv (x,y,z,r), .multisphere (LIGGGHTS), "
+                 ".py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for MercuryDPM), "
+                 ".p3dat (PFC), .molecule (LAMMPS). May be given more than once. For several "
+                 "scans: folder of the clumps and of the table grains.csv")
       ->type_name("FILE")
       ->required()
       ->allow_extra_args(false);
   app.add_option("--format", arguments.format,
-                 "Ending of the clumps of several scans, without its point. Default: csv")
+                 "Ending of the clumps of several scans, without the point. Default: csv")
       ->type_name("NAME")
       ->group(finer_settings);
   add_typed(app, "--shard",
             [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Only the I-th of N parts of several scans, by their names")
+      ->description("Use only part I of N of several scans, selected by their names")
       ->type_name("I/N")
       ->group(finer_settings);
   AddClumpOption add{app};
@@ -101,7 +103,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
 
 namespace {
 
-/// Whether the inputs are a sample: all but one file of a mesh.
+/// Returns whether the inputs are a sample, that is, anything except one mesh file.
 bool is_sample(const std::vector<std::string>& inputs) {
   std::error_code error;
   const std::string& first = inputs.front();
@@ -110,7 +112,7 @@ bool is_sample(const std::vector<std::string>& inputs) {
          (!fs::exists(first, error) && first.find_first_of("*?[") != std::string::npos);
 }
 
-/// What a sample that is started again has to have been called with.
+/// Returns the options that must be equal when a sample is started again.
 std::string call_text(const ClumpArguments& arguments) {
   return json_document({{"format", "wscvt-clumps"},
                         {"made_by", made_by()},
@@ -137,7 +139,8 @@ GrainRow clump_row(const ClumpArguments& arguments, const OutputFolder& folder, 
   });
 }
 
-/// Works as a batch does, with its table, its call and its way to go on.
+/// Works as wscvt batch, with its table and its check of the options, and continues after an
+/// interruption.
 int run_sample(const ClumpArguments& arguments) {
   const bool quiet = arguments.common.quiet;
   BatchArguments batch;
@@ -149,7 +152,7 @@ int run_sample(const ClumpArguments& arguments) {
     }
     if (!arguments.common.reports.empty()) {
       refuse(
-          "Several scans are given. Their table is grains.csv in the folder of -o; leave out "
+          "Several scans are given. Their table is grains.csv in the folder of -o. Leave out "
           "--report.");
     }
     check_clump_path("clump." + arguments.format);
@@ -181,7 +184,7 @@ int run_sample(const ClumpArguments& arguments) {
   all.count = grains.size();
   all.threads = arguments.common.threads;
   all.quiet = quiet;
-  all.when_stopped = "The same call goes on from there.";
+  all.when_stopped = "The same call continues from there.";
   all.name = [&](std::size_t k) { return grains[k]; };
   all.work = [&](std::size_t k, const Execution& execution) {
     return clump_row(arguments, folder, inputs, k, execution);

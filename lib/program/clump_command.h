@@ -12,10 +12,10 @@
 
 namespace wscvt::program {
 
-/// `wscvt clump`: a clump of spheres of one grain, or of each of a sample.
+/// `wscvt clump`: makes a clump of spheres of one grain, or of each grain of a sample.
 struct ClumpArguments {
-  std::vector<std::string> inputs;   ///< a scan, or what a batch takes
-  std::vector<std::string> outputs;  ///< files, whose endings say what each becomes; or one folder
+  std::vector<std::string> inputs;   ///< a scan, or inputs as of a batch
+  std::vector<std::string> outputs;  ///< files, the ending selects the format; or one folder
   std::string format = "csv";        ///< of a sample: ending of the clumps
   Shard shard;                       ///< of a sample
   ClumpOptions options;
@@ -24,10 +24,10 @@ struct ClumpArguments {
   CommonArguments common;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, ClumpArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const ClumpArguments& arguments);
 
 }  // namespace wscvt::program

@@ -18,22 +18,21 @@ namespace wscvt::program {
 CLI::App& add_command(CLI::App& program, CollectArguments& arguments) {
   CLI::App& app = add_command(
       program, {"collect",
-                "Join the tables of the parts of a sample",
+                "Join the tables of a batch that ran in parts",
                 {"out/grains-*-of-2.csv -o grains.csv",
                  "out/grains-*-of-2.csv -o grains.csv --report summary.html"},
-                "Rows are in the order of the grains' names, however the sample was parted.",
+                "Rows are in the order of the grains' names. The number of parts does not matter.",
                 false,
                 true});
   app.add_option("tables", arguments.tables, "Tables that wscvt batch --shard wrote")
       ->type_name("FILE")
       ->required();
-  add_file_argument(app, "-o,--output", arguments.output, "The whole table")->required();
+  add_file_argument(app, "-o,--output", arguments.output, "The joined table")->required();
   app.add_option("--report", arguments.summaries,
-                 "Write the summary to this file, by its ending .html or .json; may be given more "
-                 "than once")
+                 "Write the summary to this file, .html or .json. May be given more than once")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  app.add_flag("-q,--quiet", arguments.quiet, "No summary on the standard output");
+  app.add_flag("-q,--quiet", arguments.quiet, "Do not print the summary");
   return app;
 }
 
@@ -49,10 +48,10 @@ int run(const CollectArguments& arguments) {
   const bool holds_clumps = is_clump_table(arguments.tables.front());
   if (holds_clumps || is_shape_table(arguments.tables.front())) {
     if (!arguments.summaries.empty()) {
-      throw WrongCall(holds_clumps
-                          ? "Tables of clumps have no summary. Leave out --report."
-                          : "Tables of shapes have no summary. Leave out --report, and call wscvt "
-                            "sample.");
+      throw WrongCall(
+          holds_clumps
+              ? "Tables of clumps have no summary. Leave out --report."
+              : "Tables of shapes have no summary. Leave out --report, and use wscvt sample.");
     }
     join_tables(arguments.tables, arguments.output);
     return Done;

@@ -7,18 +7,18 @@
 
 namespace wscvt::program {
 
-/// `wscvt collect`: the tables of the parts of a sample become one.
+/// `wscvt collect`: joins the tables of the parts of a sample.
 struct CollectArguments {
   std::vector<std::string> tables;
   std::string output;
-  std::vector<std::string> summaries;  ///< files; the ending says what each becomes
+  std::vector<std::string> summaries;  ///< files; the ending selects the format
   bool quiet = false;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, CollectArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const CollectArguments& arguments);
 
 }  // namespace wscvt::program

@@ -5,11 +5,11 @@ namespace wscvt::program {
 
 std::string exit_code_text(bool some_may_fail) {
   const std::string text =
-      std::string("Exit codes: 0 done, 1 the work failed, 2 wrong arguments") +
-      (some_may_fail ? ", 3 done, but some grains failed or more than 5 % of a volume was left out"
+      std::string("Exit codes: 0 done; 1 the work failed; 2 wrong arguments") +
+      (some_may_fail ? "; 3 done, but some grains failed or more than 5 % of a volume was left out"
                      : "") +
-      "; 130 and 143 cancelled by SIGINT and SIGTERM. A sentence on the standard error says what "
-      "to do.";
+      "; 130 cancelled by SIGINT; 143 cancelled by SIGTERM. A message on the standard error says "
+      "what to do.";
   return wrapped(text, 100);
 }
 
@@ -45,7 +45,7 @@ CLI::Option* add_typed(CLI::App& app, const std::string& names,
                                             throw CLI::ValidationError(name, error.what());
                                           }
                                         })
-      ->take_last();  // so that one can be added behind those of a report
+      ->take_last();  // a later value replaces an earlier one, for example one copied from a report
 }
 
 }  // namespace wscvt::program

@@ -13,34 +13,34 @@
 
 namespace wscvt::program {
 
-/// What a command is called and what its help says beside its options.
+/// Name of a command, and its help texts other than those of its options.
 struct CommandText {
   std::string name;
   std::string purpose;                ///< one line
   std::vector<std::string> examples;  ///< calls, without "wscvt" and the name
   std::string notes = {};             ///< lines below the examples; may be empty
-  bool has_finer_settings = false;    ///< that only --help-all shows
-  bool some_may_fail = false;         ///< of many grains: exit code SomeFailed
+  bool has_finer_settings = false;    ///< only --help-all shows them
+  bool some_may_fail = false;         ///< works on many grains: exit code SomeFailed
 };
 
-/// What the exit codes are; every help ends with it.
+/// Returns the text of the exit codes at the end of every help.
 std::string exit_code_text(bool some_may_fail);
 
-/// Adds a command to the program; its arguments are for the caller to add.
+/// Adds a command to the program. The caller adds its arguments.
 CLI::App& add_command(CLI::App& program, const CommandText& text);
 
-/// Adds an argument whose text `read` takes; what that throws as wscvt::Error refuses the call.
-/// `names` as CLI11 takes them: "-n,--nodes". Of one given twice the later counts.
+/// Adds an argument whose text `read` reads. If `read` throws wscvt::Error, the call is refused
+/// with its message. `names` are as in CLI11: "-n,--nodes". If an argument is given twice, the
+/// later one counts.
 CLI::Option* add_typed(CLI::App& app, const std::string& names,
                        const std::function<void(std::string_view)>& read);
 
-/// Adds the file or folder that is made: the last of the words, `name`, or -o. Reading a call
-/// changes `path`, which must outlive `app`.
+/// Adds the output file or folder: the last word, `name`, or -o. Parsing changes `path`, which must
+/// outlive `app`.
 CLI::Option* add_output(CLI::App& app, const std::string& name, std::string& path,
                         const std::string& description, const std::string& type = "FILE");
 
-/// An argument for a number. Reading a call changes `value`, which must outlive `app`, and so must
-/// `option`.
+/// Adds an argument for a number. Parsing changes `value`. `value` and `option` must outlive `app`.
 template <class Number>
 CLI::Option* add_number(CLI::App& app, const std::string& names, Number& value,
                         const NumberOption<Number>& option) {
@@ -50,7 +50,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& names, Number& value,
       ->type_name("N");
 }
 
-/// An argument for one of a table's values; as add_number.
+/// Adds an argument for a value of a table; as add_number.
 template <class Enumeration>
 CLI::Option* add_choice(CLI::App& app, const std::string& names, Enumeration& value) {
   return add_typed(

@@ -12,27 +12,24 @@ void add_threads_argument(CLI::App& app, int& threads) {
 }
 
 void add_folder_argument(CLI::App& app, std::string& folder) {
-  app.add_option("-o,--output", folder, "Folder for all that is made")
-      ->type_name("OUT")
-      ->required();
+  app.add_option("-o,--output", folder, "Output folder")->type_name("OUT")->required();
 }
 
 void add_quiet_argument(CLI::App& app, bool& quiet) {
-  app.add_flag("-q,--quiet", quiet,
-               "No summary on the standard output, no progress; failures stay");
+  app.add_flag("-q,--quiet", quiet, "Print only warnings and failures");
 }
 
 void add_format_argument(CLI::App& app, std::string& format) {
   app.add_option("--format", format,
                  "Ending of the meshes: " + mesh_extensions(MeshUse::Write) +
-                     ", without its point. Default: ply")
+                     ", without the point. Default: ply")
       ->type_name("NAME");
 }
 
 void check_format(const std::string& format) {
   if (is_mesh_format("mesh." + format, MeshUse::Write)) return;
-  refuse("The format of the meshes is \"" + format + "\"; give --format one of " +
-         mesh_extensions(MeshUse::Write) + ", without its point.");
+  refuse("The format of the meshes is \"" + format + "\". Give --format one of " +
+         mesh_extensions(MeshUse::Write) + ", without the point.");
 }
 
 std::string mesh_argument_text(const std::string& what, MeshUse use) {
@@ -47,19 +44,17 @@ CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::str
 void add_common_arguments(CLI::App& app, CommonArguments& arguments,
                           const std::string& names_of_report) {
   app.add_option(names_of_report, arguments.reports,
-                 "Write the report to this file, by its ending .html (a page with pictures and "
-                 "histograms), .json (everything) or .csv (a row more of a table); may be given "
-                 "more than once")
+                 "Write the report to this file: .html (pictures and histograms), .json (all "
+                 "values) or .csv (appends one row to a table). May be given more than once")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  // What --report was called when it could only be JSON; old scripts use it.
+  // Old name of --report, which wrote only JSON. Old scripts use it.
   app.add_option_function<std::string>(
          "-j,--json", [&arguments](const std::string& file) { arguments.reports.push_back(file); })
       ->group("");
   add_threads_argument(app, arguments.threads);
-  app.add_flag("--overwrite", arguments.overwrite, "Let an output replace an input");
-  app.add_flag("-q,--quiet", arguments.quiet,
-               "No report on the standard output, no progress; warnings stay");
+  app.add_flag("--overwrite", arguments.overwrite, "Allow an output to replace an input");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings");
 }
 
 }  // namespace wscvt::program

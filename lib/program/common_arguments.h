@@ -9,23 +9,23 @@
 
 namespace wscvt::program {
 
-/// What every command that works on a grain takes.
+/// Arguments of every command that works on one grain.
 struct CommonArguments {
-  std::vector<std::string> reports;  ///< files; the ending says what each becomes
+  std::vector<std::string> reports;  ///< files; the ending selects the format
   int threads = 0;                   ///< 0: all
   bool overwrite = false;            ///< an output may replace an input
   bool quiet = false;
 };
 
-/// Adds them. Reading a call changes `arguments`, which must outlive `app`. A command whose only
-/// output is the report has it as -o too.
+/// Adds the arguments. Parsing changes `arguments`, which must outlive `app`. If the report is a
+/// command's only output, it is also -o.
 void add_common_arguments(CLI::App& app, CommonArguments& arguments,
                           const std::string& names_of_report = "--report");
 
-/// Adds the number of threads alone.
+/// Adds only the number of threads.
 void add_threads_argument(CLI::App& app, int& threads);
 
-/// Adds -o, the folder of a command that makes many files. It has to be given.
+/// Adds -o, the required output folder of a command that makes many files.
 void add_folder_argument(CLI::App& app, std::string& folder);
 
 /// Adds -q of a command that works on many grains.
@@ -34,13 +34,13 @@ void add_quiet_argument(CLI::App& app, bool& quiet);
 /// Adds --format, the ending of many meshes.
 void add_format_argument(CLI::App& app, std::string& format);
 
-/// Throws wscvt::Error(InvalidInput) for an ending that no mesh is written with.
+/// Throws wscvt::Error(InvalidInput) for an ending that is no mesh format.
 void check_format(const std::string& format);
 
-/// What help says of a mesh that is read or written: "Scan: .ply, .stl or .obj".
+/// Returns the help text of a mesh that is read or written: "Scan: .ply, .stl or .obj".
 std::string mesh_argument_text(const std::string& what, MeshUse use);
 
-/// Adds one file; it is empty where it is not given.
+/// Adds an argument for one file; empty if it is not given.
 CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,
                                const std::string& description);
 

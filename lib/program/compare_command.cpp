@@ -17,21 +17,21 @@ namespace wscvt::program {
 CLI::App& add_command(CLI::App& program, CompareArguments& arguments) {
   CLI::App& app =
       add_command(program, {"compare",
-                            "Measure a grain against another: errors of shape, distances",
+                            "Compare a grain with a reference: shape errors and distances",
                             {"remesh.ply scan.ply", "remesh.ply scan.ply --report difference.html",
                              "clump.csv scan.ply", "remesh.ply scan.ply --parts"},
-                            "Both must stand in the same place: nothing is moved to fit."});
+                            "Both meshes must have the same position: wscvt does not align them."});
   add_file_argument(
       app, "grain", arguments.measure.grain,
       mesh_argument_text("Closed mesh", MeshUse::Read) + "; or a .csv of spheres (wscvt clump)")
       ->required();
   add_file_argument(app, "reference", arguments.reference,
-                    "The mesh that errors and distances are measured against")
+                    "Mesh to which errors and distances are measured")
       ->required();
   add_measure_arguments(app, arguments.measure);
-  app.add_flag("--parts", arguments.parts,
-               "GRAIN holds convex parts, each a component of the mesh: measure their distances "
-               "and volume");
+  app.add_flag(
+      "--parts", arguments.parts,
+      "Measure the distances and volume of convex parts: each component of GRAIN is a part");
   return app;
 }
 

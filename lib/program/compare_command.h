@@ -8,17 +8,17 @@
 
 namespace wscvt::program {
 
-/// `wscvt compare`: the shape of one grain against that of another, and the distances between them.
+/// `wscvt compare`: compares the shapes of two grains and measures the distances between them.
 struct CompareArguments {
   MeasureArguments measure;
   std::string reference;  ///< file
   bool parts = false;     ///< the grain is a file of convex parts
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, CompareArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const CompareArguments& arguments);
 
 }  // namespace wscvt::program

@@ -21,8 +21,8 @@ std::string case_of(const std::string& pattern, const std::string& words) {
   return "    " + pattern + ") words=\"" + words + "\" ;;\n";
 }
 
-/// Cases of "COMMAND OPTION" for the options whose values have names, and of "COMMAND" for a first
-/// argument of that kind.
+/// Returns cases of "COMMAND OPTION" for the options with named values, and of "COMMAND" for a
+/// first argument with named values.
 std::string value_cases(const CLI::App& command) {
   std::string cases;
   for (const CLI::Option* option : command.get_options()) {
@@ -41,7 +41,7 @@ std::string value_cases(const CLI::App& command) {
   return cases;
 }
 
-/// "--nodes --method ...", without those that only old scripts use.
+/// Returns "--nodes --method ...", without hidden options for old scripts.
 std::string options_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -65,7 +65,7 @@ std::string bash_completion(const CLI::App& program) {
   const std::string names = joined(commands);
   std::string known;
   for (const std::string& name : commands) known += name + "|";
-  return "# bash completion of wscvt; wscvt --completion writes it\n"
+  return "# bash completion of wscvt, written by wscvt --completion\n"
          "_wscvt() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
          "  local command=${COMP_WORDS[1]} words=\n"

@@ -6,8 +6,8 @@
 
 namespace wscvt::program {
 
-/// A script that teaches bash the program's commands, their options and, of options with names for
-/// values, those. Files complete where nothing else does.
+/// Returns a script with which bash completes commands, options, and named values of options.
+/// Everything else completes to files.
 std::string bash_completion(const CLI::App& program);
 
 }  // namespace wscvt::program

@@ -22,17 +22,17 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
   CLI::App& app = add_command(
       program,
       {"convex",
-       "Take a grain apart into convex parts, for physics engines",
+       "Divide a grain into convex parts, for physics engines",
        {"scan.ply -k 8 -o parts.obj", "scan.ply -k 4 -o grain.urdf -o grain.xml --density 2650",
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html"},
-       "The cuts are chosen on a remesh of 500 nodes, which has the options of wscvt remesh.\n"
+       "The cuts are chosen on a remesh of 500 nodes, with the options of wscvt remesh.\n"
        "The parts are hulls of pieces of the scan.",
        true});
   add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
       ->required();
   app.add_option("-o,--output", arguments.outputs,
-                 "Write the parts to this file, by its ending .obj (a group a part), .urdf (and an "
-                 ".obj a part beside it) or .xml (MuJoCo); may be given more than once")
+                 "Write the parts to this file: .obj (one group per part), .urdf (with one .obj "
+                 "per part beside it) or .xml (MuJoCo). May be given more than once")
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->required();

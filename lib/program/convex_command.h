@@ -12,12 +12,12 @@
 
 namespace wscvt::program {
 
-/// `wscvt convex`: a scan in, convex parts out.
+/// `wscvt convex`: divides a grain into convex parts.
 struct ConvexArguments {
   ConvexArguments();
 
   std::string scan;
-  std::vector<std::string> outputs;  ///< files; the ending says what each becomes
+  std::vector<std::string> outputs;  ///< files; the ending selects the format
   ConvexOptions options;
   FrameOptions frame;
   double density = 1.0;
@@ -25,10 +25,10 @@ struct ConvexArguments {
   CommonArguments common;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, ConvexArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const ConvexArguments& arguments);
 
 }  // namespace wscvt::program

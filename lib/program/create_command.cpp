@@ -33,10 +33,10 @@ void add_semi_axes(CLI::App& app, Vector3& semi_axes) {
            }
          })
       ->description("Semi-axes along x, y and z, " + range_text(semi_axis_option) +
-                    ", not of harmonics. Default: 1 1 1")
+                    "; not for harmonics. Default: 1 1 1")
       ->type_name("X Y Z")
       ->expected(3)
-      ->allow_extra_args(false);  // what follows is the output
+      ->allow_extra_args(false);  // the next word is the output
 }
 
 }  // namespace
@@ -50,12 +50,12 @@ CreateArguments::CreateArguments() {
 CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
   CLI::App& app = add_command(
       program, {"create",
-                "Make a mesh of an ellipsoid, a superellipsoid or harmonics",
+                "Make a mesh of an ellipsoid, a superellipsoid or an SH series",
                 {"ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 500",
                  "superellipsoid rod.stl --semi-axes 2 1 1 --azimuthal-exponent 0.3",
                  "harmonics grain.ply --coefficients grain.json"},
-                "With --placement on-surface the nodes are points of the surface itself, "
-                "as with\n--method as-published.",
+                "With --placement on-surface the nodes lie on the surface itself, as with\n"
+                "--method as-published.",
                 true});
   add_choice(app, "surface", arguments.surface.kind)
       ->required()
@@ -66,10 +66,9 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
              polar_exponent_option);
   add_number(app, "--" + std::string(azimuthal_exponent_option.key),
              arguments.surface.azimuthal_exponent, azimuthal_exponent_option);
-  add_file_argument(
-      app, "--coefficients", arguments.surface.coefficients_file,
-      "Of harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh (SHTOOLS, "
-      "4pi) or .json (as remesh writes it)");
+  add_file_argument(app, "--coefficients", arguments.surface.coefficients_file,
+                    "File of harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh "
+                    "(SHTOOLS, 4pi) or .json (written by wscvt remesh)");
   add_number(app, "--" + std::string(coefficient_degree_option.key),
              arguments.surface.coefficient_degree, coefficient_degree_option);
   add_remesh_arguments(app, arguments.options, Remeshed::Surface);

@@ -10,20 +10,20 @@
 
 namespace wscvt::program {
 
-/// `wscvt create`: a mesh of a surface that is known exactly.
+/// `wscvt create`: makes a mesh of a surface that is known exactly.
 struct CreateArguments {
   CreateArguments();
 
   GrainSurface surface;
   std::string output;
   CommonArguments common;
-  RemeshOptions options;  ///< nodes on the surface unless told otherwise
+  RemeshOptions options;  ///< by default, nodes on the surface
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, CreateArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const CreateArguments& arguments);
 
 }  // namespace wscvt::program

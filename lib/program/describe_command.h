@@ -7,15 +7,15 @@
 
 namespace wscvt::program {
 
-/// `wscvt describe`: the shape of one grain.
+/// `wscvt describe`: measures the shape of one grain.
 struct DescribeArguments {
   MeasureArguments measure;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, DescribeArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const DescribeArguments& arguments);
 
 }  // namespace wscvt::program

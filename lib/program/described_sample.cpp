@@ -26,12 +26,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a mesh of SH coefficients: 2,562 points.
+/// Frequency of a mesh of SH coefficients: 2,562 points.
 constexpr int frequency = 16;
 
 double diameter_of(double volume) { return std::cbrt(6.0 / pi * volume); }
 
-/// What is measured in a moment; the others take all descriptors.
+/// Returns the descriptors that are quick to measure. Any other descriptor needs all descriptors.
 std::vector<DescriptorValue> quick_descriptors(const IndexedMesh& mesh,
                                                const Execution& execution) {
   const QuickShape quick = quick_shape(mesh, execution);
@@ -53,7 +53,8 @@ bool hold_all(const std::vector<DescriptorValue>& rows, const std::vector<std::s
                      [&](const std::string& key) { return find(rows, key) != nullptr; });
 }
 
-/// Whether all descriptors are quick. Throws for one that there is not, before grains are read.
+/// Returns whether all descriptors are quick. Throws for an unknown descriptor, before grains are
+/// read.
 bool are_quick(const std::vector<std::string>& keys) {
   const IndexedMesh sphere = subdivided_sphere(2);
   const Execution one_thread(1);
@@ -68,13 +69,13 @@ bool are_quick(const std::vector<std::string>& keys) {
       names += known.key;
     }
     std::string sentence = "There is no descriptor \"";
-    sentence.append(key).append("\"; give some of: ").append(names).append(".");
+    sentence.append(key).append("\". Choose from: ").append(names).append(".");
     refuse(sentence);
   }
   return false;
 }
 
-/// The diameter of a grain, then its descriptors.
+/// Returns the diameter of a grain, then its descriptors.
 std::vector<double> measured(const std::string& file, const std::vector<std::string>& keys,
                              bool quick, const Execution& execution) {
   const IndexedMesh mesh = grain_mesh(file, execution);
@@ -85,7 +86,7 @@ std::vector<double> measured(const std::string& file, const std::vector<std::str
   for (const std::string& key : keys) {
     const DescriptorValue* row = find(rows, key);
     if (!std::isfinite(row->value)) {
-      refuse("The grain has no " + key + "; leave out the descriptor or the grain.");
+      refuse("The grain has no " + key + ". Leave out the descriptor or the grain.");
     }
     values.push_back(row->value);
   }
@@ -110,25 +111,26 @@ void fill(DescribedSample& sample, const std::vector<std::vector<double>>& rows,
   }
 }
 
-/// Throws for a descriptor that is the same for all grains, such as the convexity of ellipsoids.
+/// Throws for a descriptor that is equal for all grains, such as the convexity of ellipsoids.
 void check_choice(const DescribedSample& sample, const std::vector<std::string>& keys) {
   for (std::size_t j = 0; j < keys.size() && sample.descriptors.rows() > 1; ++j) {
     const auto column = sample.descriptors.col(static_cast<Eigen::Index>(j));
     const double largest = column.cwiseAbs().maxCoeff();
     if (column.maxCoeff() - column.minCoeff() > 1e-11 * largest) continue;
     refuse("The descriptor \"" + keys[j] +
-           "\" is the same for all grains, so that it chooses none. Give others by --descriptors.");
+           "\" is equal for all grains, so it cannot choose templates. Give others with "
+           "--descriptors.");
   }
 }
 
-/// A column named as it is, or of the scan.
+/// Returns the column with the prefix "scan.", or else without it.
 std::size_t column_of(const GrainTable& table, const std::string& key) {
   const auto found = table.find("scan." + key);
   return found ? *found : table.index_of(key);
 }
 
-/// The scan of a grain that a batch names by its path, since its descriptors are the scan's; else
-/// the file that the table names.
+/// Returns the scan of a grain, if the grain's name is a path, because the descriptors are the
+/// scan's. Otherwise returns the file in the table.
 fs::path file_of(const GrainTable& table, std::size_t grain, const fs::path& folder) {
   std::error_code ignored;
   for (const fs::path& scan : {fs::path(table.grains[grain]), folder / table.grains[grain]}) {
@@ -137,7 +139,7 @@ fs::path file_of(const GrainTable& table, std::size_t grain, const fs::path& fol
   return folder / (table.files.empty() ? table.grains[grain] : table.files[grain]);
 }
 
-/// The table of shapes that the inputs are, or that their only folder, a batch's, holds.
+/// Returns the table of shapes: the only input, or shape.csv in the only folder; else empty.
 std::string table_among(const std::vector<std::string>& inputs) {
   if (inputs.size() != 1) return "";
   if (ending_of(inputs.front()) == ".csv") return inputs.front();

@@ -3,13 +3,13 @@
 
 namespace wscvt::program {
 
-/// What the program returns, or 128 and the number of the signal that cancelled it. A caller in a
-/// shell branches on it; the help and lib/README.md name the codes.
+/// Exit codes of the program. A signal that cancels it gives 128 + its number. Shell scripts use
+/// the codes; the help and lib/README.md list them.
 enum ExitCode {
   Done = 0,
-  Failed = 1,          ///< the work could not be done: a sentence says why
-  WrongArguments = 2,  ///< the call makes no sense: nothing was begun
-  /// Of many grains: the work is done, but grains of it failed, or more than 5 % of the voxels of a
+  Failed = 1,          ///< the work could not be done; a message says why
+  WrongArguments = 2,  ///< the call is wrong; no work was begun
+  /// The work on many grains is done, but some grains failed, or more than 5 % of the voxels of a
   /// volume's grains were left out.
   SomeFailed = 3
 };

@@ -25,10 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What came of a label that was taken.
+/// Outcome of a label that was used.
 enum class Made { Nothing, Mesh, MeshOfAPiece };
 
-/// The rows of the labels, and how many came to what.
+/// Rows of the labels, and numbers of their outcomes.
 class LabelRows {
  public:
   LabelRows(const std::string& volume, const LabelGrains& grains)
@@ -42,7 +42,7 @@ class LabelRows {
     }
   }
 
-  /// On several threads at once, each for grains of its own.
+  /// May be called on several threads at once, for different grains.
   void note(std::size_t grain, Made made) { made_[grain] = made; }
 
   void take(std::size_t grain, const GrainRow& row) {
@@ -88,8 +88,9 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
       program, {"extract",
                 "Make a mesh of each grain of a segmented CT volume",
                 {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012"},
-                "OUT gets a mesh per label, named by it, and labels.csv, which says what became of "
-                "each.\nwscvt batch takes volumes too and remeshes their grains.",
+                "OUT gets one mesh per label, such as 12.ply, and labels.csv with the state of "
+                "every label.\n"
+                "wscvt batch reads volumes too and remeshes their grains.",
                 false,
                 true});
   add_file_argument(
@@ -97,10 +98,10 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
       "Labels: .tif, .nrrd, .mhd, .vti, .vtk, .nii, .npy, .npz, .h5, .mat, a folder of "
       ".tif or .png slices, or the .json beside a .raw")
       ->required();
-  add_output(app, "output", arguments.folder, "Folder for all that is made", "OUT");
+  add_output(app, "output", arguments.folder, "Output folder", "OUT");
   add_volume_arguments(app, arguments.options, "Options");
   add_format_argument(app, arguments.format);
-  // Until version 2 it did what batch does.
+  // Until version 2 this option did the work of wscvt batch.
   app.add_flag_function("--remesh",
                         [](std::int64_t) {
                           throw CLI::ValidationError(
@@ -110,8 +111,7 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
                         })
       ->group("");
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet,
-               "No summary on the standard output, no progress; failures stay");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and failures");
   return app;
 }
 
@@ -120,10 +120,9 @@ int run(const ExtractArguments& arguments) {
     check_format(arguments.format);
     check_volume_options(arguments.options);
     if (same_file(arguments.volume, arguments.folder)) {
-      refuse("\"" + arguments.volume + "\" is the volume itself; give a folder for what is made.");
+      refuse("\"" + arguments.volume + "\" is the volume itself. Give an output folder.");
     }
-    if (!is_volume(arguments.volume))
-      open_volume(arguments.volume);  // throws what is wrong with it
+    if (!is_volume(arguments.volume)) open_volume(arguments.volume);  // throws its error
   });
   if (!arguments.quiet) check_writable("/dev/stdout");
   const std::unique_ptr<LabelGrains> grains =
@@ -147,13 +146,13 @@ int run(const ExtractArguments& arguments) {
   const auto file_of = [&](std::size_t k) {
     return std::to_string(label_of(k).label) + "." + arguments.format;
   };
-  // What a killed call left.
+  // Files of a killed call.
   for (const std::size_t k : all) remove_partial_file((folder / file_of(k)).string());
   GrainRun run;
   run.count = all.size();
   run.threads = arguments.threads;
   run.quiet = arguments.quiet;
-  run.when_stopped = "There is no table. The same call makes all of it.";
+  run.when_stopped = "No table was written. The same call starts from the beginning.";
   run.name = [&](std::size_t k) { return grain_name(arguments.volume, label_of(k).label); };
   run.work = [&](std::size_t k, const Execution& execution) {
     const auto row_of = [&](const LabelOutcome& outcome) -> GrainRow {

@@ -8,7 +8,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt extract`: the grains of a volume of labels become dense meshes.
+/// `wscvt extract`: makes a dense mesh of each grain of a volume of labels.
 struct ExtractArguments {
   std::string volume;
   VolumeOptions options;
@@ -18,10 +18,10 @@ struct ExtractArguments {
   bool quiet = false;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, ExtractArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const ExtractArguments& arguments);
 
 }  // namespace wscvt::program

@@ -11,7 +11,7 @@ namespace wscvt::program {
 
 namespace {
 
-/// A grain is given up because the queue was stopped.
+/// Thrown if a grain is abandoned because the queue was stopped.
 struct GivenUp {};
 
 }  // namespace
@@ -45,7 +45,7 @@ GrainRow GrainQueue::row_alone(std::size_t grain, std::unique_lock<std::mutex>& 
   if (stopped_) throw GivenUp();
   ++at_work_;
   lock.unlock();
-  ::malloc_trim(0);  // what the other threads' grains have left
+  ::malloc_trim(0);  // returns memory of the other threads' grains to the system
   std::exception_ptr thrown;
   GrainRow row;
   try {
@@ -87,7 +87,7 @@ void GrainQueue::work_on_grains(const Watch& watch) {
       if (!goes_on) stopped_ = true;
     }
   } catch (const GivenUp&) {
-    // Why it was stopped is known already.
+    // The reason for the stop is known already.
   } catch (...) {
     if (!lock.owns_lock()) lock.lock();
     if (!failure_) failure_ = std::current_exception();
@@ -108,14 +108,14 @@ void GrainQueue::start(int threads, std::vector<std::thread>& workers) {
       workers.emplace_back([this] { work_on_grains({}); });
     }
   } catch (const std::exception&) {
-    // No more threads, or no memory for one: those that are there do.
+    // No more threads, or no memory for one: the threads already started are enough.
     const std::lock_guard<std::mutex> lock(mutex_);
     --working_;
   }
 }
 
 void GrainQueue::run(int threads, const Watch& watch) {
-  constexpr std::size_t grains_ahead = 32;  // of each thread: some take a hundred times as long
+  constexpr std::size_t grains_ahead = 32;  // per thread: some grains take a hundred times as long
   most_ahead_ = grains_ahead * static_cast<std::size_t>(threads);
   std::vector<std::thread> workers;
   start(threads, workers);

@@ -14,14 +14,14 @@
 
 namespace wscvt::program {
 
-/// What became of a grain.
+/// Result of a grain.
 struct GrainRow {
   std::string record;                    ///< of the table
-  std::string error;                     ///< the sentence of a failure; empty: none
-  std::vector<std::string> others = {};  ///< records of further tables, in their order
+  std::string error;                     ///< the message of a failure; empty: no failure
+  std::vector<std::string> others = {};  ///< records of further tables, in the tables' order
 };
 
-/// Memory was not enough for a grain, not even while no other was worked on.
+/// Memory was not enough for a grain, even while no other grain was worked on.
 class GrainTooLarge : public std::bad_alloc {
  public:
   explicit GrainTooLarge(std::size_t grain) : grain_(grain) {}
@@ -31,24 +31,24 @@ class GrainTooLarge : public std::bad_alloc {
   std::size_t grain_;
 };
 
-/// Works on the grains of a batch, one a thread, and hands on the row of each in the order of the
-/// grains. Rows that wait for an earlier one are few: grains far ahead of it are not begun. A grain
-/// for which there is not enough memory is worked on again, alone.
+/// Works on the grains of a batch, one grain per thread, and passes on their rows in the order of
+/// the grains. Few rows wait for an earlier row, because grains far ahead of it are not begun. If
+/// memory is not enough for a grain, the queue tries it again while no other grain is worked on.
 class GrainQueue {
  public:
   /// Called on several threads at once.
   using Work = std::function<GrainRow(std::size_t grain)>;
   /// Takes the row of the next grain. Called on one thread at a time.
   using Take = std::function<void(const GrainRow& row)>;
-  /// Called every now and then while grains are worked on; false stops.
+  /// Called from time to time during the work; false stops it.
   using Watch = std::function<bool()>;
 
   GrainQueue(std::size_t first, std::size_t count, Work work, Take take);
 
-  /// Works until all rows are taken, or until told to stop: then grains that are being worked on
-  /// are left to `work`, whose rows after the first missing one are lost. Goes on with as many of
-  /// the threads as the system starts; with none it works on the caller's, and `watch` is called
-  /// after each grain. Throws GrainTooLarge, and what else `work` and `take` throw.
+  /// Works until all rows are taken, or until `watch` stops it. After a stop, `work` ends the
+  /// grains in progress; rows after the first missing row are lost. Uses as many threads as the
+  /// system starts. If no thread starts, works on the caller's thread and calls `watch` after each
+  /// grain. Throws GrainTooLarge, and exceptions of `work` and `take`.
   void run(int threads, const Watch& watch);
 
  private:
@@ -67,7 +67,7 @@ class GrainQueue {
   bool stopped_ = false;
   int working_ = 0;    ///< threads
   int at_work_ = 0;    ///< grains
-  int too_large_ = 0;  ///< grains that wait to be worked on alone, or are
+  int too_large_ = 0;  ///< grains that wait for, or are in, a second try without other grains
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable changed_;

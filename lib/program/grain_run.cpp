@@ -29,12 +29,12 @@ std::string duration_text(double seconds) {
   return std::to_string(all) + " s";
 }
 
-/// What the line on the terminal says.
+/// Returns the text of the line on the terminal.
 std::string progress_text(std::size_t done, std::size_t count, std::size_t failed, double rate) {
   std::string text = std::to_string(done) + " of " + std::to_string(count) + " grains";
   if (failed > 0) text += ", " + std::to_string(failed) + " failed";
   if (rate > 0.0) {
-    text += ", " + format_number(rate, 3) + " a second, " +
+    text += ", " + format_number(rate, 3) + " per second, " +
             duration_text(static_cast<double>(count - done) / rate) + " left";
   }
   return text;
@@ -46,15 +46,15 @@ int thread_count(int asked, std::size_t grains) {
                   static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(all), grains)));
 }
 
-/// Why a run was stopped, and what to do.
+/// Returns why a run was stopped, and what to do.
 std::string sentence_of(const std::exception& error, const GrainRun& run) {
   if (const auto* too_large = dynamic_cast<const GrainTooLarge*>(&error)) {
     return "There is not enough memory for \"" + run.name(too_large->grain()) +
-           "\", although no other grain was worked on at the same time. " +
-           // Threads hold on to memory that they have used.
+           "\", although no other grain used memory at the same time. " +
+           // Threads keep memory that they have used.
            (thread_count(run.threads, run.count) > 1
-                ? "Call it again with -t 1."
-                : "Use a machine with more memory or raise its limit (ulimit -v), or simplify this "
+                ? "Run the call again with -t 1."
+                : "Use a machine with more memory, raise its limit (ulimit -v), simplify this "
                   "scan, or leave it out of the inputs.");
   }
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {

@@ -56,10 +56,10 @@ constexpr const char* table_heading[] = {"grain",
                                          "collage [%]",
                                          "redraws"};
 
-/// Of the order of sizes; no grain's number reaches it.
+/// Key of the random order of sizes, above every grain's number.
 constexpr std::uint64_t size_key = std::uint64_t{1} << 61;
 
-/// One number of each grain, for the summary.
+/// Descriptors of the grains, for the summary.
 struct GrownNumbers {
   std::vector<double> sphericity, elongation, flatness, convexity;
 
@@ -73,7 +73,7 @@ struct GrownNumbers {
   }
 };
 
-/// Everything that a grain is made and measured with.
+/// All data to make and measure a grain.
 struct Growing {
   const GrowArguments& arguments;
   std::vector<std::string> files;  ///< of the real grains
@@ -100,7 +100,7 @@ std::string file_of(const GrowArguments& arguments, std::size_t k) {
 
 std::string short_name(const std::string& file) { return fs::path(file).filename().string(); }
 
-/// Overhang fraction. A star-shaped grain has none.
+/// Returns the overhang fraction; 0 for a star-shaped grain.
 double overhang_of(const OffsetSeries& offset, const IndexedMesh& mesh, const QuickShape& quick,
                    const Execution& execution) {
   return has_offset(offset) ? folded_solid_angle(mesh, quick.shape.centroid, execution) : 0.0;
@@ -121,7 +121,7 @@ GrainRow grown_row(Growing& growing, std::size_t k, const Execution& execution) 
   GrownBody body = grow_body(growing.grower, growing.meshes, k);
   GrownGrain& grain = body.grain;
   if (growing.sizes) {
-    // Each of as many parts of the curve as there are grains gives one size.
+    // The curve is divided into as many parts as there are grains, and each part gives one size.
     const auto count = static_cast<std::size_t>(arguments.grains);
     const std::size_t part = drawn_place(k, count, arguments.options.seed, size_key);
     const double fraction = (static_cast<double>(part) + 0.5) / static_cast<double>(count);
@@ -196,7 +196,7 @@ std::vector<std::string> summary_lines(const Growing& growing, std::size_t left_
   const auto redrawn =
       growing.redraws.size() -
       static_cast<std::size_t>(std::count(growing.redraws.begin(), growing.redraws.end(), 0));
-  // Of two samples of one population the distance is larger than this once in twenty times.
+  // Two samples of one population have a larger distance once in twenty times.
   const double by_chance =
       1.36 * std::sqrt(1.0 / static_cast<double>(real) + 1.0 / static_cast<double>(grown));
   std::vector<std::string> lines = {
@@ -205,7 +205,7 @@ std::vector<std::string> summary_lines(const Growing& growing, std::size_t left_
           std::to_string(growing.arguments.options.donors) + " donors each, degree " +
           std::to_string(growing.arguments.degree) + ", seed " +
           std::to_string(growing.arguments.options.seed) + ".",
-      "Drawn again, because they were not star-shaped or intersected themselves: " +
+      "Drawn again, because the grain was not star-shaped or intersected itself: " +
           std::to_string(redrawn) + ".",
       "Kolmogorov-Smirnov distance to the sample (" + format_number(by_chance, 2) +
           " by chance in 1 of 20 samples):"};
@@ -244,7 +244,7 @@ CLI::App& add_command(CLI::App& program, GrowArguments& arguments) {
                  "scans -n 2000 -o grown --sizes sieve.csv --donors 2"},
                 "OUT gets a mesh per grain, grown.csv and a script for Yade. The same sample, "
                 "options and\nversion give the same bytes on any number of threads. Each grain "
-                "stands in its principal\nframe about the origin.",
+                "is in its principal\nframe about the origin.",
                 false,
                 true});
   app.add_option(
@@ -258,7 +258,7 @@ CLI::App& add_command(CLI::App& program, GrowArguments& arguments) {
   add_number(app, "--nodes", arguments.nodes, grown_nodes_option);
   add_format_argument(app, arguments.format);
   app.add_flag("--coefficients", arguments.coefficients,
-               "Write SH coefficients (.json) in place of meshes");
+               "Write SH coefficients (.json) instead of meshes");
   add_file_argument(app, "--sizes", arguments.sizes,
                     "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
                     "Default: the sizes of the sample");
@@ -301,7 +301,7 @@ int run(const GrowArguments& arguments) {
   all.count = count;
   all.threads = arguments.threads;
   all.quiet = arguments.quiet;
-  all.when_stopped = "There is no table; the grains that were made are in the folder.";
+  all.when_stopped = "No table was written. The grains that were made are in the folder.";
   all.name = [&](std::size_t k) { return name_of(arguments, k); };
   all.work = [&](std::size_t k, const Execution& one) { return grown_row(growing, k, one); };
   all.take = [&](std::size_t, const GrainRow& row) { rows += row.record; };

@@ -10,7 +10,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt grow`: virtual grains with the statistics of a sample.
+/// `wscvt grow`: makes virtual grains with the statistics of a sample.
 struct GrowArguments {
   std::vector<std::string> inputs;
   std::string folder;
@@ -25,10 +25,10 @@ struct GrowArguments {
   bool quiet = false;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, GrowArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const GrowArguments& arguments);
 
 }  // namespace wscvt::program

@@ -9,7 +9,7 @@ namespace wscvt::program {
 
 namespace {
 
-/// Every paragraph wrapped; with `only_first`, the first.
+/// Returns all paragraphs wrapped, or only the first.
 std::string wrapped_paragraphs(std::string_view text, bool only_first) {
   std::string result;
   while (true) {
@@ -47,7 +47,7 @@ std::vector<HelpParagraph> help_paragraphs(const CLI::Option& option) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    // As help_of_choices writes them.
+    // Format of help_of_choices.
     const std::size_t colon = line.find(": ");
     const bool is_value = !paragraphs.empty() && colon != std::string_view::npos &&
                           line.substr(0, colon).find_first_not_of(
@@ -82,7 +82,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
     return HelpFormatter(Extent::Full).make_help(app, std::move(name), mode);
   }
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-  // Groups that are not shown leave their distances.
+  // Hidden groups leave their empty lines.
   for (std::size_t place = text.find("\n\n\n"); place != std::string::npos;
        place = text.find("\n\n\n")) {
     text.erase(place, 1);
@@ -102,7 +102,7 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
   }
   std::ostringstream line;
   CLI::detail::format_help(line, make_option_name(option, false) + " " + option->get_type_name(),
-                           "The same as " + option->get_name(true), help_column);
+                           "Same as " + option->get_name(true), help_column);
   return line.str();
 }
 
@@ -115,7 +115,7 @@ std::string HelpFormatter::make_option_name(const CLI::Option* option, bool is_p
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   std::string text = CLI::Formatter::make_option_opts(option);
-  // Of one that takes three numbers the name of its type says so.
+  // For an option of three numbers, the type's name shows the count.
   const std::size_t place = text.find(" x ");
   return place == std::string::npos ? text : text.erase(place);
 }

@@ -12,28 +12,29 @@
 
 namespace wscvt::program {
 
-/// Columns of the help that hold the options' names; their texts follow.
+/// Width of the column of the options' names in the help.
 inline constexpr int help_column = 30;
 
-/// Under this heading stand options that only --help-all shows.
-inline constexpr const char* finer_settings = "Finer settings";
+/// Heading of the options that only --help-all shows.
+inline constexpr const char* finer_settings = "Advanced options";
 
-/// Breaks a text between words into lines of `width` characters; by default so that it fits beside
-/// the names on a line of 100.
+/// Breaks a text between words into lines of `width` characters. The default fits beside the names
+/// on a line of 100 characters.
 std::string wrapped(std::string_view text, std::size_t width = 100 - help_column);
 
 /// A paragraph of an option's description.
 struct HelpParagraph {
-  std::string value;  ///< one that the option takes, whose meaning the text is; or empty
+  std::string value;  ///< value of the option that the text explains; or empty
   std::string text;
 };
 std::vector<HelpParagraph> help_paragraphs(const CLI::Option& option);
 
-/// The values that an option's description lists, each once; empty when it takes others.
+/// Returns the values listed in an option's description, each once; empty for an option without
+/// named values.
 std::vector<std::string> listed_values(const CLI::Option& option);
 
-/// Lays out the help: --help-all says everything; --help fits on a screen, without the finer
-/// settings, and of each option the first paragraph.
+/// Formats the help. --help-all shows everything. --help fits on a screen: it leaves out the
+/// advanced options and shows only the first paragraph of each option.
 class HelpFormatter : public CLI::Formatter {
  public:
   enum class Extent { Brief, Full };
@@ -53,7 +54,7 @@ class HelpFormatter : public CLI::Formatter {
   Extent extent_;
 };
 
-// Descriptions of options, of one paragraph or more; HelpFormatter breaks their lines.
+// Descriptions of options, with one or more paragraphs. HelpFormatter breaks their lines.
 
 /// "Random seed, 0 or more: of the random start. Default: 1".
 template <class Number>
@@ -68,8 +69,8 @@ inline std::string help_of(bool value, const FlagOption& option) {
          (value ? ". Default: on" : "");
 }
 
-/// The subject and the choices of what must be given, then every value with its meaning on a line
-/// of its own.
+/// Returns the subject and the choices of an enumeration, then every value with its meaning on its
+/// own line.
 template <class Enumeration>
 std::string help_of_choices(const std::string& after_them = "") {
   std::string text = capitalised(EnumerationTable<Enumeration>::subject);
@@ -81,7 +82,7 @@ std::string help_of_choices(const std::string& after_them = "") {
   return text;
 }
 
-/// The same of what has a default.
+/// Returns the text of help_of_choices with the default.
 template <class Enumeration>
 std::string help_of(Enumeration value) {
   return help_of_choices<Enumeration>(". Default: " + key_of(value));

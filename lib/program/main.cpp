@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The remesher without a display: finds the command that a call names, and runs it.
+// The command-line program: finds the command of a call and runs it.
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdint>
@@ -61,8 +61,8 @@ int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
   app.formatter(std::make_shared<program::HelpFormatter>());
   app.footer(
-      "\"wscvt SCAN OUTPUT\" is \"wscvt remesh SCAN OUTPUT\", \"wscvt FOLDER OUT\" and "
-      "\"wscvt SCANS... OUT\"\nare \"wscvt batch\". The help of a command:\n"
+      "\"wscvt SCAN OUTPUT\" means \"wscvt remesh SCAN OUTPUT\". \"wscvt FOLDER OUT\" and "
+      "\"wscvt SCANS... OUT\"\nmean \"wscvt batch\". Help for a command:\n"
       "  wscvt help remesh\n"
       "  wscvt remesh --help-all\n" +
       program::exit_code_text(true));
@@ -78,14 +78,14 @@ int run(int argc, char** argv) {
       make_command<program::ClumpArguments>(app),   make_command<program::ConvexArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
-    throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed as the version is
+    throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed like the version
   };
   app.add_flag_function("--completion", print_completion,
-                        "Print a script that completes commands and options in bash, and exit");
+                        "Print a bash script that completes commands and options, and exit");
   app.add_option_function<std::string>(
          "--man-pages",
          [&app](const std::string& folder) {
-           std::error_code ignored;  // writing tells
+           std::error_code ignored;  // the write reports it
            std::filesystem::create_directories(folder, ignored);
            for (const program::ManPage& page : program::man_pages(app)) {
              wscvt::write_file((std::filesystem::path(folder) / page.file).string(), page.text);
@@ -98,7 +98,7 @@ int run(int argc, char** argv) {
     std::vector<std::string> names;
     for (const Command& command : commands) names.push_back(command.app->get_name());
     program::CallWords call = program::call_words({argv + std::min(argc, 1), argv + argc}, names);
-    std::reverse(call.words.begin(), call.words.end());  // as CLI11 wants them
+    std::reverse(call.words.begin(), call.words.end());  // order required by CLI11
     app.parse(call.words);
     if (!call.notice.empty()) {
       std::fputs((wscvt::readable(call.notice) + "\n").c_str(), stderr);
@@ -130,13 +130,13 @@ int main(int argc, char** argv) {
     return program::WrongArguments;
   } catch (const std::bad_alloc&) {
     std::fputs(
-        "There is not enough memory for this call. Give the program more (ulimit -v), simplify the "
-        "mesh, or ask for fewer nodes.\n",
+        "There is not enough memory for this call. Allow more memory (ulimit -v), simplify the "
+        "mesh, or use fewer nodes.\n",
         stderr);
     return program::Failed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", wscvt::readable(error.what()).c_str());
-    // As a shell gives it for a program that the signal ended.
+    // Exit code that a shell gives if the signal ends a program.
     const int signal = program::noted_signal();
     return signal == 0 ? program::Failed : 128 + signal;
   }

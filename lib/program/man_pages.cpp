@@ -11,7 +11,8 @@ namespace wscvt::program {
 
 namespace {
 
-/// Text as roff takes it: what is typed has no hyphens but minus signs, and no line is a request.
+/// Returns a text for roff: typed text has minus signs instead of hyphens, and no line is a
+/// request.
 std::string roff(std::string_view text) {
   std::string result;
   for (const char letter : text) {
@@ -42,13 +43,13 @@ std::string term(const std::string& name, const std::string& meaning) {
   return ".TP\n" + name + "\n" + meaning + "\n";
 }
 
-/// The option with its values, each with its meaning below.
+/// Returns the entry of an option, with its values and their meanings.
 std::string option_entry(const CLI::Option& option, bool is_positional) {
   const HelpFormatter help(HelpFormatter::Extent::Full);
   std::string names = bold(help.make_option_name(&option, is_positional));
   if (!is_positional && option.get_positional()) {
     return term(names + " " + roff(option.get_type_name()),
-                roff("The same as " + option.get_name(true)));
+                roff("Same as " + option.get_name(true)));
   }
   names += roff(help.make_option_opts(&option));
   std::string text = ".TP\n" + names + "\n";
@@ -65,7 +66,7 @@ std::string option_entry(const CLI::Option& option, bool is_positional) {
   return text;
 }
 
-/// Examples as they are typed, and what the help says below them.
+/// Returns the examples and the texts below them in the help.
 std::string footer_sections(const std::string& footer) {
   std::string text = ".PP\n";
   bool is_call = false;

@@ -13,8 +13,8 @@ struct ManPage {
   std::string text;
 };
 
-/// The pages of the program and of its commands, made of their helps. They hold no date, so that
-/// they are the same in every build.
+/// Returns the pages of the program and of its commands, made from their helps. They contain no
+/// date, so that every build makes the same pages.
 std::vector<ManPage> man_pages(const CLI::App& program);
 
 }  // namespace wscvt::program

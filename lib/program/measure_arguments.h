@@ -10,18 +10,18 @@
 
 namespace wscvt::program {
 
-/// What `describe` and `compare` share.
+/// Common arguments of `describe` and `compare`.
 struct MeasureArguments {
   std::string grain;  ///< file
   CommonArguments common;
   DetailedOptions options;
 };
 
-/// Adds them. Reading a call changes `arguments`, which must outlive `app`.
+/// Adds the arguments. Parsing changes `arguments`, which must outlive `app`.
 void add_measure_arguments(CLI::App& app, MeasureArguments& arguments);
 
-/// Measures the grain, against the mesh in the file `reference` if there is one, writes the reports
-/// and prints. Throws wscvt::Error.
+/// Measures the grain, compares it with the mesh in the file `reference` if given, writes the
+/// reports and prints. Throws wscvt::Error.
 void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference);
 
 }  // namespace wscvt::program

@@ -18,13 +18,13 @@ void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<
     if (output.path.empty()) continue;
     for (std::size_t k = 0; k < i; ++k) {
       if (!wscvt::same_file(output.path, outputs[k].path)) continue;
-      refuse("\"" + output.path + "\" is named for " + outputs[k].meaning + " and for " +
-             output.meaning + "; give two names.");
+      refuse("\"" + output.path + "\" is given for " + outputs[k].meaning + " and for " +
+             output.meaning + ". Give two names.");
     }
     for (const NamedFile& input : inputs) {
       if (overwrite || !wscvt::same_file(output.path, input.path)) continue;
-      refuse("\"" + output.path + "\", named for " + output.meaning + ", is " + input.meaning +
-             " itself; give another name, or --overwrite to replace it.");
+      refuse("\"" + output.path + "\", given for " + output.meaning + ", is " + input.meaning +
+             " itself. Give another name, or use --overwrite to replace it.");
     }
     wscvt::check_writable(output.path);
   }
@@ -40,7 +40,7 @@ MadeFolder::MadeFolder(const std::string& path) {
 }
 
 MadeFolder::~MadeFolder() {
-  std::error_code ignored;  // such as: it is not empty
+  std::error_code ignored;  // for example, it is not empty
   for (const fs::path& folder : made_) fs::remove(folder, ignored);
 }
 

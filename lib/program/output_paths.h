@@ -7,22 +7,22 @@
 
 namespace wscvt::program {
 
-/// A file that the program is to read or write.
+/// A file that the program reads or writes.
 struct NamedFile {
   std::string meaning;  ///< "the remesh"
-  std::string path;     ///< empty: not asked for
+  std::string path;     ///< empty: no file
 };
 
-/// Throws wscvt::Error when an output cannot be written, when two outputs are one file, or when one
-/// of them is an input and `overwrite` is not given; before any work is done.
+/// Throws wscvt::Error before any work is done if an output cannot be written, if two outputs are
+/// one file, or if an output is an input and `overwrite` is false.
 void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                         bool overwrite);
 
-/// A folder for many files, made together with the folders that it stands in. At the end those that
-/// were made for it and are still empty are removed, so that a refused call leaves nothing behind.
+/// A folder for many files, made together with its missing parent folders. At the end, folders that
+/// were made here and are still empty are removed. A refused call therefore leaves nothing behind.
 class MadeFolder {
  public:
-  /// If it cannot be made, writing into it tells.
+  /// If the folder cannot be made, the first write into it reports this.
   explicit MadeFolder(const std::string& path);
   ~MadeFolder();
   MadeFolder(const MadeFolder&) = delete;
@@ -32,7 +32,7 @@ class MadeFolder {
   std::vector<std::filesystem::path> made_;  ///< the innermost first
 };
 
-/// "a report" for each of them.
+/// Returns the reports, each with the meaning "a report".
 std::vector<NamedFile> named_reports(const std::vector<std::string>& reports);
 
 }  // namespace wscvt::program

@@ -16,7 +16,7 @@ void ProgressLine::show(double fraction, const std::string& stage) {
   const std::string text =
       std::to_string(static_cast<int>(100.0 * fraction)) + " %  " + wscvt::readable(stage, "");
   if (text == drawn_) return;
-  // Back to the beginning, the text, and the rest of the line emptied.
+  // Carriage return, the text, and the rest of the line cleared.
   std::fprintf(stderr, "\r%s\033[K", text.c_str());
   std::fflush(stderr);
   drawn_ = text;

@@ -6,20 +6,20 @@
 
 namespace wscvt::program {
 
-/// One line on a terminal's standard error that says how far the work is; nothing where standard
-/// error is a file or a pipe. Debian carries no C++ library that draws one, and this is short.
+/// A line on a terminal's standard error that shows the progress; no line if standard error is a
+/// file or a pipe. Debian has no C++ library for progress lines, and this class is short.
 class ProgressLine {
  public:
-  /// Shows nothing when not `wanted`.
+  /// Shows nothing if `wanted` is false.
   explicit ProgressLine(bool wanted);
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { clear(); }
 
-  /// `fraction` in [0, 1] and the stage; drawn when it differs from what stands there.
+  /// Shows `fraction` in [0, 1] and the stage, if the text differs from the line shown.
   void show(double fraction, const std::string& stage);
 
-  /// Empties the line, for other output.
+  /// Clears the line, for other output.
   void clear();
 
  private:

@@ -18,11 +18,10 @@ namespace wscvt::program {
 
 namespace {
 
-/// Options with a letter, or of everyday work, which --help shows; all others stand under the finer
-/// settings.
+/// Options with a letter, and basic options that --help shows. All others are advanced options.
 struct Marked {
   std::string_view key;
-  char letter;  ///< 0: none
+  char letter;  ///< 0: no letter
   bool everyday;
 };
 constexpr Marked marked[] = {
@@ -38,7 +37,7 @@ constexpr Marked marked[] = {
     {distances_option.key, 0, true},
 };
 
-/// Options that mean nothing for a surface that is known exactly; see remesh.
+/// Options without effect on a surface that is known exactly; see remesh.
 constexpr std::string_view of_a_scan[] = {
     points_option.key,
     envelope_option.key,
@@ -50,15 +49,15 @@ constexpr std::string_view of_a_scan[] = {
     max_handle_loop_option.key,
 };
 
-/// What a call gave, by the options' keys.
+/// Texts given in a call, by the options' keys.
 using Given = std::map<std::string, std::string, std::less<>>;
 
-/// A message in which the name of the option stands before what is wrong.
+/// Throws a message that begins with the name of the option.
 [[noreturn]] void refuse_argument(std::string_view key, const std::string& sentence) {
   throw CLI::ValidationError("--" + std::string(key), sentence);
 }
 
-/// Reads what was given into options. The method is read first, see for_each_option.
+/// Reads the given texts into options. Reads the method first, see for_each_option.
 class ReadGiven {
  public:
   explicit ReadGiven(Given given) : given_(std::move(given)) {}
@@ -86,7 +85,7 @@ class ReadGiven {
     method_ = value;
   }
 
-  /// Refuses what no option has taken.
+  /// Refuses texts that no option has read.
   void finish() const {
     for (const auto& [key, text] : given_) refuse_argument(key, advice_for_option(key, method_));
   }
@@ -114,7 +113,7 @@ const Marked* mark_of(std::string_view key) {
   return found == std::end(marked) ? nullptr : found;
 }
 
-/// What is wrong with a flag's value, `--points=VALUE`; empty when nothing is.
+/// Returns the error of a flag's value, `--points=VALUE`; empty if it is correct.
 std::string is_true_or_false(const std::string& text) {
   try {
     CLI::detail::to_flag_value(text);
@@ -124,7 +123,7 @@ std::string is_true_or_false(const std::string& text) {
   }
 }
 
-/// Adds an argument for each option, with the help text of both methods where both have it.
+/// Adds an argument for each option, with the help texts of both methods if both have the option.
 class AddArgument {
  public:
   AddArgument(CLI::App& app, Remeshed remeshed, Given& given)
@@ -145,7 +144,7 @@ class AddArgument {
   void operator()(const bool& value, const FlagOption& option) {
     const std::string key(option.key);
     if (!is_wanted(key)) return;
-    // What is on without being asked for needs a way to be off.
+    // A flag that is on by default needs a name that turns it off.
     const std::string off = value ? ",!--no-" + key : "";
     app_.add_flag_function(
             "--" + key + off,
@@ -163,7 +162,7 @@ class AddArgument {
     if (!is_wanted(key)) return;
     CLI::Option* known = app_.get_option_no_throw("--" + key);
     if (known != nullptr) {
-      // Both methods have it, each with its own values.
+      // Both methods have the option, each with its own values.
       const std::string before = known->get_description();
       known->description(type == "NAME" ? before + "\n" + with_method(help)
                                         : before.substr(0, before.rfind(" (")));
@@ -178,7 +177,7 @@ class AddArgument {
         ->group(group_of(key));
   }
 
-  /// With the method behind the first paragraph, which --help shows.
+  /// Returns the help with the method after the first paragraph, which --help shows.
   std::string with_method(std::string help) const {
     return help.insert(std::min(help.find('\n'), help.size()), of_method_);
   }
@@ -203,7 +202,8 @@ class AddArgument {
   std::string of_method_;
 };
 
-/// Adds what version 2 had, hidden, so that a call with it says what to use instead.
+/// Adds the options of version 2, hidden. A call with one of them gets a message that names the new
+/// option.
 void add_replaced(CLI::App& app) {
   const std::map<std::string_view, std::string> letters = {
       {"refine", "-r,"}, {"iterations", "-i,"}, {"metric", "-m,"}};
@@ -227,7 +227,7 @@ void add_remesh_arguments(CLI::App& app, RemeshOptions& options, Remeshed remesh
   AddArgument add(app, remeshed, *given);
   const Method method = method_of(options);
   add(method);
-  // The caller's defaults for one method, the library's for the other.
+  // One method has the caller's defaults, the other the library's.
   const auto* on_scan = std::get_if<OnScanOptions>(&options.method);
   const auto* published = std::get_if<AsPublishedOptions>(&options.method);
   const OnScanOptions scan_defaults = on_scan != nullptr ? *on_scan : OnScanOptions();

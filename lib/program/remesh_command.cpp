@@ -22,18 +22,16 @@ namespace wscvt::program {
 
 CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   CLI::App& app = add_command(
-      program,
-      {"remesh",
-       "Remesh a dense scan of a grain to exactly N nodes",
-       {"scan.ply remesh.ply -n 1000 --report remesh.html",
-        "scan.ply remesh.ply -w error-adaptive --edge-ratio 1.4 --report table.csv",
-        "scan.ply remesh.ply --max-error 0.5",
-        "scan.ply remesh.ply --frame principal --node-table nodes.csv --sdf grid.npy"},
-       "A remesh of the same scan, options and version has the same bytes on any number of "
-       "threads.\n"
-       "What a report prints as an option is what one types: \"weighting\": \"wscvt-c\" is "
-       "--weighting=wscvt-c.",
-       true});
+      program, {"remesh",
+                "Remesh a dense scan of a grain to exactly N nodes",
+                {"scan.ply remesh.ply -n 1000 --report remesh.html",
+                 "scan.ply remesh.ply -w error-adaptive --edge-ratio 1.4 --report table.csv",
+                 "scan.ply remesh.ply --max-error 0.5",
+                 "scan.ply remesh.ply --frame principal --node-table nodes.csv --sdf grid.npy"},
+                "The same scan, options and version give the same bytes on any number of threads.\n"
+                "Reports print options as users type them: \"weighting\": \"wscvt-c\" is "
+                "--weighting=wscvt-c.",
+                true});
   add_file_argument(app, "scan", arguments.scan, mesh_argument_text("Scan", MeshUse::Read))
       ->required();
   add_output(app, "output", arguments.output, mesh_argument_text("Remesh", MeshUse::Write));
@@ -51,17 +49,16 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
 
 namespace {
 
-/// Throws wscvt::Error for a name that does not end as the file does that is written. Pipes,
-/// devices and folders are left to check_writable.
+/// Throws wscvt::Error for a name with another ending than .json or .sh. check_writable checks
+/// pipes, devices and folders.
 void check_coefficients_path(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   const bool is_other =
       std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
   if (path.empty() || is_other || ending_of(path) == ".json" || ending_of(path) == ".sh") return;
-  refuse(
-      "\"" + path +
-      "\" is to hold the coefficients; give a name that ends in .json, or, for SHTOOLS, in .sh.");
+  refuse("\"" + path +
+         "\" is no name for coefficients. Give a name that ends in .json, or in .sh for SHTOOLS.");
 }
 
 }  // namespace
@@ -86,7 +83,7 @@ int run(const RemeshArguments& arguments) {
   RemeshOptions options = arguments.options;
   options.measures.coefficients = !arguments.coefficients.empty();
 
-  // On a page and in signed distances, beside what became of it.
+  // For pages and signed distances.
   options.measures.repaired_scan =
       std::any_of(common.reports.begin(), common.reports.end(), shows_scan) ||
       (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
@@ -104,7 +101,7 @@ int run(const RemeshArguments& arguments) {
                     work.execution().part(reading_share, reading_share));
     });
   }
-  // The scan as read, which the remesh takes its colours and labels from.
+  // The scan as read, the source of the remesh's colours and labels.
   const bool carries = holds_attributes(arguments.output) && !file.attributes.empty();
   if (carries)
     read_pictures(file, arguments.scan, work.execution().part(reading_share, reading_share));

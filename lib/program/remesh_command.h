@@ -10,20 +10,20 @@
 
 namespace wscvt::program {
 
-/// `wscvt remesh`: one scan in, one remesh and its reports out.
+/// `wscvt remesh`: reads one scan and writes its remesh and reports.
 struct RemeshArguments {
   std::string scan;
   std::string output;
-  std::string coefficients;  ///< file; empty: none
+  std::string coefficients;  ///< file; empty: no file
   CommonArguments common;
   RemeshOptions options;
   SimulationArguments simulation;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, RemeshArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const RemeshArguments& arguments);
 
 }  // namespace wscvt::program

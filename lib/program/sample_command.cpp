@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr NumberOption<int> seed_option = {
     "seed",     "seed",
     0,          2147483647,
-    Ends::Both, "of the random draws behind intervals and p; the same seed gives the same bytes"};
+    Ends::Both, "of the random numbers for intervals and p; the same seed gives the same bytes"};
 
 /// Reads "2650", or "2650,2600".
 std::vector<double> densities_of(std::string_view text) {
@@ -60,14 +60,14 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
   CLI::App& app = add_command(
       program,
       {"sample",
-       "Statistics of a sample, or of two that are compared",
+       "Compute the statistics of a sample, or compare two samples",
        {"out --report sample.html", "out supplier.csv --report both.html --size feret-min",
         "out --density 2650 --report sample.csv --report sample.json"},
-       "SAMPLE is the folder that wscvt batch wrote, or a table: a column \"grain\" and columns "
-       "of\n"
-       "numbers, named as in shape.csv. The folder of a batch with several numbers of nodes\n"
-       "(-n 100,300) gives the errors against the number of nodes too."});
-  app.add_option("samples", arguments.samples, "A folder or a table; a second one to compare with")
+       "SAMPLE is an output folder of wscvt batch, or a table with a column \"grain\" and columns\n"
+       "of numbers, named as in shape.csv. The folder of a batch with several numbers of nodes\n"
+       "(-n 100,300) also gives the errors against the number of nodes."});
+  app.add_option("samples", arguments.samples,
+                 "A folder or a table; a second sample is compared with the first")
       ->type_name("SAMPLE")
       ->required()
       ->expected(1, 2);
@@ -76,8 +76,8 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
   add_typed(app, "--density",
             [&arguments](std::string_view text) { arguments.densities = densities_of(text); })
       ->description(
-          "Mass / volume, in the units of the table; of two samples one for both, or two such as "
-          "2650,2600. Default: the table's column mass or density, else 1")
+          "Mass / volume, in the units of the table. For two samples, one value for both or two "
+          "values such as 2650,2600. Default: the table's column mass or density, else 1")
       ->type_name("N");
   add_number(app, "--mark", arguments.mark_percent, mark_option);
   add_number(app, "--repetitions", arguments.options.repetitions, repetitions_option);
@@ -88,12 +88,12 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
       ->description(help_of(static_cast<int>(arguments.options.seed), seed_option))
       ->type_name("N");
   app.add_option("-o,--report", arguments.reports,
-                 "Write this file, by its ending: .html a page, .json or .csv all statistics; may "
-                 "be given more than once")
+                 "Write the report to this file: .html (a page), .json or .csv (all statistics). "
+                 "May be given more than once")
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet, "No lines on the standard output, no progress");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print only errors");
   return app;
 }
 

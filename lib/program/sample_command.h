@@ -10,21 +10,21 @@
 
 namespace wscvt::program {
 
-/// `wscvt sample`: statistics of a sample, or of two and what lies between them.
+/// `wscvt sample`: computes the statistics of a sample, or compares two samples.
 struct SampleArguments {
   std::vector<std::string> samples;  ///< folders of a batch, or tables; one or two
   SampleOptions options;
   std::vector<double> densities;  ///< one for all samples, or one per sample; may be empty
   double mark_percent = usual_mark_percent;  ///< of levels
-  std::vector<std::string> reports;          ///< files; the ending says what each becomes
+  std::vector<std::string> reports;          ///< files; the ending selects the format
   int threads = 0;                           ///< 0: all
   bool quiet = false;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, SampleArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const SampleArguments& arguments);
 
 }  // namespace wscvt::program

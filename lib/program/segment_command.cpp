@@ -24,29 +24,30 @@ CLI::App& add_command(CLI::App& program, SegmentArguments& arguments) {
   CLI::App& app = add_command(
       program,
       {"segment",
-       "Turn grey values, or a mask, into labelled grains",
+       "Label the grains of a grey-value volume or a mask",
        {"scan.tif labels.nrrd", "mask.tif labels.mha --separate 1.5 --voxel-size 12um"},
-       "Look at the page first: three slices with the outlines over the scan. Then wscvt batch\n"
-       "remeshes the labels."});
-  add_file_argument(app, "scan", arguments.scan,
-                    "Grey values whose grains are bright, or a mask: files as wscvt extract takes")
+       "Check the page first: it shows the grains' outlines on three slices of the scan. Then\n"
+       "remesh the labels with wscvt batch."});
+  add_file_argument(
+      app, "scan", arguments.scan,
+      "Volume of grey values with bright grains, or mask, in a format of wscvt extract")
       ->required();
-  add_output(app, "labels", arguments.labels, "Labels that are made: .nrrd or .mha");
+  add_output(app, "labels", arguments.labels, "Labels to write: .nrrd or .mha");
   add_number(app, "--separate", arguments.options.separate, separate_option);
   add_typed(app, "--threshold",
             [&arguments](std::string_view text) {
               arguments.options.threshold = from_typed(text, threshold_option);
             })
       ->description(
-          "Grey value from which on a voxel is material. Default: half way between the two peaks "
-          "of the histogram")
+          "Smallest grey value of the material. Default: half-way between the two peaks of the "
+          "histogram")
       ->type_name("N");
   add_number(app, "--smallest", arguments.options.smallest, smallest_kept_option);
   add_choice_arguments(app, arguments.choice, "Options");
   add_file_argument(app, "--report", arguments.page,
-                    "The page, .html. Default: the labels' name with that ending");
+                    "The page, .html. Default: the labels' name with the ending .html");
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet, "No lines on the standard output, no progress");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print only errors");
   return app;
 }
 
@@ -59,7 +60,7 @@ int run(const SegmentArguments& arguments) {
     require_filters();
     check_label_file(arguments.labels);
     if (report_format(page) != ReportFormat::Page) {
-      refuse("\"" + page + "\" is to hold a page; give a name that ends in .html.");
+      refuse("\"" + page + "\" is no name for a page. Give a name that ends in .html.");
     }
     check_output_paths({{"the scan", arguments.scan}},
                        {{"the labels", arguments.labels}, {"the page", page}}, false);

@@ -8,7 +8,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt segment`: grey values, or a mask, become labelled grains.
+/// `wscvt segment`: labels the grains of a grey-value volume or a mask.
 struct SegmentArguments {
   std::string scan;
   std::string labels;
@@ -19,10 +19,10 @@ struct SegmentArguments {
   bool quiet = false;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, SegmentArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const SegmentArguments& arguments);
 
 }  // namespace wscvt::program

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int map_frequency = 24;  ///< of the mesh of a harmonic map: 5,762 points
+constexpr int map_frequency = 24;  ///< frequency of the mesh of a harmonic map: 5,762 points
 
 std::vector<std::string> files_ending(const std::string& folder,
                                       const std::vector<std::string>& endings) {

@@ -13,31 +13,33 @@
 
 namespace wscvt::program {
 
-/// The files of a sample's grains, by name: those that grain_files gives, and of a folder without
-/// meshes the files of SH coefficients, .dat and .sh, or else .json. Throws wscvt::Error.
+/// Returns the files of a sample's grains, sorted by name: the files of grain_files. A folder
+/// without meshes gives its files of SH coefficients, .dat and .sh, or else .json. Throws
+/// wscvt::Error.
 std::vector<std::string> shape_files(const std::vector<std::string>& inputs);
 
-/// Whether the file holds SH coefficients, by its ending.
+/// Returns whether the file contains SH coefficients, by its ending.
 bool is_coefficient_file(const std::string& path);
 
-/// Reads such a file: a HarmonicSurface, or of a harmonic map a HarmonicMap. Throws wscvt::Error.
+/// Reads a file of SH coefficients as a HarmonicSurface, or as a HarmonicMap for a harmonic map.
+/// Throws wscvt::Error.
 std::unique_ptr<const SphereSurface> read_coefficients(const std::string& path);
 
-/// Calls `read` for the number of each file, on several threads at once and with a line on a
-/// terminal unless quiet. A file that it refuses is told on the standard error and counted in the
-/// result. Throws wscvt::Error, also Cancelled, for what is not about one file.
+/// Calls `read` for the number of each file, on several threads at once, with a progress line on a
+/// terminal unless quiet. Reports files that `read` refuses on the standard error, and returns
+/// their number. Throws wscvt::Error, also Cancelled, for errors that do not concern one file.
 std::size_t read_each(const std::vector<std::string>& files, int threads, bool quiet,
                       const std::function<void(std::size_t file, const Execution&)>& read);
 
-/// The grains of a sample that could be read.
+/// Grains of a sample that could be read.
 struct SampleShapes {
   std::vector<SampleGrain> grains;
   std::vector<std::string> files;  ///< one per grain
-  std::size_t left_out = 0;        ///< grains that failed; the standard error says why
+  std::size_t left_out = 0;        ///< grains that failed, with a message on the standard error
 };
 
-/// Reads them, on the threads and with a line on a terminal unless quiet. Throws wscvt::Error, also
-/// Cancelled, for what is not about one grain.
+/// Reads the grains, with a progress line on a terminal unless quiet. Throws wscvt::Error, also
+/// Cancelled, for errors that do not concern one grain.
 SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrids& grids,
                          int threads, bool quiet);
 

@@ -8,7 +8,7 @@ namespace wscvt::program {
 
 namespace {
 
-// A handler has nowhere else to put what it saw.
+// A signal handler can only store into such a variable.
 volatile std::sig_atomic_t noted = 0;
 
 void note(int number) { noted = number; }
@@ -19,12 +19,13 @@ void note_signals() {
   struct sigaction action {};
   action.sa_handler = note;
   sigemptyset(&action.sa_mask);
-  // No restart: a wait for a pipe that nobody reads ends too.
+  // No restart, so that a wait for a pipe without a reader also ends.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
-    // The limit of the time of work sends its signal every second, until it is heard.
+    // The limit of CPU time sends its signal every second, until the program ends.
     action.sa_flags = number == SIGXCPU ? 0 : static_cast<int>(SA_RESETHAND);
     struct sigaction before {};
-    // Whoever started the program with a signal ignored (nohup, a shell's background) meant it.
+    // If the program was started with a signal ignored (nohup, a shell's background), it stays
+    // ignored.
     if (sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(number, &action, nullptr);
   }

@@ -3,16 +3,16 @@
 
 namespace wscvt::program {
 
-/// From now on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (a terminal that is closed) is noted
-/// instead of ending the program, so that nothing half written stays behind; a second one ends it.
-/// So is every SIGXCPU (the limit of the time of work, ulimit -t).
+/// From now on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (closed terminal) is noted and does not
+/// end the program, so that no half-written file remains. A second one ends the program. Every
+/// SIGXCPU (limit of CPU time, ulimit -t) is noted.
 void note_signals();
 
-/// From now on a file that grows beyond the limit of the machine (ulimit -f) is an error of
-/// writing, with its sentence, instead of the end of the program.
+/// From now on a file larger than the machine's limit (ulimit -f) is a write error with a message
+/// and does not end the program.
 void ignore_file_size_signal();
 
-/// Number of the signal that came; 0 while none has.
+/// Returns the number of the noted signal; 0 if there was no signal.
 int noted_signal();
 
 }  // namespace wscvt::program

@@ -15,16 +15,13 @@ void add_files(CLI::App& app, const std::string& name, std::vector<std::string>&
 }  // namespace
 
 void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
-  add_files(
-      app, "--node-table", arguments.nodes,
-      "Write position, normal and area of every node to this .csv, .vtp or .shp\n"
-      "The ending .vtp makes a file for ParaView, .shp a shape for Rockable. May be given more "
-      "than once");
+  add_files(app, "--node-table", arguments.nodes,
+            "Write position, normal and area of every node to this .csv, .vtp or .shp\n"
+            ".vtp is for ParaView, .shp is a shape for Rockable. May be given more than once");
   add_files(app, "--sdf", arguments.grids,
             "Write signed distances on a grid to this .npy, .vti or .json\n"
-            "They are negative inside. The ending .npy makes a NumPy array with a description in "
-            "FILE.json, .vti a file for ParaView, .json a level set for NetDEM. May be given more "
-            "than once");
+            "Distances are negative inside. .npy is a NumPy array with a description in FILE.json, "
+            ".vti is for ParaView, .json is a level set for NetDEM. May be given more than once");
   SimulationOptions& options = arguments.options;
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), options.frame.frame);
   add_number(app, "--" + std::string(size_option.key), options.frame.size, size_option)

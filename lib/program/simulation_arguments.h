@@ -10,20 +10,20 @@
 
 namespace wscvt::program {
 
-/// Files for a simulation, and the frame that they and the remesh are written in.
+/// Files for a simulation, and the frame of these files and of the remesh.
 struct SimulationArguments {
-  std::vector<std::string> nodes;  ///< files; the ending says what each becomes
-  std::vector<std::string> grids;  ///< files of signed distances, likewise
+  std::vector<std::string> nodes;  ///< files; the ending selects the format
+  std::vector<std::string> grids;  ///< files of signed distances; the ending selects the format
   SimulationOptions options;
 };
 
-/// Adds them. Reading a call changes `arguments`, which must outlive `app`.
+/// Adds the arguments. Parsing changes `arguments`, which must outlive `app`.
 void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments);
 
-/// The files that the call makes.
+/// Returns the files that the call makes.
 std::vector<NamedFile> named_simulation_files(const SimulationArguments& arguments);
 
-/// Throws wscvt::Error for options at odds and for names whose endings say nothing.
+/// Throws wscvt::Error for options in conflict and for names with unknown endings.
 void check_simulation_arguments(const SimulationArguments& arguments);
 
 }  // namespace wscvt::program

@@ -28,14 +28,15 @@ constexpr NumberOption<double> smallest_body_option = {
     0.0,
     100.0,
     Ends::Both,
-    "in % of the largest one's; smaller ones, and open ones, which have none, are listed only"};
+    "in % of the largest body's volume. Smaller bodies, and open bodies without a volume, are only "
+    "listed"};
 
 std::string table_header() {
   return csv_record({"body", "state", "volume", "pores", "pore_volume", "boundary_edges", "x_min",
                      "y_min", "z_min", "x_max", "y_max", "z_max", "vertices", "faces", "file"});
 }
 
-/// The row of a body; `file` is empty where it is too small.
+/// Returns the row of a body; `file` is empty if the body is too small.
 std::string table_row(std::size_t number, const MeshBody& body, const std::string& file) {
   std::vector<std::string> fields = {
       std::to_string(number),         file.empty() ? "too small" : "written",
@@ -80,21 +81,20 @@ std::string summary_of(const std::vector<MeshBody>& bodies, std::size_t written)
 CLI::App& add_command(CLI::App& program, SplitArguments& arguments) {
   CLI::App& app = add_command(
       program, {"split",
-                "Part a mesh of several bodies into a file for each",
+                "Split a mesh of several bodies into one file per body",
                 {"sample.stl bodies", "sample.stl bodies --smallest 0.1 --format stl"},
                 "FOLDER gets 1.ply, 2.ply, ... in the order of the file, and bodies.csv. A closed "
-                "surface inside a\nbody is a pore, and stays with it. wscvt batch --parts remeshes "
-                "the bodies of a mesh directly."});
+                "surface inside a\nbody is a pore and stays with the body. wscvt batch --parts "
+                "remeshes the bodies of a mesh\ndirectly."});
   add_file_argument(app, "mesh", arguments.mesh, mesh_argument_text("Mesh", MeshUse::Read))
       ->required();
-  add_output(app, "folder", arguments.folder, "Folder for all that is made", "FOLDER");
+  add_output(app, "folder", arguments.folder, "Output folder", "FOLDER");
   add_format_argument(app, arguments.format);
   add_number(app, "--" + std::string(smallest_body_option.key), arguments.smallest,
              smallest_body_option);
   add_threads_argument(app, arguments.common.threads);
-  app.add_flag("--overwrite", arguments.common.overwrite, "Let an output replace the mesh");
-  app.add_flag("-q,--quiet", arguments.common.quiet,
-               "No summary on the standard output, no progress; warnings stay");
+  app.add_flag("--overwrite", arguments.common.overwrite, "Allow an output to replace the mesh");
+  app.add_flag("-q,--quiet", arguments.common.quiet, "Print only warnings");
   return app;
 }
 
@@ -105,7 +105,7 @@ int run(const SplitArguments& arguments) {
     check_mesh_format(arguments.mesh, MeshUse::Read);
     check_format(arguments.format);
     if (same_file(arguments.mesh, arguments.folder)) {
-      refuse("\"" + arguments.mesh + "\" is the mesh itself; give a folder for what is made.");
+      refuse("\"" + arguments.mesh + "\" is the mesh itself. Give an output folder.");
     }
   });
   Work work(arguments.common);
@@ -127,7 +127,7 @@ int run(const SplitArguments& arguments) {
     checked([&] {
       if (!same_file((folder / name).string(), arguments.mesh)) return;
       refuse("\"" + (folder / name).string() +
-             "\" is the mesh itself; give another folder, or --overwrite to replace it.");
+             "\" is the mesh itself. Give another folder, or use --overwrite to replace it.");
     });
   }
   std::string rows = table_header();

@@ -8,7 +8,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt split`: the bodies that one file of a mesh holds become files of their own.
+/// `wscvt split`: writes each body of a mesh file to its own file.
 struct SplitArguments {
   std::string mesh;
   std::string folder;
@@ -17,10 +17,10 @@ struct SplitArguments {
   CommonArguments common;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, SplitArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const SplitArguments& arguments);
 
 }  // namespace wscvt::program

@@ -3,8 +3,8 @@
 
 namespace wscvt::program {
 
-/// Fills the places of closed standard streams, so that no file of ours opens in one of them and
-/// takes what is meant for it; writing to a place so filled goes on being an error.
+/// Opens /dev/null in place of closed standard streams, so that no other file gets their numbers
+/// and their output. Writing to such a stream is still an error.
 void fill_closed_streams();
 
 }  // namespace wscvt::program

@@ -49,7 +49,7 @@ std::string in_folder(const TemplatesArguments& arguments, const std::string& fi
   return (fs::path(arguments.folder) / file).string();
 }
 
-/// At the size of radius 1, about its centroid in its principal frame.
+/// Returns the mesh with an equivalent radius of 1, about its centroid in its principal frame.
 IndexedMesh unit_mesh(IndexedMesh mesh, const Execution& execution) {
   const ShapeDescriptors shape = describe_shape(mesh, execution);
   const double radius = std::cbrt(3.0 / (4.0 * pi) * shape.volume);
@@ -58,7 +58,7 @@ IndexedMesh unit_mesh(IndexedMesh mesh, const Execution& execution) {
   return mesh;
 }
 
-/// A clump for the template, at the size of diameter 1.
+/// Returns a clump for the template, with an equivalent diameter of 1.
 std::vector<Sphere> clump_of(const IndexedMesh& unit, const Execution& execution) {
   ClumpOptions options;
   options.sphere_count = spheres_of_template;
@@ -152,8 +152,8 @@ std::string distance_table(const TemplatesArguments& arguments, const SampleTemp
   return table;
 }
 
-/// Writes the meshes and their spheres. Throws wscvt::Error for the first grain that fails; false
-/// if cancelled.
+/// Writes the meshes and their spheres. Returns false if cancelled. Throws wscvt::Error for the
+/// first grain that fails.
 bool write_meshes(const TemplatesArguments& arguments, const DescribedSample& sample,
                   const SampleTemplates& templates, std::vector<ClumpTemplate>& clumps) {
   clumps.resize(templates.grains.size());
@@ -161,7 +161,7 @@ bool write_meshes(const TemplatesArguments& arguments, const DescribedSample& sa
   all.count = templates.grains.size();
   all.threads = arguments.threads;
   all.quiet = arguments.quiet;
-  all.when_stopped = "There is no table.";
+  all.when_stopped = "No table was written.";
   all.name = [&](std::size_t k) { return sample.files[templates.grains[k]]; };
   all.work = [&](std::size_t k, const Execution& execution) -> GrainRow {
     RemeshOptions options;
@@ -194,7 +194,7 @@ void write_tables(const TemplatesArguments& arguments, const DescribedSample& sa
 CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments) {
   CLI::App& app = add_command(
       program, {"templates",
-                "Choose K grains with weights that stand for a sample",
+                "Choose K grains with weights that represent a sample",
                 {"scans -k 20 -n 500 -o out", "shape.csv -k 50 -o out --format stl",
                  "scans -k 10 -o out --descriptors sphericity_wadell,convexity,roundness_wadell"},
                 "OUT gets a mesh per template (volume of a sphere of diameter 1, principal "
@@ -205,16 +205,15 @@ CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments) {
   app.add_option("sample", arguments.inputs,
                  "Grains: closed meshes or SH coefficients (.dat, .sh, .json); files, folders, "
                  "patterns in quotes, or @FILE with one of these per line; or the folder of a "
-                 "batch, or one "
-                 "table of shapes (.csv) with the columns \"volume\" and \"file\"")
+                 "batch; or one table of shapes (.csv) with the columns \"volume\" and \"file\"")
       ->type_name("SAMPLE")
       ->required();
   add_folder_argument(app, arguments.folder);
   add_number(app, "-k,--count", arguments.options.count, template_count_option);
   add_number(app, "-n,--nodes", arguments.nodes, template_nodes_option);
   app.add_option("--descriptors", arguments.descriptors,
-                 "Descriptors to choose by, as wscvt describe names them in files, with commas "
-                 "between. Default: sphericity_wadell, zingg_elongation_inertia, "
+                 "Descriptors for the choice, with commas between: names as in the files of wscvt "
+                 "describe. Default: sphericity_wadell, zingg_elongation_inertia, "
                  "zingg_flatness_inertia, convexity")
       ->type_name("NAMES")
       ->delimiter(',');
@@ -240,7 +239,7 @@ int run(const TemplatesArguments& given) {
   if (!write_meshes(arguments, sample, templates, clumps)) return 128 + noted_signal();
   write_tables(arguments, sample, templates);
   write_file(in_folder(arguments, "yade_packing.py"), yade_packing_script());
-  std::vector<double> diameters;  // each for a third of the mass
+  std::vector<double> diameters;  // each represents a third of the mass
   for (const double sixths : {1.0, 3.0, 5.0}) {
     diameters.push_back(diameter_by_mass(sample.diameters, sixths / 6.0));
   }

@@ -9,7 +9,7 @@
 
 namespace wscvt::program {
 
-/// `wscvt templates`: K grains that stand for a sample.
+/// `wscvt templates`: chooses K grains that represent a sample.
 struct TemplatesArguments {
   std::vector<std::string> inputs;
   std::string folder;
@@ -21,10 +21,10 @@ struct TemplatesArguments {
   bool quiet = false;
 };
 
-/// Adds the command to the program. Reading a call changes `arguments`, which must outlive it.
+/// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.
 CLI::App& add_command(CLI::App& program, TemplatesArguments& arguments);
 
-/// Does what the call says; gives the exit code. Throws wscvt::Error.
+/// Runs the command and returns the exit code. Throws wscvt::Error.
 int run(const TemplatesArguments& arguments);
 
 }  // namespace wscvt::program

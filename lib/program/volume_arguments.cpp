@@ -31,14 +31,15 @@ void read_voxel_size(std::string_view text, VolumeChoice& choice) {
     const std::size_t digits = part.substr(0, end).find_last_not_of(" \t");
     const std::string named(end == std::string_view::npos ? std::string_view() : part.substr(end));
     if (!named.empty() && (!is_known_unit(named) || (!unit.empty() && unit_of(named) != unit))) {
-      throw Error(ErrorCode::InvalidInput, "The size of a voxel is \"" + whole +
-                                               "\"; give one unit of nm, um, mm, cm, m, or none.");
+      throw Error(ErrorCode::InvalidInput,
+                  "The size of a voxel is \"" + whole +
+                      "\". Give one of the units nm, um, mm, cm, m, or no unit.");
     }
     if (!named.empty()) unit = unit_of(named);
     if (count == 3 || (is_last && count == 1)) {
       throw Error(ErrorCode::InvalidInput,
                   "The size of a voxel is \"" + whole +
-                      "\"; give one number, or three with commas between them.");
+                      "\". Give one number, or three numbers with commas between them.");
     }
     size[count] = from_typed(part.substr(0, digits == std::string_view::npos ? 0 : digits + 1),
                              voxel_size_option);
@@ -56,21 +57,21 @@ void add_choice_arguments(CLI::App& app, VolumeChoice& choice, const std::string
   add_typed(app, name_of(voxel_size_option.key),
             [&choice](std::string_view text) { read_voxel_size(text, choice); })
       ->description("Size of a voxel, or X,Y,Z, " + range_text(voxel_size_option) +
-                    ", with its unit: 12um. Default: what the volume says, or 1")
+                    ", with its unit: 12um. Default: the size in the volume file, or 1")
       ->type_name("SIZE")
       ->group(heading);
   const auto add_place = [&](std::optional<std::int64_t>& place,
                              const NumberOption<std::int64_t>& option) {
     add_typed(app, name_of(option.key),
               [&](std::string_view text) { place = from_typed(text, option); })
-        ->description("Which " + std::string(option.subject) + ", from 1")
+        ->description(capitalised(option.subject) + ", from 1")
         ->type_name("N")
         ->group(heading);
   };
   add_place(choice.channel, channel_option);
   add_place(choice.frame, frame_option);
   add_typed(app, "--array", [&choice](std::string_view text) { choice.array = std::string(text); })
-      ->description("Which array, or data set by its path, of a file that has several")
+      ->description("Array, or path of the data set, of a file that has several")
       ->type_name("NAME")
       ->group(heading);
 }
@@ -89,7 +90,7 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
   add_typed(
       app, name_of(separate_option.key),
       [&options](std::string_view text) { options.separate = from_typed(text, separate_option); })
-      ->description("Of a mask: grains that touch are separated as by wscvt segment; " +
+      ->description("Separate touching grains of a mask, as wscvt segment does; " +
                     std::string(separate_option.subject) + ", such as 0.75")
       ->type_name("N")
       ->group(heading);
@@ -123,16 +124,15 @@ void print_notes(const LabelGrains& grains, const std::string& command, bool qui
       grains.labels().size() == 1
           ? "The volume has one label, " + std::to_string(grains.labels()[0].label) + ", in " +
                 std::to_string(pieces) +
-                " parts, as a mask has. The largest is taken; the "
-                "others, " +
-                share + " of the voxels, are left out."
+                " parts, like a mask. Only the largest part is used. The others, " + share +
+                " of the voxels, are left out."
           : std::to_string(in_pieces) + (in_pieces == 1 ? " label of " : " labels of ") +
                 std::to_string(grains.taken().size()) + (in_pieces == 1 ? " is" : " are") +
-                " in several parts. The largest of each is taken; the others, " + share +
-                " of all voxels, are left out.";
+                " in several parts. Only the largest part of each label is used. The others, " +
+                share + " of all voxels, are left out.";
   std::fprintf(stderr,
-               "Warning: %s To take each part as a grain: %s --parts. Grains that touch "
-               "are one part: --separate 0.75 parts them too.\n",
+               "Warning: %s To make each part a grain: %s --parts. --separate 0.75 also separates "
+               "grains that touch.\n",
                what.c_str(), command.c_str());
 }
 

@@ -10,27 +10,26 @@
 
 namespace wscvt::program {
 
-/// Adds what is asked of a volume of labels, under a heading of the help. Reading a call changes
-/// `options`, which must outlive `app`.
+/// Adds the options of a volume of labels, under a heading of the help. Parsing changes `options`,
+/// which must outlive `app`.
 void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::string& heading);
 
-/// Adds what is taken of a file of voxels, and the size of these, alone.
+/// Adds only the choice of data in a voxel file, and the voxel size.
 void add_choice_arguments(CLI::App& app, VolumeChoice& choice, const std::string& heading);
 
-/// Opens a volume and finds its labels, with a line on a terminal unless quiet. A signal cancels.
-/// Throws as LabelGrains does.
+/// Opens a volume and finds its labels, with a progress line on a terminal unless quiet. A signal
+/// cancels. Throws as LabelGrains.
 std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,
                                          bool quiet);
 
-/// What a person should know of a volume, how it was read, to the standard output unless quiet;
-/// and, to the standard error, which part of it is left out. `command` is what one calls to take
-/// each part as a grain.
+/// Prints how a volume was read to the standard output, unless quiet. Prints the fraction that is
+/// left out to the standard error. `command` is the call that makes each part a grain.
 void print_notes(const LabelGrains& grains, const std::string& command, bool quiet);
 
-/// Whether so much of a volume is left out that the exit code says so.
+/// Returns whether so much of a volume is left out that the exit code is SomeFailed.
 bool is_much_left_out(const LabelGrains& grains);
 
-/// Every option under the name that one types.
+/// Returns every option under the name that users type.
 Json json_of(const VolumeOptions& options);
 
 }  // namespace wscvt::program

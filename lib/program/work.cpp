@@ -13,7 +13,7 @@ namespace wscvt::program {
 
 namespace {
 
-/// "2026-11-21", where the program runs; empty when the clock does not say.
+/// Returns the local date, "2026-11-21"; empty if the clock fails.
 std::string today() {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
@@ -22,7 +22,7 @@ std::string today() {
   return std::strftime(text, sizeof text, "%Y-%m-%d", &local) == 0 ? "" : text;
 }
 
-/// The library's own sentence knows of no files.
+/// Throws Cancelled with the files written, which the library's message does not contain.
 [[noreturn]] void cancel(const std::string& stage, const std::vector<std::string>& written) {
   std::string sentence = (stage.empty() ? "Cancelled" : "Cancelled during: " + stage) + ". ";
   if (written.empty()) {

@@ -11,21 +11,21 @@
 
 namespace wscvt::program {
 
-/// The share of the progress that reading takes: of the files' megabytes, next to what follows.
+/// Fraction of the progress that is given to reading.
 inline constexpr double reading_share = 0.05;
 
-/// A command at work: shows on a terminal how far it is, and a signal cancels it, with a sentence
-/// that says which of its files are there.
+/// The work of a command: shows its progress on a terminal. A signal cancels it, with a message
+/// that lists the files written.
 class Work {
  public:
-  /// From here on signals are noted. Throws wscvt::Error when the report could not be printed.
+  /// Starts to note signals. Throws wscvt::Error if the report cannot be printed.
   explicit Work(const CommonArguments& arguments);
 
-  /// Of what comes before the first file is written.
+  /// Returns the Execution of the work before the first file is written.
   const Execution& execution() const { return execution_; }
 
-  /// Calls write_it(path, execution), which makes and writes one of the files. Throws what that
-  /// throws, and wscvt::Error(Cancelled).
+  /// Calls write_it(path, execution), which makes and writes one file. Throws its exceptions, and
+  /// wscvt::Error(Cancelled).
   template <class Write>
   void write(const std::string& path, const Write& write_it) {
     const Execution writing = execution_.part(1.0, 1.0);
@@ -34,7 +34,8 @@ class Work {
     written_.push_back(path);
   }
 
-  /// Warnings to the standard error, the lines to the standard output unless quiet. The line goes.
+  /// Clears the progress line. Prints warnings to the standard error, and the lines to the standard
+  /// output unless quiet.
   void print(const std::vector<std::string>& warnings, const std::vector<std::string>& lines);
 
  private:
@@ -47,7 +48,7 @@ class Work {
 /// Prints lines to the standard output, unless quiet.
 void print(const std::vector<std::string>& lines, bool quiet);
 
-/// What a report says of where it comes from: the source, today.
+/// Returns the origin for a report: the source and today's date.
 ReportOrigin origin_of(const std::string& source);
 
 }  // namespace wscvt::program

@@ -7,14 +7,14 @@
 
 namespace wscvt::program {
 
-/// The arguments are wrong, and nothing was begun: the program ends with WrongArguments.
+/// Wrong arguments, found before the work: the program ends with WrongArguments.
 class WrongCall : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What `check` gives, which looks at arguments before anything is begun. Throws WrongCall in the
-/// place of Error(InvalidInput); a file that cannot be read or written stays what it is.
+/// Returns the result of `check`, which checks arguments before the work. Throws WrongCall instead
+/// of Error(InvalidInput). Errors of files that cannot be read or written pass unchanged.
 template <class Check>
 auto checked(const Check& check) {
   try {

@@ -32,19 +32,18 @@ struct VolumeOptions {
   VolumeChoice choice;  ///< the part of the file to read, and the size of its voxels
 };
 
-inline constexpr NumberOption<Label> background_option = {"background", "label of what is no grain",
+inline constexpr NumberOption<Label> background_option = {"background", "label of the background",
                                                           0, std::numeric_limits<Label>::max()};
 inline constexpr NumberOption<std::int64_t> smallest_option = {
     "smallest", "number of voxels of the smallest grain",
     1,          std::numeric_limits<std::int64_t>::max(),
-    Ends::Both, "smaller ones are listed only"};
+    Ends::Both, "smaller grains are only listed"};
 inline constexpr FlagOption at_border_option = {
-    "at-border", "grains at the border",
-    "are taken too, cut as they are; without it they are listed only"};
-inline constexpr FlagOption parts_option = {
-    "parts", "parts of a label",
-    "are grains of their own, numbered anew; a part hangs together by faces of voxels. So are the "
-    "bodies of a mesh in a batch"};
+    "at-border", "include grains at the border",
+    "although it cuts them; without this option they are only listed"};
+inline constexpr FlagOption parts_option = {"parts", "make each part of a label a grain",
+                                            "with a new number; faces of voxels connect a part. In "
+                                            "a batch, also make each body of a mesh a grain"};
 inline constexpr NumberOption<std::int64_t> channel_option = {
     "channel", "channel of a file that has several", 1, 1000000};
 inline constexpr NumberOption<std::int64_t> frame_option = {

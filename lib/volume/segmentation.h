@@ -28,20 +28,20 @@ struct SegmentationOptions {
 };
 
 inline constexpr NumberOption<double> threshold_option = {
-    "threshold", "grey value from which on a voxel is material",
-    -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    "threshold", "smallest grey value of the material", -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity()};
 inline constexpr NumberOption<double> separate_option = {
     "separate",
     "depth of the neck between two grains",
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::Neither,
-    "in voxels, how much nearer to the surface the middle of the neck is than that "
-    "of the smaller grain. More joins parts, less cuts them"};
+    "in voxels. It says how much closer to the surface the neck's middle is than the smaller "
+    "grain's middle. Larger values join parts, smaller values cut them"};
 inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
     "smallest", "number of voxels of the smallest grain",
     1,          std::numeric_limits<std::int64_t>::max(),
-    Ends::Both, "smaller ones are dropped"};
+    Ends::Both, "smaller grains are dropped"};
 
 /// Result of segment.
 struct Segmentation {

@@ -257,7 +257,7 @@ TEST_F(Batch, LevelsAreTheBatchesOfTheirNumbersOfNodes) {
                  {{"-n 60,60", 2, "twice"},
                   {"-n 60,x", 2, "x"},
                   {"-n 60,3", 2, "3"},
-                  {"-n 60,90 --max-error 1", 2, "no error target"}},
+                  {"-n 60,90 --max-error 1", 2, "need a single number of nodes"}},
                  {"bad"});
 }
 
@@ -314,7 +314,7 @@ TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
   for (const BadInputs& call :
        {BadInputs{"-o out2 scans " + scan(1), "would both be remeshed"},
         BadInputs{"-o out2 'scans/z*'", "No file matches"}, BadInputs{"-o out2 @no.txt", "no.txt"},
-        BadInputs{"-o out2 out2", "out2"}, BadInputs{"scans -o scans", "take its place"}}) {
+        BadInputs{"-o out2 out2", "out2"}, BadInputs{"scans -o scans", "replace the scan"}}) {
     SCOPED_TRACE(call.inputs);
     fs::create_directory(folder_ / "out2");
     const Outcome refused = run("batch " + call.inputs + options_);
@@ -401,7 +401,7 @@ TEST_F(Batch, TellsRateAndTimeLeftOnATerminal) {
     return std::regex_search(seen, wanted);
   };
   EXPECT_TRUE(read_until(std::regex(
-      "50 %  1 of 2 grains, [0-9.e-]+ a second, ([0-9]+ h )?([0-9]+ min )?([0-9]+ s )?left")))
+      "50 %  1 of 2 grains, [0-9.e-]+ per second, ([0-9]+ h )?([0-9]+ min )?([0-9]+ s )?left")))
       << seen;
   std::ofstream(folder_ / scan(1), std::ios::binary) << kept;
   EXPECT_TRUE(read_until(std::regex("2 grains: 2 remeshed"))) << seen;

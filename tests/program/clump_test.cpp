@@ -71,10 +71,10 @@ TEST_F(ClumpProgram, WrongCallsAreRefused) {
                   {"scans/a.ply -o c.csv -k 0", 2, "1 to 1000"},
                   {"scans/a.ply", 2, "--output"},
                   {"scans -o clump.csv", 2, "one folder with -o"},
-                  {"scans -o out --report r.html", 2, "leave out --report"},
+                  {"scans -o out --report r.html", 2, "Leave out --report"},
                   {"scans -o out --format stl", 2, "ends in .csv"},
                   {"scans/torn.ply -o c.csv", 1, "torn.ply"},
-                  {"scans/a.ply -o c.csv --size 1 --scale 2", 2, "give one of them"},
+                  {"scans/a.ply -o c.csv --size 1 --scale 2", 2, "Give one of them"},
                   {"scans/a.ply -o c.molecule --density 0", 2, "The density is"}},
                  {"clump.stl", "c.csv", "c.molecule", "out"});
 }

@@ -237,7 +237,7 @@ TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
                                                  {"describe", false},
                                                  {"compare", false},
                                                  {"create", false}}) {
-    EXPECT_EQ(run(command + " --help").output.find(", 3 done, but some") != std::string::npos,
+    EXPECT_EQ(run(command + " --help").output.find("; 3 done, but some") != std::string::npos,
               may_be_three)
         << command;
   }
@@ -337,7 +337,7 @@ TEST_F(Commands, ReportsTheIntersectionsOfTheFile) {
 TEST_F(Commands, AMisspeltOneIsNamedWithTheChoices) {
   const Outcome outcome = run("remehs scan.ply new.ply");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.errors.find("\"remehs\"; give remesh, "), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("\"remehs\". Give remesh, "), std::string::npos) << outcome.errors;
   EXPECT_EQ(run("").exit_code, 2);
   for (const std::string& command : commands()) {
     SCOPED_TRACE(command);

@@ -57,9 +57,9 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output, "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small\n");
   EXPECT_EQ(
-      outcome.errors.rfind("Warning: 1 label of 3 is in several parts. The largest of each "
-                           "is taken; the others, 0.512 % of all voxels, are left out. To "
-                           "take each part as a grain: wscvt extract sample.nrrd out --parts.",
+      outcome.errors.rfind("Warning: 1 label of 3 is in several parts. Only the largest part of "
+                           "each label is used. The others, 0.512 % of all voxels, are left out. "
+                           "To make each part a grain: wscvt extract sample.nrrd out --parts.",
                            0),
       0U)
       << outcome.errors;
@@ -173,8 +173,8 @@ TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
                   {"two.nrrd out --frame 3", 1, "2 frames, not a frame 3"},
                   {"two.nrrd out --frame 0", 2, "1 to 1000000"},
                   {"two.nrrd out --frame 2 --array x", 1, "--array"},
-                  {"two.nrrd out --frame 2 --voxel-size 3ells", 2, "one unit of nm"},
-                  {"two.nrrd out --frame 2 --voxel-size 3um,3mm,3um", 2, "one unit of nm"}},
+                  {"two.nrrd out --frame 2 --voxel-size 3ells", 2, "one of the units nm"},
+                  {"two.nrrd out --frame 2 --voxel-size 3um,3mm,3um", 2, "one of the units nm"}},
                  {"out"});
   for (const auto& [size, unit, volume] :
        std::vector<std::tuple<std::string, std::string, double>>{{"12um", "um", 1728.0},
@@ -268,8 +268,8 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
                   {"sample.nrrd out --smallest 0", 2, "1 or more"},
                   {"sample.nrrd out --smoothing 1001", 2, "from 0 to 1000"},
                   {"sample.nrrd out --voxel-size 0", 2, "above 0"},
-                  {"sample.nrrd out --voxel-size 1,2", 2, "three with commas"},
-                  {"sample.nrrd out --voxel-size 1,2,3,4", 2, "three with commas"},
+                  {"sample.nrrd out --voxel-size 1,2", 2, "three numbers with commas"},
+                  {"sample.nrrd out --voxel-size 1,2,3,4", 2, "three numbers with commas"},
                   {"sample.nrrd out --background -1", 2, "0 or more"},
                   {"sample.nrrd out --format step", 2, "The format of the meshes"},
                   {"sample.ply out", 2, "no volume by its ending"},

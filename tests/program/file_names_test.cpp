@@ -113,7 +113,7 @@ TEST_F(FileNames, ThatAHeaderGivesHaveNoControlCharacters) {
   test::write_bytes(folder_ / "list.txt", "body.ply\0more\n"s);
   const Outcome list = run("batch @list.txt -o out3");
   EXPECT_EQ(list.exit_code, 2);
-  EXPECT_NE(list.errors.find("holds a NUL"), std::string::npos) << list.errors;
+  EXPECT_NE(list.errors.find("contains a NUL"), std::string::npos) << list.errors;
 }
 
 }  // namespace

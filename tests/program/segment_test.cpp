@@ -67,7 +67,7 @@ TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
 TEST_F(Segment, SeparatesMasksOnTheWayToMeshes) {
   const Outcome whole = run("extract mask.nrrd whole");
   EXPECT_EQ(whole.exit_code, 3);
-  EXPECT_NE(whole.errors.find("--separate 0.75 parts them too"), std::string::npos) << whole.errors;
+  EXPECT_NE(whole.errors.find("--separate 0.75 also separates"), std::string::npos) << whole.errors;
   EXPECT_EQ(run("extract mask.nrrd parts --parts").output, "2 labels: 2 written\n");
   const Outcome apart = run("extract mask.nrrd apart --separate 0.75");
   EXPECT_EQ(apart.exit_code, 0) << apart.errors;

@@ -444,7 +444,7 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
         published(o).sampling = Sampling::Icosahedron;
         o.target.percent = 1.0;
       },
-      "some numbers of nodes only");
+      "only for some numbers of nodes");
 }
 
 /// Seen from the centroid, the rim of the cap hides a part of itself.

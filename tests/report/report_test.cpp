@@ -160,7 +160,7 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
         "2 smaller bodies removed (1.23 % of the volume)", "100 faces removed with them",
         "2 vertices duplicated where the surface touches itself", "1 face of no area kept",
         "0.05 % of the solid angle",
-        "degree 9 (lowered from 20: above it the series is not positive everywhere)",
+        "degree 9 (lowered from 20: a series of higher degree is not positive everywhere)",
         "not converged: stopped at the limit of 2 iterations", "First warning.",
         "Second warning."}) {
     EXPECT_TRUE(contains(text, part)) << part << "\nnot in\n" << text;

@@ -6,17 +6,17 @@
 
 namespace wscvt {
 
-/// How a grain is made into a clump: overlapping spheres that move as one body.
+/// Options of the clump of a grain: overlapping spheres that move as one body.
 struct ClumpOptions {
   int sphere_count = 20;  ///< K; not used with an allowed error
-  /// Rms distance from scan to clump that is allowed, in % of the equivalent radius: the clump gets
-  /// as few spheres as meet it, to a tenth of their number. 0: sphere_count spheres.
+  /// Allowed rms distance from scan to clump, in % of the equivalent radius. The clump gets the
+  /// fewest spheres that meet it, to within a tenth of their number. 0: sphere_count spheres.
   double max_error_percent = 0.0;
-  int most_spheres = 200;  ///< with an allowed error
-  /// Radius of the smallest sphere, in % of the equivalent radius; time steps follow it.
+  int most_spheres = 200;  ///< limit of the search for the allowed error
+  /// Smallest radius of a sphere, in % of the equivalent radius. The time step depends on it.
   double smallest_radius_percent = 0.0;
-  bool inside = false;  ///< no sphere reaches out of the scan
-  /// Nodes of a remesh whose error of first contact is measured beside the clump's; 0: none.
+  bool inside = false;  ///< every sphere is inside the scan
+  /// Nodes of a remesh whose error of first contact is compared with the clump's; 0: no remesh.
   int compared_nodes = 0;
   bool points = false;  ///< as RemeshOptions::points
   EnvelopeOptions envelope;
@@ -31,27 +31,29 @@ inline constexpr NumberOption<double> clump_error_option = {
     0.0,
     100.0,
     Ends::NotMaximum,
-    "rms distance from scan to clump in % of the equivalent radius, with as few spheres as meet "
-    "it; "
-    "0 takes the number of spheres"};
-inline constexpr NumberOption<int> most_spheres_option = {
-    "max-spheres", "largest number of spheres", 1, 1000, Ends::Both, "with an allowed error"};
+    "use the fewest spheres with at most this rms distance from scan to clump, in % of the "
+    "equivalent radius; 0: use the given number of spheres"};
+inline constexpr NumberOption<int> most_spheres_option = {"max-spheres",
+                                                          "max. number of spheres",
+                                                          1,
+                                                          1000,
+                                                          Ends::Both,
+                                                          "in the search for the allowed error"};
 inline constexpr NumberOption<double> smallest_radius_option = {
     "smallest-radius", "smallest radius of a sphere",  0.0, 100.0,
     Ends::Both,        "in % of the equivalent radius"};
 inline constexpr FlagOption inside_option = {"inside", "keep every sphere inside",
-                                             "the scan, which it then touches from within"};
+                                             "the scan; it touches the scan from within"};
 inline constexpr NumberOption<int> compared_nodes_option = {
     "remesh-nodes",
     "number of nodes of a remesh",
     0,
     100000,
     Ends::Both,
-    "whose error of first contact the report shows beside the clump's, to compare; 0 makes no "
-    "remesh"};
+    "the report compares this remesh's error of first contact with the clump's; 0: no remesh"};
 
-/// Calls `visitor` for every option, as for_each_option of a remesh does. The scan's own options
-/// (points, shrink-wrap, repairs) have the names that they have there.
+/// Calls `visitor` for every option, as for_each_option of a remesh. The scan's options (points,
+/// shrink-wrap, repairs) have the names of a remesh's options.
 template <class Options, class Visitor>
 void for_each_clump_option(Options& options, Visitor& visitor) {
   visitor(options.sphere_count, sphere_count_option);

@@ -11,12 +11,12 @@
 
 namespace wscvt {
 
-// Files of a clump. The ending of the name says which:
-//   .csv          x,y,z,r with a header, in the frame of the options; read back by read_clump
+// Files of a clump. The ending of the name selects the format:
+//   .csv          x,y,z,r with a header, in the frame of the options; read_clump reads it
 //   .multisphere  LIGGGHTS: lines "x y z r"; beside it NAME.multisphere.in with the fix clump_NAME
 //   .py           Yade: a script with the template, and a function that adds a clump
 //   .chrono.csv   Chrono DEM-Engine: x,y,z,r, then mass and moments as comments
-//   .mclump       MercuryDPM: a folder as its tool MClump leaves it
+//   .mclump       MercuryDPM: a folder like the output of its tool MClump
 //   .p3dat        PFC: the command "clump template create"
 //   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
 // All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
@@ -30,8 +30,7 @@ inline constexpr NumberOption<double> clump_density_option = {
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::Neither,
-    "mass of a unit of volume in .molecule; for the other formats the engine's "
-    "script gives it"};
+    "mass per unit volume in .molecule. For the other formats the engine's script sets it"};
 
 /// Returns the endings above.
 const std::vector<std::string>& clump_endings();

@@ -15,7 +15,7 @@ namespace wscvt {
 inline constexpr NumberOption<double> parts_density_option = {
     "density",     "density",
     0.0,           std::numeric_limits<double>::infinity(),
-    Ends::Neither, "mass of a unit of volume, for the mass and inertia in .urdf and .xml"};
+    Ends::Neither, "mass per unit volume, for mass and inertia in .urdf and .xml"};
 
 /// Returns the endings of files of parts: ".obj", ".urdf", ".xml".
 const std::vector<std::string>& part_endings();
@@ -24,7 +24,7 @@ const std::vector<std::string>& part_endings();
 void check_part_file(const std::string& path);
 
 /// Writes parts in the format of the ending, whole or not at all (see write_file):
-/// - .obj: all parts, one group each, "part_1" to "part_K";
+/// - .obj: all parts, one group per part, "part_1" to "part_K";
 /// - .urdf: a robot of one link, with the mass and inertia of `mass` times `density`. Its parts are
 ///   OBJ files beside it, "NAME_1.obj" to "NAME_K.obj", which are written first;
 /// - .xml: MuJoCo's MJCF, a free body with the same mass and inertia; the file contains the parts.

@@ -9,9 +9,9 @@
 
 namespace wscvt {
 
-// How many nodes there are: by the error of their mesh.
+// Number of nodes, by the error of the mesh.
 
-/// Error measure of a remesh; each in % of the scan's value.
+/// Error measure of a remesh, in % of the scan's value.
 enum class ErrorMeasure {
   Volume,      ///< of the volume
   Area,        ///< of the area
@@ -27,30 +27,30 @@ struct EnumerationTable<ErrorMeasure> {
   static constexpr Enumerator<ErrorMeasure> rows[] = {
       {ErrorMeasure::Volume, "volume", "volume"},
       {ErrorMeasure::Area, "area", "area"},
-      {ErrorMeasure::Sphericity, "sphericity", "sphericity", "Wadell's"},
-      {ErrorMeasure::Inertia, "inertia", "inertia", "the inertia tensor"},
+      {ErrorMeasure::Sphericity, "sphericity", "sphericity", "sphericity of Wadell"},
+      {ErrorMeasure::Inertia, "inertia", "inertia", "inertia tensor"},
       {ErrorMeasure::Distance, "distance", "RMS distance",
-       "two-sided, in % of the equivalent radius"},
+       "two-sided rms distance, in % of the equivalent radius"},
   };
 };
 
-/// Node count by error: the smallest N that meets it is looked for (see smallest_node_count).
+/// Search for the smallest N with at most this error (see smallest_node_count).
 struct ErrorTarget {
   ErrorMeasure measure = ErrorMeasure::Distance;
-  double percent = 0.0;            ///< 0 to 100; 0: none, N is the options' node_count
-  int largest_node_count = 20000;  ///< the search goes no further; 4 to 1000000
+  double percent = 0.0;            ///< 0 to 100; 0: no search, N is RemeshOptions::node_count
+  int largest_node_count = 20000;  ///< largest N of the search; 4 to 1000000
 };
 
 inline constexpr NumberOption<double> error_target_option = {
     "max-error", "allowed error in %",
     0.0,         100.0,
-    Ends::Both,  "search the smallest number of nodes with at most this error; 0: no search"};
+    Ends::Both,  "search for the smallest number of nodes with at most this error; 0: no search"};
 inline constexpr NumberOption<int> largest_node_count_option = {"max-nodes",
                                                                 "max. number of nodes to try",
                                                                 node_count_option.minimum,
                                                                 node_count_option.maximum,
                                                                 Ends::Both,
-                                                                "by the search for --max-error"};
+                                                                "in the search for --max-error"};
 
 /// One number of nodes that was tried.
 struct NodeCountTrial {
@@ -60,9 +60,9 @@ struct NodeCountTrial {
 
 /// Report of a search.
 struct NodeCountSearch {
-  bool met = false;  ///< the target was reached within the limits
+  bool met = false;  ///< a tried count has at most the allowed error
   int node_count =
-      0;  ///< smallest count found to meet the target; the largest allowed if none does
+      0;  ///< smallest count found with at most the allowed error; else the largest count allowed
   std::vector<NodeCountTrial> trials;  ///< in the order made
 };
 

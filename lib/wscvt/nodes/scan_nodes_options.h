@@ -9,10 +9,10 @@ namespace wscvt {
 enum class CellWeighting {
   Area,           ///< WSCVT-D: equal areas of the surface
   Curvature,      ///< WSCVT-C: smaller cells where the surface bends
-  ErrorAdaptive,  ///< cells that let flat triangles err alike everywhere
+  ErrorAdaptive,  ///< cells with the same error of flat triangles everywhere
 };
 
-/// The least and the most mean edge ratio that may be asked for, and the default.
+/// Range and default of the wanted mean edge ratio.
 inline constexpr double least_edge_ratio = 1.08;
 inline constexpr double most_edge_ratio = 1.7;
 inline constexpr double default_edge_ratio = 1.105;
@@ -21,18 +21,19 @@ inline constexpr double default_edge_ratio = 1.105;
 struct ScanNodesOptions {
   CellWeighting weighting = CellWeighting::Area;
   double curvature_alpha = 1.0;  ///< alpha of WSCVT-C, -3 to 3
-  /// The wanted mean ratio of a triangle's longest to its shortest edge, 1.08 to 1.7: even
-  /// triangles at the low end, the closest surface at the high one.
+  /// Wanted mean of longest / shortest edge of a triangle, 1.08 to 1.7. Small values give even
+  /// triangles, large values a mesh closer to the scan.
   double edge_ratio = default_edge_ratio;
-  bool fitted = true;  ///< false: nodes stay evened, on the scan, and `edge_ratio` is not read
+  bool fitted = true;  ///< false: nodes stay on the scan after edge-length equalization, and
+                       ///< `edge_ratio` is not used
 };
 
 /// Report of the placement of nodes.
 struct ScanNodesReport {
   std::size_t scan_vertices = 0;
-  std::size_t split_vertices = 0;  ///< put on long edges of a scan too coarse for its nodes
-  std::size_t proxy_vertices = 0;  ///< of the coarsened scan that the nodes were evened on
-  std::size_t genus = 0;           ///< handles of the scan, and of the result
+  std::size_t split_vertices = 0;  ///< added on long edges of a scan too coarse for its nodes
+  std::size_t proxy_vertices = 0;  ///< of the coarsened scan used for edge-length equalization
+  std::size_t genus = 0;           ///< number of handles of the scan and of the result
   int evening_steps = 0;
   int evening_flips = 0;
   int fit_rounds = 0;
@@ -40,12 +41,12 @@ struct ScanNodesReport {
   int relocations = 0;
   int polished = 0;
   double mean_edge_ratio = 0.0;             ///< reached
-  double volume_offset = 0.0;               ///< the last, along the normals; equivalent radii
-  std::size_t mended_intersections = 0;     ///< pairs of triangles that met and were parted
+  double volume_offset = 0.0;               ///< last offset along the normals; equivalent radii
+  std::size_t mended_intersections = 0;     ///< intersecting triangle pairs that were separated
   std::size_t self_intersections = 0;       ///< pairs left
-  std::size_t scan_self_intersections = 0;  ///< pairs of the scan, counted where any are left
-  /// Where pairs are left and the scan has none: more nodes that were tried and leave none, up to
-  /// three times as many; 0 if none of those tried did.
+  std::size_t scan_self_intersections = 0;  ///< pairs of the scan, counted if any are left
+  /// Larger number of nodes without intersecting pairs, if pairs are left and the scan has none. At
+  /// most three times as many nodes are tried; 0 if all tries leave pairs.
   int enough_nodes = 0;
 };
 

@@ -30,12 +30,11 @@ struct EnumerationTable<Method> {
   static constexpr std::string_view subject = "method";
   static constexpr Enumerator<Method> rows[] = {
       {Method::OnScan, "on-scan", "on the scan",
-       "Voronoi cells on the grain's own surface, nodes fitted to the scan, exactly its volume; "
-       "any "
-       "closed grain"},
+       "Voronoi cells on the grain's own surface; nodes fitted to the scan, with exactly its "
+       "volume; for any closed grain"},
       {Method::AsPublished, "as-published", "as published",
-       "Wu, Huang and Lai 2022: Voronoi cells on the unit sphere, nodes on a spherical-harmonic "
-       "surface; star-shaped grains"},
+       "method of Wu, Huang and Lai 2022: Voronoi cells on the unit sphere, nodes on a "
+       "spherical-harmonic surface; for star-shaped grains"},
   };
 };
 
@@ -45,7 +44,7 @@ struct EnumerationTable<CellWeighting> {
   static constexpr std::string_view subject = "weighting";
   static constexpr Enumerator<CellWeighting> rows[] = {
       {CellWeighting::Area, "wscvt-d", "WSCVT-D (equal areas)",
-       "cells of equal area, so triangles of even size"},
+       "cells of equal area, for triangles of even size"},
       {CellWeighting::Curvature, "wscvt-c", "WSCVT-C (curvature)",
        "smaller cells where the surface bends"},
       {CellWeighting::ErrorAdaptive, "error-adaptive", "error-adaptive",
@@ -55,9 +54,9 @@ struct EnumerationTable<CellWeighting> {
 
 /// Placement of the nodes relative to the scan.
 enum class ScanPlacement {
-  Fitted,      ///< off it, so that the triangles are nearest to it and enclose exactly its volume
+  Fitted,      ///< off it; the triangles are closest to it and enclose exactly its volume
   OnSurface,   ///< on it
-  ContactFit,  ///< off it, so that contacts found by the deepest node are where the scan's would be
+  ContactFit,  ///< off it; contacts found by the deepest node are where the scan's would be
 };
 
 template <>
@@ -70,22 +69,22 @@ struct EnumerationTable<ScanPlacement> {
       {ScanPlacement::OnSurface, "on-surface", "on the surface",
        "on the scan itself, for contact laws that sum over nodes by area"},
       {ScanPlacement::ContactFit, "contact-fit", "contact fit",
-       "off the scan, so that on average contact starts at the correct distance, for contact laws "
-       "that use the deepest node; the volume differs from the scan's"},
+       "off the scan, so that contact starts at the correct distance on average; for contact laws "
+       "that use the deepest node. The volume differs from the scan's"},
   };
 };
 
-/// The method OnScan. Any closed grain is remeshed by the same steps.
+/// Options of the method OnScan, which remeshes any closed grain by the same steps.
 struct OnScanOptions {
   CellWeighting weighting = CellWeighting::Area;
   double curvature_alpha = 1.0;  ///< strength of CellWeighting::Curvature, -3 to 3
   ScanPlacement placement = ScanPlacement::Fitted;
-  /// Of the balls that ContactFit lays to the scan, equivalent radii, in (0, 100]. At these the
-  /// mean error of a first contact is least (tests/study/contacts.md): 0.4 for nodes against the
-  /// surface of another grain, 1.3 where the nodes of both grains are looked at, 5 for flat walls.
+  /// Radius of the balls that ContactFit puts on the scan, equivalent radii, in (0, 100]. These
+  /// values give the smallest mean error of a first contact (tests/study/contacts.md): 0.4 for
+  /// nodes against the surface of another grain, 1.3 for nodes of both grains, 5 for flat walls.
   double contact_radius = 0.4;
   /// Wanted mean of longest / shortest edge of a triangle, 1.08 to 1.7: small values give even
-  /// triangles, large ones come closer to the scan.
+  /// triangles, large values a mesh closer to the scan.
   double edge_ratio = default_edge_ratio;
   HandleOptions handles;
 };
@@ -96,20 +95,19 @@ inline constexpr NumberOption<double> contact_radius_option = {
     0.0,
     100.0,
     Ends::NotMinimum,
-    "in equivalent radii; 0.4 for nodes against another grain's surface, 1.3 if the nodes of both "
-    "grains are used, 5 for flat walls"};
+    "in equivalent radii. Use 0.4 for nodes against another grain's surface, 1.3 for nodes of both "
+    "grains, 5 for flat walls"};
 inline constexpr NumberOption<double> edge_ratio_option = {
     "edge-ratio",
     "mean edge ratio",
     least_edge_ratio,
     most_edge_ratio,
     Ends::Both,
-    "wanted mean of longest / shortest edge: small is even, large is closer to the "
-    "scan"};
+    "wanted mean of longest / shortest edge. Small: even triangles; large: closer to scan"};
 
 /// Placement of the nodes along their directions.
 enum class PublishedPlacement {
-  Series,   ///< on the spherical-harmonic surface: the paper's
+  Series,   ///< on the spherical-harmonic surface, as in the paper
   Surface,  ///< on the scan, where the ray from the centroid leaves it
 };
 
@@ -119,13 +117,13 @@ struct EnumerationTable<PublishedPlacement> {
   static constexpr std::string_view subject = "node placement";
   static constexpr Enumerator<PublishedPlacement> rows[] = {
       {PublishedPlacement::Series, "sh-surface", "SH surface",
-       "on the spherical-harmonic surface, which is free of scanning noise"},
+       "on the spherical-harmonic surface, without scanning noise"},
       {PublishedPlacement::Surface, "on-surface", "on the surface",
-       "on the scan itself, where rays from the centroid leave it"},
+       "on the scan itself, where the ray from the centroid leaves it"},
   };
 };
 
-/// The method AsPublished: the paper's steps and nothing else.
+/// Options of the method AsPublished: only the steps of the paper.
 struct AsPublishedOptions {
   Sampling sampling = Sampling::Weighted;
   Weighting weighting = Weighting::RadialDistance;
@@ -141,8 +139,7 @@ inline constexpr NumberOption<double> max_overhang_option = {
     0.0,
     99.0,
     Ends::Both,
-    "the scan is refused if rays from its centroid meet more surface than this "
-    "behind the first"};
+    "refuse the scan if rays from its centroid meet more surface than this behind their first hit"};
 
 /// Measures beyond descriptors and quality.
 struct MeasureOptions {
@@ -150,47 +147,47 @@ struct MeasureOptions {
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
   bool coefficients = false;     ///< fill RemeshResult::coefficients, also on the scan
   bool repaired_scan = false;    ///< fill RemeshResult::repaired_scan
-  bool suggestions = true;  ///< fill RemeshResult::suggestions where the remesh is not accurate
-  /// The mesh that is made of a result, where coordinates are rounded or turned before they are
-  /// written: its self-intersections are those that are counted. Empty: the result's own mesh.
+  bool suggestions = true;       ///< fill RemeshResult::suggestions if the remesh is not accurate
+  /// Returns the mesh to be written, if coordinates are rounded or rotated before writing.
+  /// Self-intersections are counted on this mesh. Empty: the result's own mesh.
   std::function<IndexedMesh(const RemeshResult&)> written;
 };
 
-/// Everything a caller may choose: what both methods need, and the options of one of them. The
-/// defaults work.
+/// All options of a remesh: those of one method, and the common ones.
 struct RemeshOptions {
-  int node_count = 1000;  ///< N; with an error target the first N tried
+  int node_count = 1000;  ///< N; with an allowed error the first N tried
   std::variant<OnScanOptions, AsPublishedOptions> method;
   ErrorTarget target;
-  /// Take the scan's points only and make its surface anew from them (see mesh_of_points); faces
-  /// that it has are not used. Without it a scan without faces is refused.
+  /// Ignore the scan's faces and build a surface from its points (see mesh_of_points). If false, a
+  /// scan without faces is refused.
   bool points = false;
   EnvelopeOptions envelope;
   /// Max. fraction of the scan's area that repairs may change, in %, 0 to 100.
   double max_repaired_area_percent = MeshCheckOptions().mended_area_limit_percent;
-  /// Of the SH series: as published of the surface, on the scan of the coefficients that
-  /// `measures.coefficients` asks for.
+  /// Degree of the SH series. AsPublished uses it for the surface, OnScan only for the coefficients
+  /// that `measures.coefficients` asks for.
   int degree = usual_harmonic_degree;
   MeasureOptions measures;
 };
 
-/// The method whose options are held.
+/// Returns the method of the options.
 inline Method method_of(const RemeshOptions& options) {
   return options.method.index() == 0 ? Method::OnScan : Method::AsPublished;
 }
 
 inline constexpr FlagOption points_option = {
     "points", "ignore faces",
-    "and build a star-shaped surface from the points; without it a scan without faces is refused"};
+    "and build a star-shaped surface from the points. Without this option a scan without faces is "
+    "an error"};
 inline constexpr FlagOption distances_option = {"distances", "measure distances",
-                                                "to the scan, both ways, and report them"};
+                                                "from remesh to scan and back, and report them"};
 inline constexpr FlagOption suggestions_option = {
     "suggestions", "suggest better settings",
-    "if the remesh is not accurate: another setting is tried at no more cost than the run, and "
-    "named if it is better"};
+    "if the remesh is not accurate: try another setting at no more cost than the run, and name it "
+    "if it is better"};
 
-/// Calls `visitor` for the options of one method, with a number and its NumberOption or
-/// with an enumeration, which has its table. `options` may be const.
+/// Calls `visitor` for each option of one method, with a number and its NumberOption, or with an
+/// enumeration. `options` may be const.
 template <class Options, class Visitor>
 void for_each_method_option(Options& options, Visitor& visitor) {
   visitor(options.weighting);
@@ -207,7 +204,7 @@ void for_each_method_option(Options& options, Visitor& visitor) {
   }
 }
 
-/// Calls `visitor` for the options that both methods have, likewise.
+/// Calls `visitor` for each option that both methods have, also with a flag and its FlagOption.
 template <class Options, class Visitor>
 void for_each_common_option(Options& options, Visitor& visitor) {
   visitor(options.node_count, node_count_option);
@@ -222,10 +219,10 @@ void for_each_common_option(Options& options, Visitor& visitor) {
   visitor(options.measures.suggestions, suggestions_option);
 }
 
-/// Calls `visitor` for every option of a remesh that its result or its report follows: with a
-/// number and its NumberOption, with a flag and its FlagOption, or with an enumeration, which has
-/// its table. `options` are RemeshOptions, const or not. Reports, the program and Python go through
-/// here. A visitor that changes the method, which comes first, gets the options of the new one.
+/// Calls `visitor` for every option that changes a remesh or its report: with a number and its
+/// NumberOption, with a flag and its FlagOption, or with an enumeration. `options` are
+/// RemeshOptions, const or not. Reports, the program and Python use this function. The method is
+/// visited first. If the visitor changes it, the options of the new method follow.
 template <class Options, class Visitor>
 void for_each_option(Options& options, Visitor& visitor) {
   Method method = method_of(options);

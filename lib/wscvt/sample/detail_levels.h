@@ -41,7 +41,8 @@ inline constexpr NumberOption<double> mark_option = {
     0.0,
     100.0,
     Ends::NotMinimum,
-    "in %, of levels: the number of nodes is told from which on 90 % of the grains are below it"};
+    "in %. With several numbers of nodes, report the number from which 90 % of the grains have "
+    "less error"};
 
 /// Computes errors of the remeshes from tables of shapes, one per number of nodes, in any order.
 /// Leaves out errors for which a table lacks a column, and descriptors for which an error in % has

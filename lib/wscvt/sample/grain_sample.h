@@ -22,7 +22,8 @@ struct EnumerationTable<SizeMeasure> {
   static constexpr std::string_view subject = "size of a grain";
   static constexpr Enumerator<SizeMeasure> rows[] = {
       {SizeMeasure::Sieve, "sieve", "sieve size: second largest edge of the smallest box",
-       "second largest edge of the smallest oriented box, which a sieve's mesh lets through"},
+       "second largest edge of the smallest oriented box; it sets the sieve opening that the grain "
+       "passes"},
       {SizeMeasure::EquivalentDiameter, "equivalent-diameter",
        "diameter of the sphere of equal volume", "diameter of the sphere of equal volume"},
       {SizeMeasure::LargestFeret, "feret-max", "largest Feret diameter", "largest Feret diameter"},
@@ -61,7 +62,8 @@ inline constexpr NumberOption<int> repetitions_option = {
     0,
     100000,
     Ends::Both,
-    "of the bootstrap behind 95 % intervals and of the permutations behind p; 0: none"};
+    "for the bootstrap of the 95 % intervals and for the permutations of p; 0: no intervals and no "
+    "p"};
 
 /// A sample ready for statistics: sizes, masses and the descriptors of one mesh of each grain.
 struct GrainSample {

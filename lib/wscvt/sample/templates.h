@@ -17,7 +17,7 @@ struct TemplateOptions {
 };
 
 inline constexpr NumberOption<int> template_count_option = {
-    "count", "number of templates", 1, 1000, Ends::Both, "grains that stand for the sample"};
+    "count", "number of templates", 1, 1000, Ends::Both, "grains that represent the sample"};
 
 /// Distances between two distributions of each descriptor (Wasserstein, order 1) over the standard
 /// deviation of the descriptor in the sample; no unit.

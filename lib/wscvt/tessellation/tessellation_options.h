@@ -8,7 +8,7 @@
 
 namespace wscvt {
 
-// How the directions of the nodes are chosen, weighed and relaxed, and how that went.
+// Options and reports of the directions of the nodes: their choice, weights and relaxation.
 
 /// Method that chooses the directions of the nodes.
 enum class Sampling {
@@ -23,28 +23,29 @@ struct EnumerationTable<Sampling> {
   static constexpr std::string_view key = "sampling";
   static constexpr std::string_view subject = "sampling";
   static constexpr Enumerator<Sampling> rows[] = {
-      {Sampling::Weighted, "weighted", "weighted Voronoi", "the method, with the weighting"},
-      {Sampling::Fibonacci, "fibonacci", "Fibonacci lattice", "as it is, for comparison"},
+      {Sampling::Weighted, "weighted", "weighted Voronoi", "WSCVT, with the chosen weighting"},
+      {Sampling::Fibonacci, "fibonacci", "Fibonacci lattice", "not relaxed, for comparison"},
       {Sampling::EqualAngle, "equal-angle", "equal-angle grid",
-       "with the number of points nearest to the one asked for"},
+       "not relaxed, with the nearest possible number of nodes"},
       {Sampling::Icosahedron, "icosahedron", "icosahedron",
-       "subdivided, with the number of points nearest to the one asked for"},
+       "subdivided, not relaxed, with the nearest possible number of nodes"},
   };
 };
 
-/// A closed mesh has four nodes at least; a million take minutes.
+/// A closed mesh has at least four nodes. A million nodes take minutes.
 inline constexpr NumberOption<int> node_count_option = {
     "nodes",    "number of nodes",
     4,          1000000,
-    Ends::Both, "of the remesh, exactly; with an error target the first number tried"};
+    Ends::Both, "the remesh gets exactly this number. With --max-error, the first number tried"};
 
-/// Weight of a seed, which decides the size of its cell: w in steradian, for N seeds on a surface
-/// of area S, at radius r and area per solid angle g = dA/dOmega. The paper is that of remesh.h.
+/// Weight of a seed, which sets the size of its cell: w in steradian, for N seeds on a surface of
+/// area S, at radius r and area per solid angle g = dA/dOmega. Equations are of the paper named in
+/// remesh.h.
 enum class Weighting {
   Constant,        ///< equal solid angles
   RadialDistance,  ///< WSCVT-D, eq. 10 as printed: w = S / (N pi r^2)
   Curvature,       ///< WSCVT-C, eqs. 11 to 14: more nodes where curvature is high
-  Area,            ///< equal surface areas, ours: w = S / (3.118 N g), as cells are 3.118 w + C
+  Area,            ///< equal areas, not in the paper: w = S / (3.118 N g); cells are 3.118 w + C
 };
 
 template <>
@@ -54,7 +55,7 @@ struct EnumerationTable<Weighting> {
   static constexpr Enumerator<Weighting> rows[] = {
       {Weighting::Constant, "constant", "constant", "equal solid angles"},
       {Weighting::RadialDistance, "wscvt-d", "WSCVT-D (radial distance)",
-       "smaller solid angles far from the centroid, so even triangles"},
+       "smaller solid angles far from the centroid, for even triangles"},
       {Weighting::Curvature, "wscvt-c", "WSCVT-C (curvature)",
        "more nodes where the surface bends"},
       {Weighting::Area, "area", "area", "equal surface areas"},
@@ -70,12 +71,12 @@ struct WeightingOptions {
 inline constexpr NumberOption<double> curvature_alpha_option = {
     "alpha",    "strength alpha of WSCVT-C",
     -3.0,       3.0,
-    Ends::Both, "0 ignores curvature, larger gathers more nodes where the surface bends"};
+    Ends::Both, "0 ignores curvature. Larger values put more nodes where the surface bends"};
 
 /// Throws Error(InvalidInput), with the range, for options out of range.
 void check_weighting_options(const WeightingOptions& options);
 
-/// When cells are centroidal enough.
+/// Limits at which the relaxation ends.
 struct RelaxationOptions {
   int maximum_iterations = 1000;
   double displacement_tolerance = 1e-3;  ///< rms displacement / h, see RelaxationStep; no unit
@@ -89,15 +90,15 @@ struct RelaxationStep {
   int flips = 0;              ///< edges flipped to restore the triangulation
 };
 
-/// Why a relaxation ended.
+/// Reason why a relaxation ended.
 enum class RelaxationOutcome {
   Converged,  ///< displacement and area spread both below their tolerances
-  /// The seeds have come to rest (a hundredth of the displacement tolerance) although the cells'
-  /// areas spread more than asked for: few nodes on a strongly bent surface cannot do better. Or
-  /// they come no nearer to rest (StallWatch).
+  /// The seeds no longer move (a hundredth of the displacement tolerance), but the cells' areas
+  /// vary more than wanted. Few nodes on a strongly curved surface cannot do better. Or the
+  /// movement no longer decreases (StallWatch).
   Settled,
-  Stuck,           ///< even a short step further could not be triangulated
-  IterationLimit,  ///< none of these within the iterations allowed
+  Stuck,           ///< even a short further step could not be triangulated
+  IterationLimit,  ///< iteration limit reached before any other outcome
 };
 
 template <>
@@ -113,11 +114,11 @@ struct EnumerationTable<RelaxationOutcome> {
   };
 };
 
-/// A coarser tessellation that was relaxed first (see relax_multilevel).
+/// A coarser tessellation, relaxed first (see relax_multilevel).
 struct RelaxationLevel {
   int seeds = 0;
   int iterations = 0;
-  /// By the level's tolerances (see multilevel_relaxation.h).
+  /// Outcome with the level's own tolerances (see multilevel_relaxation.h).
   RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
 };
 
@@ -125,9 +126,9 @@ struct RelaxationLevel {
 struct RelaxationReport {
   RelaxationOutcome outcome = RelaxationOutcome::IterationLimit;
   int iterations = 0;                           ///< with all the seeds
-  std::vector<RelaxationLevel> coarser_levels;  ///< from the coarsest; empty without any
-  int rebuilds = 0;           ///< triangulations built anew because flips did not suffice
-  double weight_scale = 1.0;  ///< below 1: weights were damped so that no seed lost its cell
+  std::vector<RelaxationLevel> coarser_levels;  ///< coarsest first; may be empty
+  int rebuilds = 0;                     ///< triangulations rebuilt because flips were not enough
+  double weight_scale = 1.0;            ///< below 1: weights were damped to keep every seed's cell
   std::vector<RelaxationStep> history;  ///< with all the seeds, from the start on
 };
 
