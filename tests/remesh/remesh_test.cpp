@@ -360,11 +360,11 @@ TEST(Remesh, SaysThatAFlatBodyIsBeyondTheSeries) {
   expect_promises(result, 200);
   EXPECT_EQ(published_report(result).fit.limit, DegreeLimit::Radius);
   EXPECT_TRUE(warns_of(result, "long, flat or sharp"));
-  EXPECT_TRUE(warns_of(result, "off the scan"));
+  EXPECT_TRUE(warns_of(result, "away from the scan"));
   // Nodes on the scan follow it whatever the series does.
   RemeshOptions on_surface = options_of(200, Weighting::Constant);
   published(on_surface).placement = PublishedPlacement::Surface;
-  EXPECT_FALSE(warns_of(remesh(disc, on_surface, Execution(1)), "off the scan"));
+  EXPECT_FALSE(warns_of(remesh(disc, on_surface, Execution(1)), "away from the scan"));
 }
 
 TEST(Remesh, ProgressRisesAndCancels) {
@@ -649,7 +649,7 @@ TEST(Remesh, PointsAreFittedWhenChosen) {
   }
   chosen.points = true;  // the advice
   const RemeshResult cloud = remesh(points, chosen, Execution(1));
-  EXPECT_TRUE(has_warning(cloud, "taken as points"));
+  EXPECT_TRUE(has_warning(cloud, "read as points"));
   // Faces are not used, and it is said.
   const RemeshResult of_scan = remesh(sand(), chosen, Execution(1));
   EXPECT_EQ(of_scan.mesh.points, cloud.mesh.points);
@@ -747,7 +747,7 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
   EXPECT_FALSE(has_warning(wrapped, "Make a surface of them first"));
-  EXPECT_TRUE(has_warning(wrapped, "replaced by its shrink-wrap:"));
+  EXPECT_TRUE(has_warning(wrapped, "replaced by its shrink-wrap."));
   cloud.triangles = {{0, 1, 2}};
   const RemeshResult with_faces = remesh(cloud, options, Execution(1));
   EXPECT_EQ(with_faces.mesh.points, wrapped.mesh.points);

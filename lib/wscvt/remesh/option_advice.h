@@ -9,16 +9,16 @@
 
 namespace wscvt {
 
-/// Why a remesh by `method` has no option with this key, in one or two sentences that say what to
-/// use instead: it belongs to the other method, or version 3 has renamed or removed it. Empty for a
-/// key that no version has, and for an option that the method has.
+/// Explains in one or two sentences why `method` has no option with this key, and what to use
+/// instead: the option belongs to the other method, or version 3 has renamed or removed it. Empty
+/// if the method has the option, or no version has it.
 std::string advice_for_option(std::string_view key, Method method);
 
-/// The same for a value of version 2 that version 3 has renamed or moved, and for a value of the
-/// other method; empty for others.
+/// Explains a value that version 3 has renamed or moved, or that belongs to the other method. Empty
+/// for other values.
 std::string advice_for_value(std::string_view key, std::string_view value, Method method);
 
-/// The keys that version 2 had and version 3 has not.
+/// Returns the keys of version 2 that version 3 does not have.
 std::vector<std::string_view> replaced_options();
 
 }  // namespace wscvt
