@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Has CMake build the module; what the package is stands in pyproject.toml."""
+"""Builds the module with CMake. pyproject.toml describes the package."""
 import os
 import pathlib
 import re
@@ -24,7 +24,7 @@ def fail(reason):
 
 
 def run(command):
-    """Runs a command, whose output pip keeps for -v and for failures."""
+    """Runs a command. pip shows its output for -v and after failures."""
     try:
         subprocess.run(list(map(str, command)), check=True)
     except FileNotFoundError:
@@ -34,7 +34,7 @@ def run(command):
 
 
 def run_with_progress(command):
-    """Runs a build, and says at each tenth of it how far it is, also where pip is silent."""
+    """Runs a build and prints its progress at each tenth, even if pip is silent."""
     try:
         terminal = open("/dev/tty", "w", encoding="utf-8")
     except OSError:  # there is none
@@ -63,7 +63,7 @@ class CMakeBuild(build_ext):
         folder = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent
         choices = ["-G", "Ninja"] if shutil.which("ninja") else []
         try:
-            import pybind11  # of pip; without it CMake looks for that of the system
+            import pybind11  # from pip; otherwise CMake uses the system's
             choices.append(f"-Dpybind11_DIR={pybind11.get_cmake_dir()}")
         except ImportError:
             pass
