@@ -78,8 +78,8 @@ template <class Enumeration>
 void require_valid(Enumeration value) {
   if (is_valid(value)) return;
   throw Error(ErrorCode::InvalidInput,
-              "The " + std::string(EnumerationTable<Enumeration>::subject) + " is number " +
-                  std::to_string(static_cast<long long>(value)) + ", which there is not; give " +
+              "Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": number " +
+                  std::to_string(static_cast<long long>(value)) + ". Give " +
                   keys_of<Enumeration>() + ".");
 }
 
@@ -110,9 +110,8 @@ Enumeration from_key(std::string_view key) {
     if (row.key == key) return row.value;
   }
   throw Error(ErrorCode::InvalidInput,
-              "The " + std::string(EnumerationTable<Enumeration>::subject) + " is \"" +
-                  std::string(key) + "\", which there is not; give " + keys_of<Enumeration>() +
-                  ".");
+              "Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": \"" +
+                  std::string(key) + "\". Give " + keys_of<Enumeration>() + ".");
 }
 
 // What an option that is a number or a flag is called and what it may be, in one constant beside
@@ -183,7 +182,7 @@ std::string refusal(std::string_view value, const NumberOption<Number>& option) 
   const std::string before = option.excludes_minimum() ? ""
                              : option.has_maximum()    ? "from "
                                                        : "of ";
-  return "The " + std::string(option.subject) + " is " + std::string(value) + "; give " +
+  return "The " + std::string(option.subject) + " is " + std::string(value) + ". Give " +
          (std::is_integral_v<Number> ? "a whole number " : "a number ") + before +
          range_text(option) + ".";
 }

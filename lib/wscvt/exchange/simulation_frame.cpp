@@ -14,9 +14,9 @@ void check_frame_options(const FrameOptions& options) {
   require_in_range(options.size, size_option);
   if (options.size > 0.0 && options.scale != 1.0) {
     throw Error(ErrorCode::InvalidInput,
-                "The grain is given an equivalent diameter of " + format_typed(options.size) +
+                "There is an equivalent diameter of " + format_typed(options.size) +
                     " and a factor of lengths of " + format_typed(options.scale) +
-                    ", and each says how large it is; give one of them.");
+                    ", but each of them sets the size. Give one of them.");
   }
 }
 

@@ -88,6 +88,6 @@ Value load(const char* bytes) {
 }
 
 /// What to do about a file that does not hold what it should.
-inline constexpr const char* export_again = "; export it again from the program it came from.";
+inline constexpr const char* export_again = ". Export it again from the program it came from.";
 
 }  // namespace wscvt
