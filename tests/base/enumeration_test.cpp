@@ -64,14 +64,14 @@ TEST(Enumeration, KeysAndLabelsGoThereAndBack) {
 TEST(Enumeration, RefusesWhatTheTableDoesNotHoldAndNamesTheChoices) {
   for (const std::string key : {"Apple", "apple of the garden", "", "0", "app", "apples"}) {
     const std::string sentence = sentence_of([&] { from_key<Fruit>(key); });
-    EXPECT_EQ(sentence, "The fruit in the basket is \"" + key +
-                            "\", which there is not; give apple, pear or sweet-plum.");
+    EXPECT_EQ(sentence,
+              "Unknown fruit in the basket: \"" + key + "\". Give apple, pear or sweet-plum.");
   }
   for (const int number : {-1, 3, 1000}) {
     const auto none = static_cast<Fruit>(number);
     EXPECT_FALSE(is_valid(none));
-    const std::string sentence = "The fruit in the basket is number " + std::to_string(number) +
-                                 ", which there is not; give apple, pear or sweet-plum.";
+    const std::string sentence = "Unknown fruit in the basket: number " + std::to_string(number) +
+                                 ". Give apple, pear or sweet-plum.";
     EXPECT_EQ(sentence_of([&] { require_valid(none); }), sentence);
     EXPECT_EQ(sentence_of([&] { key_of(none); }), sentence);
     EXPECT_EQ(sentence_of([&] { label_of(none); }), sentence);

@@ -24,20 +24,20 @@ TEST(Option, HoldsItsEndsUnlessItSaysOtherwise) {
   const NumberOption<int> nodes = {"nodes", "number of nodes", 4, 1000000};
   EXPECT_EQ(refused(4, nodes), "");
   EXPECT_EQ(refused(1000000, nodes), "");
-  EXPECT_EQ(refused(3, nodes), "The number of nodes is 3; give a whole number from 4 to 1000000.");
+  EXPECT_EQ(refused(3, nodes), "The number of nodes is 3. Give a whole number from 4 to 1000000.");
   EXPECT_EQ(refused(1000001, nodes),
-            "The number of nodes is 1000001; give a whole number from 4 to 1000000.");
+            "The number of nodes is 1000001. Give a whole number from 4 to 1000000.");
 
   const double above_zero = std::numeric_limits<double>::denorm_min();
   const double below_one = std::nextafter(1.0, 0.0);
   const NumberOption<double> open = {"share", "share", 0.0, 1.0, Ends::Neither};
   EXPECT_EQ(refused(above_zero, open), "");
   EXPECT_EQ(refused(below_one, open), "");
-  EXPECT_EQ(refused(0.0, open), "The share is 0; give a number above 0 and below 1.");
-  EXPECT_EQ(refused(1.0, open), "The share is 1; give a number above 0 and below 1.");
+  EXPECT_EQ(refused(0.0, open), "The share is 0. Give a number above 0 and below 1.");
+  EXPECT_EQ(refused(1.0, open), "The share is 1. Give a number above 0 and below 1.");
   const NumberOption<double> half_open = {"share", "share", 0.0, 1.0, Ends::NotMaximum};
   EXPECT_EQ(refused(0.0, half_open), "");
-  EXPECT_EQ(refused(1.0, half_open), "The share is 1; give a number from 0 to below 1.");
+  EXPECT_EQ(refused(1.0, half_open), "The share is 1. Give a number from 0 to below 1.");
 }
 
 TEST(Option, NeverHoldsWhatIsNoFiniteNumber) {
@@ -48,7 +48,7 @@ TEST(Option, NeverHoldsWhatIsNoFiniteNumber) {
     EXPECT_NE(refused(value, any), "");
     EXPECT_NE(refused(value, positive), "");
   }
-  EXPECT_EQ(refused(infinity, positive), "The length is inf; give a number above 0.");
+  EXPECT_EQ(refused(infinity, positive), "The length is inf. Give a number above 0.");
 }
 
 TEST(Option, TextsSayNothingOfALimitThatThereIsNot) {
@@ -59,7 +59,7 @@ TEST(Option, TextsSayNothingOfALimitThatThereIsNot) {
                                             std::numeric_limits<std::uint64_t>::max()};
   EXPECT_EQ(range_text(seed), "0 or more");
   EXPECT_EQ(refused(-1, NumberOption<int>{"n", "n", 0, no_limit}),
-            "The n is -1; give a whole number of 0 or more.");
+            "The n is -1. Give a whole number of 0 or more.");
   EXPECT_EQ(refused(std::numeric_limits<std::uint64_t>::max(), seed), "");
 }
 
@@ -79,11 +79,11 @@ TEST(Option, ReadsWhatOneTypesAndNothingElse) {
             std::numeric_limits<std::uint64_t>::max());
   for (const std::string text : {"", "many", "4.5", "12 ", " 12", "12nodes", "3", "99999999999"}) {
     EXPECT_EQ(text_refused(text, nodes),
-              "The number of nodes is \"" + text + "\"; give a whole number from 4 to 1000000.");
+              "The number of nodes is \"" + text + "\". Give a whole number from 4 to 1000000.");
   }
   for (const std::string text : {"nan", "inf", "0,5", "3.0000001", "0x1"}) {
     EXPECT_EQ(text_refused(text, alpha),
-              "The alpha is \"" + text + "\"; give a number from -3 to 3.");
+              "The alpha is \"" + text + "\". Give a number from -3 to 3.");
   }
 }
 

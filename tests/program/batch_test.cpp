@@ -257,7 +257,7 @@ TEST_F(Batch, LevelsAreTheBatchesOfTheirNumbersOfNodes) {
                  {{"-n 60,60", 2, "twice"},
                   {"-n 60,x", 2, "x"},
                   {"-n 60,3", 2, "3"},
-                  {"-n 60,90 --max-error 1", 2, "no error target"}},
+                  {"-n 60,90 --max-error 1", 2, "need a single number of nodes"}},
                  {"bad"});
 }
 

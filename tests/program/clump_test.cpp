@@ -74,7 +74,7 @@ TEST_F(ClumpProgram, WrongCallsAreRefused) {
                   {"scans -o out --report r.html", 2, "leave out --report"},
                   {"scans -o out --format stl", 2, "ends in .csv"},
                   {"scans/torn.ply -o c.csv", 1, "torn.ply"},
-                  {"scans/a.ply -o c.csv --size 1 --scale 2", 2, "give one of them"},
+                  {"scans/a.ply -o c.csv --size 1 --scale 2", 2, "Give one of them"},
                   {"scans/a.ply -o c.molecule --density 0", 2, "The density is"}},
                  {"clump.stl", "c.csv", "c.molecule", "out"});
 }

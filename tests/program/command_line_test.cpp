@@ -91,7 +91,7 @@ TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
                   {sand_ + " remesh.ply --report x.txt", 2, "x.txt"},
                   {sand_ + " remesh.ply --sdf x.txt", 2, "x.txt"},
                   {sand_ + " remesh.ply --node-table x.txt", 2, "x.txt"},
-                  {sand_ + " remesh.ply --size 1 --scale 2", 2, "give one of them"},
+                  {sand_ + " remesh.ply --size 1 --scale 2", 2, "Give one of them"},
                   {sand_ + " remesh.ply --nodse 100", 2, "nodse"},
                   {sand_ + " remesh.ply more.ply", 2, "more.ply"},
                   {sand_, 2, "output"}},

@@ -92,7 +92,7 @@ TEST_F(Templates, RefusesWrongCalls) {
                   {"scans -k 0 -o out", 2, "templates"},
                   {"scans -k 2 -o out --descriptors volume,nonsense", 1, "nonsense"},
                   {"scans -k 2 -o out --format xyz", 2, "format"},
-                  {"same.csv -k 1 -o out --descriptors convexity", 1, "\"convexity\" is the same"},
+                  {"same.csv -k 1 -o out --descriptors convexity", 1, "\"convexity\" is equal"},
                   {"none.csv -k 2 -o out", 1, "none.csv"}},
                  {"out"});
 }

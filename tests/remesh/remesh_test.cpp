@@ -818,7 +818,7 @@ TEST(Remesh, RefusesScansBeyondTheRangeOfNumbers) {
         ADD_FAILURE() << size;
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-        EXPECT_NE(std::string(error.what()).find("scale it"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("Scale it"), std::string::npos) << error.what();
       }
     }
     // The advice: within the limits it comes out.
@@ -935,7 +935,7 @@ TEST(RemeshErrorTarget, StopsAtOnceWhereTheSeriesItselfIsFartherOff) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    EXPECT_NE(std::string(error.what()).find("Nodes on it come no nearer"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("Nodes on it are not closer"), std::string::npos)
         << error.what();
   }
   options.method = OnScanOptions();  // the advice

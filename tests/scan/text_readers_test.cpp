@@ -177,7 +177,7 @@ TEST(ByteReader, AReadThatFailsIsNotTheEndOfTheFile) {
     reader.next(10);
     FAIL() << "read";
   } catch (const MachineRefused& error) {
-    EXPECT_STREQ(error.what(), "\"scan.ply\" could not be read to its end; check the disk.");
+    EXPECT_STREQ(error.what(), "\"scan.ply\" could not be read to its end. Check the disk.");
   }
 }
 
