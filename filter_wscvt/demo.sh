@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the plugin and the program and remeshes a sample with it, from nothing but a bare Debian 12 or 13. On 12
-# through meshlabserver, whose log is printed; on 13, whose MeshLab has none, the program remeshes and
-# MeshLab's window shows the filter, in pictures beside the mesh.
+# Builds the plugin and the program and remeshes a sample with it, on a bare Debian 12 or 13. On 12
+# it uses meshlabserver and prints its log. MeshLab of 13 has no meshlabserver: the program
+# remeshes, and MeshLab's window shows the filter, in pictures next to the mesh.
 #   filter_wscvt/demo.sh [MESH [SCRIPT [OUTPUT]]]     (SCRIPT: for meshlabserver)
 set -eu
 mesh=$(realpath "${1:-$(dirname "$0")/../meshes/sand_7228.ply}")
@@ -42,7 +42,7 @@ if command -v meshlabserver > /dev/null; then
   xvfb-run -a "$stage/bin/meshlabserver" \
     -i "$mesh" -s "$script" -o "$made" -m vq vc 2>/dev/null || true
   test -s "$made" || {
-    echo "meshlabserver wrote no mesh; the reason stands above." >&2
+    echo "meshlabserver wrote no mesh. See its messages above." >&2
     exit 1
   }
 else
@@ -56,4 +56,4 @@ else
   echo "The filter's dialog and its result are in $pictures-filter.png and $pictures-result.png."
 fi
 mv -T "$made" "$output"
-echo "The mesh is in $output; the program is build/release/lib/wscvt."
+echo "The mesh is in $output. The program is build/release/lib/wscvt."

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Links those of MeshLab's own plugins whose libraries are installed into another folder.
+# Links MeshLab's own plugins into another folder, if their libraries are installed.
 #   link_plugins.sh MESHLAB_LIBRARY_FOLDER FOLDER
 set -eu
 export LD_LIBRARY_PATH="$1"

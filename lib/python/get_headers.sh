@@ -3,9 +3,8 @@
 # Fetches the headers of another Debian's Python, and of the pybind11 that knows it.
 #   lib/python/get_headers.sh FOLDER SUITE PACKAGE...
 #   lib/python/get_headers.sh build/headers-trixie trixie libpython3.13-dev pybind11-dev
-# FOLDER gets the unpacked packages and is then what CMake wants in WSCVT_PYTHON_OTHER_HEADERS;
-# nothing is done if it is there. Needs no root. apt checks the packages against the archive's
-# signed index.
+# FOLDER gets the unpacked packages, for CMake's WSCVT_PYTHON_OTHER_HEADERS. If it exists, nothing
+# is done. Needs no root. apt checks the packages against the archive's signed index.
 set -eu
 folder=$(realpath -m "${1:?usage: get_headers.sh FOLDER SUITE PACKAGE...}")
 suite=${2:?usage: get_headers.sh FOLDER SUITE PACKAGE...}

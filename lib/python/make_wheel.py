@@ -69,7 +69,7 @@ def libraries_of(module):
 def copyright_of(package):
     file = pathlib.Path("/usr/share/doc") / package / "copyright"
     if not file.is_file():
-        sys.exit(f"There is no {file}, the licence of what the wheel holds. Install {package}.")
+        sys.exit(f"There is no {file}, the licence of a library in the wheel. Install {package}.")
     return file.read_text(encoding="utf-8")
 
 
@@ -79,7 +79,7 @@ def package_of(library):
         said = subprocess.run(["dpkg", "-S", path], capture_output=True, text=True).stdout
         if said:
             return said.split(":")[0]
-    sys.exit(f"No Debian package has {library}, so that its licence is not known.")
+    sys.exit(f"No Debian package has {library}, so its licence is unknown.")
 
 
 def check_symbols(file):

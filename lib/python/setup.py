@@ -30,14 +30,14 @@ def run(command):
     except FileNotFoundError:
         fail(f"{command[0]} is missing.")
     except subprocess.CalledProcessError:
-        fail(f"{command[0]} failed; its last lines above say why.")
+        fail(f"{command[0]} failed. Its last lines above say why.")
 
 
 def run_with_progress(command):
     """Runs a build and prints its progress at each tenth, even if pip is silent."""
     try:
         terminal = open("/dev/tty", "w", encoding="utf-8")
-    except OSError:  # there is none
+    except OSError:  # no terminal
         terminal = None
     next_tenth = 10
     with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE,
@@ -54,7 +54,7 @@ def run_with_progress(command):
     if terminal:
         terminal.close()
     if build.returncode:
-        fail("a file does not compile; the lines above say which.")
+        fail("a file does not compile. See the lines above.")
 
 
 class CMakeBuild(build_ext):

@@ -57,7 +57,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
   std::sort(sorted.begin(), sorted.end());
   if (of_space != 3 || sorted != std::array<Eigen::Index, 3>{0, 1, 2}) {
     refuse_volume(path, "holds an array of " + text_of(shape.counts) +
-                            "whose dimensions are not x, y and z. Save one volume.");
+                            " whose dimensions are not x, y and z. Save one volume.");
   }
   std::size_t frames = 0;
   for (const VolumeAxis& axis : volume.axes) {
@@ -65,7 +65,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
   }
   if (frames > 1) {
     refuse_volume(path, "holds an array of " + text_of(shape.counts) +
-                            "with more than one dimension besides space. Save only one volume.");
+                            " with more than one dimension besides space. Save only one volume.");
   }
   volume.picks = picks_of(volume.axes, choice, path);
   volume.geometry.counts = voxel_counts(counts, path);

@@ -54,7 +54,7 @@ FolderContent content_of(const std::string& folder) {
 
 std::string sentence_of_others(const std::vector<std::string>& names) {
   constexpr std::size_t most_shown = 3;
-  std::string text = "Left out, because not a slice: ";
+  std::string text = "Left out (not slices): ";
   for (std::size_t k = 0; k < std::min(names.size(), most_shown); ++k) {
     text += (k == 0 ? "" : ", ") + in_quotes(names[k]);
   }

@@ -119,7 +119,8 @@ class VtkParser {
       std::int64_t wanted = 1;
       for (const std::int64_t count : header_.counts) {
         constexpr std::int64_t most = 1000000;
-        if (count < 1 || count > most) file_->fail_line("is before sizes from 1 to 1000000.");
+        if (count < 1 || count > most)
+          file_->fail_line("needs dimensions from 1 to 1000000 before it.");
         wanted *= count - (of_cells_ ? 1 : 0);
       }
       if (voxels_ != wanted) file_->fail_line("gives another number than the dimensions.");

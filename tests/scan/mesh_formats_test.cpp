@@ -212,10 +212,10 @@ TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
                  "NumberOfPoints=\"1\"><Points><DataArray format=\"binary\">AAAA",
                  "vtkLZ4DataCompressor");
   expect_refusal("a.xyz", "# nothing\n", "no points");
-  expect_refusal("a.xyz", "1 2 3\n4 5\n", "line 2 ends where the coordinate z");
+  expect_refusal("a.xyz", "1 2 3\n4 5\n", "line 2 lacks the coordinate z");
   expect_refusal("a.csv", "x,y,w\n1,2,3\n", "does not name the columns x, y and z");
   expect_refusal("a.csv", "x,y,x\n1,2,3\n", "does not name the columns x, y and z");
-  expect_refusal("a.csv", "x,y,z\n1,,3\n", "line 2 ends where the coordinate y");
+  expect_refusal("a.csv", "x,y,z\n1,,3\n", "line 2 lacks the coordinate y");
   expect_refusal("a.pcd", "FIELDS x y\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nPOINTS 1\nDATA ascii\n1 2\n",
                  "no fields x, y and z");
   expect_refusal("a.pcd",

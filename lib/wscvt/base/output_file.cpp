@@ -32,8 +32,7 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail_half_written(const std::string& path) {
   fail(path,
        "could not be written completely and was left unchanged. Check the space on the disk, the "
-       "limit "
-       "of file sizes (ulimit -f), and that no folder has this name.");
+       "limit of file sizes (ulimit -f), and that no folder has this name.");
 }
 
 /// What a file is called while it is written.
