@@ -137,9 +137,8 @@ void read_pages(const OmeText& text, std::int64_t pages, const std::string& path
   // A file without TiffData has them in their order.
   if (text.planes.empty()) {
     if (planes != pages) {
-      refuse_volume(path, "has " + std::to_string(pages) + " of the " + std::to_string(planes) +
-                              " pages in OME's text. Export it "
-                              "again.");
+      refuse_volume(path, "has " + std::to_string(pages) + " pages, but OME's text has " +
+                              std::to_string(planes) + " planes. Export it again.");
     }
     return;
   }

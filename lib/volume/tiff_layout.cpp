@@ -75,8 +75,8 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   }
   layout.may_be_one_block = pages == 1 && images > 1;
   if (!layout.may_be_one_block && images != pages) {
-    refuse_volume(path, "has " + std::to_string(pages) + " of the " + std::to_string(images) +
-                            " pages that ImageJ noted. Export it again.");
+    refuse_volume(path, "has " + std::to_string(pages) + " pages, but ImageJ noted " +
+                            std::to_string(images) + " images. Export it again.");
   }
   const std::string unit = text.value("unit");
   layout.unit = unit_of(unit);

@@ -157,7 +157,7 @@ TEST_F(ProgramOptions, OfVersion2SayWhatToUseInstead) {
       {"--fold-limit 3", "--max-overhang"},
       {"--handle-length 2", "--max-handle-loop"},
       {"--no-advice", "--no-suggestions"},
-      {"--seed-start random", "best one"},
+      {"--seed-start random", "best initial seeds"},
       {"--seed 3", "nothing is random"},
       {"-i 7", "stops by itself"},
       {"--curvature-source quadrics", "SH series"},

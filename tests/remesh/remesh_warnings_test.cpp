@@ -245,7 +245,7 @@ TEST(RemeshWarnings, TellTrianglesThatIntersect) {
 TEST(RemeshWarnings, TellSmallAnglesOnTheScan) {
   expect_warnings({
       {[](RemeshResult& r) { r.quality.smallest_angle = 20.5; }, {}},
-      {[](RemeshResult& r) { r.quality.smallest_angle = 2.75; }, {"is 2.75 degrees: at a thin"}},
+      {[](RemeshResult& r) { r.quality.smallest_angle = 2.75; }, {"is 2.75 degrees: a thin"}},
       // As published such angles are a matter of course.
       {[](RemeshResult& r) {
          as_published(r);

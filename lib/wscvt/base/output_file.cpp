@@ -163,7 +163,7 @@ std::optional<struct stat> check_target(const std::string& path, const Target& t
   struct stat there {};
   if (::stat(target.path.c_str(), &there) != 0) return {};
   if (S_ISDIR(there.st_mode)) {
-    fail(path, "is a folder and cannot be written. Add the name of a file.");
+    fail(path, "is a folder and cannot be written. Check the name and add a file name.");
   }
   if (::access(target.path.c_str(), W_OK) != 0) {
     fail(path, "cannot be written. Check its owner and its permissions.");

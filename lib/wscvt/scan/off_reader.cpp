@@ -42,15 +42,15 @@ void check_keyword(ByteReader& reader, std::string_view keyword) {
 std::size_t whole_number(ByteReader& reader, std::string_view field, const std::string& due) {
   const std::optional<std::int64_t> value = whole_number_in(field);
   if (!value || *value < 0) {
-    reader.fail_line((field.empty() ? "lacks " : "has " + in_quotes(field) + " instead of ") +
-                     due + export_again);
+    reader.fail_line((field.empty() ? "lacks " : "has " + in_quotes(field) + " instead of ") + due +
+                     export_again);
   }
   return static_cast<std::size_t>(*value);
 }
 
 [[noreturn]] void fail_cut(ByteReader& reader, const std::string& what, std::size_t number,
                            std::size_t count) {
-  reader.fail("lacks " + what + " " + std::to_string(number) + " of " +
+  reader.fail("ends before " + what + " " + std::to_string(number) + " of " +
               std::to_string(count) + ". It was cut off" + export_again);
 }
 
@@ -93,10 +93,9 @@ IndexedMesh read_off(ByteReader& reader) {
       field = fields.next();
       const std::optional<double> value = number_in(field);
       if (!value) {
-        reader.fail_line(
-            "(vertex " + std::to_string(i) + ") " +
-            (field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
-            " a coordinate" + export_again);
+        reader.fail_line("(vertex " + std::to_string(i) + ") " +
+                         (field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
+                         " a coordinate" + export_again);
       }
       coordinate = *value;
     }

@@ -86,9 +86,9 @@ IndexedMesh read_point_text(ByteReader& reader) {
       const std::string_view field = columns[axis] < fields.size() ? fields[columns[axis]] : "";
       const std::optional<double> value = number_in(field);
       if (!value) {
-        reader.fail_line(
-            (field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
-            std::string(" the coordinate ") + "xyz"[axis] + " of a point" + export_again);
+        reader.fail_line((field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
+                         std::string(" the coordinate ") + "xyz"[axis] + " of a point" +
+                         export_again);
       }
       point[static_cast<Eigen::Index>(axis)] = *value;
     }
