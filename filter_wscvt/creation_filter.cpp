@@ -13,18 +13,18 @@ namespace wscvt::filter {
 namespace {
 
 FilterParameter semi_axis(const std::string& name, double default_value, const std::string& axis) {
-  // Said once, because the dialog is long.
+  // The limit is in one tooltip only, because the dialog is long.
   return option_parameter(name, default_value, semi_axis_option, "Semi-axis along " + axis,
                           "Half the extent along " + axis +
-                              (axis == "x" ? ", not of harmonics; up to about 20 times another, 5 "
-                                             "times with exponents above 1."
+                              (axis == "x" ? ", not for harmonics. At most about 20 times another "
+                                             "semi-axis, 5 times with exponents above 1."
                                            : "."));
 }
 
 FilterParameter exponent(const std::string& name, const NumberOption<double>& option,
                          const std::string& label, const std::string& where) {
   return option_parameter(name, 1.0, option, label,
-                          "Superellipsoid (Barr, 1981) only: how square it is " + where +
+                          "Superellipsoid (Barr, 1981) only: squareness " + where +
                               ". 0.1 nearly a box, 1 round as the ellipsoid, 2 a bevelled edge.");
 }
 
@@ -33,13 +33,14 @@ FilterParameter exponent(const std::string& name, const NumberOption<double>& op
 std::string creation_name() { return "Create: grain from ellipsoid, superellipsoid or harmonics"; }
 
 std::string creation_help() {
-  // One line, so that in 2020.09, whose dialog does not scroll, Apply is on a screen 768 high.
-  return "A closed mesh of <b>exactly the number of nodes asked for</b>.";
+  // One line: the dialog of 2020.09 does not scroll, and Apply must fit on a screen 768 pixels
+  // high.
+  return "Makes a closed mesh with <b>exactly the given number of nodes</b>.";
 }
 
 ParameterList creation_parameters() {
   ParameterList parameters = {
-      table_parameter("Surface", SurfaceKind::Ellipsoid, "Surface", "What is made into a mesh."),
+      table_parameter("Surface", SurfaceKind::Ellipsoid, "Surface", "The surface to be meshed."),
       semi_axis("SemiAxisX", 1.0, "x"),
       semi_axis("SemiAxisY", 1.0, "y"),
       semi_axis("SemiAxisZ", 1.0, "z"),
@@ -48,13 +49,12 @@ ParameterList creation_parameters() {
                "seen along z"),
       input_file_parameter(
           "CoefficientsFile", {".dat", ".sh", ".json"}, "Coefficients file",
-          "Of the harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh (SHTOOLS, 4pi) "
-          "or .json (as the remesher saves it). A series whose radius is not positive everywhere "
-          "is refused."),
-      option_parameter(
-          "CoefficientDegree", -1, coefficient_degree_option, "Cut the series at degree",
-          "Of a .dat or .sh file, as for the tables beside the particle shape sets; -1 "
-          "keeps all."),
+          "For harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh (SHTOOLS, 4pi) or "
+          ".json (from the remesher). The radius must be positive everywhere."),
+      option_parameter("CoefficientDegree", -1, coefficient_degree_option,
+                       "Cut the series at degree",
+                       "For a .dat or .sh file, as in the tables of the particle shape sets. -1 "
+                       "keeps all degrees."),
       node_count_parameter(),
       method_parameter(Method::OnScan),
       weighting_parameter(),
@@ -62,7 +62,7 @@ ParameterList creation_parameters() {
       placement_parameter(),
       edge_ratio_parameter(),
       table_parameter("Quality", CreationSettings().result.quality, "Vertex quality",
-                      "What each vertex of the result holds."),
+                      "Value stored at each vertex of the result."),
       colour_by_quality_parameter(),
       report_file_parameter(),
   };
@@ -86,10 +86,9 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   surface.coefficient_degree = checked.whole("CoefficientDegree");
   if (surface.kind == SurfaceKind::Harmonics) {
     if (surface.coefficients_file.empty()) {
-      throw Error(
-          ErrorCode::InvalidInput,
-          "Parameter CoefficientsFile is empty; name the .dat, .sh or .json file that holds "
-          "the coefficients of the harmonics. Nothing was changed.");
+      throw Error(ErrorCode::InvalidInput,
+                  "Parameter CoefficientsFile is empty. Give the .dat, .sh or .json file with the "
+                  "coefficients of the harmonics. Nothing was changed.");
     }
     check_extension(surface.coefficients_file, {".dat", ".sh", ".json"}, "CoefficientsFile");
   }

@@ -42,7 +42,7 @@ if command -v meshlabserver > /dev/null; then
   xvfb-run -a "$stage/bin/meshlabserver" \
     -i "$mesh" -s "$script" -o "$made" -m vq vc 2>/dev/null || true
   test -s "$made" || {
-    echo "meshlabserver wrote no mesh; the reason stands above." >&2
+    echo "meshlabserver wrote no mesh. See its messages above." >&2
     exit 1
   }
 else
@@ -56,4 +56,4 @@ else
   echo "The filter's dialog and its result are in $pictures-filter.png and $pictures-result.png."
 fi
 mv -T "$made" "$output"
-echo "The mesh is in $output; the program is build/release/lib/wscvt."
+echo "The mesh is in $output. The program is build/release/lib/wscvt."

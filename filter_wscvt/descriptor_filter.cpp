@@ -16,7 +16,7 @@ namespace wscvt::filter {
 
 namespace {
 
-// Numbers of five digits, and names of layers above the table: it is to be narrow.
+// Numbers have five digits and the names of layers are above the table, to keep it narrow.
 
 std::vector<std::vector<std::string>> descriptor_rows(const GrainMeasures& measures) {
   std::vector<std::vector<std::string>> rows = {{"Descriptor", "value"}};
@@ -51,9 +51,9 @@ std::string descriptor_name() { return "Grain shape descriptors"; }
 
 std::string descriptor_help() {
   return "Measures the shape of the current layer, a closed mesh of a grain: size, axes, "
-         "sphericity, convexity, roundness, roughness and orientation; against a second layer also "
+         "sphericity, convexity, roundness, roughness and orientation. With a second layer also "
          "errors and distances. Layers are measured as shown and not changed. Small faults are "
-         "repaired first; larger ones are an error. See: "
+         "repaired first, larger faults are an error. See: "
          "<i>Wadell</i>, 1932; <i>Krumbein</i>, 1941; "
          "<i>Kong, Fonseca</i>, 2018";
 }
@@ -62,15 +62,14 @@ ParameterList descriptor_parameters() {
   const DetailedOptions defaults;
   return {
       text_parameter("ReferenceLayer", "Compare with layer",
-                     "Name or number of the layer to compare with, as the list of layers shows it. "
+                     "Name or number of the layer to compare with, as in the list of layers. "
                      "Errors and distances of the current layer are measured against it. Empty: no "
                      "comparison."),
-      option_parameter(
-          "RoundnessBall", defaults.roundness_ball, roundness_ball_option,
-          "Ball radius for roundness",
-          "Radius of the balls that curvature is measured in for roundness, divided by "
-          "the radius of the largest inscribed sphere. Smaller balls see sharper "
-          "corners, and noise. For scans of voxels use six voxels or more."),
+      option_parameter("RoundnessBall", defaults.roundness_ball, roundness_ball_option,
+                       "Ball radius for roundness",
+                       "Radius of the balls in which curvature is measured for roundness, divided "
+                       "by the radius of the largest inscribed sphere. Smaller balls detect "
+                       "sharper corners, and noise. For scans of voxels use six voxels or more."),
       option_parameter("RoughnessCutoff", defaults.roughness_cutoff, roughness_cutoff_option,
                        "Cut-off length of roughness",
                        "Longest wave that counts as roughness, divided by the radius of the sphere "

@@ -7,15 +7,15 @@
 
 namespace wscvt::filter {
 
-// The remesher with the few parameters that a person decides on, everything else at its default.
-// Its values are read by read_remesh_settings.
+// The remesher with only the most important parameters. All others have their defaults.
+// read_remesh_settings reads the values.
 
 /// The menu text. Saved scripts refer to it: it never changes.
 std::string everyday_name();
 
 std::string everyday_help();
 
-/// Some of the remesher's parameters, at most ten, in the order in which a person decides.
+/// At most ten of the remesher's parameters, the most important first.
 ParameterList everyday_parameters();
 
 /// The remesher's own list, in which all others are advanced.

@@ -37,7 +37,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// The values with the names of files in full: a name without a folder is in `folder`.
+/// Returns the values with full file names: a name without a folder is in `folder`.
 ParameterValues with_full_names(const ParameterList& parameters, ParameterValues values,
                                 const std::string& folder) {
   for (const FilterParameter& parameter : parameters) {
@@ -66,12 +66,12 @@ void warn_of_pictures(const MeshTexture& texture, std::vector<std::string>& warn
   for (std::size_t k = 0; k < texture.pictures.size(); ++k) {
     if (!texture.pictures[k].empty()) continue;
     warnings.push_back("The picture \"" + texture.names[k] +
-                       "\" of the texture could not be read. The result gets no color from it.");
+                       "\" of the texture could not be read. The result has no color from it.");
   }
 }
 
-/// The content with what the scan carries. Its quality takes the place of radial distances, which
-/// are the default.
+/// Returns the layer's content, with the scan's attributes. The scan's quality replaces radial
+/// distances, the default.
 LayerContent content_of(const RemeshResult& result, const RemeshSettings& settings,
                         const IndexedMesh& scan, const MeshAttributes& attributes,
                         const Execution& execution) {
@@ -84,7 +84,7 @@ LayerContent content_of(const RemeshResult& result, const RemeshSettings& settin
   return content;
 }
 
-/// Writes the report of today about a layer; nothing for an empty name.
+/// Writes the report of a layer with today's date. Writes nothing for an empty name.
 template <class Content>
 void save_report(const std::string& file, const std::string& label, const Content& content) {
   if (file.empty()) return;
@@ -112,14 +112,14 @@ bool is_there(const Layers& layers, int number) {
                      [&](const Layer& layer) { return layer.number == number; });
 }
 
-/// Says for its lifetime that a filter works on the document. While one runs the window takes
-/// clicks, and a second run would change the document under the first.
+/// Marks the document as in use during its lifetime. The window accepts clicks while a filter runs,
+/// and a second run would change the document of the first.
 class RunOnDocument {
  public:
   explicit RunOnDocument(Layers& layers) : layers_(layers) {
     if (!layers_.note(key).empty()) {
       throw Error(ErrorCode::InvalidInput,
-                  "A filter of this plugin is still running; wait until it is done and apply "
+                  "A filter of this plugin is still running. Wait until it is done, then apply "
                   "again. Nothing was changed.");
     }
     layers_.set_note(key, "running");
@@ -143,8 +143,8 @@ std::string enumerated(const std::vector<std::string>& names) {
   return text;
 }
 
-/// A sentence about parameters that have no value; none when all have one. Dialogs give all: it is
-/// a script that lacks them, or a host that dropped what it could not read and says nothing.
+/// Returns a sentence about parameters without a value, if there are any. Dialogs give all
+/// parameters. Scripts may omit some, and hosts silently drop values that they cannot read.
 std::optional<std::string> remark_on_missing(const ParameterList& parameters,
                                              const ParameterValues& values) {
   std::vector<std::string> given;
@@ -153,17 +153,18 @@ std::optional<std::string> remark_on_missing(const ParameterList& parameters,
     (values.count(parameter.name) > 0 ? given : missing).push_back(parameter.name);
   }
   if (missing.empty()) return std::nullopt;
-  if (given.empty()) return "The script gives no parameter, or none that can be read: defaults.";
-  // A script that holds only what it changes lacks many.
+  if (given.empty())
+    return "The script has no readable parameter. All parameters have their defaults.";
+  // A script with only the changed parameters lacks many.
   if (given.size() < missing.size()) {
-    return "Of the script's parameters only " + enumerated(given) +
-           " could be read; all others took their defaults.";
+    return "Only " + enumerated(given) +
+           " could be read from the script. All other parameters have their defaults.";
   }
   return enumerated(missing) + (missing.size() == 1 ? " is" : " are") +
-         " missing from the script, or cannot be read there, and took the default.";
+         " missing from the script or not readable. The default was used.";
 }
 
-/// What becomes of a result in a layer. The layers must outlive it.
+/// Returns a function that rounds a result as a layer stores it. The layers must outlive it.
 auto as_layer(const Layers& layers) {
   return [&layers](const RemeshResult& result) { return layers.as_held(result.mesh); };
 }
@@ -172,7 +173,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
                            Layers& layers, const ProgressCallback& progress) {
   const Stopwatch stopwatch;
   const Layer current = current_layer(layers);
-  // A remesh of a remesh has errors that nobody asks for: the scan it came from is remeshed again.
+  // A remesh of a remesh would add errors, so its scan is remeshed again.
   const std::optional<Layer> origin = source_of(layers, current.number);
   const Layer scan = origin.value_or(current);
   RemeshSettings settings =
@@ -190,7 +191,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   warn_of_pictures(attributes.texture, result.warnings);
   const LayerContent content =
       content_of(result, settings, read, attributes, execution.part(1.0, 1.0));
-  // Files first: when they cannot be written the document stays as it was.
+  // Files first: if they cannot be written, the document stays unchanged.
   save_report(report, scan.label, result);
   if (!settings.coefficients_file.empty()) {
     write_coefficients(settings.coefficients_file, result);
@@ -203,7 +204,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
     // The scan may have been deleted while the filter ran.
     if (is_there(layers, scan.number)) {
       set_source(layers, added, scan.number);
-      // The result is to be seen, and it lies in the scan.
+      // The scan would hide the result.
       layers.hide(scan.number);
     }
     if (origin && is_there(layers, current.number)) layers.hide(current.number);
@@ -218,9 +219,9 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   FilterOutcome outcome;
   outcome.log = log_lines(result, stopwatch.seconds());
   if (origin) {
-    outcome.log.push_back({"'" + current.label + "' is a remesh of '" + scan.label +
-                           "', so that was remeshed again; duplicate the layer to remesh the "
-                           "remesh itself."});
+    outcome.log.push_back(
+        {"'" + current.label + "' is a remesh of '" + scan.label +
+         "'. The scan was remeshed again. To remesh the remesh itself, duplicate its layer."});
   }
   add_file_line(outcome.log, "Report in ", settings.result.report_file);
   add_file_line(outcome.log, "Coefficients in ", settings.coefficients_file);
@@ -228,7 +229,7 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   return outcome;
 }
 
-/// Folder for names without one where no scan is worked on: that of what is open.
+/// Folder for file names without a folder if there is no scan: the folder of the current layer.
 std::string folder_at_hand(const Layers& layers) {
   const std::optional<Layer> current = layers.current();
   if (!current) return folder_of(Layer());
@@ -331,15 +332,15 @@ std::string sentence_of_current_exception() {
   try {
     throw;
   } catch (const std::bad_alloc&) {
-    return "There is not enough memory for this mesh; simplify it or ask for fewer nodes.";
+    return "There is not enough memory for this mesh. Simplify it or use fewer nodes.";
   } catch (const Error& error) {
-    // Of what the library knows nothing about: the document, which a run changes only at its end.
+    // The library does not know the document. A run changes it only at its end.
     const std::string sentence = shown_words(error.what());
     return error.code() == ErrorCode::Cancelled ? sentence + " Nothing was changed." : sentence;
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {
-    return "The filter failed for a reason it does not know.";
+    return "The filter failed for an unknown reason.";
   }
 }
 

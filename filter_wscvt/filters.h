@@ -12,20 +12,20 @@
 
 namespace wscvt::filter {
 
-// The filters as every host sees them. A host's adapter shows what is listed here and hands over
-// values, layers and a callback; everything else happens behind run_filter.
+// The interface of the filters for every host. A host's adapter shows this list and passes values,
+// layers and a callback to run_filter.
 
 /// In the order of the host's action numbers.
 enum class FilterId { Everyday, Remesh, Create, Describe };
 
-/// Under which heading a host lists a filter.
+/// The host's category for a filter.
 enum class FilterMenu { Remeshing, Creation, Measure };
 
-/// What a host asks about a filter.
+/// Properties of a filter for a host.
 struct Filter {
   FilterId id = FilterId::Remesh;
   std::string name;         ///< the menu text; saved scripts refer to it: it never changes
-  std::string python_name;  ///< in PyMeshLab; never changes either
+  std::string python_name;  ///< in PyMeshLab: never changes
   std::string help;         ///< HTML
   ParameterList parameters;
   FilterMenu menu = FilterMenu::Remeshing;
@@ -36,22 +36,22 @@ struct Filter {
 /// All filters.
 std::vector<Filter> all_filters();
 
-/// The filter with a number; the remesher for a number that none has.
+/// Returns the filter with this number, or the remesher if there is no such filter.
 Filter filter_with_number(int number);
 
-/// What a run hands back.
+/// Result of a run.
 struct FilterOutcome {
   std::vector<LogLine> log;
   std::map<std::string, double> values;  ///< results by name, for scripts
 };
 
-/// Runs a filter on the current layer. Values that are missing take their defaults, and the log
-/// warns of it. Throws Error; the document is then as it was.
+/// Runs a filter on the current layer. Missing values get their defaults, and the log has a
+/// warning. If it throws Error, the document is unchanged.
 FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers& layers,
                          const ProgressCallback& progress);
 
-/// The sentence for a user about the exception that is being handled: every host catches
-/// everything, because an exception that leaves a filter ends the host.
+/// Returns a sentence for the user about the current exception. Every host catches all exceptions,
+/// because an exception that leaves a filter ends the host.
 std::string sentence_of_current_exception();
 
 }  // namespace wscvt::filter

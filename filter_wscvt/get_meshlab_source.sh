@@ -25,7 +25,7 @@ scratch=$folder.part
 rm -rf "$scratch"
 if is_whole; then exit 0; fi
 if [ -e "$folder" ] && ! rmdir "$folder" 2>/dev/null; then
-  echo "$folder is there and is not the whole source of MeshLab; remove it or name another" >&2
+  echo "$folder exists but is not the whole source of MeshLab. Remove it or name another folder." >&2
   exit 1
 fi
 
@@ -33,14 +33,14 @@ package=meshlab
 uri=http://deb.debian.org/debian
 if [ -z "$suite" ]; then
   version=$(dpkg-query -W -f '${Version}' meshlab 2>/dev/null) || {
-    echo "MeshLab is not installed; run: apt-get install meshlab" >&2
+    echo "MeshLab is not installed. Run: apt-get install meshlab" >&2
     exit 1
   }
   # "meshlab | version | URI suite/component architecture Packages" -> URI
   uri=$(apt-cache madison meshlab | awk -F '|' -v version="$version" \
     '{ gsub(/ /, "", $2) } $2 == version && $3 ~ /Packages/ { split($3, at, " "); print at[1]; exit }')
   if [ -z "$uri" ]; then
-    echo "apt does not know where meshlab $version comes from; run: apt-get update" >&2
+    echo "apt does not know the source of meshlab $version. Run: apt-get update" >&2
     exit 1
   fi
   uri=${uri%/}
@@ -63,7 +63,7 @@ fi
 if [ -n "$suite" ]; then
   keyring=/usr/share/keyrings/debian-archive-keyring.gpg
   test -f "$keyring" || {
-    echo "Debian's keys are not there; run: apt-get install debian-archive-keyring" >&2
+    echo "Debian's keys are missing. Run: apt-get install debian-archive-keyring" >&2
     exit 1
   }
   echo "deb-src [signed-by=$keyring] $uri $suite main" > "$scratch/parts/source.list"

@@ -17,7 +17,7 @@ namespace wscvt::filter {
 
 namespace {
 
-/// A number that tells whether a mesh is still the one that was seen (FNV-1a, 64 bits).
+/// Hash that shows whether a mesh has changed (FNV-1a, 64 bits).
 std::uint64_t fingerprint(const IndexedMesh& mesh) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto add = [&](const void* data, std::size_t size) {
@@ -43,7 +43,7 @@ std::optional<Layer> layer_with_number(const Layers& layers, int number) {
 Layer current_layer(const Layers& layers) {
   const std::optional<Layer> current = layers.current();
   if (!current) {
-    throw Error(ErrorCode::InvalidInput, "There is no mesh to work on; open a scan first.");
+    throw Error(ErrorCode::InvalidInput, "There is no mesh. Open a scan first.");
   }
   return *current;
 }
@@ -72,7 +72,7 @@ std::optional<Layer> source_of(const Layers& layers, int number) {
 
 Layer layer_named(const Layers& layers, const std::string& name, const std::string& parameter) {
   const std::vector<Layer> all = layers.list();
-  // As the list shows it: "0 scan.ply", and a star behind a layer that was changed.
+  // As in the list of layers: "0 scan.ply", with a star if the layer was changed.
   static const QRegularExpression listed(QStringLiteral("^\\s*(\\d+)(?:\\s+(.*?))?\\s*\\*?\\s*$"));
   const QRegularExpressionMatch match = listed.match(QString::fromStdString(name));
   const auto is_listed = [&](const Layer& layer) {
@@ -80,7 +80,7 @@ Layer layer_named(const Layers& layers, const std::string& name, const std::stri
     return match.hasMatch() && match.captured(1).toInt() == layer.number &&
            (label.empty() || label == layer.label);
   };
-  // The first way of reading the name that fits any layer counts.
+  // The first interpretation of the name that matches a layer is used.
   const std::vector<std::function<bool(const Layer&)>> readings = {
       [&](const Layer& layer) { return layer.label == name; },
       [&](const Layer& layer) { return layer.label + " *" == name || layer.label + "*" == name; },
@@ -91,8 +91,8 @@ Layer layer_named(const Layers& layers, const std::string& name, const std::stri
     if (found == all.end()) continue;
     if (std::find_if(found + 1, all.end(), fits) != all.end()) {
       throw Error(ErrorCode::InvalidInput, "Two layers are called '" + name +
-                                               "'; give the number of one, which stands before "
-                                               "its name in the list of layers. Nothing was "
+                                               "'. Give the number of a layer. It is before the "
+                                               "name in the list of layers. Nothing was "
                                                "changed.");
     }
     return *found;
@@ -103,7 +103,7 @@ Layer layer_named(const Layers& layers, const std::string& name, const std::stri
     labels += "'" + layer.label + "'";
   }
   throw Error(ErrorCode::InvalidInput, "Parameter " + parameter + ": there is no layer called '" +
-                                           name + "'; the layers are " + labels + ".");
+                                           name + "'. The layers are " + labels + ".");
 }
 
 std::string without_ending(const std::string& label) {

@@ -12,8 +12,8 @@ namespace wscvt::filter {
 
 namespace {
 
-/// A text as lines of at most so many characters, broken at spaces; those after the first are two
-/// columns further in. A longer word stays whole.
+/// Breaks a text at spaces into lines of limited length. Lines after the first are indented by two
+/// columns. A longer word stays whole.
 std::vector<std::string> broken(const std::string& text, std::size_t width) {
   const std::size_t indent = text.find_first_not_of(' ');
   if (text.size() <= width || indent == std::string::npos) return {text};
@@ -78,7 +78,7 @@ std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
   constexpr std::size_t longest_line = 4000;
   std::vector<LogLine> log = {{""}};
   for (const std::string& line : lines) log.push_back({line.substr(0, longest_line)});
-  // Last, because MeshLab scrolls its log to the end.
+  // Warnings are last, because MeshLab scrolls its log to the end.
   std::size_t rows = 0;
   for (const std::string& warning : warnings) {
     log.push_back({warning.substr(0, longest_line), true});
@@ -87,18 +87,19 @@ std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
   // On a screen of 1366 x 768 the panel has five rows, and MeshLab itself writes the last two.
   constexpr std::size_t rows_in_view = 3;
   if (rows > rows_in_view) {
-    log.push_back({(warnings.size() == 1 ? std::string("one stands")
-                                         : std::to_string(warnings.size()) + " stand") +
-                       " above; scroll this log up.",
-                   true});
+    log.push_back(
+        {(warnings.size() == 1 ? std::string("There is 1 warning")
+                               : "There are " + std::to_string(warnings.size()) + " warnings") +
+             " above. Scroll this log up.",
+         true});
   }
   return log;
 }
 
 std::string html_line(const std::string& line) {
   const std::string no_break_space = "\u00a0";
-  // HTML folds several spaces into one. A single one stays, so that sentences wrap at words, but
-  // not in the indented rows of a table.
+  // HTML merges spaces. Single spaces stay, so that sentences wrap at words, but not in the
+  // indented rows of a table.
   const bool is_row = !line.empty() && line.front() == ' ';
   std::string html;
   for (std::size_t k = 0; k < line.size(); ++k) {

@@ -19,15 +19,15 @@
 
 namespace wscvt::filter {
 
-/// Flat copy of a VCG triangle mesh without its deleted vertices and faces, the others in order.
-/// Throws Error(InvalidInput) when a face refers to no vertex of the mesh or to a deleted one, or
-/// there are more vertices than 32-bit indices reach.
+/// Copies a VCG triangle mesh without its deleted vertices and faces, in order. Throws
+/// Error(InvalidInput) if a face refers to a missing or deleted vertex, or if there are too many
+/// vertices for 32-bit indices.
 template <class VcgMesh>
 IndexedMesh to_indexed_mesh(const VcgMesh& mesh) {
   constexpr std::int32_t deleted = -1;
   if (mesh.vert.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     throw Error(ErrorCode::InvalidInput,
-                "The mesh has more than 2147483647 vertices; simplify it first.");
+                "The mesh has more than 2147483647 vertices. Simplify it first.");
   }
   IndexedMesh result;
   result.points.reserve(static_cast<std::size_t>(mesh.vn));
@@ -47,10 +47,10 @@ IndexedMesh to_indexed_mesh(const VcgMesh& mesh) {
       const auto v = vertex == nullptr ? -1 : vertex - mesh.vert.data();
       if (v < 0 || static_cast<std::size_t>(v) >= new_index.size() ||
           new_index[static_cast<std::size_t>(v)] == deleted) {
-        throw Error(ErrorCode::InvalidInput,
-                    "Face " + std::to_string(f) +
-                        " refers to a vertex that is not there; remove unreferenced and "
-                        "degenerate elements first.");
+        throw Error(
+            ErrorCode::InvalidInput,
+            "Face " + std::to_string(f) +
+                " refers to a missing vertex. Remove unreferenced and degenerate elements first.");
       }
       triangle[static_cast<std::size_t>(k)] = new_index[static_cast<std::size_t>(v)];
     }
@@ -59,8 +59,8 @@ IndexedMesh to_indexed_mesh(const VcgMesh& mesh) {
   return result;
 }
 
-/// Replaces the content of a VCG mesh; vertices and faces keep their order. `qualities` has one
-/// value a vertex.
+/// Replaces the content of a VCG mesh. Vertices and faces keep their order. `qualities` has one
+/// value per vertex.
 template <class VcgMesh>
 void assign(VcgMesh& target, const IndexedMesh& source, const std::vector<double>& qualities) {
   using Scalar = typename VcgMesh::ScalarType;
@@ -81,10 +81,10 @@ void assign(VcgMesh& target, const IndexedMesh& source, const std::vector<double
   }
 }
 
-/// The parts of a colour, in VCG's order.
+/// The channels of a colour, in VCG's order.
 constexpr std::array<const char*, 4> colour_names{"red", "green", "blue", "alpha"};
 
-/// Colour and quality of vertices or faces, without the deleted ones, if they have them.
+/// Reads colour and quality of vertices or faces, if present, without deleted elements.
 template <class Elements>
 std::vector<MeshAttribute> attributes_of(const Elements& elements, bool has_colour,
                                          bool has_quality) {
@@ -107,8 +107,8 @@ std::vector<MeshAttribute> attributes_of(const Elements& elements, bool has_colo
   return attributes;
 }
 
-/// Places of the faces' corners in the mesh's pictures, without those of deleted faces: the
-/// corners' own, or their vertices'. The mesh must have them.
+/// Returns the texture coordinates of the faces' corners, or of their vertices, without deleted
+/// faces. The mesh must have them.
 template <class VcgMesh>
 MeshTexture texture_of(const VcgMesh& mesh, bool of_corners) {
   MeshTexture texture;
@@ -129,8 +129,8 @@ MeshTexture texture_of(const VcgMesh& mesh, bool of_corners) {
   return texture;
 }
 
-/// Sets the colours of vertices or faces, which must be enabled, from attributes that have one
-/// value each. Leaves parts of the colour without an attribute as they are.
+/// Sets the colours of vertices or faces from attributes with one value each. Colours must be
+/// enabled. Channels without an attribute stay unchanged.
 template <class Elements>
 void set_colours(Elements& elements, const std::vector<MeshAttribute>& attributes) {
   for (int k = 0; k < 4; ++k) {
@@ -143,8 +143,8 @@ void set_colours(Elements& elements, const std::vector<MeshAttribute>& attribute
   }
 }
 
-/// Exchanges the vertices, edges and faces of two VCG meshes whose elements keep optional
-/// components in their containers; the attributes of `kept` grow or shrink to what it then holds.
+/// Swaps the vertices, edges and faces of two VCG meshes with optional components in their
+/// containers. The attributes of `kept` are resized to match.
 template <class VcgMesh>
 void exchange_elements(VcgMesh& kept, VcgMesh& other) {
   std::swap(kept.vert, other.vert);
@@ -154,7 +154,7 @@ void exchange_elements(VcgMesh& kept, VcgMesh& other) {
   std::swap(kept.en, other.en);
   std::swap(kept.fn, other.fn);
   std::swap(kept.imark, other.imark);
-  // Each element points to the container it lies in.
+  // Each element points to its container.
   for (VcgMesh* mesh : {&kept, &other}) {
     mesh->vert._updateOVP(mesh->vert.begin(), mesh->vert.end());
     mesh->face._updateOVP(mesh->face.begin(), mesh->face.end());

@@ -1,9 +1,9 @@
-# What CMake must know about a MeshLab, found out from its sources and its library.
+# Finds properties of a MeshLab from its sources and its library.
 
-# Version of the sources in a folder, and which of our folders fits it.
+# Version of the sources in a folder, and our folder for this version.
 function(wscvt_read_meshlab_source folder version_variable host_variable)
   if(NOT EXISTS ${folder}/ML_VERSION)
-    message(FATAL_ERROR "${folder} holds no ML_VERSION. Give the unpacked source of MeshLab "
+    message(FATAL_ERROR "${folder} has no ML_VERSION. Give the unpacked source of MeshLab "
       "(filter_wscvt/get_meshlab_source.sh fetches it).")
   endif()
   file(STRINGS ${folder}/ML_VERSION version LIMIT_COUNT 1)
@@ -20,13 +20,13 @@ function(wscvt_read_meshlab_source folder version_variable host_variable)
     list(APPEND known ${versions_of_${host}})
   endforeach()
   list(JOIN known ", " known)
-  message(FATAL_ERROR "${folder} is MeshLab ${version}; the plugin knows ${known}. "
+  message(FATAL_ERROR "${folder} is MeshLab ${version}, but the plugin supports ${known}. "
     "Plugins load only into the version they were built for.")
 endfunction()
 
 # Version and scalar type with which a libmeshlab-common was built. A plugin for the other type would
-# crash the host: it reads coordinates of another size. The type stands in the symbol of a function
-# that every version has and that takes a matrix; the version stands in the library as a text.
+# crash the host: it reads coordinates of another size. The type is part of the symbol of a function
+# with a matrix argument that every version has. The version is a text in the library.
 function(wscvt_read_meshlab_library library version_variable scalar_variable)
   file(STRINGS ${library} matrices REGEX "setSceneTransformationMatrixERKN3vcg8Matrix44I[fd]EE")
   file(STRINGS ${library} versions REGEX "^20[0-9][0-9]\\.[0-9][0-9]d?$")
@@ -35,8 +35,8 @@ function(wscvt_read_meshlab_library library version_variable scalar_variable)
   elseif(matrices MATCHES "Matrix44IdEE")
     set(${scalar_variable} double PARENT_SCOPE)
   else()
-    message(FATAL_ERROR "${library} does not tell whether it was built for float or for double; "
-      "give MeshLab's own library as MESHLAB_COMMON_LIBRARY.")
+    message(FATAL_ERROR "${library} does not show whether it was built for float or for double. "
+      "Give MeshLab's own library as MESHLAB_COMMON_LIBRARY.")
   endif()
   string(REGEX MATCH "20[0-9][0-9]\\.[0-9][0-9]" version "${versions}")
   set(${version_variable} "${version}" PARENT_SCOPE)
@@ -44,12 +44,12 @@ endfunction()
 
 # An interface target with the headers of a MeshLab, for its plugin and for tests that play it.
 function(wscvt_add_meshlab target folder version scalar library)
-  # Imported targets are seen in the calling folder only.
+  # Imported targets are visible only in the calling folder.
   find_package(Qt5 REQUIRED COMPONENTS Core Widgets OpenGL Xml XmlPatterns)
   find_package(GLEW REQUIRED)
   find_package(Eigen3 REQUIRED NO_MODULE)
   add_library(${target} INTERFACE)
-  # vcglib stood beside src until 2020.09.
+  # vcglib was next to src until 2020.09.
   target_include_directories(${target} SYSTEM INTERFACE
     ${folder}/src ${folder}/vcglib ${folder}/src/vcglib)
   target_compile_definitions(${target} INTERFACE
@@ -70,6 +70,6 @@ function(wscvt_add_plugin target host meshlab)
   set_target_properties(${target} PROPERTIES AUTOMOC ON AUTOGEN_ORIGIN_DEPENDS OFF
     CXX_VISIBILITY_PRESET hidden LINKER_LANGUAGE CXX)
   target_link_libraries(${target} PRIVATE wscvt_filter ${meshlab} wscvt_warnings)
-  # Nothing of the library is to be seen by, or mixed up with, what other plugins carry.
+  # Hides the library's symbols from other plugins, which may contain the same libraries.
   target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)
 endfunction()

@@ -12,9 +12,9 @@
 
 namespace wscvt::filter {
 
-// What is the same in every version of MeshLab.
+// Code for all versions of MeshLab.
 
-/// The host's callback as the library's; it may be null.
+/// Wraps the host's callback for the library. It may be null.
 inline ProgressCallback progress_to(vcg::CallBackPos* callback) {
   if (callback == nullptr) return {};
   return [callback](double fraction, const std::string& stage) {
@@ -22,20 +22,20 @@ inline ProgressCallback progress_to(vcg::CallBackPos* callback) {
   };
 }
 
-/// The level of a line of the log: shown_line marks up warnings for a window.
+/// Level of a line of the log. In a window, shown_line marks up warnings itself.
 inline GLLogStream::Levels log_level(const LogLine& line) {
   return line.warning && !host_has_window() ? GLLogStream::WARNING : GLLogStream::FILTER;
 }
 
-/// What the current layer must have for a filter, as the host's mask.
+/// Returns the filter's requirements for the current layer, as the host's mask.
 template <class Model>
 int needed_parts(const Filter& filter) {
   if (!filter.needs_faces) return Model::MM_NONE;
   return Model::MM_FACENUMBER;
 }
 
-/// What a filter changes, as the host's mask: a new or changed mesh with its quality and its
-/// colour, and those of its faces if the scan has them.
+/// Returns the filter's changes, as the host's mask: mesh, vertex quality and vertex colour, and
+/// face quality and face colour if the scan has them.
 template <class Model>
 int changed_parts(const Filter& filter) {
   if (!filter.makes_layers) return Model::MM_NONE;

@@ -18,8 +18,8 @@
 
 namespace wscvt::filter {
 
-/// The layers of a MeshLab document, in any version. What versions call differently is in `Api`,
-/// beside each version's adapter: the types Document and Model, and
+/// The layers of a MeshLab document, in any version. Names that differ between versions are in
+/// `Api`, next to each version's adapter: the types Document and Model, and
 ///   std::vector<Model*> all(Document&), void remove(Document&, Model&),
 ///   void update_box_and_normals(Model&), QImage texture_picture(const Model&, name), which is null
 ///   for one that is not there.
@@ -65,7 +65,7 @@ class MeshlabLayers final : public Layers {
   IndexedMesh as_held(IndexedMesh mesh) const override {
     for (Vector3& p : mesh.points) {
       for (double& coordinate : p) {
-        // Volatile: optimised, GCC 12 leaves the rounding to single precision out.
+        // Volatile, because the optimiser of GCC 12 omits the rounding to single precision.
         volatile const auto held = static_cast<Scalar>(coordinate);
         coordinate = static_cast<double>(held);
       }
@@ -136,27 +136,27 @@ class MeshlabLayers final : public Layers {
     }
     throw Error(ErrorCode::InvalidInput,
                 "The layer with number " + std::to_string(number) +
-                    " is not there any more; choose another one. Nothing was changed.");
+                    " no longer exists. Choose another layer. Nothing was changed.");
   }
 
-  /// Puts content into a layer, which keeps its transform.
+  /// Replaces the content of a layer, but not its transform.
   static void fill(Model& model, const LayerContent& content) {
-    // Made aside and exchanged: whatever fails leaves the layer as it was.
+    // Built separately and swapped, so a failure leaves the layer unchanged.
     Mesh made;
     assign(made, content.mesh, content.quality);
     exchange_elements(model.cm, made);
-    // Adjacency, colours, texture coordinates and the like belong to the elements that went.
+    // Adjacency, colours, texture coordinates and similar data belong to the removed elements.
     const int kept = Model::MM_VERTCOORD | Model::MM_VERTNORMAL | Model::MM_VERTFLAG |
                      Model::MM_FACEVERT | Model::MM_FACENORMAL | Model::MM_FACEFLAG |
                      Model::MM_TRANSFMATRIX;
     model.clearDataMask(~kept);
     model.cm.svn = 0;
     model.cm.sfn = 0;
-    // The part of a result that MeshLab does not hold by default.
+    // The part of a result that MeshLab does not store by default.
     model.updateDataMask(Model::MM_VERTQUALITY);
     if (content.coloured) {
       model.updateDataMask(Model::MM_VERTCOLOR);
-      // Left to find the range itself, the ramp adds an attribute to the mesh that is never freed.
+      // Without a given range, the ramp adds an attribute to the mesh that is never freed.
       const auto [low, high] = std::minmax_element(content.quality.begin(), content.quality.end());
       const auto red = static_cast<Scalar>(*low);
       const auto blue = std::max(static_cast<Scalar>(*high),
@@ -167,7 +167,7 @@ class MeshlabLayers final : public Layers {
     Api::update_box_and_normals(model);
   }
 
-  /// Empty for a picture that could not be read.
+  /// Empty if a picture could not be read.
   static TexturePicture picture_of(const QImage& image) {
     const QImage colours = image.convertToFormat(QImage::Format_RGB888);
     TexturePicture picture{colours.width(), colours.height(), {}};

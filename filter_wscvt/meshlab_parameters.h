@@ -11,14 +11,14 @@
 
 namespace wscvt::filter {
 
-// Parameters of a filter as MeshLab's, in any version. What versions call differently is in `Api`,
-// beside each version's adapter: the types List, Value, Scalar, Integer, Real, Choice, Flag, Text,
-// InputFile and OutputFile, and
+// Parameters of a filter for any version of MeshLab. Names that differ between versions are in
+// `Api`, next to each version's adapter: the types List, Value, Scalar, Integer, Real, Choice,
+// Flag, Text, InputFile and OutputFile, and
 //   QString tooltip(const FilterParameter&, const ParameterList&), as its dialog has room for it,
 //   void add<Rich>(List&, const FilterParameter&, tooltip, arguments...),
 //   std::optional<QString> text(const Value&).
 
-/// What a file dialog offers: "Report (*.html *.json)".
+/// Name filter of a file dialog: "Report (*.html *.json)".
 inline QString file_dialog_filter(const FilterParameter& parameter) {
   QStringList patterns;
   for (const std::string& extension : parameter.extensions) {
@@ -27,15 +27,15 @@ inline QString file_dialog_filter(const FilterParameter& parameter) {
   return QString::fromStdString(parameter.label) + " (" + patterns.join(' ') + ")";
 }
 
-/// HTML in a column of its own width, in pixels. MeshLab reserves room for texts as if their column
-/// were wide, and cuts off or overlaps what does not fit; a column gets the room it needs.
+/// HTML in a column of fixed width, in pixels. MeshLab reserves too little height for texts in a
+/// narrow column, and cuts them off or overlaps them. A fixed column gets the height it needs.
 inline QString in_column(const QString& html, int width) {
   return QStringLiteral("<table width=\"%1\" cellspacing=\"0\" cellpadding=\"0\"><tr><td>")
              .arg(width) +
          html + QStringLiteral("</td></tr></table>");
 }
 
-/// A tooltip as the host shows it, also behind its Help button.
+/// A tooltip for the host, also shown by its Help button.
 inline QString shown_tooltip(const std::string& tooltip, int width) {
   const QString text = QString::fromStdString(tooltip);
   return host_has_window() ? in_column(text.toHtmlEscaped(), width) : text;
@@ -84,8 +84,8 @@ typename Api::List meshlab_parameters(const ParameterList& parameters) {
   return list;
 }
 
-/// Value of a parameter. The host's getters end the program when a script gave the parameter
-/// another type, so the type is checked first.
+/// Returns the value of a parameter. The host's getters end the program if the script gives another
+/// type, so the type is checked first.
 template <class Api>
 ParameterValue value_of(const FilterParameter& parameter, const typename Api::Value& value) {
   switch (parameter.kind) {
@@ -103,33 +103,34 @@ ParameterValue value_of(const FilterParameter& parameter, const typename Api::Va
     case ParameterKind::Text:
     case ParameterKind::InputFile:
     case ParameterKind::OutputFile:
-      // Older scripts give files as texts.
+      // Older scripts have files as texts.
       if (const std::optional<QString> text = Api::text(value)) {
         return text->trimmed().toStdString();
       }
   }
   throw Error(ErrorCode::InvalidInput,
               "Parameter " + parameter.name + " has the type " + value.typeName().toStdString() +
-                  ", which does not fit; take the types from the filter's own scripts.");
+                  ", which does not fit. Use the types of the filter's own scripts.");
 }
 
-/// For a parameter whose value a script lacks or garbles.
+/// For a parameter that is missing or unreadable in a script.
 [[noreturn]] inline void refuse_without(const std::string& name) {
   throw Error(ErrorCode::InvalidInput,
               name +
-                  " is missing from the script, or its value cannot be read; give a whole number, "
-                  "and the parameter where the filter's own scripts have it. Nothing was changed.");
+                  " is missing from the script, or its value cannot be read. Give a whole number, "
+                  "at the position that it has in the filter's own scripts. Nothing was changed.");
 }
 
-/// The values of those parameters that a list holds. Throws Error when one that is required is
-/// missing, and for one of version 2, with what to use instead.
+/// Returns the values of the parameters in a list. Throws Error if a required parameter is missing,
+/// and for a parameter of version 2, with its replacement.
 template <class Api>
 ParameterValues values_of(const ParameterList& known, const typename Api::List& list) {
   for (const ReplacedParameter& replaced : replaced_parameters()) {
     if (!list.hasParameter(QString(replaced.name))) continue;
-    throw Error(ErrorCode::InvalidInput,
-                "Version 3 has no parameter " + std::string(replaced.name) + ", which the script " +
-                    "gives. " + replaced.instead + " Nothing was changed.");
+    throw Error(ErrorCode::InvalidInput, "The script has the parameter " +
+                                             std::string(replaced.name) +
+                                             ", which version 3 does not have. " +
+                                             replaced.instead + " Nothing was changed.");
   }
   ParameterValues values;
   for (const FilterParameter& parameter : known) {

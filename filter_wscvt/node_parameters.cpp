@@ -10,19 +10,18 @@ namespace wscvt::filter {
 
 namespace {
 
-/// The weightings of both methods, in an order that saved scripts hold as numbers.
+/// The weightings of both methods. Saved scripts store their indices, so the order never changes.
 enum class AnyWeighting { Constant, RadialDistance, Curvature, Area, ErrorAdaptive };
 
-/// The placements of both methods, likewise, and what each method has by default.
+/// The placements of both methods, in a fixed order too, and the default of the method.
 enum class AnyPlacement { Series, Surface, Fitted, Contact, Default };
 
 [[noreturn]] void refuse_value(const std::string& parameter, const std::string& value,
                                Method wanted) {
-  throw Error(ErrorCode::InvalidInput, "Parameter " + parameter + " is " + value +
-                                           ", which only the method \"" +
-                                           capitalised(label_of(wanted)) +
-                                           "\" has. Choose that method, or another value. Nothing "
-                                           "was changed.");
+  throw Error(ErrorCode::InvalidInput,
+              "Parameter " + parameter + " is " + value + ". Only the method \"" +
+                  capitalised(label_of(wanted)) +
+                  "\" has this value. Choose that method, or another value. Nothing was changed.");
 }
 
 }  // namespace
@@ -132,8 +131,8 @@ AsPublishedOptions as_published_options(const CheckedValues& values) {
     case AnyPlacement::Default:
       break;
   }
-  // MeshLab's window of 2020.09 rounds a parameter to two digits when a script is edited there, so
-  // 1.105 comes back as 1.11: a value so near is the default.
+  // The script editor of MeshLab 2020.09 rounds parameters to two digits: 1.105 becomes 1.11. A
+  // value this close means the default.
   constexpr double rounding = 0.006;
   if (std::abs(values.real("EdgeRatio") - OnScanOptions().edge_ratio) > rounding) {
     refuse_value("EdgeRatio", typed_text(values.real("EdgeRatio")), Method::OnScan);
@@ -146,15 +145,15 @@ AsPublishedOptions as_published_options(const CheckedValues& values) {
 FilterParameter node_count_parameter() {
   FilterParameter parameter = option_parameter(
       "NodeCount", RemeshOptions().node_count, node_count_option, "Number of nodes",
-      "Vertices of the result, exactly. Nodes on the surface lose about 660/N % of the volume; "
-      "fitted nodes lose none.");
+      "Exact number of vertices of the result. Nodes on the surface lose about 660/N % of the "
+      "volume, fitted nodes 0 %.");
   parameter.required = true;
   return parameter;
 }
 
 FilterParameter method_parameter(Method default_method) {
   return table_parameter("Method", default_method, "Method",
-                         "Where the Voronoi cells are and what the nodes follow.");
+                         "Where the Voronoi cells are, and which surface the nodes follow.");
 }
 
 FilterParameter weighting_parameter() {
@@ -164,11 +163,10 @@ FilterParameter weighting_parameter() {
 }
 
 FilterParameter curvature_alpha_parameter() {
-  return option_parameter(
-      "CurvatureAlpha", OnScanOptions().curvature_alpha, curvature_alpha_option,
-      "WSCVT-C strength alpha",
-      "0 ignores curvature. Larger values gather nodes at edges and corners, negative values keep "
-      "them away.");
+  return option_parameter("CurvatureAlpha", OnScanOptions().curvature_alpha, curvature_alpha_option,
+                          "WSCVT-C strength alpha",
+                          "0 ignores curvature. Larger values put more nodes at edges and corners, "
+                          "negative values fewer.");
 }
 
 FilterParameter placement_parameter() {
@@ -181,12 +179,12 @@ FilterParameter edge_ratio_parameter() {
   return option_parameter("EdgeRatio", OnScanOptions().edge_ratio, edge_ratio_option,
                           "Mean edge ratio (on the scan)",
                           "Wanted mean of longest / shortest edge of a triangle. Small values give "
-                          "even triangles, large ones come closer to the scan.");
+                          "even triangles, large values a smaller distance to the scan.");
 }
 
 FilterParameter colour_by_quality_parameter() {
   return flag_parameter("ColorByQuality", false, "Color by quality",
-                        "Colors the vertices by it: red lowest, green, blue highest.");
+                        "Colors the vertices by quality: red lowest, green, blue highest.");
 }
 
 RemeshOptions read_node_options(const CheckedValues& values, bool on_surface) {
@@ -228,7 +226,7 @@ std::vector<std::string> all_nodes_names() {
   std::vector<std::string> names;
   for (const auto& row : enumerators<CellWeighting>()) names.push_back(short_label(row.label));
   for (const auto& row : enumerators<Weighting>()) names.push_back(short_label(row.label));
-  // Of layers that version 2 made.
+  // Layers made by version 2.
   for (const auto& row : enumerators<Sampling>()) names.push_back(short_label(row.label));
   return names;
 }

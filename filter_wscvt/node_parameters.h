@@ -9,7 +9,7 @@
 
 namespace wscvt::filter {
 
-// The parameters of the filters that give a mesh of N nodes.
+// Parameters of the filters that make a mesh of N nodes.
 
 FilterParameter node_count_parameter();
 FilterParameter method_parameter(Method default_method);
@@ -19,16 +19,17 @@ FilterParameter placement_parameter();
 FilterParameter edge_ratio_parameter();
 FilterParameter colour_by_quality_parameter();
 
-/// Reads all of the above but the last. A value that only the other method has is refused, with its
-/// method's name; `on_surface` says whether nodes on the scan lie on the surface by default.
+/// Reads all of the above except the last. Throws Error, with the method's name, for a value that
+/// only the other method has. `on_surface`: whether the default placement of the method on the scan
+/// is on the surface.
 RemeshOptions read_node_options(const CheckedValues& values, bool on_surface);
 
-/// What the result's vertex quality holds.
+/// Values of the result's vertex quality.
 enum class VertexQuality {
   RadialDistance,    ///< from the centroid, length
   Curvature,         ///< largest absolute principal curvature, 1/length
   CellArea,          ///< surface area of the node's cell, length^2
-  OriginalDistance,  ///< from the node to the original, length
+  OriginalDistance,  ///< from the node to the scan, length
 };
 
 }  // namespace wscvt::filter
@@ -51,19 +52,19 @@ struct wscvt::EnumerationTable<wscvt::filter::VertexQuality> {
 
 namespace wscvt::filter {
 
-/// Asks for what a vertex quality needs.
+/// Requests the results that a vertex quality needs.
 void request_quality(RemeshOptions& options, VertexQuality quality);
 
-/// Values of the chosen quality, one a vertex of the result.
+/// Returns the chosen quality, one value per vertex of the result.
 const std::vector<double>& quality_values(const RemeshResult& result, VertexQuality quality);
 
-/// How the nodes were chosen, short, for labels: Constant, WSCVT-D, Fibonacci lattice, ...
+/// Short name of the node distribution, for labels: Constant, WSCVT-D, Fibonacci lattice, ...
 std::string nodes_name(const RemeshOptions& options);
 
-/// All that nodes_name gives.
+/// All values of nodes_name.
 std::vector<std::string> all_nodes_names();
 
-/// What a filter does with a mesh of N nodes.
+/// Settings of a filter for its mesh of N nodes.
 struct ResultSettings {
   VertexQuality quality = VertexQuality::RadialDistance;
   bool colour_by_quality = false;

@@ -29,7 +29,7 @@ double checked_value(const FilterParameter& parameter, double value) {
   const bool whole = parameter.kind == ParameterKind::Real || value == std::floor(value);
   if (value >= parameter.minimum && value <= parameter.maximum && whole) return value;
 
-  std::string sentence = "Parameter " + parameter.name + " is " + typed_text(value) + "; give ";
+  std::string sentence = "Parameter " + parameter.name + " is " + typed_text(value) + ". Give ";
   if (parameter.kind == ParameterKind::Choice) {
     for (std::size_t k = 0; k < parameter.choices.size(); ++k) {
       if (k > 0) sentence += k + 1 < parameter.choices.size() ? ", " : " or ";
@@ -60,7 +60,7 @@ ParameterValue checked(const FilterParameter& parameter, const ParameterValue& v
   if (is_text != holds_text(parameter.kind)) {
     throw Error(ErrorCode::InvalidInput,
                 "Parameter " + parameter.name + " is " +
-                    (is_text ? "a text; give a number." : "a number; give a text."));
+                    (is_text ? "a text. Give a number." : "a number. Give a text."));
   }
   if (is_text) return value;
   return checked_value(parameter, std::get<double>(value));
@@ -164,14 +164,14 @@ CheckedValues::CheckedValues(const ParameterList& parameters, const ParameterVal
 const std::vector<ReplacedParameter>& replaced_parameters() {
   static const std::vector<ReplacedParameter> replaced = {
       {"RefinementRounds", "Use EdgeRatio 1.4 or larger."},
-      {"SmallestAngle", "Use EdgeRatio 1.4 or larger, whose angles stay near 30 degrees or above."},
-      {"Metric", "Method decides it."},
-      {"Parametrization", "Method decides it."},
+      {"SmallestAngle", "Use EdgeRatio 1.4 or larger. The angles stay near 30 degrees or above."},
+      {"Metric", "Method replaces it."},
+      {"Parametrization", "Method replaces it."},
       {"CurvatureSource", "Leave it out."},
-      {"Sampling", "The program has it: wscvt --method as-published --sampling."},
-      {"SeedStart", "Leave it out: the start is always the best one."},
+      {"Sampling", "Only the program has it: wscvt --method as-published --sampling."},
+      {"SeedStart", "Leave it out: the best initial seeds are always used."},
       {"RandomSeed", "Leave it out: nothing is random."},
-      {"MaxIterations", "Leave it out: the relaxation ends by itself."},
+      {"MaxIterations", "Leave it out: the relaxation stops by itself."},
       {"Threads", "Leave it out: all threads are used."},
   };
   return replaced;

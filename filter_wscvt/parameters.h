@@ -12,7 +12,7 @@
 
 namespace wscvt::filter {
 
-/// What a parameter holds.
+/// Kind of a parameter's value.
 enum class ParameterKind {
   Integer,     ///< a whole number
   Real,        ///< a decimal number
@@ -39,16 +39,16 @@ struct FilterParameter {
   std::vector<std::string> choices;     ///< of a Choice, in the order of their index
   std::vector<std::string> extensions;  ///< of a file: ".json", ...
   std::string label;
-  std::string tooltip;       ///< what it does
-  std::string choices_help;  ///< of a Choice: what each one does
-  bool advanced = false;     ///< folded away at first by hosts that can
-  bool required = false;     ///< in a script: hosts drop what they cannot read, and say nothing
+  std::string tooltip;       ///< its effect
+  std::string choices_help;  ///< of a Choice: the effect of each choice
+  bool advanced = false;     ///< hidden at first, if the host can
+  bool required = false;     ///< in a script: hosts silently drop unreadable values
 };
 
 /// Parameters in the order in which a dialog shows them.
 using ParameterList = std::vector<FilterParameter>;
 
-/// A label without what stands in brackets behind it: "WSCVT-D", for names that are to be short.
+/// Returns a label without the brackets at its end: "WSCVT-D", for short names.
 std::string short_label(std::string_view label);
 
 FilterParameter integer_parameter(std::string name, int default_value, int minimum, int maximum,
@@ -59,14 +59,14 @@ FilterParameter choice_parameter(std::string name, int default_index,
                                  std::vector<std::string> choices, std::string label,
                                  std::string tooltip);
 
-/// All that a dialog says of a parameter.
+/// Returns the full help text of a parameter.
 std::string whole_tooltip(const FilterParameter& parameter);
 
-/// What a dialog without room for all of it says: of what the parameter does the first sentences,
-/// as many as fit into so many characters together; the first one always.
+/// Returns a short help text for dialogs without enough room: the first sentences of the tooltip
+/// that fit into `most` characters together, at least one.
 std::string brief_tooltip(const FilterParameter& parameter, std::size_t most_characters);
 
-/// A parameter for an option of the library: its range, which the tooltip then tells as well.
+/// Makes a parameter for an option of the library. The tooltip includes its range.
 FilterParameter option_parameter(std::string name, int default_value,
                                  const NumberOption<int>& option, std::string label,
                                  const std::string& tooltip);
@@ -82,7 +82,7 @@ std::vector<std::string> choices_of() {
   return choices;
 }
 
-/// A parameter for an enumeration of the library. The tooltip tells what each choice does.
+/// Makes a parameter for an enumeration of the library. The tooltip explains each choice.
 template <class Enumeration>
 FilterParameter table_parameter(std::string name, Enumeration default_value, std::string label,
                                 std::string tooltip) {
@@ -111,12 +111,12 @@ using ParameterValue = std::variant<double, std::string>;
 /// Parameter values by name.
 using ParameterValues = std::map<std::string, ParameterValue>;
 
-/// The values of all parameters of a list, checked. Scripts check nothing, so every value is
-/// checked here.
+/// The checked values of all parameters of a list. Scripts check nothing, so every value is checked
+/// here.
 class CheckedValues {
  public:
-  /// A name that is missing takes its default. Throws Error(InvalidInput) for a value that is not
-  /// finite, out of range, of the wrong sort or, except for a Real, not whole.
+  /// A missing name gets its default. Throws Error(InvalidInput) for a value that is not finite,
+  /// out of range, of the wrong kind or, except for a Real, not an integer.
   CheckedValues(const ParameterList& parameters, const ParameterValues& values);
 
   double real(const std::string& name) const { return std::get<double>(values_.at(name)); }
@@ -134,19 +134,19 @@ class CheckedValues {
   ParameterValues values_;
 };
 
-/// A parameter of version 2, which scripts may still hold, and what to use instead.
+/// A parameter of version 2 that scripts may still have, and its replacement.
 struct ReplacedParameter {
   const char* name;
   const char* instead;
 };
 
-/// All of them, whichever filter had them.
+/// Returns the replaced parameters of all filters.
 const std::vector<ReplacedParameter>& replaced_parameters();
 
-/// The decimal number a user typed, given the float a host made of it: 0.1, not 0.100000001.
+/// Returns the decimal number that the user typed, from the host's float: 0.1, not 0.100000001.
 double typed_value(float value);
 
-/// The same in a host whose numbers are doubles, but which reads scripts and fields as floats.
+/// For hosts that store doubles, but read scripts and fields as floats.
 double typed_value(double value);
 
 }  // namespace wscvt::filter

@@ -12,8 +12,8 @@ namespace wscvt::filter {
 std::string remesh_name() { return "Remeshing: Weighted Spherical Centroidal Voronoi"; }
 
 std::string remesh_help() {
-  // Three lines: in 2020.09, whose dialog does not scroll, a longer text pushes Apply off the
-  // screen. MeshLab's search finds a filter by the words of its name and of this text.
+  // Three lines: the dialog of 2020.09 does not scroll, and a longer text would push Apply off the
+  // screen. MeshLab's search uses the words of the filter's name and of this text.
   return "Isotropic CVT of <b>exactly N nodes</b>: simplify, decimate or resample a sand grain "
          "(particle) for DEM. WSCVT: <i>Wu F., Huang L., Lai Z.</i>, doi "
          "10.6052/j.issn.1000-4750.2022.07.0614";
@@ -30,9 +30,9 @@ ParameterList remesh_parameters() {
           "given "
           "up to " +
               typed_text(defaults.target.largest_node_count) +
-              ". The log has the error of each number tried. Takes ten times as long."),
+              ". The log lists the errors. Takes ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error measure",
-                      "Which error is allowed, each in % of the scan's value."),
+                      "The error to be limited, in % of the scan's value."),
       method_parameter(Method::OnScan),
       weighting_parameter(),
       curvature_alpha_parameter(),
@@ -40,8 +40,8 @@ ParameterList remesh_parameters() {
       edge_ratio_parameter(),
       option_parameter("HarmonicDegree", defaults.degree, harmonic_degree_option,
                        "Degree of the SH series",
-                       "As published: of the spherical-harmonic surface. On the scan: of the saved "
-                       "coefficients only."),
+                       "As published: degree of the spherical-harmonic surface. On the scan: "
+                       "degree of the saved coefficients only."),
       option_parameter(
           "FoldLimit", published.max_overhang_percent, max_overhang_option,
           "Max. overhang (% of solid angle)",
@@ -60,21 +60,19 @@ ParameterList remesh_parameters() {
           "NewLayer", true, "Result as a new layer",
           "Unchecked: the result replaces the scan, which cannot be undone. Checked: it becomes a "
           "new, current layer."),
-      flag_parameter(
-          "Distances", defaults.measures.distances, "Measure distances",
-          "Largest, rms and mean distance between scan and remesh, both ways. For log and "
-          "report; takes about a second."),
+      flag_parameter("Distances", defaults.measures.distances, "Measure distances",
+                     "Largest, rms and mean distance between scan and remesh, both ways, for log "
+                     "and report. Takes about a second."),
       table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
-                      "What each vertex of the result holds as its quality."),
+                      "Value stored as the quality of each vertex of the result."),
       colour_by_quality_parameter(),
       flag_parameter("KeepColors", true, "Keep colors and labels",
                      "The result takes color and quality from the nearest point of the scan. "
-                     "A quality of the scan takes the place of the radial distance."),
+                     "The scan's quality then replaces the radial distance."),
       report_file_parameter(),
-      output_file_parameter(
-          "CoefficientsFile", {".json", ".sh"}, "Coefficients file",
-          "For the coefficients of the SH series, or nothing: .json, or .sh for SHTOOLS (no "
-          "overhangs). The filter that creates grains reads it."),
+      output_file_parameter("CoefficientsFile", {".json", ".sh"}, "Coefficients file",
+                            "For the coefficients of the SH series: .json, or .sh for SHTOOLS (no "
+                            "overhangs). Empty: no file. The filter that creates grains reads it."),
   };
 }
 
@@ -92,10 +90,9 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   if (auto* published = std::get_if<AsPublishedOptions>(&options.method)) {
     published->max_overhang_percent = max_overhang;
   } else if (max_overhang != AsPublishedOptions().max_overhang_percent) {
-    throw Error(ErrorCode::InvalidInput,
-                "Parameter FoldLimit is " + typed_text(max_overhang) +
-                    ", which only the method \"As published\" has: on the scan any closed grain is "
-                    "remeshed. Leave it at its default. Nothing was changed.");
+    throw Error(ErrorCode::InvalidInput, "Parameter FoldLimit is " + typed_text(max_overhang) +
+                                             ". Only the method \"As published\" has this limit. "
+                                             "Leave it at its default. Nothing was changed.");
   }
   options.max_repaired_area_percent = checked.real("MendLimit");
   options.points = checked.flag("Points");

@@ -12,18 +12,18 @@ namespace wscvt::filter {
 /// The remesher's menu text. Saved scripts refer to it: it never changes.
 std::string remesh_name();
 
-/// What the filter does, when it refuses and whose method it is, as the HTML a host shows.
+/// Returns the filter's description, limits and references as HTML.
 std::string remesh_help();
 
 ParameterList remesh_parameters();
 
-/// Everything the user chose.
+/// All settings of the user.
 struct RemeshSettings {
   RemeshOptions options;
   bool new_layer = true;
   bool keep_attributes = true;  ///< colour and quality of the scan
   ResultSettings result;
-  std::string coefficients_file;  ///< to be written; empty: none
+  std::string coefficients_file;  ///< output; empty: none
 };
 
 /// Throws Error(InvalidInput) for values that do not fit and file names with other extensions.

@@ -20,7 +20,7 @@ const std::map<std::string, std::string> short_labels = {{"volume", "volume"},
                                                          {"sphericity_wadell", "sphericity"},
                                                          {"aspect_ratio_inertia", "aspect ratio"}};
 
-/// The lines of the library's report on these topics.
+/// Appends the lines of the library's report on these topics.
 void append_topics(std::vector<std::string>& lines, const std::vector<std::string>& report,
                    const std::vector<std::string>& topics) {
   for (const std::string& line : report) {
@@ -31,7 +31,7 @@ void append_topics(std::vector<std::string>& lines, const std::vector<std::strin
   }
 }
 
-/// What a person looks at first, one row per measure: scan, remesh, error in %.
+/// The most important measures, one row each: scan, remesh, error in %.
 std::vector<std::string> short_table(const RemeshResult& result) {
   std::vector<std::vector<std::string>> cells = {{"", "scan", "remesh", "error %"}};
   const auto add = [&](const std::string& label, double from, double to) {
@@ -40,7 +40,7 @@ std::vector<std::string> short_table(const RemeshResult& result) {
   // A surface from a formula has neither vertices nor triangles.
   const bool is_scan = result.input.input_vertices > 0;
   const double none = std::numeric_limits<double>::quiet_NaN();
-  // Counts in full, however large.
+  // Counts are never abbreviated.
   const auto add_count = [&](const std::string& label, std::size_t from, std::size_t to) {
     cells.push_back({"  " + label, is_scan ? std::to_string(from) : "-", std::to_string(to), ""});
   };

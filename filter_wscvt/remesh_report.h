@@ -9,8 +9,8 @@
 
 namespace wscvt::filter {
 
-/// The log of a run, short and narrow enough for a host's panel: what changed, one row per measure,
-/// what was repaired, the time, then the warnings. Everything else is in the report.
+/// Returns a run's log, short and narrow enough for a host's panel: changes with one row per
+/// measure, repairs, time, warnings. The report contains everything else.
 std::vector<LogLine> log_lines(const RemeshResult& result, double seconds);
 
 }  // namespace wscvt::filter

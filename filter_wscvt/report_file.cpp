@@ -27,7 +27,7 @@ std::string extension_of(const std::string& path) {
   }
   throw Error(ErrorCode::InvalidInput,
               "Parameter " + parameter + " is '" + path +
-                  "', whose extension does not fit; give a file name that ends in " + wanted +
+                  "', but the extension does not fit. Give a file name that ends in " + wanted +
                   ". Nothing was changed.");
 }
 
@@ -36,8 +36,8 @@ std::string extension_of(const std::string& path) {
 FilterParameter report_file_parameter() {
   return output_file_parameter(
       "ReportFile", report_endings(), "Report file",
-      "For the report, or nothing: .html (a page with pictures), .json (everything) or .csv (a row "
-      "more of a table). The log says where.");
+      "For the report: .html (with pictures), .json (everything) or .csv (appends a row to a "
+      "table). Empty: no report. The log shows the path.");
 }
 
 void check_remesh_report_file(const std::string& path) {
@@ -65,12 +65,12 @@ void check_output_file(const std::string& path, const std::vector<std::string>& 
   if (!folder.isDir()) {
     throw Error(ErrorCode::InputOutput,
                 "Parameter " + parameter + " is '" + path + "', but there is no folder '" +
-                    folder.filePath().toStdString() + "'; create it first. Nothing was changed.");
+                    folder.filePath().toStdString() + "'. Create it first. Nothing was changed.");
   }
   if (QFileInfo(QString::fromStdString(path)).isDir()) {
-    throw Error(ErrorCode::InputOutput, "Parameter " + parameter + " is '" + path +
-                                            "', which is a folder; give the name of a file. "
-                                            "Nothing was changed.");
+    throw Error(ErrorCode::InputOutput,
+                "Parameter " + parameter + " is '" + path +
+                    "', but this is a folder. Give the name of a file. Nothing was changed.");
   }
 }
 
@@ -79,7 +79,7 @@ void check_different_files(const std::string& path, const std::string& parameter
   if (!same_file(path, other)) return;
   throw Error(ErrorCode::InvalidInput, "Parameters " + parameter + " and " + other_parameter +
                                            " both name '" + path +
-                                           "'; give two names. Nothing was changed.");
+                                           "'. Give two names. Nothing was changed.");
 }
 
 }  // namespace wscvt::filter

@@ -11,15 +11,15 @@ namespace wscvt::filter {
 /// The parameter ReportFile of every filter.
 FilterParameter report_file_parameter();
 
-/// Refuses before work starts what could not be written after it: other extensions and tables with
-/// other columns (InvalidInput), folders that do not exist and names of folders (InputOutput). An
-/// empty name is none.
+/// Checks before the work that the file can be written. Throws Error(InvalidInput) for other
+/// extensions and for tables with other columns, Error(InputOutput) for missing folders and names
+/// of folders. An empty name means no file.
 void check_remesh_report_file(const std::string& path);
 
-/// The same for the report of the descriptors, whose tables have more columns with a reference.
+/// Checks a report of descriptors. Its tables have more columns with a reference.
 void check_descriptor_report_file(const std::string& path, bool with_reference);
 
-/// The same for a parameter that names a file to be written, with one of `extensions` (".json").
+/// Checks a parameter with the name of an output file, with one of `extensions` (".json").
 void check_output_file(const std::string& path, const std::vector<std::string>& extensions,
                        const std::string& parameter);
 
@@ -27,8 +27,8 @@ void check_output_file(const std::string& path, const std::vector<std::string>& 
 void check_extension(const std::string& path, const std::vector<std::string>& extensions,
                      const std::string& parameter);
 
-/// Throws Error(InvalidInput) when two parameters name one file, which the one would overwrite
-/// after the other was read or written.
+/// Throws Error(InvalidInput) if two parameters name one file, because one would overwrite the
+/// other.
 void check_different_files(const std::string& path, const std::string& parameter,
                            const std::string& other, const std::string& other_parameter);
 

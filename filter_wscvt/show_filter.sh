@@ -11,7 +11,7 @@ meshlab=
 trap 'if [ -n "$meshlab" ]; then kill "$meshlab" 2>/dev/null || true; fi; rm -rf "$work"' EXIT
 trap 'exit 143' HUP INT TERM
 
-# Settings of its own; software rendering, because a virtual display has no other.
+# Its own settings. Software rendering, because a virtual display has no other.
 mkdir -p "$work/runtime"
 chmod 700 "$work/runtime"
 HOME=$work XDG_CONFIG_HOME=$work/config XDG_RUNTIME_DIR=$work/runtime LIBGL_ALWAYS_SOFTWARE=1 \
@@ -26,7 +26,7 @@ wait_for() {  # what for, command that succeeds once it is there
     kill -0 "$meshlab" 2>/dev/null || break
     sleep 0.5
   done
-  echo "MeshLab shows no $what; its log:" >&2
+  echo "MeshLab shows no $what. Its log:" >&2
   cat "$work/log" >&2
   exit 1
 }
@@ -48,7 +48,7 @@ wait_for "dialog" xdotool search --onlyvisible --name "^$filter"
 sleep 1
 import -window root "$3"
 
-# Apply stands at the right of the dialog's lower edge, Close at the left.
+# Apply is at the right of the dialog's lower edge, Close at the left.
 eval "$(xdotool getwindowgeometry --shell "$(window "^$filter")")"
 xdotool mousemove $((X + WIDTH * 3 / 4)) $((Y + HEIGHT - 22)) click 1
 wait_for "result" grep -q "$filter in " "$work/log"

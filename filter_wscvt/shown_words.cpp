@@ -56,7 +56,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// Whether the dialog of few parameters lacks one that the remesher has.
+/// Whether the remesher has the parameter but the basic dialog does not.
 bool is_in_full_dialog_only(const std::string& name) {
   const auto holds = [&](const ParameterList& list) {
     return std::any_of(list.begin(), list.end(),
@@ -65,7 +65,7 @@ bool is_in_full_dialog_only(const std::string& name) {
   return holds(remesh_parameters()) && !holds(everyday_parameters());
 }
 
-/// "the method on-scan" as the dialog shows it.
+/// Returns "the method on-scan" as the dialog shows it.
 template <class Enumeration>
 void show_values(std::string& text, const std::string& subject) {
   for (const auto& row : enumerators<Enumeration>()) {
@@ -74,7 +74,8 @@ void show_values(std::string& text, const std::string& subject) {
   }
 }
 
-/// The text with the label before a parameter of scripts: "Parameter \"Report file\" (ReportFile)".
+/// Returns the text with the label before a script parameter: "Parameter \"Report file\"
+/// (ReportFile)".
 std::string with_label(const std::string& text, const std::string& name, const std::string& label) {
   const std::string shown = "\"" + label + "\" (" + name + ")";
   const std::regex alone("\\bParameter " + name + "\\b");

@@ -4,7 +4,7 @@
 #include <common/interfaces.h>
 #include <common/mlexception.h>
 
-/// The filters as MeshLab 2020.09 wants them: the only class that knows this version's interface.
+/// The filters for MeshLab 2020.09. Only this class uses this version's interface.
 class FilterWscvt : public QObject, public MeshFilterInterface {
   Q_OBJECT
   MESHLAB_PLUGIN_IID_EXPORTER(MESH_FILTER_INTERFACE_IID)

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-/// The filters as MeshLab 2021.10 to 2025.07 wants them: the only class that knows their interface.
+/// The filters for MeshLab 2021.10 to 2025.07. Only this class uses their interface.
 class FilterWscvt : public QObject, public FilterPlugin {
   Q_OBJECT
   MESHLAB_PLUGIN_IID_EXPORTER(FILTER_PLUGIN_IID)

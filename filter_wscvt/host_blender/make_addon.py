@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the zip of the Blender add-on, which holds the Python module of a wheel.
+"""Makes the zip of the Blender add-on from the Python module of a wheel.
 
     filter_wscvt/host_blender/make_addon.py WHEEL OUTPUT_FOLDER
 
-WHEEL is what lib/python/make_wheel.py makes; its Pythons are those of the add-on.
+WHEEL is made by lib/python/make_wheel.py. The add-on works in the Pythons of the wheel.
 """
 import os
 import pathlib
@@ -21,7 +21,7 @@ def main():
     wheel, output = map(pathlib.Path, sys.argv[1:])
     version = re.match(r"wscvt-([\d.]+)-", wheel.name)
     if not version:
-        sys.exit(f"{wheel} is no wheel of wscvt. Make one by lib/python/make_wheel.py.")
+        sys.exit(f"{wheel} is not a wheel of wscvt. Make one with lib/python/make_wheel.py.")
     output.mkdir(parents=True, exist_ok=True)
     made = output / f"wscvt-{version[1]}-blender.zip"
     part = f"{made}.part"

@@ -23,8 +23,8 @@ namespace {
 constexpr std::array<const char*, 8> type_names{"int8",  "uint8",  "int16",   "uint16",
                                                 "int32", "uint32", "float32", "float64"};
 
-/// The attributes of a dictionary of arrays, one number for each vertex or face. Other types of
-/// NumPy's, such as int64, become double.
+/// Reads attributes from a dictionary of arrays, one number per vertex or face. Other NumPy types,
+/// such as int64, become double.
 std::vector<MeshAttribute> attributes_of(const py::dict& arrays) {
   std::vector<MeshAttribute> attributes;
   for (const auto& [name, array] : arrays) {
@@ -37,7 +37,7 @@ std::vector<MeshAttribute> attributes_of(const py::dict& arrays) {
     const auto values = py::cast<Points>(array);
     if (values.ndim() != 1) {
       throw py::type_error("The attribute \"" + attribute.name +
-                           "\" has another shape than (n,); give one number for each vertex or "
+                           "\" does not have the shape (n,). Give one number for each vertex or "
                            "face.");
     }
     attribute.values.assign(values.data(), values.data() + values.size());
@@ -46,7 +46,7 @@ std::vector<MeshAttribute> attributes_of(const py::dict& arrays) {
   return attributes;
 }
 
-/// Whole types are rounded, as in a file.
+/// Integer types are rounded, as in a file.
 py::dict arrays_of(const std::vector<MeshAttribute>& attributes) {
   py::dict arrays;
   for (const MeshAttribute& attribute : attributes) {
@@ -90,7 +90,7 @@ py::tuple carry_attributes_of_file(const std::string& path, const py::object& me
   return both(carried);
 }
 
-/// Of the file's mesh onto itself, so that a texture becomes colours of its vertices.
+/// Transfers the file's attributes to its own mesh, to turn a texture into vertex colours.
 py::tuple read_attributes(const std::string& path) {
   MeshFile file = read_mesh_file(path);
   if (file.attributes.texture.empty()) return both(file.attributes);
@@ -110,18 +110,17 @@ py::tuple read_attributes(const std::string& path) {
 }  // namespace
 
 void bind_attributes(py::module_& module) {
-  module.def(
-      "read_attributes", &read_attributes, py::arg("path"),
-      "The numbers that the vertices and the faces of a PLY file carry, such as red, green, blue, "
-      "quality or label, and the colours of OBJ's vertices: two dictionaries of arrays (n,). A "
-      "texture of either becomes colours of the vertices. Both are empty for other formats.");
+  module.def("read_attributes", &read_attributes, py::arg("path"),
+             "Returns the attributes of vertices and faces of a PLY file, such as red, green, "
+             "blue, quality or label, and the vertex colours of OBJ, as two dictionaries of arrays "
+             "(n,). A texture becomes vertex colours. Both are empty for other formats.");
   module.def("carry_attributes_of_file", &carry_attributes_of_file, py::arg("path"),
              py::arg("mesh"), py::kw_only(), py::arg("threads") = 0);
   module.def("carry_attributes", &carry_attributes, py::arg("scan"), py::arg("mesh"),
              py::arg("vertex_attributes") = py::dict(), py::arg("face_attributes") = py::dict(),
              py::kw_only(), py::arg("threads") = 0,
-             "Carries the numbers at a scan's vertices and faces onto another mesh in the same "
-             "place, each by the nearest point of the scan. scan and mesh: (vertices, faces). "
+             "Transfers the attributes of a scan's vertices and faces to another mesh at the same "
+             "place, from the nearest point of the scan. scan and mesh: (vertices, faces). "
              "Returns two dictionaries with the same names and types.");
   module.def(
       "write_attributes",

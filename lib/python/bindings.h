@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the module, each in the file of its name.
+// The parts of the module. Each is in a file of its name.
 #ifndef WSCVT_PYTHON_BINDINGS_H_
 #define WSCVT_PYTHON_BINDINGS_H_
 

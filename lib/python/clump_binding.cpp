@@ -58,7 +58,7 @@ void bind_clump(py::module_& module) {
       py::arg("progress") = py::none(),
       "Fits overlapping spheres to a grain. Returns the dictionary of the JSON report, with "
       "spheres as an array (k, 4) of x, y, z and radius. max_error and smallest_radius are in % "
-      "of the equivalent radius. Arrays as for remesh; lengths in the unit of the mesh.");
+      "of the equivalent radius. Arrays as for remesh. Lengths are in the unit of the mesh.");
 }
 
 }  // namespace wscvt::python

@@ -21,7 +21,7 @@ std::string type_name_of(const py::handle& value) {
 
 std::vector<Vector3> points_of(const Points& vertices) {
   if (vertices.ndim() != 2 || vertices.shape(1) != 3) {
-    refuse("The vertices have another shape than (n, 3); give x, y and z in a row a vertex.");
+    refuse("The vertices do not have the shape (n, 3). Give one row of x, y and z per vertex.");
   }
   std::vector<Vector3> points(static_cast<std::size_t>(vertices.shape(0)));
   const auto rows = vertices.unchecked<2>();
@@ -37,15 +37,15 @@ IndexedMesh mesh_of(const Points& vertices, const py::object& faces) {
   mesh.points = points_of(vertices);
   if (faces.is_none()) return mesh;
   const auto array = py::array::ensure(faces);
-  // Numbers with decimals would be cut without a word.
+  // NumPy would silently cut off decimals.
   if (!array || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')) {
     throw py::type_error(
-        "The faces are no whole numbers; give the indices of three vertices a row.");
+        "The faces are not whole numbers. Give the indices of three vertices per row.");
   }
   if (array.ndim() != 2 || array.shape(1) != 3) {
     refuse(
-        "The faces have another shape than (n, 3); give three indices in a row a triangle. Those "
-        "of PyVista are mesh.regular_faces of a triangulated mesh.");
+        "The faces do not have the shape (n, 3). Give one row of three indices per triangle. For "
+        "PyVista, use mesh.regular_faces of a triangulated mesh.");
   }
   const auto indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
   const auto rows = indices.unchecked<2>();
@@ -57,7 +57,7 @@ IndexedMesh mesh_of(const Points& vertices, const py::object& faces) {
           rows(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(corner));
       if (index < 0 || index >= count) {
         refuse("Face " + std::to_string(i) + " has the vertex " + std::to_string(index) +
-               ", but there are " + std::to_string(count) + "; count them from 0.");
+               ", but there are " + std::to_string(count) + " vertices. Count them from 0.");
       }
       mesh.triangles[i][corner] = static_cast<std::int32_t>(index);
     }
@@ -115,7 +115,7 @@ IndexedMesh mesh_of_reference(const py::object& reference) {
     return mesh_of(vertices, faces);
   } catch (const py::cast_error&) {
     throw py::type_error("The reference is of type " + type_name_of(reference) +
-                         "; give a pair of arrays, (vertices, faces).");
+                         ". Give a pair of arrays, (vertices, faces).");
   }
 }
 

@@ -16,21 +16,21 @@
 
 namespace wscvt::python {
 
-/// An array of decimal numbers; an argument of this type takes whatever NumPy makes one of.
+/// An array of doubles. Arguments of this type accept anything that NumPy converts.
 using Points = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-/// The name of a value's type, for messages.
+/// Returns the name of a value's type, for messages.
 std::string type_name_of(const pybind11::handle& value);
 
-/// Points of an array (n, 3). Throws Error for another shape.
+/// Returns the points of an array (n, 3). Throws Error for another shape.
 std::vector<Vector3> points_of(const Points& vertices);
 
-/// A mesh of vertices (n, 3) and faces (m, 3), which may be None for points alone. Throws Error for
-/// other shapes and for indices outside of 0 to n - 1, TypeError for faces that are no whole
-/// numbers.
+/// Returns a mesh of vertices (n, 3) and faces (m, 3). The faces may be None, for points only.
+/// Throws Error for other shapes and for indices outside of 0 to n - 1, TypeError for faces that
+/// are not whole numbers.
 IndexedMesh mesh_of(const Points& vertices, const pybind11::object& faces);
 
-/// The mesh of a pair (vertices, faces). Throws TypeError for what is no pair of arrays.
+/// Returns the mesh of a pair (vertices, faces). Throws TypeError for other types.
 IndexedMesh mesh_of_reference(const pybind11::object& reference);
 
 /// Arrays (n, 3), (n,) and (m, 3).
@@ -38,21 +38,22 @@ pybind11::array_t<double> array_of(const std::vector<Vector3>& points);
 pybind11::array_t<double> array_of(const std::vector<double>& values);
 pybind11::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles);
 
-/// The value of a name in letters of any size, as the program takes it: the paper's WSCVT-D is the
-/// key wscvt-d. Throws Error for any other text.
+/// Returns the value of a name in upper or lower case, like the program: the paper's WSCVT-D is the
+/// key wscvt-d. Throws Error for other texts.
 template <class Enumeration>
 Enumeration value_of_name(const std::string& name) {
   return from_key<Enumeration>(lower_case(name));
 }
 
-/// A sentence of the library, which names options as the program has them, with the names of
-/// arguments: "edge_ratio" for "--edge-ratio". Sentences that show a command stay as they are.
+/// Replaces command-line options in a sentence of the library by argument names: "--edge-ratio"
+/// becomes "edge_ratio". Sentences that show a command stay unchanged.
 std::string in_words_of_python(const std::string& sentence);
 
-/// Gives a sentence as Python's UserWarning. Throws what a filter of warnings makes of it.
+/// Issues a sentence as a UserWarning. Throws if Python's warning filters turn it into an
+/// exception.
 void warn(const std::string& sentence);
 
-/// The dictionaries, lists and numbers of a text in JSON.
+/// Converts JSON to dictionaries, lists and numbers.
 pybind11::object parsed(const std::string& json);
 
 }  // namespace wscvt::python

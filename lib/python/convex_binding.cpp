@@ -44,11 +44,11 @@ void bind_convex(py::module_& module) {
              py::arg("part_faces") = ConvexOptions().faces,
              py::arg("tolerance") = ConvexOptions().tolerance, py::arg("threads") = 0,
              py::arg("progress") = py::none(),
-             "Takes a grain apart into at most `parts` convex parts, for physics engines. Returns "
-             "a list with a pair (vertices, faces) for each part, and their distances from the "
-             "grain, their volume and the grain's mass properties as a dictionary. part_faces: "
-             "faces of a part at most; tolerance: distance that needs no cut, % of the equivalent "
-             "radius. The scan and the options of its remesh as for remesh. Raises Error.");
+             "Divides a grain into at most `parts` convex parts, for physics engines. Returns a "
+             "list with a pair (vertices, faces) for each part, and a dictionary with distances "
+             "from the grain, volume and the grain's mass properties. part_faces: max. number of "
+             "faces of a part. tolerance: distance that needs no cut, % of the equivalent radius. "
+             "The scan and the options of its remesh are as for remesh. Raises Error.");
 }
 
 }  // namespace wscvt::python

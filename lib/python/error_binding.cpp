@@ -38,8 +38,8 @@ void bind_error(py::module_& module) {
       py::register_exception<Error>(module, "Error", PyExc_RuntimeError).inc_ref();
   error_type.attr("__module__") = "wscvt";
   error_type.attr("__doc__") =
-      "What the library refuses or could not do, in a sentence that says what to do. `code` is "
-      "invalid-input, not-star-shaped, numerical-failure, input-output or cancelled.";
+      "An error of the library. The message says what to do. `code` is invalid-input, "
+      "not-star-shaped, numerical-failure, input-output or cancelled.";
   // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature that pybind11 asks for
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -50,7 +50,7 @@ void bind_error(py::module_& module) {
       PyErr_SetObject(error_type.ptr(), raised.ptr());
     } catch (const std::bad_alloc&) {
       PyErr_SetString(PyExc_MemoryError,
-                      "There is not enough memory for this; simplify the mesh or ask for fewer "
+                      "There is not enough memory for this. Simplify the mesh or use fewer "
                       "nodes.");
     }
   });

@@ -28,9 +28,9 @@ struct LabelVoxels {
   bool touches_border = false;
 };
 
-/// What becomes of the labels of an array.
+/// Result for a label of an array.
 struct ExtractedGrain {
-  IndexedMesh mesh;  ///< without points where the largest piece is too small
+  IndexedMesh mesh;  ///< without points if the largest piece is too small
   std::size_t pieces = 0;
   std::string failure;  ///< why there is no mesh
 };
@@ -100,10 +100,11 @@ Labels checked_labels(const py::object& object) {
   const auto array = py::array::ensure(object);
   const char kind = array ? array.dtype().kind() : ' ';
   if (kind != 'i' && kind != 'u' && kind != 'b') {
-    throw py::type_error("The labels are no whole numbers; give an array of them, (nz, ny, nx).");
+    throw py::type_error(
+        "The labels are not whole numbers. Give an array (nz, ny, nx) of whole numbers.");
   }
   if (array.ndim() != 3) {
-    refuse("The labels have another shape than (nz, ny, nx); give an array of three dimensions.");
+    refuse("The labels do not have the shape (nz, ny, nx). Give an array of three dimensions.");
   }
   return Labels(array);
 }
@@ -129,7 +130,7 @@ py::dict extract(const py::object& labels, const std::array<double, 3>& voxel_si
     if (grain.mesh.points.empty()) continue;
     if (grain.pieces > 1) {
       warn("The label " + std::to_string(label) + " is in " + std::to_string(grain.pieces) +
-           " pieces; the largest was taken.");
+           " pieces. The largest was used.");
     }
     dict[py::int_(label)] =
         py::make_tuple(array_of(grain.mesh.points), array_of(grain.mesh.triangles));

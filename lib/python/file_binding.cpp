@@ -16,7 +16,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// The mesh of a file, whose warnings become Python's.
+/// Reads a mesh. Warnings about the file become Python warnings.
 IndexedMesh warned(MeshFile file) {
   for (const std::string& warning : file.warnings) warn(warning);
   return std::move(file.mesh);
@@ -33,10 +33,10 @@ void bind_files(py::module_& module) {
         return std::make_pair(array_of(mesh.points), array_of(mesh.triangles));
       },
       py::arg("path"),
-      ("Vertices (n, 3) float64 and faces (m, 3) int32 of a file that ends in " +
+      ("Returns vertices (n, 3) float64 and faces (m, 3) int32 of a file that ends in " +
        mesh_extensions(MeshUse::Read) +
-       ", also packed by gzip, as they are: nothing is repaired, and of STL each corner is a "
-       "vertex. Of the last three there are no faces. What is odd about a file is a UserWarning.")
+       ", also packed by gzip. Nothing is repaired. In STL each corner is a vertex. The last three "
+       "formats have no faces. Problems of a file are UserWarnings.")
           .c_str());
   module.def(
       "write_mesh",
@@ -44,7 +44,8 @@ void bind_files(py::module_& module) {
         write_mesh(mesh_of(vertices, faces), path.string());
       },
       py::arg("path"), py::arg("vertices"), py::arg("faces"),
-      ("Writes a file by its ending, " + mesh_extensions(MeshUse::Write) + ", whole or not at all.")
+      ("Writes a file by its ending, " + mesh_extensions(MeshUse::Write) +
+       ", completely or not at all.")
           .c_str());
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Templates of a sample and virtual grains. The package makes structured arrays of the parts that
-// are given here.
+// Templates of a sample and virtual grains. The Python package combines these parts into structured
+// arrays.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -45,7 +45,7 @@ py::dict templates(const Eigen::MatrixXd& descriptors, const std::vector<double>
   return parts;
 }
 
-/// Coefficients of a grain, or its mesh: one of the two is empty.
+/// Coefficients of a grain or its mesh; the other is empty.
 struct RealGrain {
   std::vector<double> coefficients;
   IndexedMesh mesh;

@@ -15,7 +15,7 @@ choices = wscvt._wscvt._choices()
 
 def annotation(name, default):
     if name in choices:
-        # Any case is taken; the stub has the names as the module gives them and as the paper writes them.
+        # Any case is accepted. The stub has the module's names and the paper's names.
         names = choices[name] + [choice.upper() for choice in choices[name] if choice.startswith("wscvt-")]
         return "Literal[" + ", ".join(f'"{choice}"' for choice in names) + "]"
     return type(default).__name__

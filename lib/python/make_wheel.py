@@ -21,11 +21,11 @@ import zipfile
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 OTHER_PYTHONS = {"trixie": "libpython3.13-dev"}  # of which Debian suite which package
-# The wheel's promise to pip; symbols that are newer than these are refused below.
+# The wheel's promise to pip. The check below rejects newer symbols.
 PLATFORM = "manylinux_2_36_x86_64"
 NEWEST_SYMBOLS = {"GLIBC": (2, 36), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13)}
 OF_EVERY_LINUX = re.compile(r"(libc|libm|libstdc\+\+|libgcc_s|ld-linux-x86-64)\.so\.\d+$")
-# Packages whose code is in the modules, beside the libraries that are bundled.
+# Packages with code in the modules, in addition to the bundled libraries.
 HEADERS_OF = ["libcgal-dev", "libboost1.74-dev", "libeigen3-dev", "libopenmesh-dev",
               "nlohmann-json3-dev", "libstb-dev", "pybind11-dev"]
 METADATA = """Metadata-Version: 2.1
@@ -46,7 +46,7 @@ def output_of(*command):
 
 
 def build_modules(build):
-    """Builds the module for each Python and returns the folder that holds them."""
+    """Builds the module for each Python and returns their folder."""
     folders = []
     for suite, package in OTHER_PYTHONS.items():
         folders.append(build.parent / f"python-headers-{suite}")
@@ -60,7 +60,7 @@ def build_modules(build):
 
 
 def libraries_of(module):
-    """The paths of the shared libraries to be bundled with a module."""
+    """Returns the paths of the shared libraries to be bundled with a module."""
     lines = re.findall(r"(\S+) => (\S+)", output_of("ldd", module))
     return {name: pathlib.Path(path).resolve() for name, path in lines
             if not OF_EVERY_LINUX.match(name)}
@@ -69,17 +69,17 @@ def libraries_of(module):
 def copyright_of(package):
     file = pathlib.Path("/usr/share/doc") / package / "copyright"
     if not file.is_file():
-        sys.exit(f"There is no {file}, the licence of what the wheel holds. Install {package}.")
+        sys.exit(f"There is no {file}, the licence of a library in the wheel. Install {package}.")
     return file.read_text(encoding="utf-8")
 
 
 def package_of(library):
-    """The Debian package that a library comes from."""
+    """Returns the Debian package of a library."""
     for path in (library, pathlib.Path("/", *library.parts[2:])):  # /lib is /usr/lib
         said = subprocess.run(["dpkg", "-S", path], capture_output=True, text=True).stdout
         if said:
             return said.split(":")[0]
-    sys.exit(f"No Debian package has {library}, so that its licence is not known.")
+    sys.exit(f"No Debian package has {library}, so its licence is unknown.")
 
 
 def check_symbols(file):
@@ -90,7 +90,7 @@ def check_symbols(file):
 
 
 def fill(package, licences, modules):
-    """Puts modules, libraries and licence texts into the folders of the wheel."""
+    """Copies modules, libraries and licence texts into the wheel's folder."""
     package.mkdir(parents=True)
     licences.mkdir(parents=True)
     for name in ("__init__.py", "__init__.pyi", "py.typed"):
@@ -116,7 +116,7 @@ def fill(package, licences, modules):
 
 
 def write_wheel(folder, wheel, info):
-    """Packs the folder; the same files make the same bytes."""
+    """Packs the folder. Equal files give equal bytes."""
     rows = []
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as packed:
         def add(name, content, mode=0o644):

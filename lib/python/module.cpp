@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The library for Python: meshes are NumPy arrays, options are keywords under the names that one
-// types for the program, reports are dictionaries. A new subject is a file NAME_binding.cpp, with
-// its line in bindings.h and below; conversion.h and work.h have what bindings share.
+// The library for Python: meshes are NumPy arrays, options are keywords with their command-line
+// names, reports are dictionaries. A new subject needs a file NAME_binding.cpp and a line in
+// bindings.h and below. conversion.h and work.h have the shared code of the bindings.
 #include <pybind11/pybind11.h>
 
 #include "bindings.h"

@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// "target_measure" of "target-measure".
+/// Converts "target-measure" to "target_measure".
 std::string keyword_of(std::string_view key) {
   std::string keyword(key);
   std::replace(keyword.begin(), keyword.end(), '-', '_');
@@ -32,11 +32,11 @@ Value cast_option(const std::string& keyword, const py::handle& value, const cha
     return value.cast<Value>();
   } catch (const py::cast_error&) {
     throw py::type_error("The option " + keyword + " is " + py::repr(value).cast<std::string>() +
-                         "; give " + wanted + ".");
+                         ". Give " + wanted + ".");
   }
 }
 
-/// Takes the options that are given.
+/// Reads the given options.
 class ReadOptions {
  public:
   explicit ReadOptions(const py::dict& given) : given_(given) {}
@@ -69,7 +69,7 @@ class ReadOptions {
     });
   }
 
-  /// Throws TypeError for what is no option.
+  /// Throws TypeError for unknown options.
   void finish() const {
     if (found_ == given_.size()) return;
     for (const auto& [name, value] : given_) {
@@ -82,7 +82,7 @@ class ReadOptions {
         throw py::type_error("The option " + keyword + ": " + in_words_of_python(advice));
       }
       throw py::type_error("There is no option " + keyword +
-                           "; wscvt.options() has the options and their defaults.");
+                           ". wscvt.options() lists the options and their defaults.");
     }
   }
 
@@ -118,7 +118,7 @@ class OptionsToDict {
   py::dict options_;
 };
 
-/// The names that the values of an option have, by the option.
+/// The names of each option's values, by the option.
 class ChoicesToDict {
  public:
   template <class Number>
@@ -160,8 +160,8 @@ void bind_options(py::module_& module) {
         return dict.options_;
       },
       py::arg("method") = key_of(Method::OnScan),
-      "All options of remesh and create by a method, with their defaults: the names that one types "
-      "for the program, with _ for -.");
+      "Returns all options of remesh and create for a method, with their defaults. The names are "
+      "the command-line names, with _ for -.");
   module.def("_choices", [] {
     ChoicesToDict dict;
     const RemeshOptions options;

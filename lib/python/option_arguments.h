@@ -9,9 +9,8 @@
 
 namespace wscvt::python {
 
-/// The options with those that are given by keyword, "edge_ratio" for "edge-ratio". Throws
-/// TypeError for a name that no option has and for values of another type, Error for values out of
-/// range.
+/// Sets the options given by keyword, "edge_ratio" for "edge-ratio". Throws TypeError for unknown
+/// names and values of another type, Error for values out of range.
 RemeshOptions options_of(const pybind11::dict& given, RemeshOptions options);
 
 }  // namespace wscvt::python

@@ -60,7 +60,7 @@ Remesh create(const std::string& kind, const std::array<double, 3>& semi_axes,
 
 }  // namespace
 
-// wscvt/__init__.py has the words for what these take and give.
+// wscvt/__init__.py documents the arguments and results of these functions.
 void bind_remesh(py::module_& module) {
   module.def("remesh", &remesh, py::arg("vertices"), py::arg("faces"), py::kw_only(),
              py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("source") = "",

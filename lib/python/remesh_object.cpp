@@ -36,11 +36,10 @@ std::string log_of(const Remesh& one) {
   return text;
 }
 
-/// Refuses what needs more of a result than a pickled one has.
+/// Throws Error if the result was pickled, because `wanted` then has no data.
 void require_whole(const Remesh& one, const std::string& wanted) {
   if (!is_pickled(one)) return;
-  refuse("A result that was pickled holds arrays and report only. Write " + wanted +
-         " before it is pickled.");
+  refuse("A pickled result has only arrays and report. Write " + wanted + " before it is pickled.");
 }
 
 SimulationOptions simulation_options(const std::string& frame, double scale, double size) {
@@ -58,7 +57,9 @@ void write_report_file(const Remesh& one, const std::filesystem::path& path, int
   check_remesh_report(path.string());
   if (shows_scan(path.string()) && one.result.repaired_scan.points.empty() &&
       !one.result.options.measures.repaired_scan) {
-    refuse("The page shows the scan, which this result does not hold. Remesh with keep_scan=True.");
+    refuse(
+        "The HTML report shows the scan, but this result does not have it. Remesh with "
+        "keep_scan=True.");
   }
   work_on(threads, progress, [&](const Execution& execution) {
     write_report(path.string(), one.result, one.origin, execution);
@@ -74,7 +75,7 @@ py::array node_array(const Remesh& one, const std::string& frame, double scale, 
     mesh = in_frame(std::move(mesh), simulation_frame(one.result.original, options.frame));
   }
   const NodeTable table = node_table(std::move(mesh));
-  // A structured array: its columns have names, and pandas opens it.
+  // A structured array has names for its columns, and pandas reads it.
   py::list fields;
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "area"}) {
     fields.append(py::make_tuple(name, "f8"));
@@ -109,7 +110,7 @@ void write_grid_file(const Remesh& one, const std::filesystem::path& path, doubl
   check_simulation_options(options);
   if (options.surface == GridSurface::Scan && one.result.repaired_scan.points.empty()) {
     refuse(
-        "This result does not hold its scan. Remesh with keep_scan=True, or give "
+        "This result does not have its scan. Remesh with keep_scan=True, or give "
         "surface=\"remesh\".");
   }
   work_on(threads, progress, [&](const Execution& execution) {
@@ -185,26 +186,27 @@ void add_arrays(RemeshClass& type) {
 }
 
 void add_files(RemeshClass& type) {
-  type.def(
-          "write_report", &write_report_file, py::arg("path"), py::kw_only(),
-          py::arg("threads") = 0, py::arg("progress") = py::none(),
-          "Writes the report: a page with pictures (.html), everything (.json), or a row more of a "
-          "table (.csv). A page needs keep_scan, which is on unless it was switched off.")
+  type.def("write_report", &write_report_file, py::arg("path"), py::kw_only(),
+           py::arg("threads") = 0, py::arg("progress") = py::none(),
+           "Writes the report: HTML with pictures (.html), everything (.json), or a row appended "
+           "to a table (.csv). HTML needs keep_scan (default).")
       .def("node_table", &node_array, py::kw_only(), py::arg("frame") = "input",
            py::arg("scale") = 1.0, py::arg("size") = 0.0,
-           "Structured array (N,) with the fields x, y, z (length), nx, ny, nz (unit, outward) and "
-           "area (length^2, a third of the triangles about the node). frame: input, centred or "
-           "principal; scale: factor of lengths; size: equivalent diameter, in place of a scale.")
-      .def("write_node_table", &write_node_file, py::arg("path"), py::kw_only(),
-           py::arg("frame") = "input", py::arg("scale") = 1.0, py::arg("size") = 0.0,
-           "Writes that table as .csv, .vtp (ParaView) or .shp (Rockable; frame=\"principal\").")
+           "Returns a structured array (N,) with the fields x, y, z (length), nx, ny, nz (unit, "
+           "outward) and area (length^2, a third of the triangles around the node). frame: input, "
+           "centred or "
+           "principal; scale: factor of lengths; size: equivalent diameter, instead of scale.")
+      .def(
+          "write_node_table", &write_node_file, py::arg("path"), py::kw_only(),
+          py::arg("frame") = "input", py::arg("scale") = 1.0, py::arg("size") = 0.0,
+          "Writes the node table as .csv, .vtp (ParaView) or .shp (Rockable; frame=\"principal\").")
       .def("write_signed_distances", &write_grid_file, py::arg("path"), py::arg("spacing") = 0.0,
            py::kw_only(), py::arg("surface") = "scan", py::arg("frame") = "input",
            py::arg("scale") = 1.0, py::arg("size") = 0.0, py::arg("threads") = 0,
            py::arg("progress") = py::none(),
-           "Writes signed distances on a grid, negative inside: .npy with a description beside it, "
-           ".vti (ParaView) or .json (NetDEM). spacing: length, 0 for a fiftieth of the equivalent "
-           "diameter; surface: scan (needs keep_scan) or remesh.");
+           "Writes signed distances on a grid, negative inside: .npy with a description file, .vti "
+           "(ParaView) or .json (NetDEM). spacing: length, 0 for 1/50 of the equivalent diameter; "
+           "surface: scan (needs keep_scan) or remesh.");
 }
 
 }  // namespace
@@ -217,8 +219,8 @@ void bind_remesh_object(py::module_& module) {
       "N "
       "- 4 without handles; centre (3,), length; radial_distances (N,) from it, length; cell_areas "
       "(N,), length^2; vertex_distances (N,) to the scan, length, empty unless distances=True; "
-      "warnings, a list of sentences; report, a dictionary as the JSON report. str() gives the "
-      "log. It pickles with arrays, report and log.");
+      "warnings, a list of sentences; report, a dictionary like the JSON report. str() returns the "
+      "log. Pickles keep arrays, report and log.");
   type.attr("__module__") = "wscvt";
   add_arrays(type);
   add_files(type);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What remesh and create return: arrays, the report, files of both. It pickles.
+// The result of remesh and create: arrays, report, and functions that write files. It can be
+// pickled.
 #ifndef WSCVT_PYTHON_REMESH_OBJECT_H_
 #define WSCVT_PYTHON_REMESH_OBJECT_H_
 
@@ -12,11 +13,11 @@
 
 namespace wscvt::python {
 
-/// The stub says what its members are for Python.
+/// The stub describes the members for Python.
 struct Remesh {
   RemeshResult result;
   ReportOrigin origin;
-  /// Of a pickled one, whose result holds arrays and warnings only; else empty.
+  /// Report of a pickled object, whose result has only arrays and warnings; else empty.
   std::string pickled_report = {};
   std::string pickled_log = {};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of grains and the statistics of samples. The package makes NumPy's structured arrays of
-// the parts that are given here.
+// Tables of grains and statistics of samples. The Python package combines these parts into NumPy's
+// structured arrays.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -33,7 +33,7 @@ using TableParts =
     std::tuple<std::vector<std::string>, std::vector<std::string>,
                std::vector<std::pair<std::string, std::string>>, Eigen::MatrixXd, std::size_t>;
 
-/// A name, and the table or the path of a table or of a batch's folder.
+/// A name, and a table or the path of a table or of a batch's folder.
 using NamedSample = std::tuple<std::string, std::string, std::optional<TableParts>>;
 
 TableParts read_table(const std::filesystem::path& path) {

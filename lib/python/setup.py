@@ -24,20 +24,20 @@ def fail(reason):
 
 
 def run(command):
-    """Runs a command, whose output pip keeps for -v and for failures."""
+    """Runs a command. pip shows its output for -v and after failures."""
     try:
         subprocess.run(list(map(str, command)), check=True)
     except FileNotFoundError:
         fail(f"{command[0]} is missing.")
     except subprocess.CalledProcessError:
-        fail(f"{command[0]} failed; its last lines above say why.")
+        fail(f"{command[0]} failed. Its last lines above say why.")
 
 
 def run_with_progress(command):
-    """Runs a build, and says at each tenth of it how far it is, also where pip is silent."""
+    """Runs a build and prints its progress at each tenth, even if pip is silent."""
     try:
         terminal = open("/dev/tty", "w", encoding="utf-8")
-    except OSError:  # there is none
+    except OSError:  # no terminal
         terminal = None
     next_tenth = 10
     with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE,
@@ -54,7 +54,7 @@ def run_with_progress(command):
     if terminal:
         terminal.close()
     if build.returncode:
-        fail("a file does not compile; the lines above say which.")
+        fail("a file does not compile. See the lines above.")
 
 
 class CMakeBuild(build_ext):
@@ -63,7 +63,7 @@ class CMakeBuild(build_ext):
         folder = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve().parent
         choices = ["-G", "Ninja"] if shutil.which("ninja") else []
         try:
-            import pybind11  # of pip; without it CMake looks for that of the system
+            import pybind11  # from pip; otherwise CMake uses the system's
             choices.append(f"-Dpybind11_DIR={pybind11.get_cmake_dir()}")
         except ImportError:
             pass

@@ -14,8 +14,8 @@ bool goes_on(const py::object& answer) {
   try {
     return answer.cast<bool>();
   } catch (const py::cast_error&) {
-    throw py::type_error("The function for the progress returned a value of type " +
-                         type_name_of(answer) + "; return True, or False to cancel.");
+    throw py::type_error("The progress function returned a value of type " + type_name_of(answer) +
+                         ". Return True, or False to cancel.");
   }
 }
 

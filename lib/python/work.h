@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work of the library that Python calls: with progress, Ctrl-C and other threads of the
-// interpreter.
+// Runs the library for Python, with progress, Ctrl-C and other threads of the interpreter.
 #ifndef WSCVT_PYTHON_WORK_H_
 #define WSCVT_PYTHON_WORK_H_
 
@@ -14,11 +13,11 @@
 
 namespace wscvt::python {
 
-/// Whether the work goes on. Throws TypeError for what is no answer.
+/// Whether the work continues. Throws TypeError for answers of other types.
 bool goes_on(const pybind11::object& answer);
 
-/// Does work without the interpreter's lock. What a progress callback throws cancels it and goes on
-/// to the caller, and so does Ctrl-C.
+/// Runs `work` without the interpreter's lock. An exception of the progress callback, or Ctrl-C,
+/// cancels it and is passed to the caller.
 template <class Work>
 auto work_on(int threads, const pybind11::object& progress, const Work& work) {
   std::exception_ptr thrown;

@@ -37,7 +37,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
                              const std::string& path) {
   if (shape.counts.size() < 3) {
     refuse_volume(path, "holds an array of " + text_of(shape.counts) +
-                            ", which is no volume: it needs three dimensions.");
+                            ", but a volume needs three dimensions.");
   }
   const std::vector<int> roles = shape.roles.empty() ? usual_roles(shape.counts) : shape.roles;
   ShapedVolume volume;
@@ -57,7 +57,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
   std::sort(sorted.begin(), sorted.end());
   if (of_space != 3 || sorted != std::array<Eigen::Index, 3>{0, 1, 2}) {
     refuse_volume(path, "holds an array of " + text_of(shape.counts) +
-                            ", of which three dimensions are not x, y and z; save one volume.");
+                            " whose dimensions are not x, y and z. Save one volume.");
   }
   std::size_t frames = 0;
   for (const VolumeAxis& axis : volume.axes) {
@@ -65,7 +65,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
   }
   if (frames > 1) {
     refuse_volume(path, "holds an array of " + text_of(shape.counts) +
-                            ": more than one dimension is beside space. Save one volume alone.");
+                            " with more than one dimension besides space. Save only one volume.");
   }
   volume.picks = picks_of(volume.axes, choice, path);
   volume.geometry.counts = voxel_counts(counts, path);

@@ -67,7 +67,7 @@ class FileBytes : public ByteSource {
 [[noreturn]] void refuse_damaged(const std::string& path) {
   throw Error(ErrorCode::InputOutput,
               "\"" + path +
-                  "\" holds packed voxels that are damaged; copy the file again, or export it "
+                  "\" holds packed voxels that are damaged. Copy the file again, or export it "
                   "again.");
 }
 
@@ -297,7 +297,7 @@ class BytesOfNumbers : public ByteSource {
     const std::optional<double> number = number_in(field);
     if (!number || field.size() == longest) {
       throw Error(ErrorCode::InputOutput, "\"" + path_ + "\" has " + in_quotes(field) +
-                                              " where a voxel belongs; export it again.");
+                                              " instead of a voxel. Export it again.");
     }
     boost::endian::endian_store<double, sizeof(double), boost::endian::order::little>(made_.data(),
                                                                                       *number);
@@ -406,8 +406,8 @@ class JoinedBytes : public ByteSource {
       const std::size_t got = bytes_->read(bytes + filled, wanted);
       if (got < wanted) {
         throw Error(ErrorCode::InputOutput,
-                    "\"" + paths_[next_ - 1] + "\" holds fewer voxels than its part, " +
-                        std::to_string(part_) + " bytes; copy it again, or export it again.");
+                    "\"" + paths_[next_ - 1] + "\" has fewer voxels than its part, " +
+                        std::to_string(part_) + " bytes. Copy it again, or export it again.");
       }
       filled += got;
       left_ -= got;

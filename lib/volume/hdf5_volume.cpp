@@ -125,7 +125,7 @@ ArrayShape shape_of(hid_t data_set, const std::string& path) {
   for (const hsize_t count : counts_of(data_set)) {
     constexpr hsize_t most = 1000000000;
     if (count < 1 || count > most) {
-      refuse_volume(path, "has a dimension of " + std::to_string(count) + "; export it again.");
+      refuse_volume(path, "has a dimension of " + std::to_string(count) + ". Export it again.");
     }
     shape.counts.push_back(static_cast<std::int64_t>(count));
   }
@@ -162,7 +162,7 @@ class Hdf5Volume : public LabelVolume {
     counts_[slices_] = 1;
     data_set_ = Handle(H5Dopen2(file_, name.c_str(), access_list(name)), H5Dclose);
     const std::optional<VoxelType> type = type_of(data_set_);
-    if (!type) refuse_volume(path_, "was changed while it was read; call again.");
+    if (!type) refuse_volume(path_, "was changed while it was read. Run the command again.");
     type_ = *type;
     const Handle stored(H5Dget_type(data_set_), H5Tclose);
     memory_type_ = Handle(H5Tget_native_type(stored, H5T_DIR_ASCEND), H5Tclose);
@@ -215,7 +215,7 @@ class Hdf5Volume : public LabelVolume {
 
   void read_slice(std::size_t z, std::size_t bytes) {
     constexpr std::size_t most = std::size_t{1} << 32;
-    if (bytes > most) refuse_volume(path_, "has slices of more than 4 GiB, which are read whole.");
+    if (bytes > most) refuse_volume(path_, "has slices of more than 4 GiB, which is too large.");
     const auto lock = alone();
     slice_.resize(bytes);
     begin_[slices_] = z;
@@ -226,7 +226,7 @@ class Hdf5Volume : public LabelVolume {
                             nullptr) < 0 ||
         H5Dread(data_set_, memory_type_, memory, space, H5P_DEFAULT, slice_.data()) < 0) {
       refuse_volume(path_,
-                    "is damaged, or packed by a filter that is not installed; copy it again, "
+                    "is damaged, or packed by a filter that is not installed. Copy it again, "
                     "or export it packed by gzip.");
     }
   }
@@ -254,15 +254,16 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
     const auto lock = alone();
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!file.is_there()) {
-      refuse_volume(path, ending_of(path) == ".mat"
-                              ? "is no MATLAB file of version 7.3; save it by save(..., '-v7.3')."
-                              : "is no HDF5 file, or damaged; export it again.");
+      refuse_volume(path,
+                    ending_of(path) == ".mat"
+                        ? "is not a MATLAB file of version 7.3. Save it by save(..., '-v7.3')."
+                        : "is not an HDF5 file, or is damaged. Export it again.");
     }
     std::vector<std::string> names;
     std::size_t left = 100000;
     find_volumes(file, "", 0, left, names);
     if (names.empty()) {
-      refuse_volume(path, "holds no data set of numbers with three dimensions; export it again.");
+      refuse_volume(path, "has no data set of numbers with three dimensions. Export it again.");
     }
     VolumeChoice from_root = choice;
     if (!choice.array.empty() && choice.array.front() != '/') from_root.array = "/" + choice.array;
@@ -278,7 +279,7 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
 
 std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice&) {
   refuse_volume(path,
-                "cannot be read: this program was built without HDF5; install libhdf5-dev and "
+                "cannot be read: this program was built without HDF5. Install libhdf5-dev and "
                 "build it again, or save the volume as .nrrd.");
 }
 

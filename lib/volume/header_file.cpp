@@ -15,7 +15,7 @@ HeaderFile::HeaderFile(const std::string& path, std::uint64_t begin)
       stream_(path, std::ios::binary),
       reader_(stream_, size_ - std::min(size_, begin), path) {
   if (!stream_.is_open()) {
-    refuse_volume(path, "cannot be opened; check that the file can be read.");
+    refuse_volume(path, "cannot be opened. Check that the file is readable.");
   }
   stream_.seekg(static_cast<std::streamoff>(std::min(size_, begin)));
 }
@@ -28,7 +28,7 @@ std::string HeaderFile::line() {
   const bool has_end = ahead.size() < most_characters || ahead.find('\n') != std::string_view::npos;
   const std::optional<std::string_view> text = has_end ? reader_.line() : std::nullopt;
   if (!text || reader_.line_number() > most_lines) {
-    fail_line("does not end the header as it should; export it again.");
+    fail_line("does not end the header correctly. Export it again.");
   }
   return std::string(trimmed(*text));
 }
@@ -42,7 +42,7 @@ std::vector<double> numbers_in(std::string_view text, const HeaderFile& file) {
   TextFields fields(plain);
   for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
     const std::optional<double> number = number_in(field);
-    if (!number) file.fail_line("has " + in_quotes(field) + " where a number belongs.");
+    if (!number) file.fail_line("has " + in_quotes(field) + " instead of a number.");
     numbers.push_back(*number);
   }
   return numbers;
@@ -56,7 +56,7 @@ Vector3 vector_in(std::string_view text, const HeaderFile& file) {
 
 std::int64_t whole_number_of(std::string_view text, const HeaderFile& file) {
   const std::optional<std::int64_t> number = whole_number_in(trimmed(text));
-  if (!number) file.fail_line("has " + in_quotes(text) + " where a whole number belongs.");
+  if (!number) file.fail_line("has " + in_quotes(text) + " instead of a whole number.");
   return *number;
 }
 

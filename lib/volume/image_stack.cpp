@@ -54,7 +54,7 @@ FolderContent content_of(const std::string& folder) {
 
 std::string sentence_of_others(const std::vector<std::string>& names) {
   constexpr std::size_t most_shown = 3;
-  std::string text = "Left out, since no slice: ";
+  std::string text = "Left out (not slices): ";
   for (std::size_t k = 0; k < std::min(names.size(), most_shown); ++k) {
     text += (k == 0 ? "" : ", ") + in_quotes(names[k]);
   }
@@ -88,9 +88,9 @@ std::string sentence_of_gap(const std::vector<std::string>& paths) {
   }
   for (std::size_t k = 1; k < numbers.size(); ++k) {
     if (numbers[k] - numbers[k - 1] == step) continue;
-    return "No slice is between " + in_quotes(fs::path(paths[k - 1]).filename().string()) +
+    return "There is no slice between " + in_quotes(fs::path(paths[k - 1]).filename().string()) +
            " and " + in_quotes(fs::path(paths[k]).filename().string()) +
-           "; they were taken for neighbours. Look for the slices that are missing.";
+           ". They were used as neighbours. Look for the missing slices.";
   }
   return "";
 }
@@ -108,12 +108,12 @@ bool is_slice(const std::string& name) { return is_tiff(name) || ending_of(name)
 std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeChoice& choice) {
   const FolderContent content = content_of(path);
   if (content.tiffs.empty() && content.pngs.empty()) {
-    refuse_volume(path, "holds no .tif and no .png file; check its name.");
+    refuse_volume(path, "has no .tif and no .png file. Check its name.");
   }
   if (!content.tiffs.empty() && !content.pngs.empty()) {
     refuse_volume(path, "holds " + std::to_string(content.tiffs.size()) + " .tif and " +
                             std::to_string(content.pngs.size()) +
-                            " .png files; leave those of one kind there.");
+                            " .png files. Keep only one kind there.");
   }
   const bool of_tiffs = !content.tiffs.empty();
   const SliceFiles slices = {path, of_tiffs ? content.tiffs : content.pngs};

@@ -77,7 +77,7 @@ class Census {
       throw Error(
           ErrorCode::InvalidInput,
           "The volume has more than " + std::to_string(most_labels) +
-              " labels: it seems to hold grey values. Make labels of them by wscvt segment.");
+              " labels: it seems to have grey values. Make labels of them by wscvt segment.");
     }
     LabelExtent extent;
     extent.label = label;

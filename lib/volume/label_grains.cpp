@@ -41,9 +41,9 @@ LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
   labels_ = label_census(*volume_, options_.background,
                          is_numbered_anew ? execution.part(0.5, 1.0) : execution);
   if (labels_.empty()) {
-    throw Error(ErrorCode::InvalidInput, "\"" + path + "\" holds no label but the background, " +
+    throw Error(ErrorCode::InvalidInput, "\"" + path + "\" has no label except the background, " +
                                              std::to_string(options.background) +
-                                             "; check it, or give --background.");
+                                             ". Check it, or give --background.");
   }
   for (std::size_t k = 0; k < labels_.size(); ++k) {
     if (state(labels_[k]) == LabelState::Taken) taken_.push_back(k);
@@ -141,17 +141,18 @@ LabelGrain LabelGrains::read(std::size_t grain, const Execution& execution) {
 std::vector<std::string> warnings_of(const LabelGrain& grain) {
   std::vector<std::string> warnings;
   if (grain.pieces > 1) {
-    warnings.push_back("The label is in " + std::to_string(grain.pieces) +
-                       " pieces; the largest was taken, the others, " +
-                       format_percent(1.0 - static_cast<double>(grain.enclosed) /
-                                                static_cast<double>(grain.piece_voxels)) +
-                       " of the volume, were left out. Segment it again if they are grains.");
+    warnings.push_back(
+        "The label is in " + std::to_string(grain.pieces) +
+        " pieces. The largest was used. The others, " +
+        format_percent(1.0 - static_cast<double>(grain.enclosed) /
+                                 static_cast<double>(grain.piece_voxels)) +
+        " of the volume, were left out. If they are grains, segment the volume again.");
   }
   if (grain.pore_voxels > 0) {
     warnings.push_back("The label has pores of " +
                        format_percent(static_cast<double>(grain.pore_voxels) /
                                       static_cast<double>(grain.piece_voxels)) +
-                       " of its volume, which were filled.");
+                       " of its volume. They were filled.");
   }
   return warnings;
 }

@@ -87,8 +87,8 @@ void check_opened(LabelVolume& volume, const std::string& path) {
     if (geometry.counts[axis] > 1) continue;
     refuse_volume(path, "is one image of " + std::to_string(geometry.counts[axis == 0 ? 1 : 0]) +
                             " x " + std::to_string(geometry.counts[axis == 2 ? 1 : 2]) +
-                            " voxels, and grains need a stack of them. Give the folder of the "
-                            "slices, or a file of all.");
+                            " voxels, but grains need a stack of images. Give the folder of the "
+                            "slices, or a file with all slices.");
   }
   if (!geometry.has_size) {
     volume.add_note("Voxel size not in the file: lengths in voxels. Give it by --voxel-size.");
@@ -116,7 +116,8 @@ std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeCh
     const Format* const format = format_of(path);
     if (format == nullptr) {
       refuse("\"" + path +
-             "\" is no volume by its ending; give a .tif, .nrrd, .nhdr, .mhd, .mha, .vti, .vtk, "
+             "\" does not have the ending of a volume. Give a .tif, .nrrd, .nhdr, .mhd, .mha, "
+             ".vti, .vtk, "
              ".nii, .nii.gz, .npy, .npz, .h5 or .mat, the .json that describes a raw file, or a "
              "folder of .tif or .png files.");
     }
@@ -128,7 +129,7 @@ std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeCh
 
 void refuse_array_choice(const VolumeChoice& choice, const std::string& path) {
   if (choice.array.empty()) return;
-  refuse_volume(path, "is of a format whose files hold one array; leave --array out.");
+  refuse_volume(path, "has a format with only one array. Leave --array out.");
 }
 
 void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Vector3& origin,
@@ -147,7 +148,7 @@ void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Ve
   const double volume = geometry.voxel_volume();
   if (std::isnormal(volume) && geometry.corner.allFinite()) return;
   refuse_volume(path,
-                "gives its voxels no volume; correct the spacing in it, or give --voxel-size.");
+                "gives its voxels no volume. Correct the spacing in it, or give --voxel-size.");
 }
 
 }  // namespace wscvt

@@ -100,7 +100,9 @@ std::string meta_image_header(const VolumeGeometry& geometry, bool is_short, std
 void check_label_file(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".nrrd" || ending == ".mha") return;
-  refuse("\"" + path + "\" is to hold labels; give a name that ends in .nrrd or .mha.");
+  refuse("\"" + path +
+         "\" does not have the ending of a format for labels. Give a name that ends in .nrrd or "
+         ".mha.");
 }
 
 void write_labels(const std::string& path, LabelVolume& volume, Label largest,

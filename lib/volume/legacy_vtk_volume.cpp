@@ -84,12 +84,12 @@ class VtkParser {
       if (key == "dataset") {
         if (lower_case(fields.next()) != "structured_points") {
           refuse_volume(path_,
-                        "holds no structured points, which a volume of labels is; a mesh is "
-                        "for wscvt remesh.");
+                        "has no structured points, so it is not a volume of labels. For a mesh, "
+                        "use wscvt remesh.");
         }
         has_dataset = true;
       } else if (!has_dataset) {
-        file_->fail_line("stands before the data set.");
+        file_->fail_line("is before the data set.");
       } else {
         read_keyword(key, fields);
       }
@@ -118,10 +118,11 @@ class VtkParser {
       std::int64_t wanted = 1;
       for (const std::int64_t count : header_.counts) {
         constexpr std::int64_t most = 1000000;
-        if (count < 1 || count > most) file_->fail_line("stands before sizes from 1 to 1000000.");
+        if (count < 1 || count > most)
+          file_->fail_line("needs dimensions from 1 to 1000000 before it.");
         wanted *= count - (of_cells_ ? 1 : 0);
       }
-      if (voxels_ != wanted) file_->fail_line("tells of another number than the dimensions do.");
+      if (voxels_ != wanted) file_->fail_line("gives another number than the dimensions.");
     } else if (key == "scalars") {
       VtkArray array;
       array.name = fields.next();
@@ -141,7 +142,7 @@ class VtkParser {
       }
     } else {
       file_->fail_line("has the keyword " + in_quotes(key) +
-                       ", which is of no volume of labels; save the labels alone.");
+                       ", which a volume of labels does not have. Save only the labels.");
     }
   }
 
@@ -196,7 +197,7 @@ class VtkParser {
 
 std::unique_ptr<LabelVolume> open_legacy_vtk(const std::string& path, const VolumeChoice& choice) {
   const VtkHeader header = VtkParser(path).read();
-  if (header.arrays.empty()) refuse_volume(path, "holds no array of labels; export it again.");
+  if (header.arrays.empty()) refuse_volume(path, "holds no array of labels. Export it again.");
   std::vector<std::string> names;
   for (const VtkArray& array : header.arrays) names.push_back(array.name);
   const VtkArray& array = header.arrays[chosen_array(names, choice, path)];

@@ -93,18 +93,18 @@ MetaHeader read_meta_header(HeaderFile& file) {
 
 /// Returns the dimensions in the file's order: channels, x, y, z, and frames as a fourth dimension.
 std::vector<VolumeAxis> axes_of(const MetaHeader& header, const std::string& path) {
-  if (header.sizes.empty()) refuse_volume(path, "does not say how large it is; export it again.");
+  if (header.sizes.empty()) refuse_volume(path, "does not say how large it is. Export it again.");
   if (header.dimensions != static_cast<std::int64_t>(header.sizes.size())) {
     refuse_volume(path, "says that it has " + std::to_string(header.dimensions) +
-                            " dimensions, and has sizes of " + std::to_string(header.sizes.size()) +
-                            "; export it again.");
+                            " dimensions, but has sizes of " + std::to_string(header.sizes.size()) +
+                            ". Export it again.");
   }
   if (header.dimensions == 2) {
-    refuse_volume(path, "has two dimensions: it is one image, and grains need a stack of them.");
+    refuse_volume(path, "has two dimensions: it is one image, but grains need a stack of images.");
   }
   if (header.dimensions != 3 && header.dimensions != 4) {
     refuse_volume(
-        path, "has " + std::to_string(header.dimensions) + " dimensions; save one volume alone.");
+        path, "has " + std::to_string(header.dimensions) + " dimensions. Save only one volume.");
   }
   std::vector<VolumeAxis> axes;
   if (header.channels != 1) axes.push_back({AxisKind::Channel, header.channels});
@@ -119,9 +119,9 @@ Vector3 vector_of(const std::vector<double>& numbers, const MetaHeader& header,
                   const Vector3& fallback, const std::string& path) {
   if (numbers.empty()) return fallback;
   if (numbers.size() != header.sizes.size()) {
-    refuse_volume(path,
-                  "has a spacing or an offset of another number of axes than its sizes; "
-                  "export it again.");
+    refuse_volume(
+        path,
+        "has a spacing or an offset of another number of axes than its sizes. Export it again.");
   }
   return {numbers[0], numbers[1], numbers[2]};
 }
@@ -136,7 +136,7 @@ void set_geometry(const MetaHeader& header, const VolumeChoice& choice, const st
   if (!header.directions.empty()) {
     if (header.directions.size() != side * side) {
       refuse_volume(path,
-                    "has directions of another number of axes than its sizes; export it "
+                    "has directions of another number of axes than its sizes. Export it "
                     "again.");
     }
     for (std::size_t k = 0; k < 9; ++k) {
@@ -153,7 +153,7 @@ std::vector<std::string> files_of(const MetaHeader& header, const std::string& p
   const std::string lower = lower_case(header.data_file);
   if (lower == "local") return {path};
   if (lower.rfind("list", 0) == 0) {
-    if (header.list.empty()) refuse_volume(path, "has an empty list of files; export it again.");
+    if (header.list.empty()) refuse_volume(path, "has an empty list of files. Export it again.");
     std::vector<std::string> files;
     for (const std::string& name : header.list) files.push_back(voxel_file_beside(path, name));
     return files;
@@ -173,7 +173,7 @@ std::vector<std::string> files_of(const MetaHeader& header, const std::string& p
     if (!value) {
       refuse_volume(path,
                     "has " + in_quotes(header.data_file) +
-                        " as its files; write a pattern, and its first number, last and step.");
+                        " as its files. Write a pattern, and its first number, last and step.");
     }
     numbers[k] = *value;
     has_last = has_last || k == 1;

@@ -47,8 +47,8 @@ VoxelType type_of(int code, const std::string& path) {
     case DT_FLOAT64:
       return {8, true, true, false};
     default:
-      refuse_volume(path, std::string("holds voxels of NIfTI's type ") +
-                              nifti_datatype_string(code) + "; save labels as whole numbers.");
+      refuse_volume(path, std::string("has voxels of NIfTI's type ") + nifti_datatype_string(code) +
+                              ". Save labels as whole numbers.");
   }
 }
 
@@ -85,12 +85,12 @@ void check_header(const std::string& path) {
       const std::int64_t count =
           number_at(head, place + static_cast<std::size_t>(k) * size, size, big);
       if (dimensions < 1 || dimensions > 7 || (k <= dimensions && count < 1)) {
-        refuse_volume(path, "has a NIfTI header with dimensions below 1; export it again.");
+        refuse_volume(path, "has a NIfTI header with dimensions below 1. Export it again.");
       }
     }
     return;
   }
-  refuse_volume(path, "is no NIfTI file of one part; save it as .nii or .nii.gz.");
+  refuse_volume(path, "is not a NIfTI file of one part. Save it as .nii or .nii.gz.");
 }
 
 struct FreeImage {
@@ -104,7 +104,7 @@ NiftiImage header_of(const std::string& path) {
   const std::lock_guard<std::mutex> lock(mutex);
   nifti_set_debug_level(0);
   NiftiImage image(nifti_image_read(path.c_str(), 0));
-  if (!image) refuse_volume(path, "is no NIfTI file, or damaged; export it again.");
+  if (!image) refuse_volume(path, "is not a NIfTI file, or is damaged. Export it again.");
   return image;
 }
 
@@ -139,14 +139,14 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
   check_header(path);
   const NiftiImage image = header_of(path);
   if (image->nifti_type != NIFTI_FTYPE_NIFTI1_1 && image->nifti_type != NIFTI_FTYPE_NIFTI2_1) {
-    refuse_volume(path, "is no NIfTI file of one part; save it as .nii or .nii.gz.");
+    refuse_volume(path, "is not a NIfTI file of one part. Save it as .nii or .nii.gz.");
   }
   const bool is_scaled =
       image->scl_slope != 0.0 && (image->scl_slope != 1.0 || image->scl_inter != 0.0);
   if (is_scaled) {
     refuse_volume(path, "scales its voxels by " + std::to_string(image->scl_slope) + " and adds " +
                             std::to_string(image->scl_inter) +
-                            ", which makes no labels; save them as they are.");
+                            ", so they are not labels. Save them unscaled.");
   }
   VolumeGeometry geometry;
   set_geometry(*image, choice, path, geometry);
@@ -181,7 +181,7 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
 
 std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice&) {
   refuse_volume(path,
-                "cannot be read: this program was built without libnifti2; install libnifti2-dev "
+                "cannot be read: this program was built without libnifti2. Install libnifti2-dev "
                 "and build it again, or save the volume as .nrrd.");
 }
 

@@ -170,7 +170,7 @@ std::vector<VolumeAxis> axes_of(const NrrdHeader& header, const std::string& pat
   if (!has_all(header.kinds.size()) || !has_all(header.spacings.size()) ||
       !has_all(header.directions.size())) {
     refuse_volume(path, "has kinds, spacings or directions of another number of axes than its " +
-                            std::to_string(count) + "; export it again.");
+                            std::to_string(count) + ". Export it again.");
   }
   std::vector<VolumeAxis> axes;
   std::size_t of_space = 0;
@@ -193,7 +193,7 @@ std::vector<VolumeAxis> axes_of(const NrrdHeader& header, const std::string& pat
   }
   if (of_space != 3) {
     refuse_volume(path, "has " + std::to_string(of_space) +
-                            " dimensions of space, and a volume has three; export it again.");
+                            " dimensions of space, but a volume has three. Export it again.");
   }
   return axes;
 }
@@ -265,7 +265,7 @@ std::vector<std::string> files_of(const NrrdHeader& header, const std::string& p
     return files;
   }
   if (lower_case(header.data_file).rfind("list", 0) == 0) {
-    refuse_volume(path, "has an empty list of files; export it again.");
+    refuse_volume(path, "has an empty list of files. Export it again.");
   }
   if (header.data_file.find('%') == std::string::npos) {
     return {voxel_file_beside(path, header.data_file)};
@@ -278,7 +278,7 @@ std::vector<std::string> files_of(const NrrdHeader& header, const std::string& p
     if (!value) {
       refuse_volume(path,
                     "has " + in_quotes(header.data_file) +
-                        " as its files; write a pattern, and its first number, last and step.");
+                        " as its files. Write a pattern, and its first number, last and step.");
     }
     number = *value;
   }
@@ -291,7 +291,7 @@ Packing packing_of(const std::string& encoding, const std::string& path) {
   if (encoding == "bzip2" || encoding == "bz2") return Packing::Bzip2;
   if (encoding == "ascii" || encoding == "text" || encoding == "txt") return Packing::Text;
   refuse_volume(
-      path, "is packed as " + in_quotes(encoding) + "; save it raw, ascii, or as gzip or bzip2.");
+      path, "is packed as " + in_quotes(encoding) + ". Save it raw, ascii, or as gzip or bzip2.");
 }
 
 }  // namespace
@@ -299,14 +299,14 @@ Packing packing_of(const std::string& encoding, const std::string& path) {
 std::unique_ptr<LabelVolume> open_nrrd(const std::string& path, const VolumeChoice& choice) {
   HeaderFile file(path);
   const NrrdHeader header = read_nrrd_header(file);
-  if (header.sizes.empty()) refuse_volume(path, "does not say how large it is; export it again.");
+  if (header.sizes.empty()) refuse_volume(path, "does not say how large it is. Export it again.");
   if (header.dimension != static_cast<std::int64_t>(header.sizes.size())) {
     refuse_volume(path, "says that it has " + std::to_string(header.dimension) +
-                            " dimensions, and has sizes of " + std::to_string(header.sizes.size()) +
-                            "; export it again.");
+                            " dimensions, but has sizes of " + std::to_string(header.sizes.size()) +
+                            ". Export it again.");
   }
   if (header.sizes.size() == 2) {
-    refuse_volume(path, "has two dimensions: it is one image, and grains need a stack of them.");
+    refuse_volume(path, "has two dimensions: it is one image, but grains need a stack of images.");
   }
   refuse_array_choice(choice, path);
   const std::vector<VolumeAxis> axes = axes_of(header, path);
@@ -319,7 +319,7 @@ std::unique_ptr<LabelVolume> open_nrrd(const std::string& path, const VolumeChoi
   data.packing = packing_of(header.encoding, path);
   if (type.bytes > 1 && !header.has_endian && data.packing != Packing::Text) {
     refuse_volume(path,
-                  "does not say its byte order; write \"endian: little\" or \"endian: big\" "
+                  "does not say its byte order. Write \"endian: little\" or \"endian: big\" "
                   "into its header.");
   }
   data.picks = picks_of(axes, choice, path);
@@ -329,7 +329,7 @@ std::unique_ptr<LabelVolume> open_nrrd(const std::string& path, const VolumeChoi
   data.at_end = header.byte_skip == -1 && header.line_skip == 0 && !is_packed;
   if (!data.at_end && (header.byte_skip != 0 || header.line_skip != 0)) {
     const bool is_known = !is_packed && header.line_skip == 0 && header.byte_skip > 0;
-    if (!is_known) refuse_volume(path, "skips lines, or bytes of what is packed; save it anew.");
+    if (!is_known) refuse_volume(path, "skips lines, or bytes of packed data. Save it again.");
     data.offset += static_cast<std::uint64_t>(header.byte_skip);
   }
   std::unique_ptr<LabelVolume> volume = volume_of_files(geometry, type, data);

@@ -29,7 +29,7 @@ struct NumpyHeader {
 std::string value_in(const std::string& text, const std::string& key, const std::string& path) {
   const std::size_t place = text.find("'" + key + "':");
   if (place == std::string::npos) {
-    refuse_volume(path, "has a NumPy header without " + in_quotes(key) + "; save it again.");
+    refuse_volume(path, "has a NumPy header without " + in_quotes(key) + ". Save it again.");
   }
   return text.substr(place + key.size() + 3);
 }
@@ -42,7 +42,7 @@ NumpyHeader numpy_header_of(const std::string& head, const std::string& path) {
   NumpyHeader header;
   const std::string type = value_in(text, "descr", path);
   if (type.empty() || type.front() != '\'' || type.find('\'', 1) == std::string::npos) {
-    refuse_volume(path, "holds an array of records; save one field of it.");
+    refuse_volume(path, "has an array of records. Save one field of it.");
   }
   header.type = type.substr(1, type.find('\'', 1) - 1);
   const std::string order = value_in(text, "fortran_order", path);
@@ -53,14 +53,14 @@ NumpyHeader numpy_header_of(const std::string& head, const std::string& path) {
   const std::string shape = value_in(text, "shape", path);
   const std::size_t end = shape.find(')');
   if (shape.empty() || shape.front() != '(' || end == std::string::npos) {
-    refuse_volume(path, "has a NumPy header without a shape; save it again.");
+    refuse_volume(path, "has a NumPy header without a shape. Save it again.");
   }
   for (std::size_t begin = 1; begin < end;) {
     const std::size_t comma = std::min(shape.find(',', begin), end);
     const std::optional<std::int64_t> count =
         whole_number_in(std::string_view(shape).substr(begin, comma - begin));
     if (!count || *count < 1) {
-      refuse_volume(path, "has a NumPy header with a shape of no whole numbers above 0.");
+      refuse_volume(path, "has a NumPy header whose shape is not of whole numbers above 0.");
     }
     header.counts.push_back(*count);
     begin = comma + 1;
@@ -74,22 +74,22 @@ NumpyHeader read_header(ByteSource& bytes, std::uint64_t& offset, const std::str
   std::array<unsigned char, 12> head{};
   const auto read = [&](std::size_t begin, std::size_t count) {
     if (bytes.read(reinterpret_cast<char*>(head.data()) + begin, count) < count) {
-      refuse_volume(path, "is no array of NumPy; save it again.");
+      refuse_volume(path, "is not a NumPy array. Save it again.");
     }
   };
   read(0, 8);
   if (std::memcmp(head.data(), "\x93NUMPY", 6) != 0 || head[6] < 1 || head[6] > 3) {
-    refuse_volume(path, "is no array of NumPy; save it again.");
+    refuse_volume(path, "is not a NumPy array. Save it again.");
   }
   const std::size_t length_bytes = head[6] == 1 ? 2 : 4;
   read(8, length_bytes);
   std::size_t length = 0;
   for (std::size_t k = length_bytes; k-- > 0;) length = length << 8 | head[8 + k];
   constexpr std::size_t longest = 1 << 20;
-  if (length > longest) refuse_volume(path, "has a NumPy header of a megabyte; save it again.");
+  if (length > longest) refuse_volume(path, "has a NumPy header of a megabyte. Save it again.");
   std::string text(length, '\0');
   if (bytes.read(text.data(), length) < length) {
-    refuse_volume(path, "ends within its NumPy header; copy it again.");
+    refuse_volume(path, "ends within its NumPy header. Copy it again.");
   }
   offset = 8 + length_bytes + length;
   return numpy_header_of(text, path);
@@ -119,8 +119,8 @@ VoxelType numpy_type_of(const std::string& text, const std::string& path) {
     type.big_endian = big_endian;
     return type;
   }
-  refuse_volume(path, "holds voxels of NumPy's type " + in_quotes(text) +
-                          ", and labels are whole numbers; save it as uint16 or uint32.");
+  refuse_volume(path, "has voxels of NumPy's type " + in_quotes(text) +
+                          ", but labels are whole numbers. Save it as uint16 or uint32.");
 }
 
 /// A member of a zip file.
@@ -156,13 +156,13 @@ class ZipBytes : public ByteSource {
     if (zip_ == nullptr || unzLocateFile(zip_, member_.c_str(), 1) != UNZ_OK ||
         unzOpenCurrentFile(zip_) != UNZ_OK) {
       close();
-      refuse_volume(path_, "cannot be unpacked; copy it again, or save it again.");
+      refuse_volume(path_, "cannot be unpacked. Copy it again, or save it again.");
     }
   }
 
  private:
   [[noreturn]] void refuse_damaged() const {
-    refuse_volume(path_, "is damaged in " + in_quotes(member_) + "; copy it again.");
+    refuse_volume(path_, "is damaged in " + in_quotes(member_) + ". Copy it again.");
   }
 
   void close() {
@@ -180,7 +180,8 @@ class ZipBytes : public ByteSource {
 /// Returns the members of a zip file that are arrays, with their stated sizes in bytes.
 std::vector<std::pair<std::string, std::uint64_t>> members_of(const std::string& path) {
   const unzFile zip = unzOpen64(path.c_str());
-  if (zip == nullptr) refuse_volume(path, "is no zip file, as .npz files are; save it again.");
+  if (zip == nullptr)
+    refuse_volume(path, "is not a zip file, as a .npz file must be. Save it again.");
   std::vector<std::pair<std::string, std::uint64_t>> members;
   for (int state = unzGoToFirstFile(zip); state == UNZ_OK; state = unzGoToNextFile(zip)) {
     unz_file_info64 info{};
@@ -204,7 +205,7 @@ ShapedVolume shaped(const NumpyHeader& header, const VolumeChoice& choice,
     if (header.counts.size() != 3) {
       refuse_volume(path, "holds an array in Fortran's order of " +
                               std::to_string(header.counts.size()) +
-                              " dimensions; save one volume alone.");
+                              " dimensions. Save only one volume.");
     }
     shape.counts = {header.counts[2], header.counts[1], header.counts[0]};
     shape.roles = {0, 1, 2};
@@ -231,7 +232,7 @@ std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoic
     const bool is_array = name.size() > 4 && name.compare(name.size() - 4, 4, ".npy") == 0;
     names.push_back(is_array ? name.substr(0, name.size() - 4) : name);
   }
-  if (names.empty()) refuse_volume(path, "holds no array; save it again.");
+  if (names.empty()) refuse_volume(path, "has no array. Save it again.");
   const auto& [member, size] = members[chosen_array(names, choice, path)];
   auto bytes = std::make_unique<ZipBytes>(path, member);
   std::uint64_t offset = 0;

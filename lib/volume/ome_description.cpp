@@ -56,10 +56,10 @@ OmeText ome_text_of(const std::string& xml, const std::string& path) {
   const char* const said = XML_ErrorString(XML_GetErrorCode(parser));  // null: no error
   XML_ParserFree(parser);
   if (status != XML_STATUS_OK) {
-    refuse_volume(path, "holds OME's XML that is damaged (" +
-                            std::string(said == nullptr ? "" : said) + "); export it again.");
+    refuse_volume(path, "has damaged OME XML (" + std::string(said == nullptr ? "" : said) +
+                            "). Export it again.");
   }
-  if (text.images == 0) refuse_volume(path, "holds OME's XML without Pixels; export it again.");
+  if (text.images == 0) refuse_volume(path, "has OME XML without Pixels. Export it again.");
   return text;
 }
 
@@ -72,7 +72,7 @@ std::int64_t count_of(const Attributes& attributes, const std::string& key, std:
   constexpr std::int64_t most = 1000000;
   if (!number || *number < least || *number > most) {
     refuse_volume(path,
-                  "has " + in_quotes(found->second) + " as OME's " + key + "; export it again.");
+                  "has " + in_quotes(found->second) + " as OME's " + key + ". Export it again.");
   }
   return *number;
 }
@@ -98,7 +98,7 @@ void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayo
     const std::optional<double> number = number_in(found->second);
     if (!number || !(*number > 0.0) || !std::isfinite(*number)) {
       refuse_volume(path, "has " + in_quotes(found->second) + " as OME's " + key +
-                              "; correct it, or save it without OME's text.");
+                              ". Correct it, or save it without OME's text.");
     }
     size[axis] = *number;
   }
@@ -107,7 +107,7 @@ void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayo
     size.z() = size.x();
     units[2] = units[0];
     layout.notes.emplace_back(
-        "OME's text has no PhysicalSizeZ; that of x was taken. Give another by --voxel-size "
+        "OME's text has no PhysicalSizeZ. The size along x was used. Give another by --voxel-size "
         "X,Y,Z.");
   }
   layout.unit = units[0];
@@ -132,15 +132,13 @@ void read_pages(const OmeText& text, std::int64_t pages, const std::string& path
   for (const VolumeAxis& axis : layout.axes) {
     constexpr std::int64_t most = 100000000;
     planes *= axis.count;
-    if (planes > most) refuse_volume(path, "tells of more planes than a file holds.");
+    if (planes > most) refuse_volume(path, "gives more planes than a file can have.");
   }
   // Without TiffData, the planes are in the order of the file.
   if (text.planes.empty()) {
     if (planes != pages) {
-      refuse_volume(path, "has " + std::to_string(pages) + " pages of the " +
-                              std::to_string(planes) +
-                              " that OME's text tells of; export it "
-                              "again.");
+      refuse_volume(path, "has " + std::to_string(pages) + " pages, but OME's text has " +
+                              std::to_string(planes) + " planes. Export it again.");
     }
     return;
   }
@@ -167,15 +165,15 @@ void read_pages(const OmeText& text, std::int64_t pages, const std::string& path
         count_of(part.where, "PlaneCount", has_page ? 1 : planes - plane, 0, path);
     for (std::int64_t k = 0; k < count; ++k) {
       if (plane + k >= planes || first + k >= pages) {
-        refuse_volume(path, "has " + std::to_string(pages) + " pages, and OME's text places " +
-                                "planes outside of them; export it again.");
+        refuse_volume(path, "has " + std::to_string(pages) + " pages, but OME's text places " +
+                                "planes outside of them. Export it again.");
       }
       layout.pages[static_cast<std::size_t>(plane + k)] = first + k;
     }
   }
   for (const std::int64_t page : layout.pages) {
     if (page >= 0) continue;
-    refuse_volume(path, "lacks planes that OME's text tells of; export it again.");
+    refuse_volume(path, "lacks planes of OME's text. Export it again.");
   }
 }
 
@@ -187,7 +185,7 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, std::int64_
   const OmeText text = ome_text_of(xml, path);
   if (text.images > 1) {
     refuse_volume(path, "holds " + std::to_string(text.images) +
-                            " images by OME's text; save the one of the labels alone.");
+                            " images by OME's text. Save only the image of the labels.");
   }
   TiffLayout layout;
   layout.writer = "OME";
@@ -198,7 +196,7 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, std::int64_
   std::sort(letters.begin(), letters.end());
   if (letters != "CTXYZ" || order.rfind("XY", 0) != 0) {
     refuse_volume(path,
-                  "has " + in_quotes(order) + " as OME's order of dimensions; export it again.");
+                  "has " + in_quotes(order) + " as OME's order of dimensions. Export it again.");
   }
   for (const char letter : order.substr(2)) {
     const std::string key = std::string("Size") + letter;
@@ -207,9 +205,9 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, std::int64_
     } else if (letter == 'C') {
       const std::int64_t channels = count_of(text.pixels, key, 1, 1, path);
       if (channels % samples != 0) {
-        refuse_volume(path, "has " + std::to_string(samples) + " numbers a voxel, and " +
+        refuse_volume(path, "has " + std::to_string(samples) + " numbers per voxel, but " +
                                 std::to_string(channels) +
-                                " channels by OME's text; export it "
+                                " channels by OME's text. Export it "
                                 "again.");
       }
       layout.axes.push_back({AxisKind::Channel, channels / samples});
@@ -226,7 +224,7 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, std::int64_
 
 TiffLayout layout_of_ome(const std::string&, std::int64_t, std::int64_t, const std::string& path) {
   refuse_volume(path,
-                "holds OME's XML, and this program was built without Expat; install "
+                "has OME XML, but this program was built without Expat. Install "
                 "libexpat1-dev and build it again, or save the volume as .nrrd.");
 }
 

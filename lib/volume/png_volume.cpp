@@ -39,7 +39,7 @@ struct PngImage {
 class PngFile {
  public:
   explicit PngFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "rb")) {
-    if (file_ == nullptr) refuse_volume(path, "cannot be opened; check that the file can be read.");
+    if (file_ == nullptr) refuse_volume(path, "cannot be opened. Check that the file is readable.");
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, note_error, pass_over);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) {
@@ -49,7 +49,7 @@ class PngFile {
     if (!read_header()) {
       const std::string said = said_;
       close();
-      refuse_volume(path, "is not a PNG file (" + shown(said) + "); export it again.");
+      refuse_volume(path, "is not a PNG file (" + shown(said) + "). Export it again.");
     }
   }
   PngFile(const PngFile&) = delete;
@@ -66,7 +66,7 @@ class PngFile {
   /// Reads a row over the content of `row`, as an interlaced file needs. Throws Error(InputOutput).
   void read_row(char* row) {
     if (!try_row(row)) {
-      refuse_volume(path_, "is cut short or damaged (" + shown(said_) + "); export it again.");
+      refuse_volume(path_, "is cut short or damaged (" + shown(said_) + "). Export it again.");
     }
   }
 
@@ -163,7 +163,8 @@ class PngStack : public LabelVolume {
     file_ = std::make_unique<PngFile>(paths_.at(next_slice_++));
     next_row_ = 0;
     if (!(file_->image() == image_)) {  // checked when it was opened, so it has changed since
-      refuse_volume(paths_[next_slice_ - 1], "was changed while it was read; call again.");
+      refuse_volume(paths_[next_slice_ - 1],
+                    "was changed while it was read. Run the command again.");
     }
     if (file_->image().passes == 1) return;
     // An interlaced image is complete only after its last pass.
@@ -194,8 +195,8 @@ std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const Vol
   for (const std::string& path : slices.paths) {
     const PngImage here = PngFile(path).image();
     if (here == image) continue;
-    refuse_volume(path, "is a slice of " + here.text() + ", and those before it have " +
-                            image.text() + "; save slices that are alike.");
+    refuse_volume(path, "is a slice of " + here.text() + ", but the slices before it have " +
+                            image.text() + ". Save all slices alike.");
   }
   const std::int64_t channel =
       chosen_place({AxisKind::Channel, image.channels}, choice, slices.folder);

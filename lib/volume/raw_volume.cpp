@@ -20,12 +20,12 @@ using Json = nlohmann::json;
 Json description_of(const std::string& path) {
   constexpr std::uint64_t most_bytes = 1 << 20;
   if (file_size(path) > most_bytes) {
-    refuse_volume(path, "is too large to be the description of a raw file; give that.");
+    refuse_volume(path, "is too large for the description of a raw file. Give the description.");
   }
   std::ifstream stream(path, std::ios::binary);
   Json description = Json::parse(stream, nullptr, false);
   if (!description.is_object()) {
-    refuse_volume(path, "is no JSON object; see lib/doc/files.md for what it has to hold.");
+    refuse_volume(path, "is not a JSON object. See lib/doc/files.md for its content.");
   }
   return description;
 }
@@ -38,7 +38,7 @@ void check_keys(const Json& description, const std::string& path) {
                                                   "origin",     "unit", "offset",     "file"};
     if (std::any_of(known.begin(), known.end(), is_key)) continue;
     refuse_volume(path, "has the key " + in_quotes(key) +
-                            ", which describes no raw file; lib/doc/files.md has those that do.");
+                            ", which is not for raw files. See lib/doc/files.md for the keys.");
   }
 }
 
@@ -49,7 +49,7 @@ Vector3 vector_of(const Json& value, const std::string& key, const std::string& 
   const bool has_three = value.is_array() && value.size() == 3;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!has_three || !value[axis].is_number()) {
-      refuse_volume(path, "has no three numbers as \"" + key + "\"; correct it.");
+      refuse_volume(path, "does not have three numbers as \"" + key + "\". Correct it.");
     }
     vector[static_cast<Eigen::Index>(axis)] = value[axis].get<double>();
   }
@@ -60,7 +60,8 @@ std::string text_of(const Json& description, const std::string& key, const std::
                     const std::string& path) {
   const auto found = description.find(key);
   if (found == description.end()) return fallback;
-  if (!found->is_string()) refuse_volume(path, "has no text as \"" + key + "\"; correct it.");
+  if (!found->is_string())
+    refuse_volume(path, "does not have a text as \"" + key + "\". Correct it.");
   return found->get<std::string>();
 }
 
@@ -70,9 +71,10 @@ VoxelCounts counts_of(const Json& description, const std::string& path) {
   const bool has_three = found != description.end() && found->is_array() && found->size() == 3;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!has_three || !(*found)[axis].is_number_integer()) {
-      refuse_volume(path,
-                    "has no three whole numbers as \"dimensions\"; give the voxels along x, y "
-                    "and z.");
+      refuse_volume(
+          path,
+          "does not have three whole numbers as \"dimensions\". Give the voxels along x, y "
+          "and z.");
     }
     counts[axis] = (*found)[axis].get<std::int64_t>();
   }
@@ -94,12 +96,12 @@ std::unique_ptr<LabelVolume> open_raw(const std::string& path, const VolumeChoic
   VoxelType type = voxel_type_of(text_of(description, "type", "", path), path);
   const std::string order = text_of(description, "byte_order", "little", path);
   if (order != "little" && order != "big") {
-    refuse_volume(path, "has a \"byte_order\" that is neither \"little\" nor \"big\"; correct it.");
+    refuse_volume(path, "has a \"byte_order\" that is neither \"little\" nor \"big\". Correct it.");
   }
   type.big_endian = order == "big";
   const Json offset = description.value("offset", Json(0U));
   if (!offset.is_number_unsigned()) {
-    refuse_volume(path, "has an \"offset\" that is no number of bytes; correct it.");
+    refuse_volume(path, "has an \"offset\" that is not a number of bytes. Correct it.");
   }
   const std::string beside =
       std::filesystem::path(path).filename().replace_extension(".raw").string();

@@ -123,14 +123,14 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   std::vector<std::string> doubts;
   if (segmentation.is_flat) {
     doubts.push_back(
-        "Most voxels have the value of their neighbour: these may be labels already, "
-        "which wscvt batch and extract take as they are.");
+        "Most voxels have the value of their neighbour: these may be labels already. wscvt batch "
+        "and extract read labels directly.");
   }
   constexpr double much = 0.05;
   if (share_of(segmentation.dropped, segmentation.material) > much) {
     doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
                      " of the material is in parts that are too small, red in the slices: noise, "
-                     "or a threshold that is off. Give --threshold, or a lower --smallest.");
+                     "or a wrong threshold. Give --threshold, or a lower --smallest.");
   }
   std::uint64_t largest = 0;
   for (const LabelExtent& grain : segmentation.grains) largest = std::max(largest, grain.voxels);
@@ -158,7 +158,7 @@ std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
       " of the volume, holes of " +
       format_percent(share_of(segmentation.filled, segmentation.material)) + " of it were filled");
   lines.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
-                  " of the material is in parts that are too small, and was dropped");
+                  " of the material is in parts that are too small and was dropped");
   for (const std::string& doubt : doubts_of(segmentation)) lines.push_back("Look: " + doubt);
   return lines;
 }
@@ -203,10 +203,9 @@ std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentatio
   }
   page.add_figures(figures);
   page.add_paragraph(
-      "Each grain has an outline of its own. Where one goes around two grains, they were not "
-      "separated: make --separate smaller. Where a line cuts through a grain, make it larger. "
-      "Where "
-      "outlines lie off the edges of the grains, give --threshold. What is red was dropped.");
+      "Each grain has its own outline. If an outline goes around two grains, make --separate "
+      "smaller. If a line cuts through a grain, make --separate larger. If outlines are off the "
+      "edges of the grains, give --threshold. Red parts were dropped.");
   page.add_lines(segmentation_lines(segmentation));
   std::vector<double> diameters;
   for (const LabelExtent& grain : segmentation.grains) {

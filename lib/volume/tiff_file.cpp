@@ -38,7 +38,7 @@ std::string TiffFile::description() const {
 
 void TiffFile::fail(const std::string& what) const {
   refuse_volume(path_,
-                what + (said_.empty() ? "" : " (" + shown(said_) + ")") + "; export it again.");
+                what + (said_.empty() ? "" : " (" + shown(said_) + ")") + ". Export it again.");
 }
 
 int TiffFile::note_error(TIFF*, void* self, const char*, const char* format, va_list arguments) {

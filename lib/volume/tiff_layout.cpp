@@ -62,11 +62,11 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   // A stack without dimensions has slices.
   if (product == 1) layout.axes = {{AxisKind::Space, images}};
   if (product != 1 && product != images) {
-    refuse_volume(path, "has " + std::to_string(images) + " images, and ImageJ noted " +
+    refuse_volume(path, "has " + std::to_string(images) + " images, but ImageJ noted " +
                             std::to_string(layout.axes[0].count) + " channels of " +
                             std::to_string(layout.axes[1].count) + " slices in " +
                             std::to_string(layout.axes[2].count) +
-                            " frames; set them by Image > Properties, and save it again.");
+                            " frames. Set them by Image > Properties, and save it again.");
   }
   if (product != 1 && layout.axes[1].count == 1) {
     refuse_volume(path, "has one slice: ImageJ noted that its " + std::to_string(images) +
@@ -75,8 +75,8 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   }
   layout.may_be_one_block = pages == 1 && images > 1;
   if (!layout.may_be_one_block && images != pages) {
-    refuse_volume(path, "has " + std::to_string(pages) + " pages of the " + std::to_string(images) +
-                            " that ImageJ noted; export it again.");
+    refuse_volume(path, "has " + std::to_string(pages) + " pages, but ImageJ noted " +
+                            std::to_string(images) + " images. Export it again.");
   }
   const std::string unit = text.value("unit");
   layout.unit = unit_of(unit);
@@ -104,7 +104,7 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t
     if (!count.is_number_integer() || count.get<std::int64_t>() < 1 ||
         count.get<std::int64_t>() > 1000000) {
       refuse_volume(path,
-                    "has a \"shape\" in its text that is none of whole numbers; export it "
+                    "has a \"shape\" in its text that is not of whole numbers. Export it "
                     "again.");
     }
     counts.push_back(count.get<std::int64_t>());
@@ -113,7 +113,7 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t
   std::string letters;
   if (json.contains("axes") && json["axes"].is_string()) letters = json["axes"].get<std::string>();
   if (counts.size() < of_page || (!letters.empty() && letters.size() != counts.size())) {
-    refuse_volume(path, "has a \"shape\" in its text that fits no page; export it again.");
+    refuse_volume(path, "has a \"shape\" in its text that fits no page. Export it again.");
   }
   std::string text;
   for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -137,8 +137,8 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t
   const std::int64_t product = product_of(layout.axes);
   layout.may_be_one_block = pages == 1 && product > 1;
   if (product != pages && !layout.may_be_one_block) {
-    refuse_volume(path, "has " + std::to_string(pages) + " pages, and its text tells of " + text +
-                            " voxels; export it again.");
+    refuse_volume(path, "has " + std::to_string(pages) + " pages, but its text gives " + text +
+                            " voxels. Export it again.");
   }
   return layout;
 }

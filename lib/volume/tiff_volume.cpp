@@ -67,7 +67,7 @@ Page page_of(const TiffFile& file) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_IMAGEDEPTH, &depth);
   TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
   if (compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG) {
-    file.fail("is packed by JPEG, which changes numbers, so that they are no labels any more");
+    file.fail("is packed by JPEG, which changes numbers, so they are not labels any more");
   }
   if (depth != 1) file.fail("has pages of " + std::to_string(depth) + " slices");
   const bool is_float = format == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64);
@@ -79,7 +79,7 @@ Page page_of(const TiffFile& file) {
   if (samples < 1 || (!is_whole && !is_small && !is_float)) {
     refuse_volume(file.path(), "has " + std::to_string(samples) + " numbers of " +
                                    std::to_string(bits) +
-                                   " bits a voxel, of a kind that is not known; save labels as "
+                                   " bits per voxel, of an unknown kind. Save labels as "
                                    "whole numbers of 8, 16, 32 or 64 bits.");
   }
   page.bits = bits;
@@ -147,13 +147,13 @@ class TiffStack : public LabelVolume {
       }
     }
     page_at_ = slice.page;
-    if (!is_found) refuse_volume(file_->path(), "has lost pages; copy it again.");
+    if (!is_found) refuse_volume(file_->path(), "has lost pages. Copy it again.");
     ++next_slice_;
     const Page here = page_of(*file_);
     if (!(here == page_)) {
       refuse_volume(file_->path(), "has the page " + std::to_string(slice.page + 1) + " of " +
-                                       here.text() + ", and the first has " + page_.text() +
-                                       "; save slices that are alike.");
+                                       here.text() + ", but the first has " + page_.text() +
+                                       ". Save all slices alike.");
     }
     begin_page();
   }
@@ -343,7 +343,7 @@ VolumeAxis channels_of(const TiffLayout& layout, const std::string& path) {
     if (channels.count > 1) {
       refuse_volume(path, "has " + std::to_string(axis.count) + " channels of " +
                               std::to_string(channels.count) +
-                              " numbers a voxel; save one channel alone.");
+                              " numbers per voxel. Save only one channel.");
     }
     channels.count = axis.count;
   }
@@ -363,9 +363,9 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
     if (axis.kind == AxisKind::Space) slices *= axis.count;
     if (axis.kind == AxisKind::Frame && axis.count > 1) {
       if (frames.count > 1) {
-        refuse_volume(path, "has two dimensions beside space, of " + std::to_string(frames.count) +
+        refuse_volume(path, "has two dimensions besides space, of " + std::to_string(frames.count) +
                                 " and " + std::to_string(axis.count) +
-                                " places; save one volume alone.");
+                                " places. Save only one volume.");
       }
       frames.count = axis.count;
     }
@@ -422,14 +422,14 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
     const std::int64_t count = file.pages();
     if (count > 1) {
       refuse_volume(slices.paths[k], "has " + std::to_string(count) +
-                                         " pages, and a slice of a folder is a file of one. Give "
-                                         "such a file alone.");
+                                         " pages, but a slice in a folder is a file with one page. "
+                                         "Give this file instead of the folder.");
     }
     const Page here = page_of(file);
     if (!(here == page)) {
       refuse_volume(slices.paths[k], "is a slice of " + here.text() +
-                                         ", and those before it have " + page.text() +
-                                         "; save slices that are alike.");
+                                         ", but the slices before it have " + page.text() +
+                                         ". Save all slices alike.");
     }
     pages.push_back({k, 0});
   }
@@ -462,8 +462,8 @@ std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
                                             : volume_of_page_files(slices, first, page, choice);
   if (page.shows_0_as_white) {
     volume->add_note(
-        "The TIFF shows 0 as white; its numbers were taken as they are. Where white is what lies "
-        "between the grains, that is right; else give --background.");
+        "The TIFF shows 0 as white. Its numbers were used unchanged. This is correct if the space "
+        "between the grains is white. Otherwise give --background.");
   }
   return volume;
 }
@@ -472,7 +472,7 @@ std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
 
 std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices, const VolumeChoice&) {
   refuse_volume(slices.folder,
-                "cannot be read: this program was built without libtiff; install libtiff-dev "
+                "cannot be read: this program was built without libtiff. Install libtiff-dev "
                 "and build it again, or save the volume as .nrrd.");
 }
 

@@ -46,7 +46,7 @@ std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
   const std::string has = "has " + std::to_string(axis.count) + " " + name;
   if (!chosen) {
     if (axis.count == 1) return 0;
-    refuse_volume(path, has + "s, and a volume of labels is one of them. Choose one by --" + name +
+    refuse_volume(path, has + "s, but a volume of labels is one of them. Choose one by --" + name +
                             ", from 1 to " + std::to_string(axis.count) + ".");
   }
   if (*chosen < 1 || *chosen > axis.count) {
@@ -67,16 +67,16 @@ std::size_t chosen_array(const std::vector<std::string>& names, const VolumeChoi
   if (choice.array.empty()) {
     if (names.size() == 1) return 0;
     refuse_volume(path, "has " + std::to_string(names.size()) + " arrays: " + all +
-                            ". Choose the one of the labels by --array NAME.");
+                            ". Choose the array of labels by --array NAME.");
   }
   const auto found = std::find(names.begin(), names.end(), choice.array);
   if (found == names.end()) {
     refuse_volume(
-        path, "has no array " + in_quotes(choice.array) + "; it has " + all + ". Correct --array.");
+        path, "has no array " + in_quotes(choice.array) + ". It has " + all + ". Correct --array.");
   }
   if (std::find(found + 1, names.end(), choice.array) != names.end()) {
     refuse_volume(path, "has two arrays " + in_quotes(choice.array) +
-                            ". Save the one of the labels under another name.");
+                            ". Save the array of labels under another name.");
   }
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -89,7 +89,7 @@ std::vector<BlockPick> picks_of(const std::vector<VolumeAxis>& axes, const Volum
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 16;
     if (axis.count < 1 || axis.count > most / block) {
       refuse_volume(path, "has a dimension of " + std::to_string(axis.count) +
-                              ", which no file holds; export it again.");
+                              ", which is impossible. Export it again.");
     }
     if (axis.kind == AxisKind::Space) {
       block *= axis.count;

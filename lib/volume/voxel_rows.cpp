@@ -119,7 +119,7 @@ class VolumeOfBytes : public LabelVolume {
     packed_.resize(count * static_cast<std::size_t>(type_.bytes));
     if (bytes_->read(packed_.data(), packed_.size()) < packed_.size()) {
       refuse_volume(path_,
-                    "ends before the last voxel that it tells of; copy it again, or export "
+                    "ends before its last voxel. Copy it again, or export "
                     "it again.");
     }
     const std::int64_t rows = geometry().counts[1];
@@ -170,7 +170,7 @@ VoxelType voxel_type_of(std::string_view name, const std::string& path) {
   const std::optional<VoxelType> type = known_voxel_type(name);
   if (type) return *type;
   refuse_volume(path, "holds voxels of type " + in_quotes(name) +
-                          ", and labels are whole numbers; save it as 8, 16 or 32 bits without a "
+                          ", but labels are whole numbers. Save it as 8, 16 or 32 bits without a "
                           "sign.");
 }
 
@@ -188,8 +188,9 @@ VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::s
   VoxelCounts result{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (counts[axis] < 1 || counts[axis] > most) {
-      refuse_volume(path, "tells of " + std::to_string(counts[axis]) +
-                              " voxels along an axis, where 1 to 1000000 can be; export it again.");
+      refuse_volume(path,
+                    "gives " + std::to_string(counts[axis]) +
+                        " voxels along an axis, but 1 to 1000000 are possible. Export it again.");
     }
     result[axis] = static_cast<std::int32_t>(counts[axis]);
   }
@@ -209,8 +210,8 @@ void check_voxel_bytes(std::uint64_t wanted, std::uint64_t left, Packing packing
   if (packing == Packing::Bzip2) least = wanted / 1000000;  // 900 kB of equal bytes take 40
   if (packing == Packing::Text) least = wanted / sizeof(double) * 2 - 1;  // a digit and a blank
   if (least <= left) return;
-  refuse_volume(path, "holds " + std::to_string(left) + " bytes of voxels, and its size asks for " +
-                          std::to_string(wanted) + "; copy it again, or export it again.");
+  refuse_volume(path, "holds " + std::to_string(left) + " bytes of voxels, but its size needs " +
+                          std::to_string(wanted) + ". Copy it again, or export it again.");
 }
 
 std::unique_ptr<LabelVolume> volume_of_bytes(const VolumeGeometry& geometry, const VoxelType& type,
@@ -238,9 +239,10 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
   for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
   const std::uint64_t part = wanted / data.paths.size();
   if (part * data.paths.size() != wanted) {
-    refuse_volume(data.paths.front(), "is one of " + std::to_string(data.paths.size()) +
-                                          " files, and the slices cannot be shared out evenly "
-                                          "among them; correct the list.");
+    refuse_volume(
+        data.paths.front(),
+        "is one of " + std::to_string(data.paths.size()) +
+            " files, but the slices cannot be divided evenly among them. Correct the list.");
   }
   std::string note;
   std::vector<std::uint64_t> offsets;
@@ -255,11 +257,11 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
     check_voxel_bytes(part, left, packing, path);
     if (packing == Packing::None && left > part && !data.has_more) {
       const std::string more = "holds " + std::to_string(left) +
-                               " bytes of voxels, and its size asks for " + std::to_string(part);
+                               " bytes of voxels, but its size needs " + std::to_string(part);
       if (left / 2 >= part) {
         refuse_volume(path, more + ". Correct its size or the type of its voxels.");
       }
-      if (note.empty()) note = "\"" + path + "\" " + more + "; the rest was left out.";
+      if (note.empty()) note = "\"" + path + "\" " + more + ". The rest was left out.";
     }
     offsets.push_back(offset);
   }
@@ -290,11 +292,10 @@ std::string voxel_file_beside(const std::string& header, const std::string& name
   if (std::any_of(name.begin(), name.end(),
                   [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; })) {
     refuse_volume(header, "names the file " + in_quotes(name) +
-                              " for its voxels, and there are control characters in that; correct "
-                              "it.");
+                              " for its voxels, which contains control characters. Correct it.");
   }
   if (name.empty()) {
-    refuse_volume(header, "names no file of voxels; export it again.");
+    refuse_volume(header, "names no file of voxels. Export it again.");
   }
   const std::filesystem::path path(name);
   return path.is_absolute()

@@ -88,7 +88,7 @@ class VtiParser {
     // Errors after the arrays are found when they are read; a file that was cut has arrays too.
     if (header_.arrays.empty()) {
       if (XML_GetErrorCode(parser_) != XML_ERROR_NONE && !is_done_) fail();
-      refuse_volume(path_, "holds no array of labels; export it again.");
+      refuse_volume(path_, "holds no array of labels. Export it again.");
     }
     return header_;
   }
@@ -97,7 +97,7 @@ class VtiParser {
   [[noreturn]] void fail() {
     refuse_volume(path_, std::string("is not the XML of a .vti file: ") +
                              XML_ErrorString(XML_GetErrorCode(parser_)) + " in line " +
-                             std::to_string(line_of(parser_)) + "; export it again.");
+                             std::to_string(line_of(parser_)) + ". Export it again.");
   }
 
   static void begin_element(void* self, const char* name, const char** attributes) {
@@ -231,14 +231,14 @@ class VtkArrayBytes : public ByteSource {
     }
     if (!is_whole) {
       refuse_volume(path_,
-                    "holds packed voxels that are damaged; copy the file again, or export "
+                    "holds packed voxels that are damaged. Copy the file again, or export "
                     "it again.");
     }
   }
 
   [[noreturn]] void refuse() const {
-    refuse_volume(path_, "holds another number of bytes than its size asks for, " +
-                             std::to_string(wanted_) + "; copy it again, or export it again.");
+    refuse_volume(path_, "has another number of bytes than its size needs, " +
+                             std::to_string(wanted_) + ". Copy it again, or export it again.");
   }
 
   std::unique_ptr<ByteSource> bytes_;
@@ -270,7 +270,7 @@ std::array<double, Count> numbers_of(const Attributes& attributes, const std::st
   for (double& number : numbers) {
     const std::optional<double> value = number_in(fields.next());
     if (!value)
-      refuse_volume(path, "has " + in_quotes(text) + " as its " + key + "; export it again.");
+      refuse_volume(path, "has " + in_quotes(text) + " as its " + key + ". Export it again.");
     number = *value;
   }
   return numbers;
@@ -282,14 +282,14 @@ std::array<std::int64_t, 6> extent_of(const VtiHeader& header, const std::string
   const std::string whole = value_of(header.image, "WholeExtent", "");
   const std::string text = value_of(header.piece, "Extent", whole);
   if (text != whole) {
-    refuse_volume(path, "is in pieces, or holds a part of the image; save it in one.");
+    refuse_volume(path, "is in pieces, or has a part of the image. Save it in one piece.");
   }
   TextFields fields(text);
   for (std::int64_t& place : extent) {
     const std::optional<std::int64_t> number = whole_number_in(fields.next());
     constexpr std::int64_t farthest = 1000000000;
     if (!number || *number > farthest || *number < -farthest) {
-      refuse_volume(path, "has " + in_quotes(text) + " as its extent; export it again.");
+      refuse_volume(path, "has " + in_quotes(text) + " as its extent. Export it again.");
     }
     place = *number;
   }
@@ -333,14 +333,14 @@ std::uint64_t begin_of_appended(const std::string& path, std::uint64_t data) {
     if (c == '_') return data + k + 1;
     if (c != ' ' && !(c >= '\t' && c <= '\r')) break;
   }
-  refuse_volume(path, "has no \"_\" before its appended data; export it again.");
+  refuse_volume(path, "has no \"_\" before its appended data. Export it again.");
 }
 
 Packer packer_of(const std::string& name, const std::string& path) {
   if (name.empty()) return Packer::None;
   if (name == "vtkZLibDataCompressor") return Packer::ZLib;
   if (name == "vtkLZ4DataCompressor") return Packer::Lz4;
-  refuse_volume(path, "is packed by " + in_quotes(name) + "; save it plain, or by ZLib or LZ4.");
+  refuse_volume(path, "is packed by " + in_quotes(name) + ". Save it plain, or by ZLib or LZ4.");
 }
 
 }  // namespace
@@ -367,8 +367,8 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoic
   if (is_appended) {
     const std::optional<std::int64_t> offset =
         whole_number_in(value_of(array.attributes, "offset", "0"));
-    if (!offset || *offset < 0) refuse_volume(path, "has no offset of its array; export it again.");
-    if (header.appendix == 0) refuse_volume(path, "has no appended data; export it again.");
+    if (!offset || *offset < 0) refuse_volume(path, "has no offset of its array. Export it again.");
+    if (header.appendix == 0) refuse_volume(path, "has no appended data. Export it again.");
     begin = begin_of_appended(path, header.appendix) + static_cast<std::uint64_t>(*offset);
   }
   const std::uint64_t left = size - std::min(size, begin);
@@ -392,7 +392,7 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoic
     bytes = std::make_unique<VtkArrayBytes>(std::move(bytes), wanted, length, packer, path);
   } else {
     refuse_volume(
-        path, "has its voxels as " + in_quotes(format) + "; save it ascii, binary or appended.");
+        path, "has its voxels as " + in_quotes(format) + ". Save it ascii, binary or appended.");
   }
   bytes = picked_voxels(std::move(bytes), picks, static_cast<std::uint64_t>(type.bytes));
   return volume_of_bytes(geometry, type, std::move(bytes), path);
@@ -402,7 +402,7 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoic
 
 std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoice&) {
   refuse_volume(path,
-                "cannot be read: this program was built without Expat; install libexpat1-dev "
+                "cannot be read: this program was built without Expat. Install libexpat1-dev "
                 "and build it again, or save the volume as .nrrd.");
 }
 

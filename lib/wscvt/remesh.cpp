@@ -89,7 +89,7 @@ std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
                                         const Execution& execution) {
   if (node_counts.empty()) refuse("No number of nodes is given. Give one or more.");
   if (searches(options) || options.measures.suggestions) {
-    refuse("Several numbers of nodes allow no error target and no suggestions. Leave these out.");
+    refuse("An error target and suggestions need a single number of nodes. Leave them out.");
   }
   for (const int count : node_counts) {
     options.node_count = count;

@@ -88,7 +88,7 @@ TEST_F(OutputFile, SaysWhatIsWrong) {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::InputOutput);
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
-      EXPECT_NE(std::string(error.what()).find("check"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("Check"), std::string::npos);
     }
   }
   expect_only("before");

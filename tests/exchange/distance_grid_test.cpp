@@ -205,9 +205,9 @@ TEST(DistanceGrid, TheRefusalOfASpacingNamesTheOptionAndOneThatIsTaken) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
     const std::string sentence = error.what();
-    EXPECT_NE(sentence.find("(--sdf-spacing) of 0.005 takes a grid of 52"), std::string::npos)
+    EXPECT_NE(sentence.find("(--sdf-spacing) of 0.005 needs a grid of 52"), std::string::npos)
         << sentence;  // 209 x 409 x 609 points
-    const std::size_t place = sentence.find("; give ") + 7;
+    const std::size_t place = sentence.find(". Give ") + 7;
     const double advised = std::stod(sentence.substr(place));
     EXPECT_GT(advised, 0.005);
     EXPECT_NO_THROW(check_grid(box, {advised})) << sentence;

@@ -810,9 +810,9 @@ TEST(Filter, LogEndsByTheNumberOfWarningsThatThePanelDoesNotHold) {
   EXPECT_EQ(last({sentence + sentence + sentence}).text, sentence + sentence + sentence);
   const filter::LogLine end = last({sentence + sentence, sentence + sentence});
   EXPECT_TRUE(end.warning);
-  EXPECT_EQ(end.text, "2 stand above; scroll this log up.");
+  EXPECT_EQ(end.text, "There are 2 warnings above. Scroll this log up.");
   EXPECT_EQ(last({sentence + sentence + sentence + sentence + sentence}).text,
-            "one stands above; scroll this log up.");
+            "There is 1 warning above. Scroll this log up.");
 }
 
 TEST(Filter, SentencesNameWhatIsOnTheScreen) {
@@ -919,7 +919,7 @@ TEST(Filter, SurvivesTheScanBeingDeletedDuringTheRun) {
     } else {
       ASSERT_EQ(layers_of(document).size(), 1U);
       EXPECT_EQ(document.mm()->cm.vn, static_cast<int>(sphere().points.size()));
-      EXPECT_NE(loaded.message().find("not there any more"), std::string::npos) << loaded.message();
+      EXPECT_NE(loaded.message().find("no longer exists"), std::string::npos) << loaded.message();
     }
   }
 }
@@ -1015,9 +1015,9 @@ TEST(Filter, WarnsOfValuesInAScriptThatCannotBeRead) {
     const auto& lines = loaded.log_entries();
     ASSERT_GE(lines.size(), 3);
     EXPECT_EQ(lines.back().first, GLLogStream::WARNING);
-    EXPECT_EQ(lines.back().second.toStdString(),
-              "Warning: " + name +
-                  " is missing from the script, or cannot be read there, and took the default.");
+    EXPECT_EQ(
+        lines.back().second.toStdString(),
+        "Warning: " + name + " is missing from the script or not readable. The default was used.");
   }
 }
 
@@ -1031,9 +1031,8 @@ TEST(Filter, SaysWhatItReadFromAScriptThatLacksMost) {
   few.addParam(RichBool("Distances", true));
   ASSERT_TRUE(loaded.apply(document, few)) << loaded.message();
   EXPECT_TRUE(
-      loaded.log().contains("Warning: Of the script's parameters only NodeCount, "
-                            "HarmonicDegree and Distances could be read; all others took "
-                            "their defaults."))
+      loaded.log().contains("Warning: Only NodeCount, HarmonicDegree and Distances could be read "
+                            "from the script. All other parameters have their defaults."))
       << loaded.log().join("\n").toStdString();
   // A dialog gives all, and nothing is said.
   LoadedFilter again;
@@ -1075,8 +1074,7 @@ TEST(Filter, WarnsOfWhatAScriptMisspells) {
   }
   ASSERT_TRUE(loaded.apply(document, misspelled)) << loaded.message();
   EXPECT_TRUE(loaded.log().contains(
-      "Warning: Weighting is missing from the script, or cannot be read there, and took the "
-      "default."))
+      "Warning: Weighting is missing from the script or not readable. The default was used."))
       << loaded.log().join("\n").toStdString();
 }
 

@@ -459,7 +459,7 @@ TEST(Window, ApplyDuringARunIsRefusedAndTheRunGoesOn) {
   QThread::msleep(300);
   meshlab.apply(everyday_title);
   meshlab.expect_failure("applied_twice.png");
-  EXPECT_TRUE(meshlab.wait_for_log("is still running; wait until it is done"))
+  EXPECT_TRUE(meshlab.wait_for_log("is still running. Wait until it is done"))
       << meshlab.log().toStdString();
   ASSERT_TRUE(meshlab.wait_for_log(everyday_title + " in ")) << meshlab.log().toStdString();
   EXPECT_TRUE(meshlab.wait_for_nodes(20000)) << meshlab.log().toStdString();

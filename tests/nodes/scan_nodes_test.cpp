@@ -336,8 +336,8 @@ TEST(ScanNodes, TooFewForAHandleAreRefusedWithANumberThatIsEnough) {
       sentence = error.what();
     }
     // Seven, of Moebius's torus (1861) and Csaszar's polyhedron (1949).
-    EXPECT_EQ(number_after(sentence, "has fewer than "), 7) << sentence;
-    const int enough = number_after(sentence, "is " + std::to_string(count) + ". ");
+    EXPECT_EQ(number_after(sentence, "needs at least "), 7) << sentence;
+    const int enough = number_after(sentence, "not " + std::to_string(count) + ". ");
     ASSERT_GE(enough, 7) << sentence;
     EXPECT_TRUE(self_intersections(place(ring, enough).mesh).empty());
   }
@@ -359,7 +359,7 @@ TEST(ScanNodes, TooFewToKeepTrianglesApartNameANumberThatIsEnough) {
 
 TEST(ScanNodes, AreStoppedInEveryStage) {
   for (const std::string stage :
-       {"Coarsening the scan", "Evening the nodes", "Fitting the nodes"}) {
+       {"Coarsening the scan", "Equalizing edge lengths", "Fitting the nodes"}) {
     SCOPED_TRACE(stage);
     test::expect_to_be_stopped(
         [&](const Execution& execution) {

@@ -113,7 +113,7 @@ TEST(SelfIntersections, StopsWhenCancelled) {
   const IndexedMesh mesh = test::sphere(6);
   test::expect_to_be_stopped(
       [&](const Execution& execution) { self_intersections(mesh, execution); },
-      "Looking for triangles that meet", 100);
+      "Looking for intersecting triangles", 100);
 }
 
 }  // namespace

@@ -195,7 +195,7 @@ TEST_F(CommandLine, TakesPointsOnlyWhenTold) {
   EXPECT_NE(refused.errors.find("--points"), std::string::npos) << refused.errors;
   const Outcome told = run("points.ply remesh.ply -n 100 --points");  // the advice
   EXPECT_EQ(told.exit_code, 0) << told.errors;
-  EXPECT_NE(told.errors.find("taken as points"), std::string::npos) << told.errors;
+  EXPECT_NE(told.errors.find("read as points"), std::string::npos) << told.errors;
 }
 
 /// Starts the program in a folder, where said.txt gets what it says on the standard error.

@@ -177,7 +177,7 @@ TEST_F(MachineRefusals, AnOutputFolderThatIsGoneForAMomentStopsABatch) {
     pipe << third;
   }
   const Outcome stopped = outcome_of(child);
-  EXPECT_NE(stopped.errors.find("check that the folder is there"), std::string::npos)
+  EXPECT_NE(stopped.errors.find("Check that the folder exists"), std::string::npos)
       << stopped.errors;
   fs::rename(folder_ / "away", folder_ / "out");
   fs::remove(folder_ / scan(2));
@@ -286,7 +286,7 @@ TEST_F(MachineRefusals, FilesBeyondTheLimitOfTheirSizeAreASentence) {
     SCOPED_TRACE(call.front());
     const Outcome outcome = run_limited(call, {{RLIMIT_FSIZE, 300}});
     EXPECT_EQ(outcome.exit_code, 1) << "a signal ends the program: " << outcome.errors;
-    EXPECT_NE(outcome.errors.find("could not be written whole"), std::string::npos)
+    EXPECT_NE(outcome.errors.find("could not be written completely"), std::string::npos)
         << outcome.errors;
     EXPECT_FALSE(exists("made.ply") || exists("made.csv"));
     EXPECT_EQ(content("made.json"), "what was there");

@@ -88,7 +88,7 @@ TEST_F(Segment, RefusesWrongCallsBeforeAnythingIsMade) {
                   {"scan.nrrd labels.mha --threshold high", 2, "\"high\""},
                   {"scan.nrrd scan.nrrd", 2, "the scan itself"},
                   {"scan.nrrd labels.mha --channel 2", 1, "channel"},
-                  {"grain.ply labels.mha", 2, "no volume"},
+                  {"grain.ply labels.mha", 2, "the ending of a volume"},
                   {"nothing.nrrd labels.mha", 1, "cannot be opened"},
                   {"scan.nrrd gone/labels.mha", 1, "gone"}},
                  {"labels.mha", "labels.html", "page.json"});

@@ -30,7 +30,7 @@ def test_colours_and_labels_are_carried_and_kept_by_ply(tmp_path):
     # Rounded twice; the nearest point lies within the distance of the remesh, some hundredths.
     assert np.abs(carried["red"] - (100 + 60 * remesh.vertices[:, 1])).max() < 1 + 60 * 0.05
     assert set(np.unique(labels["label"])) == {-7, 12}
-    with pytest.raises(wscvt.Error, match="give one each"):
+    with pytest.raises(wscvt.Error, match="Give one each"):
         wscvt.carry_attributes((vertices, faces), remesh, {"red": red[1:]})
 
 

@@ -91,7 +91,7 @@ def test_two_samples_are_compared():
 
 
 def test_what_is_no_sample_is_refused():
-    with pytest.raises(TypeError, match="no columns of numbers"):
+    with pytest.raises(TypeError, match="no numeric columns"):
         wscvt.sample({"grain": ["a", "b"]})
     with pytest.raises(wscvt.Error, match="axis_i_box"):
         wscvt.sample({"volume": [1.0, 2.0]})

@@ -228,7 +228,7 @@ def test_a_reference_of_another_type_is_a_type_error(scan, reference):
 
 @pytest.mark.parametrize("answer", ["stop", [], np.zeros(3), object()])
 def test_an_answer_of_another_type_is_a_type_error(scan, answer):
-    with pytest.raises(TypeError, match=f"{type(answer).__name__}; return True, or False"):
+    with pytest.raises(TypeError, match=f"{type(answer).__name__}. Return True, or False"):
         wscvt.remesh(*scan, nodes=60, progress=lambda fraction, stage: answer)
 
 

@@ -360,11 +360,11 @@ TEST(Remesh, SaysThatAFlatBodyIsBeyondTheSeries) {
   expect_promises(result, 200);
   EXPECT_EQ(published_report(result).fit.limit, DegreeLimit::Radius);
   EXPECT_TRUE(warns_of(result, "long, flat or sharp"));
-  EXPECT_TRUE(warns_of(result, "off the scan"));
+  EXPECT_TRUE(warns_of(result, "away from the scan"));
   // Nodes on the scan follow it whatever the series does.
   RemeshOptions on_surface = options_of(200, Weighting::Constant);
   published(on_surface).placement = PublishedPlacement::Surface;
-  EXPECT_FALSE(warns_of(remesh(disc, on_surface, Execution(1)), "off the scan"));
+  EXPECT_FALSE(warns_of(remesh(disc, on_surface, Execution(1)), "away from the scan"));
 }
 
 TEST(Remesh, ProgressRisesAndCancels) {
@@ -649,7 +649,7 @@ TEST(Remesh, PointsAreFittedWhenChosen) {
   }
   chosen.points = true;  // the advice
   const RemeshResult cloud = remesh(points, chosen, Execution(1));
-  EXPECT_TRUE(has_warning(cloud, "taken as points"));
+  EXPECT_TRUE(has_warning(cloud, "read as points"));
   // Faces are not used, and it is said.
   const RemeshResult of_scan = remesh(sand(), chosen, Execution(1));
   EXPECT_EQ(of_scan.mesh.points, cloud.mesh.points);
@@ -747,7 +747,7 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
   EXPECT_FALSE(has_warning(wrapped, "Make a surface of them first"));
-  EXPECT_TRUE(has_warning(wrapped, "replaced by its shrink-wrap:"));
+  EXPECT_TRUE(has_warning(wrapped, "replaced by its shrink-wrap."));
   cloud.triangles = {{0, 1, 2}};
   const RemeshResult with_faces = remesh(cloud, options, Execution(1));
   EXPECT_EQ(with_faces.mesh.points, wrapped.mesh.points);
@@ -818,7 +818,7 @@ TEST(Remesh, RefusesScansBeyondTheRangeOfNumbers) {
         ADD_FAILURE() << size;
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-        EXPECT_NE(std::string(error.what()).find("scale it"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("Scale it"), std::string::npos) << error.what();
       }
     }
     // The advice: within the limits it comes out.
@@ -935,7 +935,7 @@ TEST(RemeshErrorTarget, StopsAtOnceWhereTheSeriesItselfIsFartherOff) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    EXPECT_NE(std::string(error.what()).find("Nodes on it come no nearer"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("Nodes on it are not closer"), std::string::npos)
         << error.what();
   }
   options.method = OnScanOptions();  // the advice

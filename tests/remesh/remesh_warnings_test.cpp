@@ -113,20 +113,20 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
   EXPECT_EQ(remesh_warnings(folded, "").size(), 2U);
   expect_warnings({
       {[&](RemeshResult& r) { points(r, 0.06); },
-       {"taken as points, its 196 faces were not used: volume"}},
+       {"read as points, its 196 faces were not used. Volume"}},
       {[&](RemeshResult& r) {
          points(r, 0.0);
          r.input.input_faces = 0;
        },
-       {"taken as points: volume"}},
+       {"read as points. Volume"}},
       {[](RemeshResult& r) { r.steep_area_fraction = 0.5; }, {}},
       {[](RemeshResult& r) { r.options.envelope.opening_percent = 5.0; },
-       {"by its shrink-wrap: volume", "gaps up to 5 %"}},
+       {"by its shrink-wrap. Volume", "gaps up to 5 %"}},
       {[&](RemeshResult& r) {
          points(r, 0.5);
          r.options.envelope.opening_percent = 5.0;
        },
-       {"by its shrink-wrap, its 196 faces were not used: volume"}},
+       {"by its shrink-wrap, its 196 faces were not used. Volume"}},
       {[](RemeshResult& r) { as_published(r).overhang_fraction = 0.01; }, {}},
       {[](RemeshResult& r) { as_published(r).overhang_fraction = 0.011; }, {"Overhangs", "1.1 %"}},
       {[](RemeshResult& r) { r.input.components = 3; }, {"3 separate bodies"}},
@@ -185,7 +185,7 @@ TEST(RemeshWarnings, TellASurfaceThatIsFarOffTheScan) {
          as_published(r).fit.residual = 0.12;
          std::get<AsPublishedReport>(r.method).fit.limit = DegreeLimit::Radius;
        },
-       {"off the scan. Use the placement on-surface"}},
+       {"away from the scan. Use the placement on-surface"}},
       {[](RemeshResult& r) {
          as_published(r).fit.residual = 1.0;
          published_options(r).placement = PublishedPlacement::Surface;
@@ -245,7 +245,7 @@ TEST(RemeshWarnings, TellTrianglesThatIntersect) {
 TEST(RemeshWarnings, TellSmallAnglesOnTheScan) {
   expect_warnings({
       {[](RemeshResult& r) { r.quality.smallest_angle = 20.5; }, {}},
-      {[](RemeshResult& r) { r.quality.smallest_angle = 2.75; }, {"is 2.75 degrees: at a thin"}},
+      {[](RemeshResult& r) { r.quality.smallest_angle = 2.75; }, {"is 2.75 degrees: a thin"}},
       // As published such angles are a matter of course.
       {[](RemeshResult& r) {
          as_published(r);
@@ -262,11 +262,11 @@ TEST(RemeshWarnings, TellWhyARelaxationEndedAndWhatMayHelp) {
   expect_warnings({
       {[&](RemeshResult& r) { ended(r, RelaxationOutcome::Settled); }, {"vary by 12.5 %"}},
       {[&](RemeshResult& r) { ended(r, RelaxationOutcome::Stuck); },
-       {"stopped after 7 iterations", "torn"}},
+       {"stopped after 7 iterations", "could not be triangulated"}},
       {[&](RemeshResult& r) { ended(r, RelaxationOutcome::IterationLimit); },
        {"at its limit of 7 iterations"}},
       {[](RemeshResult& r) { as_published(r).relaxation.weight_scale = 0.5; },
-       {"scaled by 0.5", "Use more nodes"}},
+       {"multiplied by 0.5", "Use more nodes"}},
       {[](RemeshResult& r) {
          as_published(r).relaxation.weight_scale = 0.5;
          published_options(r).weighting = Weighting::Curvature;
@@ -283,7 +283,7 @@ TEST(RemeshWarnings, TellWhyARelaxationEndedAndWhatMayHelp) {
          published_options(r).sampling = Sampling::Icosahedron;
          r.options.node_count = 50;
        },
-       {"no form with 50 nodes. The nearest, with 42"}},
+       {"does not exist with 50 nodes. The nearest possible number, 42"}},
   });
 }
 

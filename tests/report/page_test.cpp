@@ -154,8 +154,8 @@ TEST_F(ReportFiles, TableSaysWhyItCannotBeWritten) {
   std::filesystem::create_symlink(path("other.csv"), path("one.csv"));
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"folder.csv", "folder.csv\" is a folder"},
-      {"not there/table.csv", "check that the folder is there"},
-      {"one.csv", "one.csv\" is a link that leads nowhere"}};
+      {"not there/table.csv", "Check that the folder exists"},
+      {"one.csv", "one.csv\" is a link to a missing file"}};
   for (const auto& [name, sentence] : cases) {
     for (const auto& call : {check_table, append_to_table}) {
       const std::string refusal =

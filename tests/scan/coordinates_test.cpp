@@ -53,7 +53,7 @@ TEST(Coordinates, TheStepOfSinglePrecisionIsTold) {
   // Floats from 2^16 to 2^17 are 2^-7 apart.
   const std::string far = precision_warning(rounded(mesh, Vector3(0, 0, 1e5), 0.0));
   std::smatch steps;
-  ASSERT_TRUE(std::regex_search(far, steps, std::regex("in steps of ([0-9.]+) %"))) << far;
+  ASSERT_TRUE(std::regex_search(far, steps, std::regex("have steps of ([0-9.]+) %"))) << far;
   EXPECT_NEAR(std::stod(steps[1]), 100.0 / 128.0 / edge, 1.0);
 }
 

@@ -677,7 +677,7 @@ TEST(MeshCheck, TakesTheOuterSurfaceOfHollowBodies) {
 
 TEST(MeshCheck, RefusesSizesItCannotComputeWith) {
   for (const double scale : {1e-100, 1e-70, 1e70, 1e100, 1e300}) {
-    expect_mentions(refusal(moved(sphere(1), scale, {0, 0, 0})), {"across", "scale it"});
+    expect_mentions(refusal(moved(sphere(1), scale, {0, 0, 0})), {"across", "Scale it"});
   }
   for (const double scale : {1e-50, 1e50}) {
     EXPECT_EQ(refusal(moved(sphere(1), scale, {0, 0, 0})), "");
@@ -789,7 +789,7 @@ TEST(MeasureClosed, RefusesWhatHasNoVolumeInside) {
       ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-      expect_mentions(error.what(), {"encloses no volume", "load the closed surface of a grain"});
+      expect_mentions(error.what(), {"encloses no volume", "Load the closed surface of a grain"});
     }
   }
   EXPECT_NEAR(measured(box(1.0, 1.0, 1e-7)).volume, 1e-7, 1e-20);

@@ -180,7 +180,7 @@ TEST_F(MeshFormats, ReadsEveryFormOfLegacyVtk) {
 }
 
 TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
-  expect_refusal("a.vtk", "<html>", "is no VTK file");
+  expect_refusal("a.vtk", "<html>", "is not a VTK file");
   expect_refusal("a.vtk", vtk_head + "ASCII\nDATASET STRUCTURED_POINTS\n", "structured_points");
   expect_refusal("a.vtk", vtk_head + "ASCII\nDATASET POLYDATA\nPOINTS 400000000 float\n1 2 3\n",
                  "cut off");
@@ -203,7 +203,7 @@ TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
                  vtk_head +
                      "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 2 3\n"
                      "OFFSETS double\n0 3\n",
-                 "no whole numbers");
+                 "not whole numbers");
   expect_refusal("a.vtp", "<html>", "not the XML of a .vtp");
   expect_refusal("a.vtp", "<VTKFile type=\"ImageData\"><ImageData>", "ImageData");
   expect_refusal("a.vtp", "<VTKFile type=\"PolyData\"><PolyData>", "no piece");
@@ -212,10 +212,10 @@ TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
                  "NumberOfPoints=\"1\"><Points><DataArray format=\"binary\">AAAA",
                  "vtkLZ4DataCompressor");
   expect_refusal("a.xyz", "# nothing\n", "no points");
-  expect_refusal("a.xyz", "1 2 3\n4 5\n", "line 2 ends where the coordinate z");
-  expect_refusal("a.csv", "x,y,w\n1,2,3\n", "does not name columns x, y and z");
-  expect_refusal("a.csv", "x,y,x\n1,2,3\n", "does not name columns x, y and z");
-  expect_refusal("a.csv", "x,y,z\n1,,3\n", "line 2 ends where the coordinate y");
+  expect_refusal("a.xyz", "1 2 3\n4 5\n", "line 2 lacks the coordinate z");
+  expect_refusal("a.csv", "x,y,w\n1,2,3\n", "does not name the columns x, y and z");
+  expect_refusal("a.csv", "x,y,x\n1,2,3\n", "does not name the columns x, y and z");
+  expect_refusal("a.csv", "x,y,z\n1,,3\n", "line 2 lacks the coordinate y");
   expect_refusal("a.pcd", "FIELDS x y\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nPOINTS 1\nDATA ascii\n1 2\n",
                  "no fields x, y and z");
   expect_refusal("a.pcd",
@@ -353,7 +353,8 @@ TEST_F(MeshFormats, ReadPointsOfTheirLibrary) {
     const MeshFile read = read_mesh_file(file("a.pcd", text));
     EXPECT_EQ(read.mesh.points, points);
     ASSERT_EQ(read.warnings.size(), 1U);
-    EXPECT_NE(read.warnings[0].find("has 1 of 3 points at no finite place"), std::string::npos);
+    EXPECT_NE(read.warnings[0].find("has 1 of 3 points without finite coordinates"),
+              std::string::npos);
   };
   expect_points(header + "ascii\n9 1.5 -2 7 7 3\n9 nan nan 7 7 nan\n9 4 .5 7 7 -6\n");
   const float none = std::numeric_limits<float>::quiet_NaN();

@@ -172,7 +172,7 @@ TEST_F(MeshIo, RefusesStlThatWouldMergeVertices) {
     FAIL() << "vertices were merged in silence";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InputOutput);
-    EXPECT_NE(std::string(error.what()).find("write PLY"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Write PLY"), std::string::npos) << error.what();
   }
   // The file there stays, and the advice works.
   EXPECT_EQ(read_mesh(path("a.stl")).triangles.size(), at(0.0).triangles.size());

@@ -165,7 +165,7 @@ TEST(StlReader, SaysWhatIsWrong) {
   expect_refusal(read_stl,
                  "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 0 1\n"
                  "vertex 0 1 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n",
-                 "line 7 has \"vertex\" where \"endloop\"");
+                 "line 7 has \"vertex\" instead of \"endloop\"");
 }
 
 TEST(ByteReader, AReadThatFailsIsNotTheEndOfTheFile) {
@@ -177,7 +177,7 @@ TEST(ByteReader, AReadThatFailsIsNotTheEndOfTheFile) {
     reader.next(10);
     FAIL() << "read";
   } catch (const MachineRefused& error) {
-    EXPECT_STREQ(error.what(), "\"scan.ply\" could not be read to its end; check the disk.");
+    EXPECT_STREQ(error.what(), "\"scan.ply\" could not be read to its end. Check the disk.");
   }
 }
 

@@ -116,7 +116,7 @@ TEST(MappedSurface, RefusesWhatDoesNotCoverTheSphere) {
   EXPECT_NE(refusal(ball, directions).find("vertex 5"), std::string::npos);
   directions = ball.points;
   directions[5] = -directions[5];
-  EXPECT_NE(refusal(ball, directions).find("turned over"), std::string::npos);
+  EXPECT_NE(refusal(ball, directions).find("is inverted"), std::string::npos);
   IndexedMesh open = ball;
   open.triangles.pop_back();
   EXPECT_NE(refusal(open, ball.points).find("border"), std::string::npos);

@@ -137,9 +137,9 @@ TEST_F(ArrayVolumes, NamesTheDimensionsOfNumpyThatAreMoreThanThree) {
   write("a.npy", npy("<u2", "Maybe", "3, 5, 7", voxels));
   expect_refused("a.npy", {"order"});
   write("a.npy", "\x93NUMPY\1");
-  expect_refused("a.npy", {"no array of NumPy"});
+  expect_refused("a.npy", {"not a NumPy array"});
   write("a.npy", "no array");
-  expect_refused("a.npy", {"no array of NumPy"});
+  expect_refused("a.npy", {"not a NumPy array"});
 }
 
 TEST_F(ArrayVolumes, ReadsTheChosenArrayOfAnNpz) {
@@ -326,13 +326,13 @@ TEST_F(ArrayVolumes, ReadsNifti) {
   write_as(4, 16, made_.bytes<std::int16_t>());
   expect_refused("a.nii", {"scales its voxels by 2"});
   write("a.nii", "no NIfTI");
-  expect_refused("a.nii", {"no NIfTI"});
+  expect_refused("a.nii", {"not a NIfTI"});
   nifti.slope = 0.0;
   nifti.dimensions = {3, 7, 0, 3};
   write_as(4, 16, made_.bytes<std::int16_t>());
   expect_refused("a.nii", {"dimensions below 1"});
   write("a.nii.gz", test::packed("no NIfTI", true));
-  expect_refused("a.nii.gz", {"no NIfTI"});
+  expect_refused("a.nii.gz", {"not a NIfTI"});
 }
 
 TEST_F(ArrayVolumes, ReadsLegacyVtk) {
@@ -471,7 +471,7 @@ TEST_F(Hdf5Volumes, AreReadByThePathOfTheirDataSet) {
   choice.frame = 2;
   EXPECT_EQ(labels_of("a.h5", choice), labels(200));
   write("b.h5", "no HDF5");
-  expect_refused("b.h5", {"no HDF5"});
+  expect_refused("b.h5", {"not an HDF5"});
   write("b.mat", "MATLAB 5.0 MAT-file");
   expect_refused("b.mat", {"-v7.3"});
 }

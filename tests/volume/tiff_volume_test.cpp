@@ -124,7 +124,7 @@ TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
   expect_refused("a.tif", {"24 images", "3 slices"}, channel(1));
   stack.text = "ImageJ=1.53\nimages=12\nslices=12\n";
   write_tiff(path("a.tif"), stack, all);
-  expect_refused("a.tif", {"24 pages of the 12"});
+  expect_refused("a.tif", {"24 pages, but ImageJ noted 12"});
   stack.text = "ImageJ=1.53\nimages=24\nframes=24\n";
   write_tiff(path("a.tif"), stack, all);
   expect_refused("a.tif", {"one slice", "24 images"});
@@ -251,7 +251,7 @@ TEST_F(TiffVolume, RefusesOmesTextThatFitsNoPages) {
            "</Pixels></Image></OME>";
   };
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {text("SizeC=\"2\"", ""), "3 pages of the 6"},
+      {text("SizeC=\"2\"", ""), "3 pages, but OME's text has 6"},
       {text("SizeC=\"x\"", ""), "SizeC"},
       {text("SizeC=\"0\"", ""), "SizeC"},
       {text("", "<TiffData IFD=\"1\" PlaneCount=\"3\"/>"), "outside"},

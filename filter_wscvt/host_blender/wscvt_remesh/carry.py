@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes between Blender and arrays, and what a scan carries: materials and colours."""
+"""Meshes between Blender and arrays, with the materials and colours of a scan."""
 import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
@@ -38,9 +38,9 @@ class Scan:
         self._rendered_colours = mesh.color_attributes.render_color_index
 
     def carry_to(self, mesh):
-        """Gives a mesh the materials' indices and the colours of the nearest points of the scan."""
+        """Sets a mesh's material indices and colours from the nearest points of the scan."""
         if not self._colours and not self._materials.any():
-            return  # a tree of a large scan takes seconds
+            return  # building the tree of a large scan takes seconds
         tree = BVHTree.FromPolygons(self.vertices.tolist(), self.triangles.tolist())
         points = read(mesh.vertices, "co", 3, np.float32)
         if self._colours:
@@ -60,20 +60,20 @@ class Scan:
 
 
 def read(collection, name, width, kind):
-    """An attribute of all of Blender's items: (n, width), or (n,) for a width of 1."""
+    """Returns an attribute of all items: (n, width), or (n,) for a width of 1."""
     values = np.empty(len(collection) * width, dtype=kind)
     collection.foreach_get(name, values)
     return values.reshape(-1, width) if width > 1 else values
 
 
 def nearest(tree, points):
-    """The nearest points (n, 3) of a surface, and the triangles (n,) that they are on."""
+    """Returns the nearest points (n, 3) of a surface and their triangles (n,)."""
     found = [tree.find_nearest(point)[::2] for point in points.tolist()]
     return np.array([at for at, _ in found]), np.array([triangle for _, triangle in found])
 
 
 def add_result(context, scanned, scan, result, linear, wants_distances):
-    """Adds the remesh beside its scan, which it hides, and returns the new object."""
+    """Adds the remesh at the place of its scan, hides the scan, and returns the new object."""
     vertices, faces = grain.transformed(result.vertices, result.faces, np.linalg.inv(linear))
     name = f"{scanned.name} {len(vertices)} nodes"
     mesh = bpy.data.meshes.new(name)

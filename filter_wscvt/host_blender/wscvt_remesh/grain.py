@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the add-on does without Blender: options, work in a thread, rows of results, carried values."""
+"""The add-on's code without Blender: options, work in a thread, rows of results, transfers."""
 import threading
 
 import numpy as np
 
-# Choices of the library, with the label and the tooltip of the panel.
+# Values of the library's options, with label and tooltip.
 WEIGHTINGS = (
     ("wscvt-d", "WSCVT-D", "Cells of equal area"),
     ("wscvt-c", "WSCVT-C", "Smaller cells where the surface bends"),
@@ -15,13 +15,13 @@ PLACEMENTS = (
     ("on-surface", "On the surface", "Nodes on the scan, for contact laws that sum over nodes"),
     ("contact-fit", "Contact fit", "Nodes for contact laws that use the deepest node"),
 )
-FORM = (  # what the panel shows of the descriptors, in this order
+FORM = (  # descriptors in the panel, in this order
     "volume", "area", "sphericity_wadell", "aspect_ratio_inertia",
     "axis_s_inertia", "axis_i_inertia", "axis_l_inertia")
 
 
 class Job:
-    """A remesh that runs in a thread of its own. `result` or `error` is set when it is done."""
+    """A remesh in its own thread. `result` or `error` is set when it is done."""
 
     def __init__(self, remesh, vertices, faces, options):
         self.fraction = 0.0
@@ -35,7 +35,7 @@ class Job:
     def _run(self, remesh, vertices, faces, options):
         try:
             self.result = remesh(vertices, faces, progress=self._progress, **options)
-        except Exception as error:  # of any kind: the operator reports it
+        except Exception as error:  # any error: the operator reports it
             self.error = error
 
     def _progress(self, fraction, stage):
@@ -43,7 +43,7 @@ class Job:
         return not self._cancelled
 
     def cancel(self):
-        """Ends the work soon; `error` is then the library's."""
+        """Asks the work to stop soon. `error` is then set by the library."""
         self._cancelled = True
 
     def is_done(self):
@@ -54,7 +54,7 @@ class Job:
 
 
 def scale_and_rotation(matrix):
-    """The part (3, 3) of a matrix (4, 4) that turns and scales. Throws ValueError if it flattens."""
+    """Returns rotation and scale (3, 3) of a matrix (4, 4). Raises ValueError if a scale is 0."""
     linear = np.array(matrix, dtype=float)[:3, :3]
     lengths = np.linalg.norm(linear, axis=0)
     if lengths.min() == 0.0 or abs(np.linalg.det(linear)) < 1e-9 * lengths.prod():
@@ -63,17 +63,17 @@ def scale_and_rotation(matrix):
 
 
 def transformed(vertices, faces, linear):
-    """Vertices and faces under a matrix (3, 3); a mirror turns the faces, so that they stay outward."""
+    """Transforms vertices and faces by a matrix (3, 3). A mirror reverses faces, to keep them outward."""
     vertices = vertices @ linear.T
     return vertices, faces[:, ::-1] if np.linalg.det(linear) < 0.0 else faces
 
 
 def corner_weights(points, corners):
-    """Weights (n, 3) of the corners (n, 3, 3) of triangles at points (n, 3) on them, 0 to 1."""
+    """Returns barycentric weights (n, 3), 0 to 1, of points (n, 3) on triangles with corners (n, 3, 3)."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     normal = np.cross(b - a, c - a)
     square = np.einsum("ij,ij->i", normal, normal)
-    flat = square == 0.0  # such a triangle has its first corner's value
+    flat = square == 0.0  # such triangles use their first corner
     square[flat] = 1.0
     weight_b = np.einsum("ij,ij->i", np.cross(points - a, c - a), normal) / square
     weight_c = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / square
@@ -83,7 +83,7 @@ def corner_weights(points, corners):
 
 
 def properties(report):
-    """The custom properties of a result: numbers and texts by their names."""
+    """Returns the custom properties of a result: numbers and texts by name."""
     values = {
         "wscvt_scan": report["source"],
         "wscvt_made_by": report["made_by"],
@@ -108,7 +108,7 @@ def percent(value):
 
 
 def rows(values):
-    """What the panel says of a result, from its properties: label, value, error."""
+    """Returns the panel's rows for a result's properties: label, value, error."""
     found = [
         ("Nodes", str(values["wscvt_nodes"]), ""),
         ("RMS dist.", f"{values['wscvt_rms_distance_percent']:.2f} % of radius", ""),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Object > Remesh Grain (WSCVT): one selected object after the other, with progress and Esc."""
+"""Object > Remesh Grain (WSCVT): remeshes the selected objects in turn, with progress and Esc."""
 import sys
 
 import bpy
@@ -48,7 +48,7 @@ class OBJECT_OT_remesh_grain_wscvt(bpy.types.Operator):
             self.is_cancelled = True
             if self.job:
                 self.job.cancel()
-        # Other events are kept from Blender: what they do to the scan would be undone by the result.
+        # Other events are blocked, because they could change the scan during the work.
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         self.show_progress(context)
@@ -75,7 +75,7 @@ class OBJECT_OT_remesh_grain_wscvt(bpy.types.Operator):
         return True
 
     def next_job(self, context):
-        """Begins with the next object that can be read; False if there is none."""
+        """Starts the next readable object. Returns False if there is none."""
         self.job = None
         while self.scans and not self.job:
             self.scanned = self.scans.pop(0)
@@ -91,7 +91,7 @@ class OBJECT_OT_remesh_grain_wscvt(bpy.types.Operator):
         return self.job is not None
 
     def take_result(self, context):
-        """Adds the object of the job that is done, or notes why there is none."""
+        """Adds the result of the finished job as an object, or stores its error."""
         job, self.job = self.job, None
         if job.error is not None:
             self.is_cancelled |= getattr(job.error, "code", "") == "cancelled"
@@ -125,10 +125,10 @@ class OBJECT_OT_remesh_grain_wscvt(bpy.types.Operator):
                 one.select_set(True)
             context.view_layer.objects.active = self.made[-1]
         for failure in self.failures:
-            # An error would end a script that calls this, although there are results.
+            # An error report would end the calling script, although there are results.
             self.report({"WARNING" if self.made else "ERROR"}, failure)
         if self.is_cancelled:
-            self.report({"WARNING"}, f"Cancelled: {len(self.made)} of {self.count} grains are remeshed.")
+            self.report({"WARNING"}, f"Cancelled: {len(self.made)} of {self.count} grains were remeshed.")
         elif self.made:
-            self.report({"INFO"}, f"{len(self.made)} of {self.count} grains are remeshed.")
+            self.report({"INFO"}, f"{len(self.made)} of {self.count} grains were remeshed.")
         return {"FINISHED"} if self.made else {"CANCELLED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel in the sidebar of the 3D view: parameters, and what came of the active object."""
+"""The panel in the sidebar of the 3D view: parameters, and results of the active object."""
 import textwrap
 
 import bpy
@@ -29,7 +29,7 @@ class VIEW3D_PT_grain_settings(GrainPanel, bpy.types.Panel):
         column = layout.column()
         for name in settings.NAMES:
             if name in settings.CHOICES:
-                # A narrow sidebar cuts a label beside its choice.
+                # A narrow sidebar would cut off a label next to its choice.
                 column.label(text=context.scene.wscvt.bl_rna.properties[name].name + ":")
                 column.prop(context.scene.wscvt, name, text="")
             else:
@@ -62,7 +62,7 @@ class VIEW3D_PT_grain_result(GrainPanel, bpy.types.Panel):
 
 
 def draw_text(layout, context, text, icon):
-    """A text in lines as wide as the sidebar, which does not wrap any."""
+    """Draws a text in lines as wide as the sidebar, because Blender does not wrap labels."""
     width = max(20, int(context.region.width / (7.0 * context.preferences.system.ui_scale)))
     column = layout.column(align=True)
     for number, line in enumerate(textwrap.wrap(text, width)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parameters of the panel, one set a scene, and how far the work is."""
+"""The parameters of the panel, one set per scene, and the progress of the work."""
 import bpy
 from bpy.props import (BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty,
                        StringProperty)
@@ -13,21 +13,21 @@ CHOICES = ("weighting", "placement")
 class GrainSettings(bpy.types.PropertyGroup):
     nodes: IntProperty(
         name="Nodes", default=1000, min=4, max=1000000, soft_max=20000,
-        description="Number of nodes of the remesh, which it has exactly")
+        description="Exact number of nodes of the remesh")
     weighting: EnumProperty(
         name="Weighting", items=grain.WEIGHTINGS, default="wscvt-d",
-        description="Where cells are smaller")
+        description="Where the Voronoi cells are smaller")
     placement: EnumProperty(
         name="Nodes are", items=grain.PLACEMENTS, default="fitted",
         description="Where the nodes are put")
     edge_ratio: FloatProperty(
         name="Edge ratio", default=1.105, min=1.08, max=1.7, precision=3, step=1,
-        description="Mean of longest / shortest edge of the triangles. Larger is closer to the scan "
-                    "and less even")
+        description="Mean of longest / shortest edge of the triangles. Larger values give a smaller "
+                    "distance to the scan and less even triangles")
     shrink_wrap: FloatProperty(
         name="Shrink-wrap", default=0.0, min=0.0, max=50.0, precision=1, subtype="PERCENTAGE",
-        description="Remesh the outer surface of a porous or faulty scan. In % of the equivalent "
-                    "radius: pores narrower than this are closed. 0: off")
+        description="Remesh the outer surface of a porous or faulty scan. Pores narrower than this are "
+                    "closed. In % of the bounding-box diagonal. 0: off")
     distances: BoolProperty(
         name="Distances to the scan", default=False,
         description="Measure the distance of each node to the scan, as the attribute "
@@ -36,14 +36,14 @@ class GrainSettings(bpy.types.PropertyGroup):
     def options(self):
         """The settings as arguments of wscvt.remesh."""
         values = {name: getattr(self, name) for name in NAMES}
-        # Blender holds numbers in single precision: 1.105 is 1.10500002 there.
+        # Blender stores single precision: 1.105 is 1.10500002.
         return {name: round(value, 6) if isinstance(value, float) else value
                 for name, value in values.items()}
 
 
 def add():
     bpy.types.Scene.wscvt = PointerProperty(type=GrainSettings)
-    # Of the window manager, because they are no part of the file, nor of undo.
+    # In the window manager, to keep them out of the file and of undo.
     bpy.types.WindowManager.wscvt_progress = FloatProperty(
         name="Progress", min=0.0, max=100.0, subtype="PERCENTAGE")
     bpy.types.WindowManager.wscvt_at_work = StringProperty()

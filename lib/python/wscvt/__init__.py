@@ -7,8 +7,8 @@
 ((1000, 3), (1996, 3))
 
 A mesh is two arrays (vertices, faces), the path of a file, or a mesh of trimesh or PyVista. Lengths
-are in the unit of the mesh. The stub beside this file says what each function takes, returns and
-raises.
+are in the unit of the mesh. The stub next to this file lists the arguments, results and errors of
+each function.
 """
 import collections
 import concurrent.futures
@@ -29,7 +29,7 @@ __all__ = ["Error", "Remesh", "batch", "carry_attributes", "clump", "convex", "c
 
 
 def _arrays(mesh, faces=None):
-    """The vertices and faces of what a caller calls a mesh."""
+    """Returns the vertices and faces of any kind of mesh."""
     if faces is not None:
         return mesh, faces
     if isinstance(mesh, (str, os.PathLike)):
@@ -46,19 +46,19 @@ def remesh(vertices, faces=None, nodes=None, **options):
 
     remesh("scan.ply", 500), remesh(mesh, 500), remesh(vertices, faces, nodes=500)
 
-    vertices: (n, 3) numbers, any unit of length; or a path, or a mesh of trimesh or PyVista.
+    vertices: (n, 3) numbers in any unit of length, a path, or a mesh of trimesh or PyVista.
     faces: (m, 3) whole numbers, counted from 0, counter-clockwise from outside. None with
-        points=True, which takes points without faces.
+        points=True, for points without faces.
     nodes: N, 4 to 1000000; 1000 by default.
-    threads: 0 takes all. They change no result.
-    progress: is called with the fraction done, 0 to 1, and the stage. Where it returns False or
-        raises, the work is cancelled.
-    source: what the report names as the scan; the file's name if there is one.
-    keep_scan: keep the repaired scan, which pages and grids of the result show. On by default.
+    threads: 0 uses all. They do not change the result.
+    progress: called with the fraction done, 0 to 1, and the stage. If it returns False or raises,
+        the work is cancelled.
+    source: name of the scan in the report; the file's name by default.
+    keep_scan: keep the repaired scan for HTML reports and grids. On by default.
     All other options have the names and values of options().
 
     Raises Error (code "invalid-input", "not-star-shaped", "numerical-failure", "input-output" or
-    "cancelled"), and TypeError for options that there are not.
+    "cancelled"), and TypeError for unknown options.
     """
     # remesh("scan.ply", 500) and remesh(mesh, 500)
     if isinstance(faces, numbers.Integral) and nodes is None:
@@ -71,40 +71,40 @@ def remesh(vertices, faces=None, nodes=None, **options):
 
 
 def create(surface, **options):
-    """Makes a mesh of N nodes of a surface that is known exactly; returns a Remesh.
+    """Makes a mesh of N nodes of an analytic or SH surface and returns a Remesh.
 
     create("ellipsoid", semi_axes=(1.0, 0.8, 0.6), nodes=500)
 
     surface: "ellipsoid", "superellipsoid" or "harmonics".
     semi_axes: three lengths > 0; (1, 1, 1) by default.
-    polar_exponent: of a superellipsoid from pole to pole, 0.1 to 2; 1, the default, is an ellipsoid.
-    azimuthal_exponent: the same around the equator.
-    coefficients_file: of harmonics; a path that ends in .dat, .sh or .json.
-    coefficient_degree: where the series is cut; -1 takes all of it.
-    threads: and progress: as for remesh.
-    All other options have the names and values of options(). Nodes lie on the surface unless
-    placement says otherwise.
+    polar_exponent: for a superellipsoid, from pole to pole, 0.1 to 2. 1 is an ellipsoid, the
+        default.
+    azimuthal_exponent: like polar_exponent, around the equator.
+    coefficients_file: for harmonics, a path that ends in .dat, .sh or .json.
+    coefficient_degree: degree at which the series is cut; -1 keeps all.
+    threads, progress: as for remesh.
+    All other options have the names and values of options(). By default, nodes are on the surface.
 
-    Raises Error, and TypeError for options that there are not.
+    Raises Error, and TypeError for unknown options.
     """
     return _wscvt.create(surface, **options)
 
 
 def batch(scans, nodes=None, *, threads=0, **options):
-    """Remeshes many grains, one a thread, and yields (name, Remesh) in the order of the scans.
+    """Remeshes many grains, one per thread, and yields (name, Remesh) in the order of the scans.
 
     for name, result in wscvt.batch("scans", 500):
         if not isinstance(result, wscvt.Error):
             wscvt.write_mesh(f"{name}.ply", result)
 
-    scans: a folder, whose meshes are taken in the order of their names; a dictionary of meshes by
-        name; or an iterable of meshes, as remesh takes them or as pairs (vertices, faces). Names of
-        files are without their ending, those of other meshes their number, from 0.
-    threads: 0 takes all.
-    keep_scan is off unless asked for. All other options are those of remesh but for progress.
+    scans: a folder, read in the order of the file names; a dictionary of meshes by name; or an
+        iterable of meshes, as for remesh or as pairs (vertices, faces). Files have their name
+        without ending, other meshes their number, from 0.
+    threads: 0 uses all. keep_scan: off by default. All other options are as for remesh, except
+        progress.
 
-    A grain that fails yields its Error in place of a Remesh. TypeError is raised. Grains are read and
-    remeshed a few in advance. Leaving the loop cancels those.
+    A grain that fails yields its Error instead of a Remesh. TypeError is raised. A few grains are
+    read and remeshed in advance. Leaving the loop cancels them.
     """
     options.setdefault("keep_scan", False)
     is_left = threading.Event()
@@ -136,7 +136,7 @@ def batch(scans, nodes=None, *, threads=0, **options):
 
 
 def _named(scans):
-    """Names and meshes of what a caller calls scans."""
+    """Yields the names and meshes of any kind of scans."""
     if isinstance(scans, (str, os.PathLike)):
         scans = sorted(path for path in pathlib.Path(scans).iterdir()
                        if _wscvt._is_mesh_file(str(path)))
@@ -152,23 +152,23 @@ def _named(scans):
 
 
 def extract(labels, voxel_size=1.0, **options):
-    """Makes a mesh of each grain of a volume of labels; returns {label: (vertices, faces)}.
+    """Makes a mesh of each grain of a volume of labels and returns {label: (vertices, faces)}.
 
     for label, mesh in wscvt.extract(tifffile.imread("labels.tif"), 0.012).items():
         result = wscvt.remesh(*mesh, nodes=500)
 
-    labels: (nz, ny, nx) whole numbers, as numpy.load and tifffile.imread give them.
+    labels: (nz, ny, nx) whole numbers, as returned by numpy.load and tifffile.imread.
     voxel_size: length, or three along x, y and z. Voxel (0, 0, 0) begins at the origin.
-    background: the label that is no grain, 0 by default.
-    smallest: voxels of the smallest grain that is taken, 100 by default.
-    at_border: also take grains that touch the border, cut as they are. Off by default.
+    background: the label of the background, 0 by default.
+    smallest: min. number of voxels of a grain, 100 by default.
+    at_border: include grains that touch the border and are cut by it. Off by default.
     smoothing: passes that smooth the voxels' steps, 0 to 1000, 20 by default.
     threads, progress: as for remesh.
 
-    A grain in pieces is a UserWarning; its largest piece is taken. So is a grain that is too thin to
-    be smoothed, which is left out. Each mesh is closed and has
-    exactly the volume of its voxels, pores filled. Raises Error, and TypeError for labels that are
-    no whole numbers.
+    Issues a UserWarning for a grain in pieces, and keeps its largest piece. Issues a UserWarning
+    for a grain that is too thin to be smoothed, and omits it. Each mesh is closed and has exactly
+    the volume of its voxels, with pores filled. Raises Error, and TypeError for labels that are not
+    whole numbers.
     """
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3
@@ -176,31 +176,31 @@ def extract(labels, voxel_size=1.0, **options):
 
 
 def clump(vertices, faces=None, spheres=20, **options):
-    """Fits overlapping spheres to a grain, for engines that take clumps.
+    """Fits overlapping spheres to a grain, for engines with clumps.
 
     clump("scan.ply", spheres=50), clump(mesh), clump(vertices, faces)
 
     spheres: their number, 1 to 1000.
-    max_error: allowed rms distance in % of the equivalent radius, in place of a number; then
-        max_spheres is the largest number.
+    max_error: allowed rms distance in % of the equivalent radius, instead of a number. max_spheres
+        then limits the number.
     smallest_radius: of a sphere, in % of the equivalent radius.
-    inside: no sphere reaches out of the scan.
-    remesh_nodes: nodes of a remesh whose error of first contact stands beside the clump's; 0: none.
+    inside: keep all spheres inside the scan.
+    remesh_nodes: nodes of a remesh whose error of first contact is compared; 0: no comparison.
     threads, progress: as for remesh.
 
     The dictionary is the JSON report of "wscvt clump". Its "spheres" are an array (k, 4) of x, y, z
-    and radius. Raises Error, and TypeError for an option that there is not.
+    and radius. Raises Error, and TypeError for unknown options.
     """
     return _wscvt.clump(*_arrays(vertices, faces), spheres, **options)
 
 
 def describe(vertices, faces=None, reference=None, **options):
-    """Size, form, roundness, roughness and orientation of a closed mesh, as a dictionary.
+    """Returns size, form, roundness, roughness and orientation of a closed mesh as a dictionary.
 
     vertices, faces: as for remesh. Lengths are in the unit of the mesh.
     reference: a mesh to measure against, as a pair (vertices, faces), a path, or a mesh of trimesh
         or PyVista. The dictionary then has errors in % and distances too.
-    roundness_ball, roughness_cutoff: as of "wscvt describe".
+    roundness_ball, roughness_cutoff: as for "wscvt describe".
     threads, progress: as for remesh.
 
     The dictionary is the JSON report of "wscvt describe". Raises Error, and TypeError for a
@@ -213,7 +213,7 @@ def describe(vertices, faces=None, reference=None, **options):
 
 
 def signed_distances(points, vertices, faces=None, **options):
-    """Distances (n,) of points (n, 3) to a closed mesh, exact, negative inside; length.
+    """Returns the exact distances (n,) of points (n, 3) to a closed mesh, negative inside; length.
 
     vertices, faces: as for remesh. threads, progress: as for remesh. Raises Error.
     """
@@ -221,10 +221,10 @@ def signed_distances(points, vertices, faces=None, **options):
 
 
 def distance_grid(vertices, faces=None, spacing=0.0, **options):
-    """Signed distances to a closed mesh on a grid along the axes: a level set.
+    """Computes signed distances to a closed mesh on a grid along the axes: a level set.
 
     vertices, faces: as for remesh.
-    spacing: length; 0 takes a fiftieth of the equivalent diameter.
+    spacing: length; 0 means 1/50 of the equivalent diameter.
     threads, progress: as for remesh.
 
     Returns (values, origin, spacing): values (nx, ny, nz), length, negative inside; values[i, j, k]
@@ -234,7 +234,7 @@ def distance_grid(vertices, faces=None, spacing=0.0, **options):
 
 
 def _table_parts(table):
-    """The grains, files, columns, numbers and failures of what a caller calls a table."""
+    """Returns the grains, files, columns, numbers and failures of any kind of table."""
     if isinstance(table, (str, os.PathLike)):
         return _wscvt.read_table(_table_file(table))
     if hasattr(table, "to_records"):  # pandas
@@ -247,19 +247,19 @@ def _table_parts(table):
     texts = {name: [str(text) for text in columns.pop(name)]
              for name in list(columns) if columns[name].dtype.kind not in "biuf"}
     if not columns:
-        raise TypeError("The table has no columns of numbers. Give a structured array, a DataFrame, a "
+        raise TypeError("The table has no numeric columns. Give a structured array, a DataFrame, a "
                         "dictionary of arrays, or a path.")
     matrix = numpy.column_stack([column.astype(float) for column in columns.values()])
     grains = texts.get("grain") or [str(row) for row in range(len(matrix))]
-    # Units stand in the headings of files; arrays have names only.
+    # Files have units in their headings, arrays have only names.
     return grains, texts.get("file", []), [(name, "") for name in columns], matrix, 0
 
 
 def _table_file(path):
     files = _wscvt.sample_files(str(path))
     if len(files) > 1:
-        raise Error(f'The folder "{path}" is of a batch with several numbers of nodes. Give the folder of '
-                    f'one, such as "{pathlib.Path(files[0]).parent}".')
+        raise Error(f'The folder "{path}" is from a batch with several numbers of nodes. Give the '
+                    f'folder of one number, such as "{pathlib.Path(files[0]).parent}".')
     return files[0]
 
 
@@ -268,9 +268,9 @@ def read_table(path):
 
     path: a .csv file, or the folder of a batch.
 
-    The fields are "grain", "file" if the table has it, and the columns of numbers under their names
-    without units, as float64; NaN where a number is missing. pandas.DataFrame(table) makes a
-    DataFrame. Grains that failed are left out. Raises Error with the line that is wrong.
+    The fields are "grain", "file" if the table has it, and the numeric columns under their names
+    without units, as float64. Missing numbers are NaN. pandas.DataFrame(table) makes a DataFrame.
+    Failed grains are omitted. Raises Error with the number of the wrong line.
     """
     grains, files, columns, values, _ = _wscvt.read_table(_table_file(path))
     fields = {"grain": numpy.array(grains)}
@@ -284,26 +284,26 @@ def read_table(path):
 
 
 def sample(table, other=None, *, report=(), density=None, **options):
-    """Statistics of a sample by number and by mass, or of two that are compared; a dictionary.
+    """Returns statistics of a sample by number and by mass, or compares two samples.
 
     sizes = wscvt.sample("out", density=2650.0)["samples"][0]["size"]["by_mass"]
 
-    table: the folder of a batch, a .csv file, a structured array (read_table), a DataFrame of pandas
-        or a dictionary of arrays, with columns named as in shape.csv. The folder of a batch with
-        several numbers of nodes gives "levels" too, the errors against the number of nodes.
+    table: the folder of a batch, a .csv file, a structured array (read_table), a DataFrame of
+        pandas or a dictionary of arrays, with columns named as in shape.csv. A batch with several
+        numbers of nodes also gives "levels", the errors against the number of nodes.
     other: a second sample to compare with.
-    report: a path or several that end in .html, .json or .csv, which are written.
+    report: path or paths of reports to write, ending in .html, .json or .csv.
     size: "sieve", "equivalent-diameter", "feret-max" or "feret-min".
     of: "scan" or "remesh".
-    density: mass / volume, or a pair of them for two samples. By default the table's column "mass"
-        or "density", else 1.
-    mark: error in %, of levels: the number of nodes is told from which on 90 % of the grains are
-        below it; 1 by default.
-    seed, repetitions: of the 95 % intervals and of p; 1 and 1000 by default.
-    threads, progress: as for remesh. Threads change no result.
+    density: mass / volume, or a pair for two samples. By default the table's column "mass" or
+        "density", else 1.
+    mark: error in %, for "levels". They list the number of nodes above which 90 % of the grains
+        have a smaller error. 1 by default.
+    seed, repetitions: for the 95 % intervals and p; 1 and 1000 by default.
+    threads, progress: as for remesh.
 
-    The dictionary is the JSON report of "wscvt sample". Raises Error, and TypeError for what is no
-    table.
+    The dictionary is the JSON report of "wscvt sample". Raises Error, and TypeError for other types
+    of table.
     """
     samples = []
     for number, one in enumerate([table] if other is None else [table, other]):
@@ -314,20 +314,21 @@ def sample(table, other=None, *, report=(), density=None, **options):
     reports = [report] if isinstance(report, (str, os.PathLike)) else report
     densities = [] if density is None else numpy.atleast_1d(density).tolist()
     if len(densities) > 1 and len(densities) != len(samples):
-        raise TypeError(f"{len(densities)} densities are given, and {len(samples)} samples. Give one "
+        raise TypeError(f"{len(densities)} densities are given for {len(samples)} samples. Give one "
                         "density, or one per sample.")
     return _wscvt.sample(samples, [str(path) for path in reports], density=densities, **options)
 
 
 def convex(vertices, faces=None, **options):
-    """Takes a grain apart into at most `parts` convex parts, for physics engines.
+    """Divides a grain into at most `parts` convex parts, for physics engines.
 
-    vertices, faces: as for remesh. The cuts are chosen on a remesh of 500 nodes. The parts are hulls of
-    pieces of the grain itself, and hold it but for what `part_faces` leaves out.
+    vertices, faces: as for remesh. The cuts are chosen on a remesh of 500 nodes. The parts are
+        hulls of pieces of the grain itself. They contain the whole grain, unless `part_faces`
+        limits them.
     parts: 1 to 1000; 8 by default.
-    part_faces: faces of a part at most; 255 by default.
-    tolerance: distance of hulls that need no cut, % of the equivalent radius; 0.5 by default.
-    threads, progress, and all options of remesh: as there.
+    part_faces: max. number of faces of a part; 255 by default.
+    tolerance: distance up to which a hull needs no cut, % of the equivalent radius; 0.5 by default.
+    threads, progress and all options of remesh: as for remesh.
 
     Returns a list with a pair (vertices, faces) for each part, and a dictionary: distances from the
     grain, volume, and the grain's mass properties at unit density. Raises Error.
@@ -348,25 +349,24 @@ def write_mesh(path, vertices, faces=None, *, vertex_attributes=None, face_attri
 
 
 def read_attributes(path):
-    """The numbers that vertices and faces of a PLY file carry, such as red, quality or label, and the
-    colours of the vertices of an OBJ file. A texture of either becomes colours of the vertices.
+    """Returns the attributes of vertices and faces of a PLY file, such as red, quality or label,
+    and the vertex colours of an OBJ file. A texture becomes vertex colours.
 
-    Returns two dictionaries of arrays (n,), of the vertices and of the faces; both are empty for
-    other formats. Warns of pictures that are missing. Raises Error.
+    The result is two dictionaries of arrays (n,), for vertices and faces. Both are empty for other
+    formats. Warns of missing pictures. Raises Error.
     """
     return _wscvt.read_attributes(os.fspath(path))
 
 
 def carry_attributes(scan, mesh, vertex_attributes=None, face_attributes=None, *, threads=0):
-    """Carries the numbers of a scan onto another mesh in the same place, by the nearest point.
+    """Transfers the attributes of a scan to another mesh at the same place, from the nearest point.
 
     scan, mesh: (vertices, faces), a path, or a mesh of trimesh or PyVista.
-    vertex_attributes, face_attributes: dictionaries of arrays (n,), a number for each vertex or face
-        of the scan. Without both, the scan is a path: its file's are taken, with its texture as
-        red, green and blue of the vertices.
+    vertex_attributes, face_attributes: dictionaries of arrays (n,), a number for each vertex or
+        face of the scan. Without both, the scan must be a path: the file's attributes are used,
+        with its texture as red, green and blue of the vertices.
 
-    Returns two dictionaries with the same names and types. Warns of pictures that are missing.
-    Raises Error.
+    Returns two dictionaries with the same names and types. Warns of missing pictures. Raises Error.
     """
     if vertex_attributes is None and face_attributes is None:
         pair = mesh if isinstance(mesh, tuple) else _arrays(mesh)
@@ -381,7 +381,7 @@ del _function
 
 
 def _matrix(descriptors):
-    """Rows of numbers of an array (n, d), or of the fields of a structured array."""
+    """Returns an array (n, d), also from the fields of a structured array."""
     descriptors = numpy.asarray(descriptors)
     if descriptors.dtype.names:
         descriptors = numpy.column_stack([descriptors[name] for name in descriptors.dtype.names])
@@ -389,13 +389,13 @@ def _matrix(descriptors):
 
 
 def templates(descriptors, masses, k=20, *, seed=1, threads=0, progress=None):
-    """K grains with weights that stand for a sample: (table, distances).
+    """Chooses k grains with weights that represent a sample: (table, distances).
 
-    descriptors: an array (n, d), or a structured array with a field per descriptor; masses: n
+    descriptors: an array (n, d), or a structured array with a field per descriptor. masses: n
     numbers. table is a structured array with the fields grain, weight_by_number and weight_by_mass.
     distances is a dictionary: the Wasserstein distance of each descriptor in standard deviations of
-    the sample (by_number, by_mass), that of random grains (random_by_number, random_by_mass), and
-    stands_for, the row of the table that is nearest to each grain.
+    the sample (by_number, by_mass), the same for random grains (random_by_number, random_by_mass),
+    and stands_for, for each grain the nearest row of the table.
     """
     parts = _wscvt.templates_of(_matrix(descriptors), list(masses), k, seed, threads, progress)
     table = numpy.empty(len(parts["grains"]), [("grain", "i8"), ("weight_by_number", "f8"),
@@ -409,12 +409,12 @@ def templates(descriptors, masses, k=20, *, seed=1, threads=0, progress=None):
 
 
 def grow(grains, n, *, nodes=500, donors=3, degree=20, seed=1, threads=0, progress=None):
-    """Virtual grains with the statistics of real ones: (meshes, table).
+    """Makes virtual grains with the statistics of real grains: (meshes, table).
 
-    grains: meshes, as remesh takes them, or arrays of SH coefficients, 8 or more. meshes is a list
+    grains: 8 or more meshes, as for remesh, or arrays of SH coefficients. meshes is a list
     of n pairs (vertices, faces) in their principal frames. table is a structured array with the
     fields equivalent_diameter, base_grain, nearest_grain, nearest_distance (rms of the radius at
-    radius 1), collage and redraws; grains are numbered from 0.
+    radius 1), collage and redraws. Grains are numbered from 0.
     """
     real = []
     for grain in grains:

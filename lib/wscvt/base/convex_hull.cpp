@@ -127,7 +127,7 @@ IndexedMesh convex_hull(const std::vector<Vector3>& points, const Execution& exe
   if (hull.triangles.empty()) {
     throw Error(
         ErrorCode::InvalidInput,
-        "The points lie in one plane, so their convex hull has no volume; give a solid body.");
+        "The points lie in one plane, so their convex hull has no volume. Give a solid body.");
   }
   std::vector<std::int32_t> number(points.size(), -1);
   for (const Triangle& t : hull.triangles) {

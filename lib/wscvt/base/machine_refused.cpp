@@ -47,11 +47,11 @@ void refuse_to_open(const std::string& path, int error_number) {
                          "\" is not there. Check its name and that its disk is mounted.");
   }
   throw Error(ErrorCode::InputOutput,
-              file + "cannot be opened; check that the file is there and readable.");
+              file + "cannot be opened. Check that the file exists and is readable.");
 }
 
 void refuse_to_read(const std::string& path) {
-  throw MachineRefused("\"" + path + "\" could not be read to its end; check the disk.");
+  throw MachineRefused("\"" + path + "\" could not be read to its end. Check the disk.");
 }
 
 }  // namespace wscvt

@@ -27,7 +27,7 @@ Mesh to_mesh(const IndexedMesh& mesh) {
     if (!face.is_valid()) {
       throw Error(ErrorCode::InvalidInput,
                   "Triangle " + std::to_string(f) +
-                      " does not fit an oriented 2-manifold; check and repair the mesh first.");
+                      " does not fit an oriented 2-manifold. Check and repair the mesh first.");
     }
   }
   return result;

@@ -31,15 +31,15 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail_half_written(const std::string& path) {
   fail(path,
-       "could not be written whole and was left as it was; check the space on the disk, the limit "
-       "of file sizes (ulimit -f), and that no folder has this name.");
+       "could not be written completely and was left unchanged. Check the space on the disk, the "
+       "limit of file sizes (ulimit -f), and that no folder has this name.");
 }
 
 /// Returns the name of a file while it is written.
 std::string partial_name(const std::string& target) { return target + ".part"; }
 
 constexpr const char* check_the_folder =
-    "cannot be written; check that the folder is there and can be written to.";
+    "cannot be written. Check that the folder exists and is writable.";
 
 /// Returns the descriptor for /dev/stdout and similar paths; nothing for other paths.
 std::optional<int> descriptor_of(const fs::path& path) {
@@ -152,21 +152,21 @@ void copy_into(const std::string& path, const std::string& target, PartialFile& 
   if (to) return;
   const std::string kept = partial.path();
   partial.keep();
-  fail(path, "could not be written whole; its new content is in \"" + kept + "\".");
+  fail(path, "could not be written completely. Its new content is in \"" + kept + "\".");
 }
 
 /// Throws if the target cannot be written. Returns the status of an existing target.
 std::optional<struct stat> check_target(const std::string& path, const Target& target) {
   if (target.is_circle) {
-    fail(path, "is a link that leads nowhere; remove it or give another name.");
+    fail(path, "is a link to a missing file. Remove it or give another name.");
   }
   struct stat there {};
   if (::stat(target.path.c_str(), &there) != 0) return {};
   if (S_ISDIR(there.st_mode)) {
-    fail(path, "is a folder and cannot be written; check the name, and add that of a file.");
+    fail(path, "is a folder and cannot be written. Check the name and add a file name.");
   }
   if (::access(target.path.c_str(), W_OK) != 0) {
-    fail(path, "cannot be written; check whose it is and that it is not protected.");
+    fail(path, "cannot be written. Check its owner and its permissions.");
   }
   return there;
 }
@@ -214,7 +214,7 @@ void check_writable(const std::string& path) {
   if (target.descriptor) {
     const int mode = ::fcntl(*target.descriptor, F_GETFL);
     if (mode == -1 || (mode & O_ACCMODE) == O_RDONLY) {
-      fail(path, "is closed or only to be read; open it for writing.");
+      fail(path, "is closed or read-only. Open it for writing.");
     }
     return;
   }

@@ -138,7 +138,7 @@ void add_warnings(ClumpResult& result) {
   if (groups > 1) {
     result.warnings.push_back("The spheres are in " + std::to_string(groups) +
                               " groups that do not touch each other. Give more spheres, or leave "
-                              "out --inside, if they must hang together.");
+                              "out --inside, if they must be connected.");
   }
 }
 

@@ -110,10 +110,10 @@ class Growth {
   SphereFit begin(const IndexedMesh& grain) {
     const InscribedSphere largest = largest_inscribed_sphere(grain, execution_);
     if (options_.inside && largest.radius < smallest_) {
-      refuse("The largest sphere inside the grain has a radius of " +
+      refuse("No sphere fits inside the grain: the largest has a radius of " +
              format_number(100.0 * largest.radius, 3) +
-             " % of the equivalent radius, less than --smallest-radius, so that no sphere fits "
-             "inside; give a smaller one, or leave out --inside.");
+             " % of the equivalent radius, less than --smallest-radius. Give a smaller "
+             "--smallest-radius, or leave out --inside.");
     }
     const bool is_target = options_.max_error_percent > 0.0;
     const auto count =

@@ -184,7 +184,7 @@ class Tetrahedra {
 }  // namespace
 
 IndexedMesh sphere_union_mesh(const std::vector<Sphere>& spheres, const Execution& execution) {
-  if (spheres.empty()) refuse("The clump has no spheres; give one or more.");
+  if (spheres.empty()) refuse("The clump has no spheres. Give one or more.");
   for (const Sphere& sphere : spheres) {
     if (!sphere.centre.allFinite() || !(sphere.radius > 0.0) || !std::isfinite(sphere.radius)) {
       refuse("A sphere of the clump has no finite centre or no radius above 0.");

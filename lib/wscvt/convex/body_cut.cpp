@@ -133,7 +133,7 @@ CutSolid::CutSolid(const IndexedMesh& mesh) : points_(mesh.points) {
     const auto back = sides.find(edge_key(b, a));
     if (back == sides.end() || back->second != 1) {
       refuse(
-          "The mesh is not closed, or an edge has more than two triangles; repair the mesh first.");
+          "The mesh is not closed, or an edge has more than two triangles. Repair the mesh first.");
     }
   }
   volume_ = volume_of(mesh, Execution(1));

@@ -184,7 +184,7 @@ ConvexParts convex_parts(const IndexedMesh& mesh, const IndexedMesh& scan,
   std::vector<ConvexBody> bodies;
   if (options.parts == 1) {
     bodies.push_back(convex_body(scan.points.empty() ? mesh.points : scan.points));
-    if (bodies.front().empty()) refuse("The grain is flat; give a closed mesh with a volume.");
+    if (bodies.front().empty()) refuse("The grain is flat. Give a closed mesh with a volume.");
   } else {
     bodies = bodies_of(mesh, scan, options, execution);
   }

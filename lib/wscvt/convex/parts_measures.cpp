@@ -103,12 +103,12 @@ std::vector<Vector3> outer_points(const ConvexParts& parts) {
 
 PartsMeasures measure_parts(const ConvexParts& parts, const IndexedMesh& grain,
                             const Execution& execution) {
-  if (parts.empty()) refuse("There is no convex part with a volume; give closed convex meshes.");
+  if (parts.empty()) refuse("There is no convex part with a volume. Give closed convex meshes.");
   const Union all(parts);
   PartsMeasures measures;
   measures.grain_volume = volume_of(grain, execution);
   if (!(measures.grain_volume > 0.0)) {
-    refuse("The grain encloses no positive volume; give a closed mesh whose faces look outward.");
+    refuse("The grain encloses no positive volume. Give a closed mesh whose faces look outward.");
   }
   for (const ConvexBody& body : all.bodies()) measures.parts_volume += body.volume;
   measures.shared_volume = shared_volume(all, execution);

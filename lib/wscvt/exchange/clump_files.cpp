@@ -240,7 +240,7 @@ bool is_clump_name(const std::string& path) { return !clump_ending(path).empty()
 void check_clump_path(const std::string& path) {
   if (is_clump_name(path)) return;
   refuse("\"" + path +
-         "\" is to hold a clump, but its ending names no format. Give a name that ends in .csv, "
+         "\" does not have the ending of a clump format. Give a name that ends in .csv, "
          ".multisphere (LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump "
          "(MercuryDPM), .p3dat (PFC) or .molecule (LAMMPS).");
 }
@@ -306,11 +306,11 @@ std::vector<Sphere> read_clump(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {
     throw Error(ErrorCode::InputOutput,
-                "\"" + path + "\" cannot be opened; check that the file is there.");
+                "\"" + path + "\" cannot be opened. Check that the file exists.");
   }
   std::string line;
   if (!next_line(stream, line) || line != header) {
-    refuse("\"" + path + "\" is no table of spheres: its first line is not \"x,y,z,r\".");
+    refuse("\"" + path + "\" is not a table of spheres: its first line is not \"x,y,z,r\".");
   }
   std::vector<Sphere> spheres;
   for (std::size_t number = 2; next_line(stream, line); ++number) {
@@ -332,7 +332,7 @@ std::vector<Sphere> read_clump(const std::string& path) {
     }
     spheres.push_back({Vector3(values[0], values[1], values[2]), values[3]});
   }
-  if (spheres.empty()) refuse("\"" + path + "\" holds no sphere.");
+  if (spheres.empty()) refuse("\"" + path + "\" contains no sphere.");
   return spheres;
 }
 

@@ -39,7 +39,7 @@ struct Box {
 Box box_of(const IndexedMesh& mesh) {
   if (mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput,
-                "The mesh has no faces, so there is no inside; give a closed triangle mesh.");
+                "The mesh has no faces, so there is no inside. Give a closed triangle mesh.");
   }
   Box box{mesh.points[mesh.triangles.front()[0]], mesh.points[mesh.triangles.front()[0]]};
   for (const Triangle& t : mesh.triangles) {
@@ -84,10 +84,10 @@ double affordable_spacing(const Box& box, GridOptions options) {
 void refuse_grid(const Box& box, const GridOptions& options) {
   throw Error(ErrorCode::InvalidInput,
               "A spacing (--" + std::string(grid_spacing_option.key) + ") of " +
-                  format_number(options.spacing) + " takes a grid of " +
+                  format_number(options.spacing) + " needs a grid of " +
                   format_number(point_count(box, options) / 1e6, 3) +
                   " million points, more than " + format_number(most_grid_points / 1e6) +
-                  " million; give " + format_number(1.01 * affordable_spacing(box, options), 3) +
+                  " million. Give " + format_number(1.01 * affordable_spacing(box, options), 3) +
                   " or more, or 0.");
 }
 
@@ -96,7 +96,7 @@ double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
   const double volume = volume_of(mesh, execution);
   if (!(volume > 0.0)) {
     throw Error(ErrorCode::InvalidInput,
-                "The mesh encloses no positive volume, so there is no inside; give a closed mesh "
+                "The mesh encloses no positive volume, so there is no inside. Give a closed mesh "
                 "whose faces look outward.");
   }
   return affordable_spacing(box, {std::cbrt(6.0 * volume / pi) / 50.0});

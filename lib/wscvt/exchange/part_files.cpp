@@ -101,7 +101,8 @@ void check_part_file(const std::string& path) {
   const std::vector<std::string>& endings = part_endings();
   if (std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end()) return;
   refuse("\"" + path +
-         "\" is to hold convex parts; give a name that ends in .obj, .urdf or .xml (MJCF).");
+         "\" does not have the ending of a format for convex parts. Give a name that ends in .obj, "
+         ".urdf or .xml (MJCF).");
 }
 
 void write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,

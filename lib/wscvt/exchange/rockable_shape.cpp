@@ -18,8 +18,8 @@ void check_frame(const MassProperties& mass, double radius) {
   const double off_diagonal = (tensor - Eigen::Matrix3d(tensor.diagonal().asDiagonal())).norm();
   if (mass.centroid.norm() <= 1e-6 * radius && off_diagonal <= 1e-6 * tensor.norm()) return;
   throw Error(ErrorCode::InvalidInput,
-              "A Rockable shape holds moments about the principal axes and no axes, but the grain "
-              "lies in another frame; ask for the principal frame.");
+              "A Rockable shape has moments about the principal axes and no axes, but the grain is "
+              "in another frame. Use the principal frame.");
 }
 
 }  // namespace

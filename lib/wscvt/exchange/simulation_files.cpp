@@ -66,10 +66,10 @@ void check_nodes_path(const std::string& path, const SimulationOptions& options)
                                              "\". Use .csv, .vtp or .shp (Rockable).");
   }
   if (options.frame.frame != Frame::Principal) {
-    throw Error(ErrorCode::InvalidInput,
-                "\"" + path +
-                    "\" is to hold a Rockable shape, which lies in its principal axes; ask for the "
-                    "frame principal.");
+    throw Error(
+        ErrorCode::InvalidInput,
+        "\"" + path +
+            "\" is a Rockable shape. It must be in its principal axes: use the frame principal.");
   }
 }
 

@@ -66,7 +66,7 @@ run 100000
 class CumulativeMass {
  public:
   explicit CumulativeMass(std::vector<double> diameters) : diameters_(std::move(diameters)) {
-    if (diameters_.empty()) refuse("There are no grains for a size curve; give some.");
+    if (diameters_.empty()) refuse("There are no grains for a size curve. Give at least one.");
     std::sort(diameters_.begin(), diameters_.end());
     double mass = 0.0;
     for (const double diameter : diameters_) {
@@ -132,7 +132,7 @@ std::string sphere_rows(const std::vector<Sphere>& spheres) {
 std::string liggghts_template_input(const std::vector<ClumpTemplate>& templates,
                                     const std::vector<double>& diameters) {
   if (templates.empty() || diameters.empty()) {
-    refuse("There are no templates or no diameters for LIGGGHTS; give some.");
+    refuse("There are no templates or no diameters for LIGGGHTS. Give at least one of each.");
   }
   const double side = 8.0 * *std::max_element(diameters.begin(), diameters.end());
   const std::string text = format_typed(side);

@@ -17,7 +17,7 @@ namespace wscvt {
 
 namespace {
 
-constexpr const char* stage = "Carrying colours and labels";
+constexpr const char* stage = "Transferring colours and labels";
 
 /// Whether a value between two vertices' values is meaningful.
 bool is_interpolated(const MeshAttribute& attribute) {
@@ -32,7 +32,7 @@ void check_sizes(const std::vector<MeshAttribute>& attributes, std::size_t count
     if (attribute.values.size() == count) continue;
     refuse("The attribute \"" + attribute.name + "\" has " +
            std::to_string(attribute.values.size()) + " values, but the scan has " +
-           std::to_string(count) + " " + what + "; give one each.");
+           std::to_string(count) + " " + what + ". Give one each.");
   }
 }
 
@@ -73,7 +73,7 @@ void check_texture(const MeshTexture& texture, std::size_t faces) {
   if (texture.empty()) return;
   if (texture.corners.size() != faces || texture.picture_of_face.size() != faces) {
     refuse("The texture has " + std::to_string(texture.corners.size()) +
-           " faces, but the scan has " + std::to_string(faces) + "; give each face its corners.");
+           " faces, but the scan has " + std::to_string(faces) + ". Give each face its corners.");
   }
   for (const TexturePicture& picture : texture.pictures) {
     const bool is_whole =
@@ -84,7 +84,7 @@ void check_texture(const MeshTexture& texture, std::size_t faces) {
     if (is_whole) continue;
     refuse("A picture of the texture has " + std::to_string(picture.colours.size()) +
            " numbers, but is " + std::to_string(picture.width) + " x " +
-           std::to_string(picture.height) + "; give 3 for each pixel.");
+           std::to_string(picture.height) + ". Give 3 for each pixel.");
   }
 }
 

@@ -119,9 +119,9 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
                                                       const std::vector<DescriptorValue>& values) {
   if (reference.size() != values.size()) {
     throw Error(ErrorCode::InvalidInput,
-                "The two lists hold " + std::to_string(reference.size()) + " and " +
+                "The two lists contain " + std::to_string(reference.size()) + " and " +
                     std::to_string(values.size()) +
-                    " descriptors; compare lists made by the same function.");
+                    " descriptors. Compare lists made by the same function.");
   }
   // Sizes for the test of near zero: 1 for numbers without a unit, otherwise the largest value with
   // the unit, such as the longest axis for lengths.
@@ -137,8 +137,8 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
     const DescriptorValue& to = values[i];
     if (from.key != to.key) {
       throw Error(ErrorCode::InvalidInput,
-                  "Row " + std::to_string(i) + " holds " + from.key + " in one list and " + to.key +
-                      " in the other; compare lists made by the same function.");
+                  "Row " + std::to_string(i) + " is " + from.key + " in one list and " + to.key +
+                      " in the other. Compare lists made by the same function.");
     }
     const bool near_zero = std::abs(from.value) < near_zero_share * sizes[from.unit];
     const double error = from.on_ratio_scale && !near_zero

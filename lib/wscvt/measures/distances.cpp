@@ -23,13 +23,13 @@ constexpr const char* distance_stage = "Measuring distances";
 void require_target_faces(const IndexedMesh& mesh) {
   if (!mesh.triangles.empty()) return;
   throw Error(ErrorCode::InvalidInput,
-              "The mesh has no faces, so no distance to it can be measured; give a triangle mesh.");
+              "The mesh has no faces, so no distance to it can be measured. Give a triangle mesh.");
 }
 
 void require_area(bool has_area) {
   if (has_area) return;
   throw Error(ErrorCode::InvalidInput,
-              "All faces of the mesh are degenerate, so no distance to it can be measured; give a "
+              "All faces of the mesh are degenerate, so no distance to it can be measured. Give a "
               "mesh with area.");
 }
 
@@ -69,7 +69,7 @@ void check_densities(const IndexedMesh& mesh, const std::vector<double>& densiti
   if (densities.empty() || densities.size() == mesh.points.size()) return;
   throw Error(ErrorCode::InvalidInput,
               "There are " + std::to_string(densities.size()) + " densities for a mesh of " +
-                  std::to_string(mesh.points.size()) + " vertices; give one each, or none.");
+                  std::to_string(mesh.points.size()) + " vertices. Give one per vertex, or none.");
 }
 
 std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count,
@@ -86,7 +86,7 @@ std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t 
   }
   if (!(area > 0.0)) {
     throw Error(ErrorCode::InvalidInput,
-                "The mesh has no area, so no points can be spread over it; give a triangle mesh "
+                "The mesh has no area, so no points can be spread over it. Give a triangle mesh "
                 "with area.");
   }
 

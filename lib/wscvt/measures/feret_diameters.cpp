@@ -186,7 +186,7 @@ FeretDiameters feret_diameters(const IndexedMesh& mesh, const std::vector<Vector
   if (hull.size() < 4 || mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput,
                 "A body of " + std::to_string(hull.size()) +
-                    " points has no diameters; give a closed mesh and the points of its hull.");
+                    " points has no diameters. Give a closed mesh and the points of its hull.");
   }
   // Relative to a point of the mesh, against cancellation far from the origin.
   const Eigen::Matrix3d frame = frame_of(hull);

@@ -77,7 +77,7 @@ void append_detail_remarks(const std::string& name, const DetailedDescriptors& d
   } else if (descriptors.folded_share > told_folded_share) {
     sentences.push_back("Overhangs of '" + name + "' cover " +
                         format_percent(descriptors.folded_share) +
-                        " of the sphere. Sdq as printed is that of its outermost surface.");
+                        " of the sphere. Sdq as printed describes only the outermost surface.");
   }
 }
 

@@ -248,7 +248,7 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
   const FaceBoxes surface(mesh, execution, "Measuring distances");
   if (surface.empty()) {
     throw Error(ErrorCode::InvalidInput,
-                "The mesh has no faces with an area, so no sphere fits into it; give a closed mesh "
+                "The mesh has no faces with an area, so no sphere fits into it. Give a closed mesh "
                 "that encloses a volume.");
   }
   Vector3 lower = mesh.points[mesh.triangles.front()[0]];
@@ -268,7 +268,7 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
   const InscribedSphere sphere = search.result();
   if (!(sphere.radius > 0.0)) {
     throw Error(ErrorCode::InvalidInput,
-                "No point was found inside the mesh, so no sphere fits into it; give a closed mesh "
+                "No point was found inside the mesh, so no sphere fits into it. Give a closed mesh "
                 "that encloses a volume.");
   }
   return sphere;

@@ -104,7 +104,7 @@ void require_faces(const IndexedMesh& mesh) {
   if (mesh.triangles.empty()) {
     throw Error(
         ErrorCode::InvalidInput,
-        "The mesh has no faces, so its quality cannot be measured; give a closed triangle mesh.");
+        "The mesh has no faces, so its quality cannot be measured. Give a closed triangle mesh.");
   }
 }
 
@@ -156,7 +156,7 @@ MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution)
 QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins) {
   require_faces(mesh);
   if (bins == 0) {
-    throw Error(ErrorCode::InvalidInput, "A histogram needs at least one bin; 0 were asked for.");
+    throw Error(ErrorCode::InvalidInput, "A histogram needs at least one bin, not 0.");
   }
   Moments lengths;
   for (const Triangle& t : mesh.triangles) {

@@ -28,7 +28,7 @@ OrientationTensor orientation_tensor(const IndexedMesh& mesh, const Execution& e
   if (!(sum.trace() > 0.0)) {
     throw Error(
         ErrorCode::InvalidInput,
-        "The mesh has no area, so it has no surface orientation; give a triangle mesh with area.");
+        "The mesh has no area, so it has no surface orientation. Give a triangle mesh with area.");
   }
   OrientationTensor result;
   result.tensor = sum / sum.trace();

@@ -13,7 +13,7 @@ namespace wscvt {
 double printed_sdq(const RadialSurface& surface, int rings, const Execution& execution) {
   if (rings < 1) {
     throw Error(ErrorCode::InvalidInput,
-                "The number of parallels is " + std::to_string(rings) + "; give 1 or more.");
+                "The number of parallels is " + std::to_string(rings) + ". Give 1 or more.");
   }
   struct Sums {
     double slope = 0.0;

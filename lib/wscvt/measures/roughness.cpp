@@ -95,7 +95,7 @@ Roughness surface_roughness(const IndexedMesh& mesh, double cutoff, const Execut
     throw Error(ErrorCode::InvalidInput,
                 "The cut-off length of roughness is " + format_number(cutoff, 4) +
                     ", but the edges of this mesh are so long that it must be " +
-                    format_number(least, 4) + " or more; give a larger cut-off or a denser mesh.");
+                    format_number(least, 4) + " or more. Give a larger cut-off or a denser mesh.");
   }
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
   filter.set_surface(mesh.points, cutoff, execution);

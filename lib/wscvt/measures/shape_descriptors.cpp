@@ -137,7 +137,7 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   if (!(moments.volume > 0.0)) {
     throw Error(
         ErrorCode::InvalidInput,
-        "The mesh encloses no positive volume, so it has no shape descriptors; give a closed "
+        "The mesh encloses no positive volume, so it has no shape descriptors. Give a closed "
         "mesh whose faces look outward.");
   }
 
@@ -171,7 +171,7 @@ std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& 
          " is not reliable: parts of the surface lie along rays from the centroid. " +
          format_percent(descriptors.sdq_clipped_share) +
          " of its square comes from faces at the smallest cosine, " +
-         format_number(smallest_cosine) + "; with half that cosine Sdq is " +
+         format_number(smallest_cosine) + ". With half that cosine Sdq is " +
          format_percent(change) + " larger. Do not compare it with other grains.";
 }
 

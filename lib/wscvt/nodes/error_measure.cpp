@@ -25,7 +25,7 @@ double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
   }
   if (!distances) {
     throw Error(ErrorCode::InvalidInput,
-                "The result holds no distances; ask for them in the options of the remesh.");
+                "The result has no distances. Request them in the options of the remesh.");
   }
   return 100.0 * distances->root_mean_square / equivalent_radius(original.volume);
 }

@@ -146,7 +146,7 @@ class Evening {
   EveningReport run(int steps) {
     EveningReport report;
     for (int step = 0; step < steps; ++step) {
-      execution_.report(static_cast<double>(step) / steps, "Evening the nodes");
+      execution_.report(static_cast<double>(step) / steps, "Equalizing edge lengths");
       report.flips += flip_to_delaunay(nodes_, outward_);
       plan(step > 0 ? momentum : 0.0);
       move();

@@ -49,7 +49,7 @@ void spread(const IndexedMesh& mesh, const std::vector<double>& areas, double di
   std::vector<double> moments(values.size());
   std::vector<double> measures(values.size());
   for (int round = 0; round < rounds; ++round) {
-    execution.report(0.0, "Weighing the cells");
+    execution.report(0.0, "Computing weights");
     std::fill(moments.begin(), moments.end(), 0.0);
     std::fill(measures.begin(), measures.end(), 0.0);
     for (const Triangle& t : mesh.triangles) {

@@ -71,11 +71,11 @@ constexpr int heap_vertices_a_node = 2;
 void check_scan_options(const ScanNodesOptions& options) {
   if (!(options.edge_ratio >= least_edge_ratio && options.edge_ratio <= most_edge_ratio)) {
     refuse("The wanted mean edge ratio is " + std::to_string(options.edge_ratio) +
-           "; give one from 1.08 to 1.7.");
+           ". Give a number from 1.08 to 1.7.");
   }
   if (!(std::abs(options.curvature_alpha) <= 3.0)) {
     refuse("The strength alpha of the curvature weighting is " +
-           std::to_string(options.curvature_alpha) + "; give one from -3 to 3.");
+           std::to_string(options.curvature_alpha) + ". Give a number from -3 to 3.");
   }
 }
 
@@ -162,16 +162,15 @@ int fewest_nodes(std::size_t genus) {
   const std::string handles = std::to_string(genus) + (genus == 1 ? " handle" : " handles");
   std::string text =
       count < fewest
-          ? "No closed mesh with " + handles + " has fewer than " + std::to_string(fewest) +
-                " nodes; the number of nodes is " + std::to_string(count) + "."
-          : std::to_string(count) + " nodes are too few to go round the grain's " + handles + ".";
+          ? "A closed mesh with " + handles + " needs at least " + std::to_string(fewest) +
+                " nodes, not " + std::to_string(count) + "."
+          : std::to_string(count) + " nodes are too few for the grain's " + handles + ".";
   if (enough > 0) {
-    text += " " + std::to_string(enough) + " were tried and are enough: ask for that many or more.";
+    text += " " + std::to_string(enough) + " were tried and are enough. Use that number or more.";
   } else {
-    text +=
-        " Up to " + std::to_string(most_tried_times * count) +
-        " were tried and are not enough. Ask for more, or let the handles be cut: --handles cut, "
-        "and a larger limit by --max-handle-loop.";
+    text += " Up to " + std::to_string(most_tried_times * count) +
+            " were tried and are not enough. Use more, or let the handles be cut: --handles cut, "
+            "with a larger --max-handle-loop.";
   }
   refuse(text);
 }
@@ -325,7 +324,7 @@ EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing&
 
 ScanNodes ScanRemesher::place(int node_count, const Execution& execution) const {
   if (node_count < 4) {
-    refuse("The number of nodes is " + std::to_string(node_count) + "; give 4 or more.");
+    refuse("The number of nodes is " + std::to_string(node_count) + ". Give 4 or more.");
   }
   std::optional<ScanNodes> result = try_to_place(node_count, execution);
   const Execution more = execution.part(1.0, 1.0);

@@ -15,7 +15,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
-constexpr const char* intersection_stage = "Looking for triangles that meet";
+constexpr const char* intersection_stage = "Looking for intersecting triangles";
 
 Kernel::Point_3 exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 

@@ -33,7 +33,7 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
   if (options.handles.action == HandleAction::Refuse) {
     throw Error(ErrorCode::InvalidInput,
                 "The scan has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
-                    " (tunnels through the grain), which the options refuse. Use --" +
+                    " (tunnels through the grain), but the options do not allow handles. Use --" +
                     std::string(EnumerationTable<HandleAction>::key) + " cut or keep.");
   }
   if (options.handles.action == HandleAction::Cut) {

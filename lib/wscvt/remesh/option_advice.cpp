@@ -13,15 +13,15 @@ struct Replaced {
 };
 
 constexpr Replaced replaced[] = {
-    {"refine", "", "Use --edge-ratio 1.4 or larger, which comes closer to the scan."},
-    {"refine-angle", "", "Use --edge-ratio: triangles keep angles of about 30 degrees."},
-    {"refine-tolerance", "", "Leave it out: the fit ends by itself."},
+    {"refine", "", "Use --edge-ratio 1.4 or larger. The remesh is then closer to the scan."},
+    {"refine-angle", "", "Use --edge-ratio. The angles stay near 30 degrees or above."},
+    {"refine-tolerance", "", "Leave it out: the fit stops by itself."},
     {"metric", "",
-     "The method decides it: --method on-scan has its cells on the surface, --method as-published "
-     "on the sphere."},
+     "Leave it out: --method on-scan has its cells on the surface, --method as-published on the "
+     "sphere."},
     {"parametrization", "",
-     "Leave it out: --method on-scan takes any closed grain, --method as-published star-shaped "
-     "ones."},
+     "Leave it out: --method on-scan accepts any closed grain, --method as-published star-shaped "
+     "grains."},
     {"target", "", "Use --max-error."},
     {"target-measure", "", "Use --error-measure."},
     {"largest", "", "Use --max-nodes."},
@@ -31,27 +31,26 @@ constexpr Replaced replaced[] = {
     {"handle-length", "", "Use --max-handle-loop."},
     {"advice", "", "Use --suggestions, or --no-suggestions."},
     {"no-advice", "", "Use --no-suggestions."},
-    {"seed-start", "", "Leave it out: the start is always the best one."},
-    {"seed", "", "Leave it out: nothing is random, the same scan gives the same mesh."},
-    {"iterations", "", "Leave it out: the relaxation ends by itself."},
-    {"tolerance", "", "Leave it out: the relaxation ends by itself."},
-    {"area-tolerance", "", "Leave it out: the relaxation ends by itself."},
+    {"seed-start", "", "Leave it out: the best initial seeds are always used."},
+    {"seed", "", "Leave it out: nothing is random. A scan always gives the same mesh."},
+    {"iterations", "", "Leave it out: the relaxation stops by itself."},
+    {"tolerance", "", "Leave it out: the relaxation stops by itself."},
+    {"area-tolerance", "", "Leave it out: the relaxation stops by itself."},
     {"acceleration", "", "Leave it out: the relaxation is always accelerated."},
     {"no-acceleration", "", "Leave it out: the relaxation is always accelerated."},
-    {"over-relaxation", "", "Leave it out: the step is chosen by the method."},
-    {"coarsest-seeds", "", "Leave it out: the levels are chosen by the method."},
-    {"coarsest-tolerance", "", "Leave it out: the levels are chosen by the method."},
-    {"middle-tolerance", "", "Leave it out: the levels are chosen by the method."},
+    {"over-relaxation", "", "Leave it out: the method chooses the step."},
+    {"coarsest-seeds", "", "Leave it out: the method chooses the levels."},
+    {"coarsest-tolerance", "", "Leave it out: the method chooses the levels."},
+    {"middle-tolerance", "", "Leave it out: the method chooses the levels."},
     {"curvature-source", "",
-     "Leave it out: as published the curvature is that of the SH series, on the scan that of the "
-     "scan."},
-    {"adaptive-exponent", "", "Leave it out: it is 2/3, the best for the distance."},
-    {"distance-samples", "", "Leave it out: 400,000 samples are taken."},
+     "Leave it out: --method as-published uses the curvature of the SH series, --method on-scan "
+     "the curvature of the scan."},
+    {"adaptive-exponent", "", "Leave it out: it is 2/3, which gives the smallest distance."},
+    {"distance-samples", "", "Leave it out: 400,000 sample points are used."},
     {"weld-tolerance", "", "Leave it out: it is 1e-12 of the scan's size."},
     {"dropped-volume", "", "Leave it out: it is 25 % of the volume."},
     {"refuse-self-intersections", "",
-     "Leave it out: the report has the number of intersecting triangle pairs, and a warning says "
-     "it."},
+     "Leave it out: the report and a warning give the number of intersecting triangle pairs."},
     {"sdf-margin", "", "Leave it out: the margin is 4 cells."},
     {"input-unit", "", "Use --scale with the factor between the two units."},
     {"output-unit", "", "Use --scale with the factor between the two units."},
@@ -115,7 +114,7 @@ std::string instead_of(std::string_view key, std::string_view value) {
 std::string advice_for_option(std::string_view key, Method method) {
   if (known_to(method, key, "").has_key) return "";
   if (known_to(other(method), key, "").has_key) {
-    return "This is an option of the method " + key_of(other(method)) + ", but the method is " +
+    return "This option belongs to the method " + key_of(other(method)) + ", but the method is " +
            key_of(method) + ". Leave it out, or use --method " + key_of(other(method)) + ".";
   }
   const std::string instead = instead_of(key, "");
@@ -125,7 +124,7 @@ std::string advice_for_option(std::string_view key, Method method) {
 std::string advice_for_value(std::string_view key, std::string_view value, Method method) {
   if (known_to(method, key, value).has_value) return "";
   if (known_to(other(method), key, value).has_value) {
-    return "\"" + std::string(value) + "\" is a value of the method " + key_of(other(method)) +
+    return "\"" + std::string(value) + "\" belongs to the method " + key_of(other(method)) +
            ", but the method is " + key_of(method) + ".";
   }
   const std::string instead = instead_of(key, value);

@@ -72,7 +72,7 @@ void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget&
               "The allowed error is " + format_number(target.percent) +
                   " % of the equivalent radius, but the SH surface itself is " +
                   format_number(reach, 3) +
-                  " % off the scan. Nodes on it come no nearer. Allow a larger error, raise --" +
+                  " % off the scan. Nodes on it are not closer. Allow a larger error, raise --" +
                   std::string(harmonic_degree_option.key) + ", or use the method on-scan.");
 }
 

@@ -21,14 +21,15 @@ void write_coefficients(const std::string& path, const RemeshResult& result) {
   } else if (!coefficients.radius.empty()) {
     write_harmonics(path, HarmonicSurface(coefficients.radius));
   } else if (!coefficients.map[0].empty() && of_shtools) {
-    throw Error(ErrorCode::InvalidInput,
-                "The coefficients are of x, y and z, and a .sh file holds those of a radius. Write "
-                "them to a .json file.");
+    throw Error(
+        ErrorCode::InvalidInput,
+        "A .sh file stores the coefficients of a radius, but these are of x, y and z. Write "
+        "them to a .json file.");
   } else if (!coefficients.map[0].empty()) {
     write_harmonic_map(path, HarmonicMap(coefficients.map));
   } else {
     throw Error(ErrorCode::InvalidInput,
-                "The result holds no coefficients; ask for them before remeshing.");
+                "The result has no coefficients. Request them before remeshing.");
   }
 }
 

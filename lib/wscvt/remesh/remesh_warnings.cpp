@@ -27,9 +27,9 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
       faces > 0 ? ", its " + std::to_string(faces) + " faces were not used" : std::string();
   if (result.options.points && !wraps) {
     warnings.push_back(
-        "The scan was taken as points" + unused +
-        ": volume and area of the scan are those of the star-shaped surface that was built through "
-        "them. Overhangs of the body are lost. Check the result against the body.");
+        "The scan was read as points" + unused +
+        ". Volume and area of the scan are measured on a star-shaped surface built through the "
+        "points. Overhangs of the body are lost. Check the result against the body.");
     if (result.steep_area_fraction > steep_points_limit) {
       warnings.push_back(
           format_percent(result.steep_area_fraction) +
@@ -41,7 +41,7 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
   if (wraps) {
     warnings.push_back(
         "The scan was replaced by its shrink-wrap" + unused +
-        ": volume, area and distances are measured against the shrink-wrap. It closes gaps up "
+        ". Volume, area and distances are measured against the shrink-wrap. It closes gaps up "
         "to " +
         format_percent(0.01 * result.options.envelope.opening_percent) +
         " of the bounding-box diagonal. Check the result against the scan.");
@@ -57,21 +57,21 @@ void warn_of_handles(const RemeshResult& result, Sentences& warnings) {
     if (result.input.genus == 0) return;
     warnings.push_back("The scan has " + std::to_string(result.input.genus) +
                        (result.input.genus == 1 ? " handle" : " handles") +
-                       " (tunnels through the grain), which the published method closes.");
+                       " (tunnels through the grain). The published method closes them.");
     return;
   }
   const HandleReport& handles = report->handles;
   if (!handles.cut.empty()) {
     const std::size_t cut = handles.cut.size();
     std::string text = std::to_string(cut) + (cut == 1 ? " handle" : " handles") + " of the scan " +
-                       (cut == 1 ? "was" : "were") + " cut, which changed its volume by " +
+                       (cut == 1 ? "was" : "were") + " cut. This changed its volume by " +
                        format_percent(std::abs(handles.volume_change)) + ". The log says where.";
     warnings.push_back(text);
   }
   if (handles.kept > 0) {
     warnings.push_back("The grain has " + std::to_string(handles.kept) +
                        (handles.kept == 1 ? " handle" : " handles") +
-                       " (tunnels through it), and so has the remesh.");
+                       " (tunnels through it). The remesh keeps them.");
   }
 }
 
@@ -82,15 +82,16 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
   const std::size_t pairs = report->nodes.self_intersections;
   if (pairs == 0) return;
   std::string text = std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
-                     " of triangles of the remesh intersect: ";
+                     " of triangles of the remesh intersect. ";
   const std::size_t of_scan = report->nodes.scan_self_intersections;
   if (of_scan > 0) {
-    text += "so do " + std::to_string(of_scan) + " of the scan. Repair the scan first.";
+    text +=
+        "The scan has " + std::to_string(of_scan) + " such pairs itself. Repair the scan first.";
   } else {
-    text += "parts of the grain are closer together than " + nodes + " can follow. ";
-    text += report->nodes.enough_nodes > 0
-                ? std::to_string(report->nodes.enough_nodes) + " were tried and leave none."
-                : "Use more nodes.";
+    text += "Parts of the grain are closer together than " + nodes + " can follow. ";
+    text += report->nodes.enough_nodes > 0 ? "Use " + std::to_string(report->nodes.enough_nodes) +
+                                                 " nodes: with this number no triangles intersect."
+                                           : "Use more nodes.";
   }
   warnings.push_back(text);
 }
@@ -99,16 +100,17 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
   const AsPublishedReport* report = as_published_report(result);
   if (report == nullptr) return;
   if (report->overhang_fraction > overhang_warning_limit) {
-    warnings.push_back("Overhangs of the grain cover " + format_percent(report->overhang_fraction) +
-                       " of the sphere. There the outermost surface was taken. Check the result "
-                       "against the scan.");
+    warnings.push_back(
+        "Overhangs of the grain cover " + format_percent(report->overhang_fraction) +
+        " of the sphere. The remesh has only the outermost surface there. Check the result "
+        "against the scan.");
   }
   const HarmonicFitReport& fit = report->fit;
   if (fit.degree < fit.requested_degree) {
     warnings.push_back("The degree of the SH series was lowered from " +
                        std::to_string(fit.requested_degree) + " to " + std::to_string(fit.degree) +
-                       ", because above it the radius is not positive everywhere: the grain is "
-                       "long, flat or sharp.");
+                       ". At higher degrees the radius is not positive everywhere, because the "
+                       "grain is long, flat or sharp.");
   }
   const auto& options = std::get<AsPublishedOptions>(result.options.method);
   // For nodes on the scan, the series only decides the cells.
@@ -116,7 +118,7 @@ void warn_of_fit(const RemeshResult& result, Sentences& warnings) {
   const double residual = fit.residual / result.input.equivalent_radius;
   if (residual > residual_warning_limit && !result.input.has_voxel_steps) {
     warnings.push_back("The SH surface is " + format_percent(residual) +
-                       " of the equivalent radius (rms) off the scan. " +
+                       " of the equivalent radius (rms) away from the scan. " +
                        (fit.limit == DegreeLimit::None ? "Raise --degree, or use" : "Use") +
                        " the placement on-surface or the method on-scan.");
   }
@@ -130,9 +132,10 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
   if (options.sampling != Sampling::Weighted) {
     const auto nodes = static_cast<int>(result.mesh.points.size());
     if (nodes != result.options.node_count) {
-      warnings.push_back("The sampling " + key_of(options.sampling) + " has no form with " +
-                         std::to_string(result.options.node_count) + " nodes. The nearest, with " +
-                         std::to_string(nodes) + ", was used.");
+      warnings.push_back("The sampling " + key_of(options.sampling) + " does not exist with " +
+                         std::to_string(result.options.node_count) +
+                         " nodes. The nearest possible number, " + std::to_string(nodes) +
+                         ", was used.");
     }
   } else if (relaxation.outcome == RelaxationOutcome::Settled) {
     warnings.push_back("The relaxation stopped improving. The cell areas still vary by " +
@@ -140,7 +143,7 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
                        " around their targets. More nodes give more even cells.");
   } else if (relaxation.outcome == RelaxationOutcome::Stuck) {
     warnings.push_back("The relaxation stopped after " + std::to_string(relaxation.iterations) +
-                       " iterations, because a further step would have torn the triangulation. "
+                       " iterations, because even a short further step could not be triangulated. "
                        "The mesh is valid but may be less even.");
   } else if (relaxation.outcome == RelaxationOutcome::IterationLimit) {
     warnings.push_back("The relaxation stopped at its limit of " +
@@ -148,7 +151,7 @@ void warn_of_relaxation(const RemeshResult& result, Sentences& warnings) {
                        " iterations before it converged. The mesh is valid but may be less even.");
   }
   if (relaxation.weight_scale < 1.0) {
-    warnings.push_back("The differences between the weights were scaled by " +
+    warnings.push_back("The differences between the weights were multiplied by " +
                        format_number(relaxation.weight_scale, 3) +
                        ", because seeds would have lost their cells. " +
                        (options.weighting == Weighting::Curvature
@@ -193,23 +196,23 @@ void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
   warnings.push_back(text);
 }
 
-/// Warns of small angles. On the scan, ordinary grains have angles above 35 degrees.
+/// Warns of angles below 20 degrees. On the scan, ordinary grains have angles above 35 degrees.
 void warn_of_angles(const RemeshResult& result, Sentences& warnings) {
   constexpr double jammed = 20.0;
   if (on_scan_report(result) == nullptr) return;
   const double smallest = result.quality.smallest_angle;
   if (smallest >= jammed) return;
   warnings.push_back("The smallest angle is " + format_number(smallest, 3) +
-                     " degrees: at a thin or sharp place there is no room for better triangles. "
-                     "Another number of nodes gives other triangles there.");
+                     " degrees: a thin or sharp part of the grain has no room for better "
+                     "triangles. Try another number of nodes.");
 }
 
 void warn_of_search(const RemeshResult& result, Sentences& warnings) {
   if (result.search && !result.search->met) {
-    warnings.push_back("No number of nodes up to " + std::to_string(result.search->node_count) +
-                       " has an error of at most " +
-                       format_percent(0.01 * result.options.target.percent) +
-                       ". This is the result with that many. Allow more nodes, or a larger error.");
+    warnings.push_back(
+        "No number of nodes up to " + std::to_string(result.search->node_count) +
+        " has an error of at most " + format_percent(0.01 * result.options.target.percent) +
+        ". This is the result with that number. Allow more nodes, or a larger error.");
   }
 }
 
@@ -228,13 +231,13 @@ void append_repair_warnings(const MeshCheckReport& input, const std::string& don
   const std::size_t bodies = input.components - input.inner_components;
   if (input.components > input.inner_components + 1) {
     warnings.push_back("The scan has " + std::to_string(bodies) +
-                       " separate bodies; only the largest was " + done + ".");
+                       " separate bodies. Only the largest was " + done + ".");
   }
   if (input.inner_components > 0) {
     warnings.push_back("The scan has " + std::to_string(input.inner_components) +
                        (input.inner_components == 1 ? " surface" : " surfaces") +
                        " inside its outer one, around " + format_percent(input.inner_volume_share) +
-                       " of its volume; only the outer one was " + done +
+                       " of its volume. Only the outer one was " + done +
                        ", as a body without pores.");
   }
   const double mended = input.flap_area_share + input.filled_area_share;

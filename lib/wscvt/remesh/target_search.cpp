@@ -41,7 +41,7 @@ RemeshResult remesh_to_target(const ErrorTarget& target, int first_count,
       target.percent, first_count, node_count_option.minimum, target.largest_node_count, error);
   if (best.mesh.points.empty()) {
     throw Error(ErrorCode::NumericalFailure,
-                "None of the node counts tried could be remeshed; allow more nodes.");
+                "No tested node count could be remeshed. Allow more nodes.");
   }
   best.search = std::move(search);
   return best;

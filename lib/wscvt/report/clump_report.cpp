@@ -21,7 +21,7 @@ namespace wscvt {
 
 namespace {
 
-/// Options under the names that one types.
+/// Options under their command-line names.
 struct OptionMembers {
   Json members = Json::object();
   template <class Number>
@@ -138,7 +138,7 @@ std::vector<NamedMass> masses(const ClumpResult& clump) {
           {"sum over the spheres", clump.summed.mass}};
 }
 
-/// The mass properties in a log, whose lines have 80 columns: a number in each cell.
+/// The mass properties for a log: one number per cell, since its lines have 80 columns.
 std::vector<std::vector<std::string>> single_mass_rows(const ClumpResult& clump) {
   std::vector<std::vector<std::string>> rows = {{"Mass at unit density", "grain", "union", "sum"}};
   const std::vector<NamedMass> bodies = masses(clump);
@@ -222,8 +222,8 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
   page.add_paragraph(
       "Two equal bodies near each other along the line through their centroids, in " +
       std::to_string(ContactHeights::poses * (ContactHeights::poses - 1)) +
-      " pairs of poses. The error is the distance of the centroids at first contact, less that of "
-      "two scans. A negative error means that the bodies come too near.");
+      " pairs of poses. The error is the distance of the centroids at first contact, minus the "
+      "distance for two scans. If the error is negative, the bodies get too close.");
   page.add_rows(contact_rows(clump));
   page.add_heading("Mass properties");
   page.add_rows(mass_rows(masses(clump)));

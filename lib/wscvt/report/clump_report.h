@@ -10,29 +10,28 @@
 
 namespace wscvt {
 
-/// The result as lines of plain text for a log.
+/// Returns the result as lines of plain text for a log.
 std::vector<std::string> clump_lines(const ClumpResult& clump);
 
-/// The same as a JSON document, with the spheres; as report_json. Fractions of the equivalent
-/// radius are in %.
+/// Returns a JSON document with the spheres, like report_json. Fractions of the equivalent radius
+/// are in %.
 std::string clump_json(const ClumpResult& clump, const ReportOrigin& origin = {});
 
-/// The same as CSV, a header and a row; as report_csv.
+/// Returns CSV with a header and a row, like report_csv.
 std::string clump_csv(const ClumpResult& clump, const ReportOrigin& origin = {});
 
-/// The same as a page; as report_html. Its pictures show the scan, the clump, and the clump with
-/// its distance to the scan in colour. Throws Error(Cancelled).
+/// Returns an HTML report, like report_html. Its pictures show the scan, the clump, and the clump
+/// with its distance to the scan in colour. Throws Error(Cancelled).
 std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
                        const Execution& execution);
 
-/// Whether a file begins as a table of clumps does, with a row per grain. False if it cannot be
-/// read.
+/// Whether a file begins like a table of clumps, with a row per grain. False if it cannot be read.
 bool is_clump_table(const std::string& path);
 
-/// As check_remesh_report.
+/// Like check_remesh_report.
 void check_clump_report(const std::string& path);
 
-/// As write_report of a remesh.
+/// Like write_report of a remesh.
 void write_report(const std::string& path, const ClumpResult& clump, const ReportOrigin& origin,
                   const Execution& execution);
 

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* line_end = "\r\n";
 constexpr std::size_t line_end_size = 2;
 
-/// Where the row begins.
+/// Returns the index of the row's first byte.
 std::size_t row_of(const std::string& header_and_row) {
   return header_and_row.find(line_end) + line_end_size;
 }
@@ -28,17 +28,17 @@ void require_header(const std::string& path, const OpenTable& table,
   if (table.read(0, header.size()) != header) {
     throw Error(
         ErrorCode::InvalidInput,
-        "\"" + path + "\" is no table with this report's columns; give the name of a new file.");
+        "\"" + path + "\" is not a table with this report's columns. Give the name of a new file.");
   }
   if (table.read(size - line_end_size, line_end_size) != line_end) {
-    throw Error(ErrorCode::InvalidInput,
-                "\"" + path +
-                    "\" ends within a row; give the name of a new file, or end its last line with "
-                    "CR LF.");
+    throw Error(
+        ErrorCode::InvalidInput,
+        "\"" + path +
+            "\" ends within a row. Give the name of a new file, or end its last line with CR LF.");
   }
 }
 
-/// Pipes and devices have no header to look at.
+/// Pipes and devices have no header that could be read.
 bool is_stream(const std::string& path) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
@@ -49,7 +49,7 @@ bool is_stream(const std::string& path) {
 
 void append_to_table(const std::string& path, const std::string& header_and_row) {
   if (is_stream(path)) return write_file(path, header_and_row);
-  check_writable(path);  // with its sentences about folders and links
+  check_writable(path);  // its messages explain folders and links
   const OpenTable table(path, TableUse::Append);
   require_header(path, table, header_and_row);
   table.append(table.size() == 0 ? header_and_row : header_and_row.substr(row_of(header_and_row)));

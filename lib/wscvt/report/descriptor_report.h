@@ -16,14 +16,14 @@ struct DistanceRow {
   double value;       ///< length
 };
 
-/// All of them; empty without a reference.
+/// Returns all distances; empty without a reference.
 std::vector<DistanceRow> list_distances(const GrainMeasures& measures);
 
-/// A grain in a line: name, vertices, faces, genus.
+/// Describes a grain in one line: name, vertices, faces, genus.
 std::string grain_line(const MeasuredGrain& grain);
 
-/// The distances as an aligned table, with % of the reference's equivalent radius; empty without a
-/// reference.
+/// Returns an aligned table of the distances, with % of the reference's equivalent radius. Empty
+/// without a reference.
 std::vector<std::string> distance_lines(const GrainMeasures& measures);
 
 }  // namespace wscvt

@@ -12,7 +12,7 @@ namespace wscvt {
 
 namespace {
 
-// In units of the drawing, which the page scales: its texts are to be read at a width of 360
+// Units of the drawing. The page scales it, and its texts must be readable at a width of 360
 // pixels.
 constexpr double figure_width = 440.0;
 constexpr double height = 300.0;
@@ -24,7 +24,7 @@ constexpr double bottom = 52.0;
 
 std::string number(double value) { return format_number(value == 0.0 ? 0.0 : value, 6); }
 
-/// From values to places in the drawing.
+/// Maps values to positions in the drawing.
 struct Axis {
   double lower = 0.0;
   double upper = 1.0;
@@ -87,7 +87,7 @@ std::vector<Tick> ticks_of(const std::vector<double>& places) {
   return ticks;
 }
 
-/// The outline of the bars, whose shares are in %.
+/// Draws the outline of the bars. Fractions are in %.
 std::string bars(const NamedHistogram& shown, double total, const Axis& x, const Axis& y) {
   const Histogram& histogram = shown.histogram;
   const double step =
@@ -110,15 +110,15 @@ double total_of(const Histogram& histogram) {
   return std::max(total, 1.0);
 }
 
-/// An axis of logarithms that holds all values, with room at its ends.
+/// A logarithmic axis for all values, with margins at its ends.
 Axis logarithmic_axis(double smallest, double largest, double from, double to) {
   const double margin = std::max(0.05 * std::log10(largest / smallest), 0.05);
   return {std::log10(smallest) - margin, std::log10(largest) + margin, from, to};
 }
 
-/// At 1, 2 and 5, or where that is too many at powers of ten.
+/// Ticks at 1, 2 and 5 times powers of ten, or at powers of ten if that is too many.
 std::vector<Tick> logarithmic_ticks(const Axis& axis) {
-  constexpr std::size_t most = 12;  // whose texts do not overlap
+  constexpr std::size_t most = 12;  // more texts overlap
   std::vector<Tick> ticks;
   const auto collect = [&](const std::vector<double>& digits, int step) {
     ticks.clear();
@@ -135,7 +135,7 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   collect({1.0, 2.0, 5.0}, 1);
   for (int step = 1; ticks.size() > most; ++step) collect({1.0}, step);
   if (ticks.size() > 2) return ticks;
-  // Less than a decade: multiples of one step tell more.
+  // Less than a decade: multiples of one step are more useful.
   ticks.clear();
   for (const double value :
        round_ticks(std::pow(10.0, axis.lower), std::pow(10.0, axis.upper), 6)) {
@@ -155,10 +155,10 @@ std::vector<double> round_ticks(double lower, double upper, int most) {
     if (step >= size) break;
     step *= factor;
   }
-  // Between neighbouring numbers lies no tick, and counting up to one would not end.
+  // If the limits are neighbouring numbers, no tick lies between them and the loop would not end.
   constexpr double least_share = 1e-12;
   if (!(step > least_share * std::max(std::abs(lower), std::abs(upper)))) return ticks;
-  // A tick on an end may be off it by rounding.
+  // Rounding may move a tick slightly beyond an end.
   const double slack = 1e-9 * step;
   for (double k = std::ceil((lower - slack) / step); k * step <= upper + slack; k += 1.0) {
     ticks.push_back(k * step);
@@ -198,7 +198,7 @@ std::string histogram_figure(const std::string& axis, const std::string& counted
 }
 
 std::string colour_scale(double limit) {
-  // Straight from one end colour to white to the other, as diverging_colour.
+  // Linear from one end colour to white to the other, like diverging_colour.
   std::string svg = "<linearGradient id=\"scale\">";
   for (const double value : {-1.0, 0.0, 1.0}) {
     const Colour colour = diverging_colour(value);

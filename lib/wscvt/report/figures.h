@@ -8,8 +8,8 @@
 
 namespace wscvt {
 
-// Plots as SVG, drawn here because a plotting library would be more code than the plots and need a
-// window system. They scale with the page and print as lines.
+// Plots as SVG. A plotting library would be more code than the plots and would need a window
+// system. The plots scale with the page and print as lines.
 
 /// A histogram with its name and a colour such as "#0a58b4".
 struct NamedHistogram {
@@ -18,8 +18,9 @@ struct NamedHistogram {
   Histogram histogram;
 };
 
-/// Histograms over the same bins, as shares of what each counted, in %. `axis` says what is
-/// measured and `counted` what was counted. Throws nothing; without histograms the plot is empty.
+/// Draws histograms over the same bins, each as fractions of its own count, in %. `axis` names the
+/// measured quantity, `counted` the counted items. Throws nothing. Without histograms the plot is
+/// empty.
 std::string histogram_figure(const std::string& axis, const std::string& counted,
                              const std::vector<NamedHistogram>& histograms);
 
@@ -29,16 +30,16 @@ struct CurvePoint {
   double y = 0.0;
 };
 
-/// Points over logarithmic axes, joined in the order of x, with a level line at `level`. Points
-/// that are not positive and finite are left out.
+/// Draws points over logarithmic axes, joined in the order of x, and a horizontal line at `level`.
+/// Omits points that are not positive and finite.
 std::string logarithmic_figure(const std::string& x_axis, const std::string& y_axis,
                                std::vector<CurvePoint> points, double level);
 
-/// A bar with the colours of diverging_colour from -1 to 1, for values from -limit to limit.
+/// Draws a bar with the colours of diverging_colour from -1 to 1, for values from -limit to limit.
 std::string colour_scale(double limit);
 
-/// Places for an axis' numbers: multiples of 1, 2 or 5 times a power of ten in [lower, upper], at
-/// most `most` of them. Empty unless lower < upper.
+/// Returns at most `most` ticks of an axis: multiples of 1, 2 or 5 times a power of ten in [lower,
+/// upper]. Empty unless lower < upper.
 std::vector<double> round_ticks(double lower, double upper, int most);
 
 }  // namespace wscvt

@@ -8,9 +8,9 @@ namespace wscvt {
 
 namespace {
 
-// Figures are at least 20em wide, so one column on a telephone, three on a wide window. Printers
-// get no breaks inside figures and rows or behind headings, three pictures beside each other, two
-// drawings, whose texts would be too small, and a log whose lines fit.
+// Figures are at least 20em wide: one column on a telephone, three in a wide window. In print, no
+// page breaks inside a figure or row or after a heading. Three pictures fit side by side, but only
+// two drawings, because of their texts. The log's lines are wrapped to the page.
 constexpr const char* style =
     "body { font-family: sans-serif; max-width: 80em; margin: 2em auto; padding: 0 1em; "
     "color: #000; background: #fff; }\n"

@@ -8,38 +8,38 @@
 
 namespace wscvt {
 
-/// A figure of a document and what is to be seen in it.
+/// A figure of a document, with its caption.
 struct Figure {
   std::string content;  ///< HTML or SVG
   std::string caption;  ///< plain text
 };
 
-/// What the columns of a table hold: numbers behind a name, or what one types and what it means.
+/// Content of a table's columns: a name and numbers, or an option and its description.
 enum class RowKind { Numbers, Typed };
 
-/// A document for reading and for printing, in parts that follow each other. It is one file and
-/// refers to no other. Tables scroll where a window is narrow.
+/// A document for reading and printing, built part by part. It is one file without references to
+/// other files. Tables scroll in a narrow window.
 class HtmlDocument {
  public:
   explicit HtmlDocument(const std::string& title);
 
   void add_heading(const std::string& text);
   void add_paragraph(const std::string& text);
-  /// A sentence that must not be overlooked.
+  /// Adds a sentence that must not be overlooked.
   void add_warning(const std::string& text);
 
-  /// Rows of cells, the first of them the head.
+  /// Adds rows of cells. The first row is the head.
   void add_rows(const std::vector<std::vector<std::string>>& rows, RowKind kind = RowKind::Numbers);
   void add_table(const std::vector<DescriptorValue>& values);
   void add_table(const std::vector<DescriptorComparison>& comparison, const ComparisonNames& names);
 
-  /// Lines whose columns are aligned, such as a log.
+  /// Adds lines with aligned columns, such as a log.
   void add_lines(const std::vector<std::string>& lines);
 
-  /// Figures, side by side where there is room.
+  /// Adds figures, side by side if there is room.
   void add_figures(const std::vector<Figure>& figures);
 
-  /// A part of the document as it stands.
+  /// Adds HTML unchanged.
   void add_html(const std::string& html) { body_ += html; }
 
   /// The whole document.

@@ -18,7 +18,7 @@ struct Columns {
 };
 
 bool holds_sentences(const Json& list, const std::string& name) {
-  // An empty list has no type to tell by, and a column must not come and go with what it holds.
+  // The items of an empty list have no type, but the columns must not depend on the values.
   if (list.empty()) return name == "warnings";
   return list.front().is_string();
 }

@@ -13,14 +13,14 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/remesh/remesh_options.h"
 
-// Reports as trees of values, from which their files are written. Not one of the library's public
-// headers: those need no JSON library.
+// Reports as trees of values; the report files are written from them. This header is not public:
+// public headers need no JSON library.
 namespace wscvt {
 
 /// Members keep the order in which they were added. Numbers that are not finite become null.
 using Json = nlohmann::ordered_json;
 
-/// A text, or null for one that is empty.
+/// Returns a text, or null if it is empty.
 Json told(const std::string& text);
 
 Json json_of(const Vector3& vector);
@@ -29,17 +29,17 @@ Json json_of(const MeshQuality& quality);
 Json json_of(const OneSidedDistance& distance);
 Json json_of(const MassProperties& mass);
 
-/// Every option under the name and with the value that one types for the program.
+/// Every option with the name and value of the command line.
 Json json_of(const RemeshOptions& options);
 Json json_of(const ClumpOptions& options);
 
-/// The value of each descriptor under its key.
+/// Returns the value of each descriptor under its key.
 Json json_of(const std::vector<DescriptorValue>& values);
 
-/// The two values of each descriptor, named as in `names`, and their error_percent, under its key.
+/// Returns both values of each descriptor, named as in `names`, and error_percent, under its key.
 Json json_of(const std::vector<DescriptorComparison>& comparison, const ComparisonNames& names);
 
-/// What the descriptors' keys stand for: a list of key, label and unit.
+/// Explains the descriptors' keys: a list of key, label and unit.
 template <class Row>
 Json json_names_of(const std::vector<Row>& rows) {
   Json list = Json::array();
@@ -49,13 +49,12 @@ Json json_names_of(const std::vector<Row>& rows) {
   return list;
 }
 
-/// A document: UTF-8, indented by two, a line end at its end. Bytes that are not UTF-8 are
-/// replaced.
+/// Writes a document: UTF-8, two-space indent, a final line end. Replaces bytes that are not UTF-8.
 std::string json_document(const Json& report);
 
-/// A report as CSV after RFC 4180, a header and a row. Every member that is not in a list is a
-/// column, named by the path to it, joined with dots; null is an empty field. A list of sentences
-/// is one field, other lists are left out. Numbers read back to the same bits.
+/// Returns a report as CSV (RFC 4180) with a header and a row. Every member outside of lists is a
+/// column, named by its path, joined with dots. null is an empty field. A list of sentences is one
+/// field; other lists are omitted. Numbers read back to the same bits.
 std::string csv_of(const Json& report);
 
 }  // namespace wscvt

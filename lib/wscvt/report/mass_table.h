@@ -8,14 +8,14 @@
 
 namespace wscvt {
 
-/// A body's mass properties and what its column is called.
+/// A body's mass properties and the heading of its column.
 struct NamedMass {
   std::string name;
   MassProperties mass;
 };
 
-/// Rows of cells, the first of them the head: mass properties at unit density, a column a body. The
-/// volume stands among the descriptors.
+/// Returns rows of cells: mass properties at unit density, one column per body. The first row is
+/// the head. The volume is in the table of descriptors.
 std::vector<std::vector<std::string>> mass_rows(const std::vector<NamedMass>& bodies);
 
 }  // namespace wscvt

@@ -82,7 +82,7 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view) {
     const int last_y = bound(std::max({at[0].y, at[1].y, at[2].y}));
     for (int y = first_y; y <= last_y; ++y) {
       for (int x = first_x; x <= last_x; ++x) {
-        // The share of each corner at the pixel's middle, and how far the opposite edge is.
+        // Barycentric coordinates of the pixel's middle, and its distance to the nearest edge.
         std::array<double, 3> share{};
         double edge = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < 3; ++k) {
@@ -114,7 +114,7 @@ Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view
   constexpr Colour grey = {200, 200, 200};
   constexpr double edge_pixels = 1.1;
   const Vector3 light = (view.right.cross(view.up) + 0.6 * view.up - 0.4 * view.right).normalized();
-  // The colours of a square of four pixels are asked for at the first of them that is covered.
+  // The colour of a square of four pixels is taken at its first covered pixel.
   const int squares = (view.pixels + 1) / 2;
   std::vector<std::size_t> asked(static_cast<std::size_t>(squares) * squares, seen.faces.size());
   const auto square_of = [&](std::size_t pixel) {

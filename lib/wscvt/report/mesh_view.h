@@ -11,7 +11,7 @@
 
 namespace wscvt {
 
-/// Where meshes are looked at from, without perspective.
+/// A view of meshes, without perspective.
 struct MeshView {
   Vector3 right = Vector3::UnitX();  ///< unit, along the rows of the picture
   Vector3 up = Vector3::UnitZ();     ///< unit, from the bottom of the picture to its top
@@ -20,23 +20,23 @@ struct MeshView {
   int pixels = 840;                  ///< width and height, > 0
 };
 
-/// A view from the side and somewhat above that holds the meshes whole; z is up.
+/// Returns a view from the side and slightly above that shows the meshes completely; z is up.
 MeshView view_of(const std::vector<const IndexedMesh*>& meshes, int pixels);
 
-/// What a view sees, pixel by pixel.
+/// Visible face, point and edge distance per pixel.
 struct SeenMesh {
   std::vector<std::int32_t> faces;  ///< -1 where there is none
   std::vector<Vector3> points;      ///< on the face
   std::vector<double> edges;        ///< distance to the nearest edge of the face, in pixels
 };
 
-/// Looks at a closed, outward mesh: faces that look away are hidden. Of two at the same depth the
-/// first is seen, so that the same mesh gives the same picture.
+/// Finds the visible faces of a closed, outward mesh. Faces that point away are hidden. If two
+/// faces have the same depth, the first is visible, so a mesh always gives the same picture.
 SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view);
 
-/// Draws what is seen, lit from above the viewer. `colour_of` gives the colours of points on the
-/// surface, one for each of an array, for squares of 2 x 2 pixels, which become one when the
-/// picture is halved; without it all is grey. Edges are drawn if asked for.
+/// Draws the visible surface, lit from above the viewer. `colour_of` returns one colour per point
+/// of an array. It is called for squares of 2 x 2 pixels, because halving the picture merges them.
+/// Without `colour_of` all is grey. Edges are drawn on request.
 Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view, bool with_edges,
              const std::function<std::vector<Colour>(const std::vector<Vector3>&)>& colour_of);
 

@@ -11,7 +11,7 @@
 
 #include "wscvt/base/error.h"
 
-// Streams of the standard library can neither lock a file nor take its end off.
+// Streams of the standard library can neither lock nor truncate a file.
 namespace wscvt {
 
 namespace {
@@ -25,11 +25,11 @@ namespace {
 OpenTable::OpenTable(std::string path, TableUse use) : path_(std::move(path)) {
   const int flags = use == TableUse::Read ? O_RDONLY : O_RDWR | O_CREAT | O_APPEND;
   descriptor_ = ::open(path_.c_str(), flags | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail_table(path_, "cannot be opened; check that it is a file and yours.");
+  if (descriptor_ < 0) fail_table(path_, "cannot be opened. Check that it is a file and yours.");
   const bool waits = use != TableUse::AppendAlone;
   if (::flock(descriptor_, LOCK_EX | (waits ? 0 : LOCK_NB)) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
-    fail_table(path_, "is being written by another batch; wait for it, or give another folder.");
+    fail_table(path_, "is being written by another batch. Wait for it, or give another folder.");
   }
 }
 
@@ -37,7 +37,7 @@ OpenTable::~OpenTable() { ::close(descriptor_); }
 
 std::size_t OpenTable::size() const {
   struct stat state {};
-  if (::fstat(descriptor_, &state) != 0) fail_table(path_, "cannot be read; check the disk.");
+  if (::fstat(descriptor_, &state) != 0) fail_table(path_, "cannot be read. Check the disk.");
   return static_cast<std::size_t>(state.st_size);
 }
 
@@ -47,7 +47,7 @@ std::string OpenTable::read(std::size_t from, std::size_t size) const {
   while (have < size) {
     const ssize_t count =
         ::pread(descriptor_, bytes.data() + have, size - have, static_cast<off_t>(from + have));
-    if (count < 0) fail_table(path_, "cannot be read; check the disk.");
+    if (count < 0) fail_table(path_, "cannot be read. Check the disk.");
     if (count == 0) break;
     have += static_cast<std::size_t>(count);
   }
@@ -67,15 +67,16 @@ void OpenTable::append(const std::string& bytes) const {
   if (written == bytes.size()) return;
   const bool restored = ::ftruncate(descriptor_, static_cast<off_t>(before)) == 0;
   if (before == 0) ::unlink(path_.c_str());
-  fail_table(path_, restored
-                        ? "could not be written whole and was left as it was; check the space on "
-                          "the disk."
-                        : "took a part of a row only; remove its last line and check the disk.");
+  fail_table(
+      path_,
+      restored
+          ? "could not be written completely and was left unchanged. Check the space on the disk."
+          : "now ends within a row. Remove its last line and check the disk.");
 }
 
 void OpenTable::cut(std::size_t size) const {
   if (::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) return;
-  fail_table(path_, "ends within a row, which cannot be taken off; see whose it is.");
+  fail_table(path_, "ends within a row that cannot be removed. Check the owner of the file.");
 }
 
 }  // namespace wscvt

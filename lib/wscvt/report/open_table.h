@@ -8,17 +8,17 @@ namespace wscvt {
 
 enum class TableUse {
   Read,
-  Append,       ///< made if it is not there; waits while another has it
-  AppendAlone,  ///< refuses what another has
+  Append,       ///< creates the file if missing; waits while another process has it
+  AppendAlone,  ///< throws if another process has it
 };
 
-/// A file of rows that is open, and nobody else's to append to until its end of scope. Where files
-/// cannot be locked, rows of one process at a time are whole all the same. Not one of the library's
-/// public headers.
+/// An open CSV file, locked against other writers until this object is destroyed. If the file
+/// system has no locks, the rows are still complete as long as one process writes. This header is
+/// not public.
 class OpenTable {
  public:
-  /// Throws MachineRefused when it cannot be opened, and when it is to be appended to alone and
-  /// another has it.
+  /// Throws MachineRefused if the file cannot be opened, or for AppendAlone if another process has
+  /// it.
   OpenTable(std::string path, TableUse use);
   OpenTable(const OpenTable&) = delete;
   OpenTable& operator=(const OpenTable&) = delete;
@@ -26,16 +26,16 @@ class OpenTable {
 
   const std::string& path() const { return path_; }
 
-  /// In bytes. Throws MachineRefused, as all that follows.
+  /// In bytes. Throws MachineRefused, like all functions below.
   std::size_t size() const;
 
-  /// As much as there is of `size` bytes at `from`.
+  /// Reads up to `size` bytes at `from`.
   std::string read(std::size_t from, std::size_t size) const;
 
-  /// At the end: all of it or nothing.
+  /// Writes at the end: all or nothing.
   void append(const std::string& bytes) const;
 
-  /// Takes off what stands behind the first `size` bytes.
+  /// Truncates the file to its first `size` bytes.
   void cut(std::size_t size) const;
 
  private:

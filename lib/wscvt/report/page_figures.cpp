@@ -16,16 +16,16 @@ namespace wscvt {
 
 namespace {
 
-/// Reported before each step, of which one over a million vertices takes tenths of a second.
+/// Reported before each step. A step with a million vertices takes tenths of a second.
 constexpr const char* page_stage = "Drawing the page";
 constexpr std::size_t histogram_bins = 60;
 constexpr const char* reference_colour = "#6e6e6e";
 constexpr const char* shown_colour = "#0a58b4";
-/// The edges of more would hide the surface.
+/// Edges of more triangles would hide the surface.
 constexpr std::size_t most_faces_with_edges = 30000;
-/// Pictures are drawn twice as wide and high and halved, which smooths their edges.
+/// Pictures are drawn at twice the size and halved, to smooth their edges.
 constexpr int drawn_pixels = 840;
-/// Points of the surface at which the histogram takes distances: a bin of 1 % holds 200 of them.
+/// Sample points of the distance histogram: 200 for a bin of 1 %.
 constexpr std::size_t distance_samples = 20000;
 
 /// Distances of points to a closed surface, positive outside of it.
@@ -42,7 +42,7 @@ std::vector<double> signed_distances(const MeshDistance& surface,
   return distances;
 }
 
-/// The distance that 98 of 100 samples stay below: single spikes would take all colour from the
+/// The distance that 98 of 100 samples stay below. Single spikes would leave no colour for the
 /// rest. Never 0.
 double usual_distance(const std::vector<double>& distances) {
   std::vector<double> sizes;
@@ -87,9 +87,9 @@ void add_triangle_histograms(std::vector<Figure>& figures,
   figures.push_back({histogram_figure("edge length / mean edge length", "edges", lengths),
                      "How even the edges are." + last_bin});
   figures.push_back({histogram_figure("longest / shortest edge of a triangle", "triangles", ratios),
-                     "How even the triangles are; 1 is best." + last_bin});
+                     "How even the triangles are. 1 is best." + last_bin});
   figures.push_back({histogram_figure("angle, degrees", "angles", angles),
-                     "Angles of the triangles; 60 is best."});
+                     "Angles of the triangles. 60 is best."});
 }
 
 }  // namespace
@@ -98,7 +98,8 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
                          const Execution& execution, const std::vector<Vector3>& samples) {
   PageFigures figures;
   execution.report(0.0, page_stage);
-  // Both are to be seen whole: a few nodes that enclose the same volume stand far out of the scan.
+  // The view contains both meshes: a coarse remesh with the scan's volume extends far beyond the
+  // scan.
   std::vector<const IndexedMesh*> both = {&shown.mesh};
   if (reference) both.push_back(&reference->mesh);
   const MeshView view = view_of(both, drawn_pixels);
@@ -132,12 +133,12 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
     }
     return colours;
   };
-  figures.pictures.push_back(picture_figure(
-      draw(shown.mesh, seen, view, false, colour_of),
-      "Distance of " + shown.name + " to " + reference->name +
-          ": red outside of it, blue inside, in the mesh's unit of length. 2 % of the surface lies "
-          "beyond the ends of the scale.",
-      colour_scale(usual)));
+  figures.pictures.push_back(
+      picture_figure(draw(shown.mesh, seen, view, false, colour_of),
+                     "Distance of " + shown.name + " to " + reference->name +
+                         ": red outside, blue inside, in the mesh's unit of length. 2 % of the "
+                         "surface is beyond the ends of the scale.",
+                     colour_scale(usual)));
   figures.distributions.push_back(
       {histogram_figure("signed distance to " + reference->name + ", length", "surface",
                         {{shown.name, shown_colour, histogram_of(distances, 1.5 * usual)}}),

@@ -11,24 +11,24 @@
 
 namespace wscvt {
 
-/// A mesh that a page shows, closed and outward (see check_mesh).
+/// A mesh shown in an HTML report, closed and outward (see check_mesh).
 struct ShownMesh {
   const IndexedMesh& mesh;
   std::string name;
 };
 
-/// What a page shows of a mesh and of what it is compared with.
+/// Figures of a mesh and of its reference.
 struct PageFigures {
-  /// Both meshes seen from one place, and the second with its signed distance to the first in
-  /// colour; the second alone without a reference.
+  /// Both meshes from one viewpoint, and the second with its signed distance to the first in
+  /// colour. Without a reference, only the second mesh.
   std::vector<Figure> pictures;
   /// Histograms of edge length, edge ratio and angle of both meshes, and of the signed distance.
   std::vector<Figure> distributions;
 };
 
-/// The scale of the distances and their histogram are those of `samples`, points of the surface of
-/// `shown`; if there are none, of 20,000 points all over it. Throws Error(InvalidInput) for a mesh
-/// without faces, Error(Cancelled).
+/// Draws the figures. Scale and histogram of the distances use `samples`, points on the surface of
+/// `shown`; if empty, 20,000 points spread over it. Throws Error(InvalidInput) for a mesh without
+/// faces, Error(Cancelled).
 PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownMesh& shown,
                          const Execution& execution, const std::vector<Vector3>& samples = {});
 

@@ -46,7 +46,7 @@ std::vector<std::string> parts_lines(const PartsResult& result) {
           "Points of the grain outside of the parts: at most " + length_text(m.largest_gap, m),
           "Volume of the parts beyond the grain's: " + format_number(m.excess_percent(), 3) +
               " %, and " + format_number(100.0 * m.shared_volume / m.grain_volume, 3) +
-              " % that several parts hold"};
+              " % inside several parts"};
 }
 
 std::string parts_json(const PartsResult& result, const ReportOrigin& origin) {
@@ -76,7 +76,7 @@ std::string parts_json(const PartsResult& result, const ReportOrigin& origin) {
 std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
                        const Execution& execution) {
   const IndexedMesh shown = joined(result.parts);
-  // Faces that parts turn to each other lie deep in the grain: they would take all of the scale.
+  // Faces between two parts are deep inside the grain, so their distances would use up the scale.
   const PageFigures figures = page_figures(ShownMesh{result.grain, "grain"}, {shown, "parts"},
                                            execution, outer_points(result.parts));
   const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);

@@ -10,20 +10,21 @@
 
 namespace wscvt {
 
-/// Lines for a log: the parts, their distances, their volume.
+/// Returns lines for a log: parts, distances, volume.
 std::vector<std::string> parts_lines(const PartsResult& result);
 
-/// As a JSON document; see report_json.
+/// Returns a JSON document; see report_json.
 std::string parts_json(const PartsResult& result, const ReportOrigin& origin = {});
 
-/// As a page: the grain, the parts, and the parts with their distance to the grain in colour.
+/// Returns an HTML report: the grain, the parts, and the parts with their distance to the grain in
+/// colour.
 std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
                        const Execution& execution);
 
-/// Refuses before the work what could not be written after it, as check_remesh_report.
+/// Checks before the work that the report can be written, like check_remesh_report.
 void check_parts_report(const std::string& path);
 
-/// Writes the report in the format of its name, as that of a remesh.
+/// Writes the report in the format of the file's name, like write_report of a remesh.
 void write_report(const std::string& path, const PartsResult& result, const ReportOrigin& origin,
                   const Execution& execution);
 

@@ -38,7 +38,7 @@ std::string compressed(const std::string& data) {
   if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, bytes_of(data),
                 static_cast<uLong>(data.size()), Z_BEST_COMPRESSION) != Z_OK) {
     throw Error(ErrorCode::NumericalFailure,
-                "A picture could not be compressed; ask for a .json or .csv report.");
+                "A picture could not be compressed. Use a .json or .csv report.");
   }
   result.resize(size);
   return result;
@@ -110,7 +110,7 @@ std::string image_element(const Picture& picture, const std::string& description
 Colour diverging_colour(double value) {
   constexpr Colour red = {190, 30, 45};
   constexpr Colour blue = {30, 80, 170};
-  constexpr int white = 245;  // tells the surface from the paper
+  constexpr int white = 245;  // distinguishes the surface from the paper
   const double share = std::min(std::abs(value), 1.0);
   const Colour& end = value > 0.0 ? red : blue;
   Colour colour{};

@@ -19,16 +19,17 @@ struct Picture {
   std::vector<Colour> pixels;  ///< width x height
 };
 
-/// Half as wide and high: each pixel the mean of four. Width and height must be even.
+/// Returns the picture at half its size: each pixel is the mean of four. Width and height must be
+/// even.
 Picture halved(const Picture& picture);
 
-/// The bytes of a PNG file. Throws Error(NumericalFailure) when they cannot be compressed.
+/// Returns a PNG file. Throws Error(NumericalFailure) if the compression fails.
 std::string png_of(const Picture& picture);
 
-/// An HTML img element that holds the picture itself.
+/// Returns an HTML img element that contains the picture.
 std::string image_element(const Picture& picture, const std::string& description);
 
-/// Red for 1, white for 0, blue for -1; values outside count as the ends.
+/// Returns red for 1, white for 0, blue for -1. Values outside are clamped.
 Colour diverging_colour(double value);
 
 }  // namespace wscvt

@@ -10,10 +10,10 @@
 
 namespace wscvt {
 
-// Reports of a remesh and of measured grains: as lines, JSON, CSV and pages, and files of them.
+// Reports of a remesh and of measured grains: log lines, JSON, CSV and HTML, and their files.
 
-/// Source and date of a report. The caller gives them, because the library
-/// looks at no clock, so that the same work gives the same bytes.
+/// Source and date of a report. The caller gives them, because the library reads no clock. Equal
+/// input then gives equal bytes.
 struct ReportOrigin {
   std::string source;  ///< name of the scan's file or layer; empty: left out
   std::string date;    ///< such as "2026-11-21"; empty: left out
@@ -25,49 +25,48 @@ std::string made_by();
 /// Returns "Made from scan.ply by wscvt 1.0.0 on 2026-11-21.", without empty fields.
 std::string origin_sentence(const ReportOrigin& origin);
 
-/// The result as lines of plain text for a log: input counts and repairs, overhang, fit degree
-/// and residual, iterations and why they stopped, N and faces, quality before and after, the table
+/// Returns lines of plain text for a log: input counts and repairs, overhang, fit degree and
+/// residual, iterations and why they stopped, N and faces, quality before and after, the table
 /// descriptor / scan / remesh / error %, warnings. The decimal sign is a point in every locale.
 std::vector<std::string> report_lines(const RemeshResult& result);
 
-/// The result as a JSON document (UTF-8, two-space indent, keys in a fixed order). Options have the
-/// names and the values that one types for the program. Numbers that are not finite become null,
-/// and so does what was not requested.
+/// Returns a JSON document (UTF-8, two-space indent, keys in a fixed order). Options have their
+/// command-line names and values. Numbers that are not finite and results that were not requested
+/// become null.
 std::string report_json(const RemeshResult& result, const ReportOrigin& origin = {});
 
-/// The report as CSV after RFC 4180: a header and one row. Every member of the JSON document that
-/// is not in a list is a column, named by the path to it, joined with dots ("options.weighting"),
-/// so the histories, the coarser levels, the node counts tried and the descriptors' names are left
-/// out. Every report has the same columns, so that the rows of many remeshes make one table.
-/// Numbers read back to the same bits; null is empty. Warnings stand in the last column.
+/// Returns CSV (RFC 4180) with a header and one row. Every member of the JSON document outside of
+/// lists is a column, named by its path, joined with dots ("options.weighting"). Histories, coarser
+/// levels, node counts tried and names of descriptors are lists and therefore omitted. All reports
+/// have the same columns, so the rows of many remeshes form one table. Numbers read back to the
+/// same bits; null is empty. The last column contains the warnings.
 std::string report_csv(const RemeshResult& result, const ReportOrigin& origin = {});
 
-/// The result as an HTML report for reading and printing, one file that refers to no other:
-/// pictures of scan and remesh and of the distance between them, histograms, descriptors, every
-/// option as one types it, the log; with an error target the error against the number of nodes. The
-/// scan is the result's repaired_scan; without one (a surface from a formula) the page shows the
-/// remesh alone. A page of a scan with a million faces takes 300 MB while it is made. Throws
-/// Error(Cancelled).
+/// Returns an HTML report for reading and printing, one file without references to other files:
+/// pictures of scan, remesh and the distance between them, histograms, descriptors, command-line
+/// options, the log. With an error target also the error against the number of nodes. The scan is
+/// the result's repaired_scan. Without it (a surface from a formula) the report shows only the
+/// remesh. Needs 300 MB for a scan with a million faces. Throws Error(Cancelled).
 std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
                         const Execution& execution);
 
-/// A grain's measures as lines of plain text for a log: what was measured, the table of
-/// descriptors, the distances; the remarks stand by themselves (see remarks). The decimal sign is a
-/// point in every locale.
+/// Returns a grain's measures as lines of plain text for a log: the grain, the table of
+/// descriptors, the distances. The remarks are separate (see remarks). The decimal sign is a point
+/// in every locale.
 std::vector<std::string> descriptor_lines(const GrainMeasures& measures);
 
-/// The measures as a JSON document (UTF-8, two-space indent, keys in a fixed order). Numbers that
-/// are not finite become null. The origin's source is not looked at: the measures name their
+/// Returns the measures as a JSON document (UTF-8, two-space indent, keys in a fixed order).
+/// Numbers that are not finite become null. The origin's source is ignored: the measures name their
 /// grains.
 std::string descriptor_json(const GrainMeasures& measures, const ReportOrigin& origin = {});
 
-/// The measures as CSV after RFC 4180: a header and one row, with every member of the JSON document
-/// that is not in a list, under the path to it, joined with dots. Remarks are one field. Measures
-/// with a reference have more columns than without.
+/// Returns the measures as CSV (RFC 4180) with a header and one row. Every member of the JSON
+/// document outside of lists is a column, named by its path, joined with dots. Remarks are one
+/// field. Measures with a reference have more columns.
 std::string descriptor_csv(const GrainMeasures& measures, const ReportOrigin& origin = {});
 
-/// The measures as an HTML report, like report_html; the pictures and histograms show the grain,
-/// and the reference if there is one.
+/// Returns the measures as an HTML report, like report_html. Pictures and histograms show the grain
+/// and, if present, the reference.
 std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& origin,
                             const Execution& execution);
 
@@ -81,20 +80,21 @@ const std::vector<std::string>& report_endings();
 /// for any other.
 ReportFormat report_format(const std::string& path);
 
-/// Whether a remesh's report of that name shows the scan: a page does. Throws as report_format.
+/// Whether a remesh's report of that name shows the scan. Only an HTML report does. Throws like
+/// report_format.
 bool shows_scan(const std::string& path);
 
-/// Refuses before the work what could not be written after it: another ending or a table with other
-/// columns (InvalidInput), and a place that cannot be written to (InputOutput).
+/// Checks before the work that the report can be written. Throws Error(InvalidInput) for another
+/// ending or a table with other columns, Error(InputOutput) if the file cannot be written.
 void check_remesh_report(const std::string& path);
 
 /// Like check_remesh_report, for a report of descriptors, whose tables have more columns with a
 /// reference.
 void check_descriptor_report(const std::string& path, bool with_reference);
 
-/// Writes the report in the format of its name: report_html and report_json whole or not at all in
-/// the place of what was there, report_csv as a row more of a table (see append_to_table). A
-/// page alone looks at the result's repaired_scan. Throws Error as those do.
+/// Writes the report in the format of the file's name. report_html and report_json replace the
+/// file, completely or not at all; report_csv appends a row to a table (see append_to_table). Only
+/// the HTML report uses the result's repaired_scan. Throws the errors of these functions.
 void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
                   const Execution& execution);
 

@@ -11,7 +11,7 @@ namespace wscvt {
 
 namespace {
 
-/// The columns alone matter.
+/// Only its columns matter.
 std::string example_csv(bool with_reference) {
   GrainMeasures measures;
   if (with_reference) {

@@ -15,7 +15,7 @@ namespace wscvt {
 
 namespace {
 
-/// Options as one types them for the program.
+/// Options as on the command line.
 class OptionRows {
  public:
   template <class Number>
@@ -34,7 +34,7 @@ class OptionRows {
 
  private:
   void add(std::string_view key, const std::string& value, std::string_view subject) {
-    // Within a sentence a subject may end with a comma.
+    // A subject may end with a comma, because messages use it within a sentence.
     if (!subject.empty() && subject.back() == ',') subject.remove_suffix(1);
     rows_.push_back({"--" + std::string(key) + "=" + value, capitalised(subject)});
   }
@@ -47,11 +47,10 @@ Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
   for (const NodeCountTrial& trial : search.trials) {
     points.push_back({static_cast<double>(trial.node_count), trial.error});
   }
-  return {
-      logarithmic_figure("number of nodes", label_of(target.measure) + " error, %",
-                         std::move(points), target.percent),
-      "Error for each node count tried. The smallest count that met the allowed error was used; "
-      "if none did, the largest."};
+  return {logarithmic_figure("number of nodes", label_of(target.measure) + " error, %",
+                             std::move(points), target.percent),
+          "Error for each node count tried. The smallest count that met the allowed error was "
+          "used. If no count met it, the largest was used."};
 }
 
 }  // namespace

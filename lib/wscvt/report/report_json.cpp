@@ -12,10 +12,10 @@ namespace wscvt {
 
 namespace {
 
-// Of a vector it would not be found from in here, where functions of its name hide it.
+// Functions of this name in here would hide the overload for vectors.
 using wscvt::json_of;
 
-/// Options under the names and with the values that one types. Whole numbers stay whole.
+/// Options with their command-line names and values. Integers stay integers.
 class OptionsToJson {
  public:
   template <class Number>
@@ -147,7 +147,7 @@ Json json_of(const AsPublishedReport& report, double equivalent_radius) {
           {"relaxation", json_of(report.relaxation)}};
 }
 
-/// The same members, all null: tables of many reports need the same columns.
+/// Members without values: all reports of a table need equal columns.
 Json nulled(const Json& json) {
   if (json.is_array()) return Json::array();
   if (!json.is_object()) return nullptr;
@@ -156,7 +156,7 @@ Json nulled(const Json& json) {
   return result;
 }
 
-// What was not asked for keeps its members, with null, too.
+// Results that were not requested keep their members, with null.
 
 Json json_of(const std::optional<MeshDistances>& distances) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -230,7 +230,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
 }  // namespace
 
 Json json_of(const RemeshOptions& options) {
-  // Every key of either method, in one order; those of the other method stay null.
+  // All keys of both methods, in one order. Keys of the other method stay null.
   const RemeshOptions on_scan;
   const AsPublishedOptions published;
   OptionsToJson keys;

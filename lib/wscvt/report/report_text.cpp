@@ -93,7 +93,7 @@ std::string point_text(const Vector3& point) {
 }
 
 void append_handles(const HandleReport& handles, std::vector<std::string>& lines) {
-  // A noisy scan may have a hundred, which JSON lists.
+  // A noisy scan may have a hundred handles. JSON lists all of them.
   constexpr std::size_t most_told = 5;
   const std::vector<CutHandle>& cut = handles.cut;
   if (cut.empty() && handles.kept == 0) return;
@@ -130,7 +130,7 @@ void append_fit(const AsPublishedReport& report, double radius, std::vector<std:
   lines.push_back(line("Fit", text));
 }
 
-/// What the weighting is, with what it reads.
+/// Label of the weighting, with alpha for the curvature weighting.
 template <class Options>
 std::string weighting_text(const Options& options, bool is_curvature) {
   std::string text = label_of(options.weighting);

@@ -22,10 +22,10 @@ namespace wscvt {
 
 namespace {
 
-/// What a page of 6 MB holds: 50 descriptors of 10,000 grains are 4 MB with four digits.
+/// Keeps the page below 6 MB: 50 descriptors of 10,000 grains are 4 MB with four digits.
 constexpr std::size_t most_grains = 10000;
 constexpr std::size_t most_thumbnails = 100;
-/// Drawn twice as wide and high, and halved.
+/// Drawn at twice the size, then halved.
 constexpr int thumbnail_pixels = 144;
 
 constexpr const char* page_style =
@@ -36,7 +36,8 @@ constexpr const char* page_style =
     "} .thumbs { max-height: none; } .thumbs.thumbs { grid-template-columns: repeat(10, 1fr); } "
     "}</style>\n";
 
-/// The rows of a sample, every so many by size, so that few show the shape of the distribution.
+/// Returns at most `most` rows, evenly spaced in the order of size. They keep the shape of the
+/// distribution.
 std::vector<std::size_t> evenly_by_size(const GrainSample& sample, std::size_t most) {
   std::vector<std::size_t> order(sample.grains.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -52,7 +53,7 @@ std::vector<std::size_t> evenly_by_size(const GrainSample& sample, std::size_t m
   return chosen;
 }
 
-/// Four digits are more than a figure shows.
+/// Four digits are enough for a figure.
 void append_short(std::string& text, double value) {
   if (!std::isfinite(value)) {
     text += "null";
@@ -74,7 +75,7 @@ std::string short_list(const Vector& values, const std::vector<std::size_t>& row
   return text + "]";
 }
 
-/// As JSON that can stand in an element of a page.
+/// Writes JSON that is safe inside an HTML element.
 std::string in_page(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string result;
@@ -88,7 +89,7 @@ std::string in_page(const Json& json) {
   return result;
 }
 
-/// A picture as a value of JSON; empty if the mesh cannot be read.
+/// Returns a picture as a data URL; empty if the mesh cannot be read.
 std::string thumbnail(const std::string& file, const Execution& execution) {
   IndexedMesh mesh;
   try {
@@ -257,7 +258,7 @@ std::vector<std::vector<std::string>> comparison_table(const SampleReport& repor
   return rows;
 }
 
-/// An error that is nothing but rounding is exact.
+/// An error this small is rounding.
 std::string shown_error(double percent) {
   return percent < 1e-9 ? "exact" : format_number(percent, 3);
 }
@@ -293,7 +294,7 @@ void add_introduction(HtmlDocument& page, const SampleReport& report) {
     text += ". Size: " + one.sample.size_name + ".";
     if (count > most_grains / report.samples.size()) {
       text += " Figures show " + std::to_string(most_grains / report.samples.size()) +
-              " of the grains, chosen evenly by size; tables are of all.";
+              " of the grains, chosen evenly by size. Tables use all grains.";
     }
     page.add_paragraph(text);
     for (const std::string& note : one.sample.notes) page.add_warning(note);
@@ -325,9 +326,8 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
         "Wasserstein: "
         "area between the two fractions, over the first sample's standard deviation. p: fraction "
         "of "
-        "random partings of all grains that are as far apart; below 0.05 the samples differ by "
-        "more "
-        "than chance.");
+        "random partitions of all grains that are as far apart. If p < 0.05, the samples differ by "
+        "more than chance.");
     page.add_rows(comparison_table(report));
   }
   page.add_heading("Form");
@@ -339,12 +339,12 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
     page.add_paragraph(
         "Distances and contact errors are in % of the equivalent radius, errors of descriptors in "
         "% of the scan's value, all without sign. Contact error: distance of two remeshes at first "
-        "contact, less that of two scans, over random pairs of poses; its mean, and its standard "
-        "deviation (scatter) from pair to pair.");
+        "contact, minus the distance of two scans, over random pairs of poses. The table has its "
+        "mean and its standard deviation over the pairs (scatter).");
     add_place(page, "levels");
     page.add_rows(levels_table(*report.levels));
   }
-  page.add_heading("How many grains are needed");
+  page.add_heading("Number of grains needed");
   page.add_html(
       "<p><label>Wanted 95 % interval: value &plusmn; <input id=\"wanted\" type=\"number\" "
       "value=\"2\" min=\"0.01\" step=\"any\"> %</label></p>\n<div class=\"wide\"><table><thead><tr>"
@@ -358,8 +358,8 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
     page.add_rows(statistics_table(one));
   }
   page.add_paragraph(
-      "Correlation: of ranks (Spearman). Intervals of the other columns stand in the report as "
-      ".csv or .json.");
+      "Correlation: rank correlation (Spearman). Reports as .csv or .json have intervals for all "
+      "columns.");
   page.add_html("<script type=\"application/json\" id=\"data\">" + data_of(report, execution) +
                 "</script>\n<script>" + sample_page_script + "</script>\n");
   return page.text();

@@ -3,7 +3,7 @@
 
 namespace wscvt {
 
-// One text in the page. The compiler joins the parts; each is below its limit for a literal.
+// The parts form one text. Compilers limit the length of a single literal.
 const char* const sample_page_script = R"JS(
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);

@@ -3,8 +3,8 @@
 
 namespace wscvt {
 
-/// JavaScript that draws the figures of a sample's page from the JSON in its element "data". It
-/// loads nothing.
+/// JavaScript that draws the figures of a sample's HTML report from the JSON in its element "data".
+/// It loads no other files.
 extern const char* const sample_page_script;
 
 }  // namespace wscvt

@@ -16,7 +16,7 @@ namespace wscvt {
 
 namespace {
 
-/// What a reader of a terminal sees first; all others stand in the files.
+/// Descriptors of the terminal's table. The files contain all descriptors.
 constexpr const char* main_columns[] = {"volume",
                                         "area",
                                         "equivalent_diameter",
@@ -141,7 +141,7 @@ std::vector<std::vector<std::string>> level_rows(const DetailLevels& levels, boo
     if (!all && !is_main(row.name) && !is_distance_or_contact(row.name)) continue;
     std::vector<std::string> cells = {row.name};
     for (std::size_t k = first; k < row.levels.size(); ++k) {
-      // What is nothing but rounding is exact.
+      // An error this small is rounding.
       const double error = row.levels[k].percent_90;
       cells.push_back(error < 1e-9 ? "exact" : short_number(error));
     }

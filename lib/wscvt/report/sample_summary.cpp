@@ -69,7 +69,7 @@ class Header {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found == names_.end()) {
       refuse(path_, "has no column " + std::string(name) +
-                        ": it is no table of a sample; give one that a batch wrote.");
+                        ", so it is not a table of a sample. Give a table that batch wrote.");
     }
     return static_cast<std::size_t>(found - names_.begin());
   }
@@ -96,7 +96,7 @@ std::string with_unit(const SampleDistribution& one) {
   return one.unit.empty() ? one.label : one.label + ", " + one.unit;
 }
 
-/// A number of a row. An error that is nothing but rounding is exact.
+/// Formats a number of a row. An error this small is rounding.
 std::string shown(const SampleDistribution& one, double value, int digits) {
   const bool is_rounding = one.unit == "%" && std::abs(value) < 1e-9;
   return is_rounding ? "exact" : format_number(value, digits);
@@ -129,11 +129,11 @@ SampleSummary summarise_table(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {
     throw Error(ErrorCode::InputOutput,
-                "\"" + path + "\" cannot be opened; check that the file is there.");
+                "\"" + path + "\" cannot be opened. Check that the file exists.");
   }
   CsvReader reader(stream);
   std::vector<std::string> fields;
-  if (!reader.next(fields)) refuse(path, "is empty; give a table that a batch wrote.");
+  if (!reader.next(fields)) refuse(path, "is empty. Give a table that batch wrote.");
   const Header header(path, fields);
   const std::size_t grain = header.place("grain");
   const std::size_t status = header.place("status");
@@ -150,7 +150,7 @@ SampleSummary summarise_table(const std::string& path) {
     if (fields.size() != header.size()) {
       refuse(path, "has " + std::to_string(fields.size()) + " fields in row " +
                        std::to_string(summary.grains + 1) + " and " +
-                       std::to_string(header.size()) + " columns; make it again.");
+                       std::to_string(header.size()) + " columns. Create it again.");
     }
     ++summary.grains;
     if (fields[status] != "done") {
@@ -169,7 +169,7 @@ SampleSummary summarise_table(const std::string& path) {
     }
   }
   if (reader.is_cut()) {
-    refuse(path, "ends within a row; start its batch again, which goes on where it was.");
+    refuse(path, "ends within a row. Run its batch command again to complete it.");
   }
   for (SampleDistribution& one : summary.distributions) {
     std::sort(one.values.begin(), one.values.end());
@@ -178,13 +178,13 @@ SampleSummary summarise_table(const std::string& path) {
 }
 
 Histogram histogram_of(const std::vector<double>& values) {
-  // Square-root rule, with bins that can be told apart on a page.
+  // Square-root rule, with bins wide enough to be visible.
   const auto bins = static_cast<std::size_t>(
       std::clamp(std::sqrt(static_cast<double>(values.size())), 8.0, 60.0));
   Histogram histogram{first_of(values), last_of(values), std::vector<std::size_t>(bins, 0)};
   const double size = std::max(std::abs(histogram.lower), std::abs(histogram.upper));
   if (!(histogram.upper - histogram.lower > 1e-9 * size)) {
-    // All are equal, but for rounding: a bin about them.
+    // All values are equal except for rounding: use a bin around them.
     const double half = std::max(size * 0.01, 1e-300);
     histogram.lower -= half;
     histogram.upper += half;
@@ -244,12 +244,12 @@ std::string summary_html(const SampleSummary& summary) {
   page.add_figures(figures);
   if (!summary.failures.empty()) {
     page.add_heading("Failures");
-    std::vector<std::vector<std::string>> rows = {{"grain", "what was wrong"}};
+    std::vector<std::vector<std::string>> rows = {{"grain", "error"}};
     for (const SampleFailure& one : summary.failures) rows.push_back({one.grain, one.error});
     page.add_rows(rows, RowKind::Typed);
     if (summary.failed > summary.failures.size()) {
       page.add_paragraph("And " + std::to_string(summary.failed - summary.failures.size()) +
-                         " more, which stand in the table.");
+                         " more. See the table.");
     }
   }
   return page.text();
@@ -257,7 +257,7 @@ std::string summary_html(const SampleSummary& summary) {
 
 std::vector<std::string> summary_lines(const SampleSummary& summary) {
   std::vector<std::string> lines = {count_line(summary)};
-  // What fits 80 characters; the files have the rest.
+  // Columns that fit 80 characters. The files have all columns.
   std::vector<std::vector<std::string>> rows = {{"Quantity", "mean", "10 %", "50 %", "90 %"}};
   for (const SampleDistribution& one : summary.distributions) {
     if (one.values.empty()) continue;
@@ -278,9 +278,8 @@ void write_summary(const std::string& path, const SampleSummary& summary) {
 
 void check_summary(const std::string& path) {
   if (report_format(path) == ReportFormat::Row) {
-    throw Error(ErrorCode::InvalidInput, "\"" + path +
-                                             "\" is to hold a summary, which is a page or JSON; "
-                                             "give a name that ends in .html or .json.");
+    throw Error(ErrorCode::InvalidInput,
+                "\"" + path + "\" is not a name for a summary. Use .html or .json.");
   }
   check_writable(path);
 }

@@ -9,7 +9,7 @@
 
 namespace wscvt {
 
-/// One number of each grain of a sample that was remeshed.
+/// One number per remeshed grain of a sample.
 struct SampleDistribution {
   std::string key;             ///< in files; never changes between versions
   std::string label;           ///< for people
@@ -23,42 +23,42 @@ struct SampleFailure {
   std::string error;
 };
 
-/// What a table of a sample comes to (see sample_table.h).
+/// Statistics of a sample's table (see sample_table.h).
 struct SampleSummary {
   std::size_t grains = 0;
   std::size_t failed = 0;
   std::size_t with_warnings = 0;
-  /// The first of them: a sample in which everything fails is not to fill the memory.
+  /// The first failures only, to limit the memory.
   std::vector<SampleFailure> failures;
   /// Size, form, sphericity, errors and quality.
   std::vector<SampleDistribution> distributions;
 };
 
-/// How many failures a summary names.
+/// Max. number of failures in a summary.
 inline constexpr std::size_t most_failures_named = 100;
 
-/// Reads a whole table; memory is 12 numbers a grain. Throws Error: InvalidInput when the file is
-/// no such table or ends within a row, InputOutput.
+/// Reads a whole table. Needs memory for 12 numbers per grain. Throws Error(InvalidInput) if the
+/// file is not such a table or ends within a row, Error(InputOutput).
 SampleSummary summarise_table(const std::string& path);
 
-/// Bins from the first to the last of values that ascend, as many as a page can show.
+/// Counts ascending values in bins from the first to the last value, 8 to 60 bins.
 Histogram histogram_of(const std::vector<double>& values);
 
-/// The summary as a JSON document: counts, mean, standard deviation, smallest and largest value,
-/// 10, 50 and 90 % of each distribution, failures.
+/// Returns a JSON document: counts, mean, standard deviation, smallest and largest value, 10, 50
+/// and 90 % of each distribution, failures.
 std::string summary_json(const SampleSummary& summary);
 
-/// The same as a page with a histogram of each distribution.
+/// Returns an HTML report with a histogram of each distribution.
 std::string summary_html(const SampleSummary& summary);
 
-/// The same as lines for a log.
+/// Returns lines for a log.
 std::vector<std::string> summary_lines(const SampleSummary& summary);
 
-/// Writes the summary as a page or as JSON, by the ending of the name. Throws Error: InvalidInput
-/// for another ending, InputOutput.
+/// Writes the summary as HTML or JSON, by the ending of the name. Throws Error(InvalidInput) for
+/// another ending, Error(InputOutput).
 void write_summary(const std::string& path, const SampleSummary& summary);
 
-/// Refuses before the work what write_summary would refuse after it.
+/// Checks before the work that write_summary will accept the name.
 void check_summary(const std::string& path);
 
 }  // namespace wscvt

@@ -24,13 +24,13 @@ constexpr std::size_t status_column = 1;
   throw Error(code, "\"" + path + "\" " + what);
 }
 
-/// A record that goes on with the record `rest`.
+/// Joins the fields and the record `rest` into one record.
 std::string before(const std::vector<std::string>& fields, const std::string& rest) {
   const std::string record = csv_record(fields);
   return record.substr(0, record.size() - 2) + "," + rest;
 }
 
-/// The header of a report and its row.
+/// Splits a report into header and row.
 std::pair<std::string, std::string> halves(const std::string& csv) {
   const std::size_t row = csv.find("\r\n") + 2;
   return {csv.substr(0, row), csv.substr(row)};
@@ -43,7 +43,7 @@ std::vector<std::string> first_fields(const std::string& grain, const char* stat
   return fields;
 }
 
-/// Where the row of a grain stands.
+/// Position of a grain's row.
 struct RowPlace {
   std::string grain;
   std::size_t table;
@@ -51,12 +51,13 @@ struct RowPlace {
   std::size_t size;
 };
 
-/// A table and its header; throws where it is none.
+/// Returns the table's header. Throws if the file is not such a table.
 std::string read_header(const std::string& path, CsvReader& reader) {
   std::vector<std::string> fields;
   if (!reader.next(fields) || fields.size() < 3 || fields[0] != "grain" ||
       fields[status_column] != "status") {
-    fail(ErrorCode::InvalidInput, path, "is no table of a sample; give those that a batch wrote.");
+    fail(ErrorCode::InvalidInput, path,
+         "is not a table of a sample. Give tables that batch wrote.");
   }
   return reader.text();
 }
@@ -64,7 +65,7 @@ std::string read_header(const std::string& path, CsvReader& reader) {
 std::ifstream open(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {
-    fail(ErrorCode::InputOutput, path, "cannot be opened; check that the file is there.");
+    fail(ErrorCode::InputOutput, path, "cannot be opened. Check that the file exists.");
   }
   return stream;
 }
@@ -75,8 +76,9 @@ void add_places(const std::string& path, std::size_t table, std::string& header,
   CsvReader reader(stream);
   const std::string own_header = read_header(path, reader);
   if (table > 0 && own_header != header) {
-    fail(ErrorCode::InvalidInput, path,
-         "has other columns than the first table; join tables of one version and one call.");
+    fail(
+        ErrorCode::InvalidInput, path,
+        "has other columns than the first table. Join only tables of one version and one command.");
   }
   header = own_header;
   std::vector<std::string> fields;
@@ -85,11 +87,11 @@ void add_places(const std::string& path, std::size_t table, std::string& header,
   }
   if (reader.is_cut()) {
     fail(ErrorCode::InvalidInput, path,
-         "ends within a row; start its batch again, which goes on where it was.");
+         "ends within a row. Run its batch command again to complete it.");
   }
 }
 
-/// The path, which check_writable's sentences about folders and links have passed.
+/// Returns the path, after check_writable.
 const std::string& writable(const std::string& path) {
   check_writable(path);
   return path;
@@ -141,7 +143,7 @@ void SampleTable::read(const std::string& header, const std::vector<std::string>
   std::vector<std::string> fields;
   if (reader.next(fields) && reader.text() != header) {
     fail(ErrorCode::InvalidInput, path,
-         "is no table with this batch's columns; give another folder.");
+         "is not a table with this batch's columns. Give another folder.");
   }
   for (std::size_t begin = reader.size(); reader.next(fields); begin = reader.size()) {
     const std::string expected =
@@ -149,8 +151,8 @@ void SampleTable::read(const std::string& header, const std::vector<std::string>
     if (fields.front() != expected) {
       fail(ErrorCode::InvalidInput, path,
            "has \"" + fields.front() + "\" in row " + std::to_string(rows_.size() + 1) +
-               ", where the inputs have " + expected +
-               ": it is of other inputs; give those, or another folder.");
+               ", but the inputs have " + expected +
+               ". The table is from other inputs. Give those, or another folder.");
     }
     rows_.push_back({begin, fields[status_column] == failed});
   }
@@ -193,7 +195,7 @@ void join_tables(const std::vector<std::string>& tables, const std::string& join
         if (row == last) continue;
         fail(ErrorCode::InvalidInput, tables[place.table],
              "and \"" + tables[places[k - 1].table] + "\" have different rows of \"" + place.grain +
-                 "\"; join tables of parts of one sample.");
+                 "\". Join only tables of parts of one sample.");
       }
       stream << row;
       last = std::move(row);

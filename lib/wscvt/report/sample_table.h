@@ -11,45 +11,45 @@
 
 namespace wscvt {
 
-// The table of a sample, of many grains: CSV after RFC 4180 with a row a grain. Its columns are
-// "grain", the name of the scan's file; "status", "done" or "failed"; "error", the sentence of a
-// failure; "seconds", where asked for; then those of report_csv, empty for a grain that failed.
+// The table of a sample: CSV (RFC 4180) with one row per grain. Its columns are "grain", the name
+// of the scan's file; "status", "done" or "failed"; "error", the message of a failure; "seconds" on
+// request; then the columns of report_csv, empty if the grain failed.
 
-/// How long a grain took; nothing where the table has no such column.
+/// Time of a grain; empty if the table has no such column.
 using Seconds = std::optional<double>;
 
-/// The first record.
+/// Returns the first record.
 std::string sample_header(bool with_seconds);
 
-/// The record of a grain that was remeshed.
+/// Returns the record of a remeshed grain.
 std::string sample_row(const std::string& grain, const RemeshResult& result, Seconds seconds);
 
-/// The record of a grain that was not.
+/// Returns the record of a failed grain.
 std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds);
 
-/// The same of another report than a remesh's, by its CSV: a header and a row. Of the first and the
-/// last only the header counts.
+/// These return the records for another report, given as CSV with a header and a row. The first and
+/// the last use only its header.
 std::string sample_header(const std::string& report, bool with_seconds);
 std::string sample_row(const std::string& grain, const std::string& report, Seconds seconds);
 std::string failed_row(const std::string& grain, const std::string& error,
                        const std::string& report, Seconds seconds);
 
-/// Such a table, or one of shapes (shape_table.h), as a file that grows. A program that is killed
-/// leaves whole rows and at most a part of one, which the next one to open it takes off.
+/// Such a table, or a table of shapes (shape_table.h), as a growing file. A killed program leaves
+/// whole rows and at most one incomplete row, which the next opening removes.
 class SampleTable {
  public:
-  /// Opens the table of these grains, or begins it. Throws Error(InvalidInput) when the file has
-  /// other columns or rows of other grains, and MachineRefused when it cannot be read or written,
-  /// or another process has it open.
+  /// Opens or creates the table of these grains. Throws Error(InvalidInput) if the file has other
+  /// columns or rows of other grains. Throws MachineRefused if it cannot be read or written, or if
+  /// another process has it open.
   SampleTable(const std::string& path, const std::string& header,
               const std::vector<std::string>& grains);
 
-  /// Rows that were there when it was opened: those of the first so many grains.
+  /// Number of rows found when opened. They belong to the first grains.
   std::size_t rows() const { return rows_.size(); }
-  /// How many of them are of grains that failed.
+  /// Number of these rows with failed grains.
   std::size_t failed_rows() const;
 
-  /// Takes off the rows after the first so many. For tables that are to have as many rows.
+  /// Keeps only the first `rows` rows, so that several tables get equal numbers of rows.
   void keep(std::size_t rows);
 
   /// Adds the record of the next grain. Throws Error(InputOutput).
@@ -66,10 +66,9 @@ class SampleTable {
   std::vector<Row> rows_;
 };
 
-/// Joins tables of parts of a sample, whole ones with the same columns, into one whose rows are in
-/// the order of the grains' names, so that it is the same however the sample was parted. Throws
-/// Error: InvalidInput when columns differ, a table ends within a row, or a grain has two rows that
-/// differ; InputOutput.
+/// Joins complete tables of parts of a sample, with equal columns. Rows are sorted by the grains'
+/// names, so the result does not depend on the parts. Throws Error(InvalidInput) if columns differ,
+/// a table ends within a row, or a grain has two different rows; Error(InputOutput).
 void join_tables(const std::vector<std::string>& tables, const std::string& joined);
 
 }  // namespace wscvt

@@ -53,7 +53,7 @@ void append_mesh(const std::string& mesh, const DetailedDescriptors& descriptors
   append_quality(mesh, quality, values);
 }
 
-/// What the numbers of a row are, in the order of the columns.
+/// Visits the numbers of a row, in the order of the columns.
 std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& shape) {
   std::vector<ShapeValue> values = {{{"nodes", ""}, static_cast<double>(result.mesh.points.size())},
                                     {{"rms_distance", "length"}, result.rms_distance}};

@@ -40,20 +40,20 @@ GivenSizes::GivenSizes(std::vector<double> diameters, std::vector<double> percen
   const std::size_t count = diameters_.size();
   if (count < 2 || percentages.size() != count) {
     refuse("A size curve has " + std::to_string(count) + " diameters and " +
-           std::to_string(percentages.size()) + " percentages; give two or more of each.");
+           std::to_string(percentages.size()) + " percentages. Give two or more of each.");
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (!(diameters_[k] > (k == 0 ? 0.0 : diameters_[k - 1])) ||
         !(percentages[k] >= (k == 0 ? 0.0 : percentages[k - 1])) || percentages[k] > 100.0) {
       refuse("Point " + std::to_string(k + 1) + " of the size curve is " +
              format_typed(diameters_[k]) + ", " + format_typed(percentages[k]) +
-             " %; give diameters above 0 and percentages from 0 to 100 that both ascend.");
+             " %. Give diameters above 0 and percentages from 0 to 100 that both ascend.");
     }
   }
   if (percentages.front() != 0.0 || percentages.back() != 100.0) {
     refuse("The size curve runs from " + format_typed(percentages.front()) + " % to " +
            format_typed(percentages.back()) +
-           " %; add its ends, the smallest diameter at 0 % and the largest at 100 %.");
+           " %. Add its ends, the smallest diameter at 0 % and the largest at 100 %.");
   }
   numbers_.push_back(0.0);
   for (std::size_t k = 1; k < count; ++k) {
@@ -93,7 +93,7 @@ GivenSizes read_given_sizes(const std::string& path) {
       percentages.push_back(*percentage);
     } else if (line > 1) {
       refuse("Line " + std::to_string(line) + " of \"" + path +
-             "\" does not hold a diameter, a comma and the percentage finer by mass.");
+             "\" is not a diameter, a comma and the percentage finer by mass.");
     }
   }
   if (file.bad()) refuse_to_read(path);

@@ -194,8 +194,8 @@ GrainGrower::GrainGrower(std::vector<SampleGrain> sample, const SampleGrids& gri
   if (sample_.size() < smallest_sample) {
     refuse("The sample has " + std::to_string(sample_.size()) +
            (sample_.size() == 1 ? " usable grain" : " usable grains") +
-           "; growing takes at least " + std::to_string(smallest_sample) +
-           ", and some hundreds for distributions that hold.");
+           ". Growing needs at least " + std::to_string(smallest_sample) +
+           ", and some hundreds for reliable distributions.");
   }
   double sum = 0.0, square = 0.0;
   for (const SampleGrain& grain : sample_) {
@@ -439,11 +439,11 @@ GrownGrain GrainGrower::grow(std::size_t index, const GrainCheck& is_accepted) c
     }
     candidates.clear();
   }
-  throw Error(ErrorCode::NumericalFailure,
-              "Of virtual grain " + std::to_string(index) + " " + std::to_string(most_attempts) +
-                  " attempts were not star-shaped or intersect themselves; lower the degree, "
-                  "give more nodes, or leave out flat and long grains and those with deep "
-                  "overhangs.");
+  throw Error(
+      ErrorCode::NumericalFailure,
+      std::to_string(most_attempts) + " attempts at virtual grain " + std::to_string(index) +
+          " were not star-shaped or intersected themselves. Lower the degree, "
+          "give more nodes, or leave out flat grains, long grains and grains with deep overhangs.");
 }
 
 }  // namespace wscvt

@@ -88,7 +88,7 @@ std::optional<std::size_t> find(const GrainSample& sample, const std::string& na
   for (const std::string& text : table.text_columns) {
     if (text == column || text == "scan." + column) {
       refuse("The column \"" + text +
-             "\" holds a text in its first row. Write numbers only, and the "
+             "\" has a text in its first row. Write numbers only, and the "
              "unit in the heading, such as \"" +
              text + " [mm]\".");
     }
@@ -101,8 +101,8 @@ std::optional<std::size_t> find(const GrainSample& sample, const std::string& na
   }
   if (table.columns.size() > most) names += ", ...";
   refuse("The table has no column \"" + column +
-         "\" for the size of the grains. Name a column so, or choose another size: " +
-         keys_of<SizeMeasure>() + ". Its columns of numbers: " + names + ".");
+         "\" for the size of the grains. Rename a column, or choose another size: " +
+         keys_of<SizeMeasure>() + ". Its numeric columns: " + names + ".");
 }
 
 /// Returns the mass of a grain from its row and volume.
@@ -120,10 +120,10 @@ MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSam
   if (!options.density && (mass || density)) {
     sample.density = std::numeric_limits<double>::quiet_NaN();
     if (mass) {
-      sample.notes.push_back("Masses are those of the column \"mass\".");
+      sample.notes.push_back("Masses are from the column \"mass\".");
       return [read = column(*mass)](Eigen::Index row, double) { return read(row); };
     }
-    sample.notes.push_back("Densities are those of the column \"density\".");
+    sample.notes.push_back("Densities are from the column \"density\".");
     return
         [read = column(*density)](Eigen::Index row, double volume) { return read(row) * volume; };
   }
@@ -164,7 +164,8 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   const auto volume = find(sample, "volume");
   if (!volume && (options.density || !table.find("mass"))) {
     sample.notes.push_back(
-        "The table has no column \"volume\", so masses are those of spheres of the grains' size.");
+        "The table has no column \"volume\", so masses are computed for spheres of the grains' "
+        "size.");
   }
   const MassOf mass_of = masses_of(table, options, sample);
   const auto rows = static_cast<Eigen::Index>(kept.size());

@@ -98,7 +98,7 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     fields_.push_back(column_of(heading));
     const std::string& name = fields_.back().name;
     if (!names.insert(name).second) {
-      fail("two columns are named \"" + readable(name, "") + "\"; rename one of them.");
+      fail("two columns are named \"" + readable(name, "") + "\". Rename one of them.");
     }
     if (name == "grain") name_field_ = k;
     if (name == "file") file_field_ = k;
@@ -141,7 +141,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
 }
 
 GrainTable TableReader::table() {
-  if (table_.grains.empty()) fail("no row of the table holds a grain.");
+  if (table_.grains.empty()) fail("no row of the table has a grain.");
   std::vector<std::size_t> taken;
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     // A column of a batch may be empty for all of its grains.
@@ -153,7 +153,7 @@ GrainTable TableReader::table() {
     table_.columns.push_back(fields_[k]);
   }
   if (std::count(roles_.begin(), roles_.end(), Role::Number) == 0) {
-    fail("no column of the table holds numbers. Write numbers without units, with decimal points.");
+    fail("no column of the table has numbers. Write numbers without units, with decimal points.");
   }
   const auto rows = static_cast<Eigen::Index>(table_.grains.size());
   table_.values.resize(rows, static_cast<Eigen::Index>(taken.size()));
@@ -192,7 +192,7 @@ std::size_t GrainTable::index_of(std::string_view name) const {
   for (const GrainColumn& column : columns) {
     names += (names.empty() ? "" : ", ") + readable(column.name, "");
   }
-  refuse("The table has no column of numbers named \"" + readable(name, "") +
+  refuse("The table has no numeric column named \"" + readable(name, "") +
          "\". Choose one of: " + names + ".");
 }
 
@@ -209,7 +209,7 @@ GrainTable read_grain_table(const std::string& path) {
   TableReader table(path, separator == ',' ? '.' : ',');
   std::vector<std::string> fields;
   if (!reader.next(fields)) {
-    table.fail("the file holds no table. Write a heading and a row per grain.");
+    table.fail("the file has no table. Write a heading and a row per grain.");
   }
   table.count_lines(reader.text());
   table.read_heading(fields);
@@ -224,8 +224,8 @@ GrainTable read_grain_table(const std::string& path) {
   } else if (reader.is_cut()) {
     table.count_lines("");
     table.fail(
-        "the file ends within this row. End the row with a line break if it is whole; or "
-        "start the batch of this table again, which goes on where it was.");
+        "the file ends within this row. If the row is complete, end it with a line break. "
+        "Otherwise run the batch of this table again to complete it.");
   }
   return table.table();
 }

@@ -27,7 +27,7 @@ Vector3 extents_of(const std::vector<Vector3>& points) {
 }  // namespace
 
 GrownMeshes::GrownMeshes(int nodes, const Execution& execution) {
-  if (nodes < 4) refuse("The number of nodes is " + std::to_string(nodes) + "; give 4 or more.");
+  if (nodes < 4) refuse("The number of nodes is " + std::to_string(nodes) + ". Give 4 or more.");
   directions_ = fibonacci_lattice(nodes);
   triangles_ = SphereTriangulation(directions_, std::vector<double>(), execution).triangles();
 }

@@ -25,7 +25,7 @@ bool is_odd(unsigned bits) { return ((bits ^ bits >> 1U ^ bits >> 2U) & 1U) != 0
 }  // namespace
 
 GrainSearch::GrainSearch(const std::vector<SampleGrain>& sample) {
-  if (sample.empty()) refuse("The sample has no grains to compare with; give some.");
+  if (sample.empty()) refuse("The sample has no grains to compare with. Give at least one.");
   const std::size_t count = sample.front().radial.size();
   for (int wanted = 0; wanted < 8; ++wanted) {
     classes_[static_cast<std::size_t>(wanted)] = static_cast<Eigen::Index>(places_.size());
@@ -53,7 +53,7 @@ GrainSearch::GrainSearch(const std::vector<SampleGrain>& sample) {
 Eigen::VectorXd GrainSearch::in_classes(const std::vector<double>& radial) const {
   if (radial.size() != places_.size()) {
     refuse("The grain has " + std::to_string(radial.size()) + " coefficients, the sample " +
-           std::to_string(places_.size()) + "; give both the same degree.");
+           std::to_string(places_.size()) + ". Give both the same degree.");
   }
   Eigen::VectorXd sorted(places_.size());
   for (Eigen::Index k = 0; k < sorted.size(); ++k) {

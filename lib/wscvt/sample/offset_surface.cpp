@@ -171,7 +171,7 @@ MappedSurface spread_over_directions(const IndexedMesh& mesh, const Execution& e
       if (error.code() != ErrorCode::InvalidInput) throw;
       if (smoothing > most_smoothing) {
         refuse(
-            "The overhangs of the grain are too deep to grow grains from it; leave it out of "
+            "The overhangs of the grain are too deep to grow grains from it. Leave it out of "
             "the sample.");
       }
     }

@@ -20,7 +20,7 @@ void refuse_other_files(const std::string& path) {
   std::error_code error;
   if (name == "grains.csv" && fs::exists(fs::path(path).parent_path() / "shape.csv", error)) {
     refuse("\"" + path +
-           "\" is the table of a batch's errors. Give shape.csv beside it, or the folder.");
+           "\" is the table of a batch's errors. Give shape.csv from its folder, or the folder.");
   }
   if (ending_of(path) != ".csv" && is_mesh_file(path)) {
     refuse("\"" + path +
@@ -51,7 +51,7 @@ std::vector<std::string> sample_files(const std::string& path) {
   for (const auto& entry : fs::directory_iterator(path, error)) {
     if (!is_mesh_file(entry.path().string())) continue;
     refuse("The folder \"" + path +
-           "\" holds meshes and no shape.csv. Measure them first: wscvt batch " + path +
+           "\" has meshes but no shape.csv. Measure them first: wscvt batch " + path +
            " -o FOLDER. Then give that folder.");
   }
   const std::string parts = (fs::path(path) / "shape-*.csv").string();

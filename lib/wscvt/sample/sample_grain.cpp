@@ -124,7 +124,7 @@ std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
   surface.evaluate_radii(grid.directions().data(), radii.size(), radii.data());
   for (const double radius : radii) {
     if (!(radius > 0.0)) {
-      refuse("The series of the grain is not positive everywhere; leave it out of the sample.");
+      refuse("The series of the grain is not positive everywhere. Leave it out of the sample.");
     }
   }
   const RadialMoments moments = radial_moments(grid, radii);
@@ -175,8 +175,7 @@ IndexedMesh without_handles(const IndexedMesh& mesh, const Execution& execution)
   const std::size_t handles = genus_of(mesh);
   if (handles > most_handles_cut) {
     refuse("The grain has overhangs and " + std::to_string(handles) +
-           " handles: it is porous. Take its outer surface by a shrink-wrap, "
-           "or leave it out of the sample.");
+           " handles: it is porous. Use its shrink-wrap, or leave it out of the sample.");
   }
   const HandleFreeMesh cut = remove_handles(mesh, HandleOptions(), execution);
   if (cut.report.kept > 0) {

@@ -300,7 +300,8 @@ std::vector<double> absolute_weights(const StepFunctions& steps, int which,
 Eigen::MatrixXd standardised(const Eigen::MatrixXd& descriptors, const std::vector<double>& masses,
                              const TemplateOptions& options) {
   require_in_range(options.count, template_count_option);
-  if (descriptors.cols() == 0) refuse("No descriptor is given to choose templates by; give one.");
+  if (descriptors.cols() == 0)
+    refuse("There is no descriptor to choose templates with. Give at least one.");
   if (descriptors.rows() < options.count) {
     refuse("The sample has " + std::to_string(descriptors.rows()) + " grains, fewer than the " +
            std::to_string(options.count) +
@@ -308,19 +309,19 @@ Eigen::MatrixXd standardised(const Eigen::MatrixXd& descriptors, const std::vect
   }
   if (masses.size() != static_cast<std::size_t>(descriptors.rows())) {
     refuse("There are " + std::to_string(masses.size()) + " masses for " +
-           std::to_string(descriptors.rows()) + " grains; give one each.");
+           std::to_string(descriptors.rows()) + " grains. Give one each.");
   }
   for (const double mass : masses) {
-    if (!(mass > 0.0 && std::isfinite(mass))) refuse("A mass is not above 0; correct the table.");
+    if (!(mass > 0.0 && std::isfinite(mass))) refuse("A mass is not above 0. Correct the table.");
   }
-  if (!descriptors.allFinite()) refuse("A descriptor is not a number; leave the grain out.");
+  if (!descriptors.allFinite()) refuse("A descriptor is not a number. Leave the grain out.");
   Eigen::MatrixXd standard = descriptors.rowwise() - descriptors.colwise().mean();
   for (Index j = 0; j < standard.cols(); ++j) {
     const double deviation =
         std::sqrt(standard.col(j).squaredNorm() / static_cast<double>(standard.rows()));
     if (!(deviation > 1e-12 * std::max(1e-300, descriptors.col(j).cwiseAbs().maxCoeff()))) {
       refuse("Descriptor " + std::to_string(j + 1) +
-             " is the same for all grains, so that it chooses none; leave it out.");
+             " is equal for all grains, so it cannot choose templates. Leave it out.");
     }
     standard.col(j) /= deviation;
   }

@@ -37,7 +37,7 @@ void weld(IndexedMesh& mesh, const Execution& execution) {
   drop_degenerate_faces(mesh, find_equal_points(mesh.points, box, tolerance, execution).first);
   if (!mesh.triangles.empty()) return;
   refuse(
-      "All faces of the mesh have two corners in one place, so it holds no body; load closed "
+      "All faces of the mesh have two corners in one place, so it has no body. Load closed "
       "surfaces.");
 }
 

@@ -89,6 +89,6 @@ Value load(const char* bytes) {
 }
 
 /// The advice for a file with wrong content.
-inline constexpr const char* export_again = "; export it again from the program it came from.";
+inline constexpr const char* export_again = ". Export it again from the program it came from.";
 
 }  // namespace wscvt

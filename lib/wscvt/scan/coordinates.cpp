@@ -74,12 +74,11 @@ void check_scan_size(const std::vector<Vector3>& points) {
 void check_scan_size(const Vector3& extents) {
   const double size = extents.maxCoeff();
   if (size == 0.0 || (size >= smallest_scan_size && size <= largest_scan_size)) return;
-  throw Error(
-      ErrorCode::InvalidInput,
-      "The scan is " + format_number(size) +
-          " units across, which is outside of what can be computed with; scale it to between " +
-          format_number(smallest_scan_size) + " and " + format_number(largest_scan_size) +
-          " units.");
+  throw Error(ErrorCode::InvalidInput, "The scan is " + format_number(size) +
+                                           " units across, which is too small or too large for the "
+                                           "computation. Scale it to between " +
+                                           format_number(smallest_scan_size) + " and " +
+                                           format_number(largest_scan_size) + " units.");
 }
 
 namespace {
@@ -97,7 +96,8 @@ bool is_measurable(const IndexedMesh& mesh) {
 }
 
 std::string lost(std::size_t faces) {
-  return faces == 0 ? "" : "; " + std::to_string(faces) + " faces have two corners at one point";
+  return faces == 0 ? ""
+                    : ", and " + std::to_string(faces) + " faces have two corners at one point";
 }
 
 }  // namespace
@@ -112,8 +112,8 @@ std::string single_precision_warning(const IndexedMesh& mesh) {
   if (float_step > coarse_step * edge && all_coordinates(mesh.points, [](double value) {
         return static_cast<double>(static_cast<float>(value)) == value;
       })) {
-    return "The scan lies so far from the origin that its coordinates, in single precision, come "
-           "in steps of " +
+    return "The scan is so far from the origin that its coordinates, in single precision, have "
+           "steps of " +
            format_percent(float_step / edge) + " of the mean edge" + lost(collapsed_faces(mesh)) +
            ". Move the scan to the origin before it is saved in single precision, or save it in "
            "double.";
@@ -134,8 +134,8 @@ std::string precision_warning(const IndexedMesh& mesh) {
   }
   const std::size_t collapsed = collapsed_faces(mesh);
   if (collapsed == 0) return "";
-  return "The scan's coordinates come in steps of " + format_number(1.0 / power_of_ten) +
-         " or more, while its mean edge is " + format_number(edge, 3) + lost(collapsed) +
+  return "The scan's coordinates have steps of " + format_number(1.0 / power_of_ten) +
+         " or more, but its mean edge is " + format_number(edge, 3) + lost(collapsed) +
          ". Save it with more digits.";
 }
 

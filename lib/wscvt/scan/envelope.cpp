@@ -94,7 +94,7 @@ struct ReportingVisitor : parts::Wrapping_default_visitor {
 
 [[noreturn]] void refuse_nothing() {
   throw Error(ErrorCode::InvalidInput,
-              "There is nothing to shrink-wrap; give a mesh whose faces have an area, or "
+              "There is nothing to shrink-wrap. Give a mesh whose faces have an area, or "
               "points with an extent, and an opening above 0.");
 }
 
@@ -157,7 +157,7 @@ void check_envelope_options(const EnvelopeOptions& options) {
   if (options.opening_percent > 0.0 && options.opening_percent < smallest_opening_percent) {
     throw Error(ErrorCode::InvalidInput, "The " + std::string(envelope_option.subject) + " is " +
                                              format_number(options.opening_percent) +
-                                             "; give 0 or " +
+                                             ". Give 0 or " +
                                              format_number(smallest_opening_percent) + " to " +
                                              format_number(envelope_option.maximum) + ".");
   }

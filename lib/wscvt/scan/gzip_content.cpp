@@ -39,7 +39,7 @@ std::string gzip_content(const std::string& path, const Execution& execution) {
     if (count >= 0 && error == Z_OK) return content;
     throw Error(ErrorCode::InputOutput,
                 "\"" + path +
-                    "\" is a gzip file that is cut or damaged; copy it again, or export the mesh "
+                    "\" is a gzip file that is cut or damaged. Copy it again, or export the mesh "
                     "again.");
   }
 }

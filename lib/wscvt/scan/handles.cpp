@@ -253,7 +253,7 @@ HalfEdges linked(const IndexedMesh& mesh) {
       std::find(links.first.begin(), links.first.end(), -1) == links.first.end();
   if (!closed) {
     throw Error(ErrorCode::InvalidInput,
-                "The mesh is not closed, so its handles cannot be told; run check_mesh on it "
+                "The mesh is not closed, so its handles cannot be counted. Run check_mesh on it "
                 "first.");
   }
   return links;

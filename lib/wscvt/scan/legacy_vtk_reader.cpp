@@ -76,7 +76,7 @@ class LegacyVtkReader {
 
   IndexedMesh read() {
     if (lower_case(reader_.line().value_or("")).rfind("# vtk datafile version", 0) != 0) {
-      reader_.fail("does not begin with \"# vtk DataFile Version\" and is no VTK file" +
+      reader_.fail("does not begin with \"# vtk DataFile Version\" and is not a VTK file" +
                    std::string(export_again));
     }
     reader_.line();  // a title
@@ -112,7 +112,7 @@ class LegacyVtkReader {
       const std::string kind = lower_case(fields.next());
       if (kind != "polydata" && kind != "unstructured_grid") {
         reader_.fail("holds " + in_quotes(kind) +
-                     ", not the polygons of a mesh; save a surface as POLYDATA.");
+                     ", not the polygons of a mesh. Save a surface as POLYDATA.");
       }
     } else if (key == "field") {
       fields.next();
@@ -129,7 +129,7 @@ class LegacyVtkReader {
     } else if (key == "cell_types") {
       cell_types_ = numbers<std::int64_t>(VtkType::Int32, 4, count_in(fields));
     } else {
-      reader_.fail_line("has " + in_quotes(key) + " where a part of a mesh is due" + export_again);
+      reader_.fail_line("has " + in_quotes(key) + " instead of a part of a mesh" + export_again);
     }
     return true;
   }
@@ -138,7 +138,7 @@ class LegacyVtkReader {
     const std::size_t count = count_in(fields);
     const NamedType& type = type_in(fields);
     if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-      reader_.fail("declares more points than can be numbered; reduce the scan first.");
+      reader_.fail("declares more points than can be numbered. Reduce the scan first.");
     }
     const auto coordinates = numbers<double>(type.type, type.size, 3 * count);
     mesh_.points.clear();
@@ -184,7 +184,7 @@ class LegacyVtkReader {
     TextFields rest(line);
     const NamedType& type = type_in(rest);
     if (type.type == VtkType::Float || type.type == VtkType::Double) {
-      reader_.fail_line("announces corners that are no whole numbers" + std::string(export_again));
+      reader_.fail_line("announces corners that are not whole numbers" + std::string(export_again));
     }
     return numbers<std::int64_t>(type.type, type.size, count);
   }
@@ -196,7 +196,7 @@ class LegacyVtkReader {
     const std::size_t components = count_in(fields);
     const std::size_t tuples = count_in(fields);
     if (lower_case(TextFields(fields.rest()).next()) == "string") {
-      reader_.fail_line("is an array of texts, which is not read; save the mesh alone.");
+      reader_.fail_line("is an array of texts, which is not supported. Save only the mesh.");
     }
     const NamedType& type = type_in(fields);
     if (tuples > 0 && components > std::numeric_limits<std::size_t>::max() / tuples) fail_cut();
@@ -207,7 +207,7 @@ class LegacyVtkReader {
     const std::string_view field = fields.next();
     const std::optional<std::int64_t> value = whole_number_in(field);
     if (!value || *value < 0) {
-      reader_.fail_line("has " + in_quotes(field) + " where a number of things is due" +
+      reader_.fail_line("has " + in_quotes(field) + " instead of a number of things" +
                         export_again);
     }
     return static_cast<std::size_t>(*value);
@@ -219,8 +219,7 @@ class LegacyVtkReader {
         std::find_if(std::begin(vtk_types), std::end(vtk_types),
                      [&](const NamedType& type) { return type.name == name; });
     if (found == std::end(vtk_types)) {
-      reader_.fail_line("has " + in_quotes(name) + " where a type of numbers is due" +
-                        export_again);
+      reader_.fail_line("has " + in_quotes(name) + " instead of a type of numbers" + export_again);
     }
     return *found;
   }
@@ -255,7 +254,7 @@ class LegacyVtkReader {
       if (!value || result.size() == count) {
         reader_.fail_line("has " + in_quotes(field) +
                           (value ? " behind the last of " + std::to_string(count) + " numbers"
-                                 : " where a number is due") +
+                                 : " instead of a number") +
                           export_again);
       }
       result.push_back(*value);
@@ -266,7 +265,7 @@ class LegacyVtkReader {
   void keep_surface_cells() {
     if (cell_types_.empty()) return;
     if (cell_types_.size() != polygons_.ends.size()) {
-      reader_.fail("has another number of cells than of their types" + std::string(export_again));
+      reader_.fail("has different numbers of cells and cell types" + std::string(export_again));
     }
     VtkPolygons kept;
     std::int64_t begin = 0;
@@ -283,7 +282,7 @@ class LegacyVtkReader {
       if (end < begin || static_cast<std::uint64_t>(end) > polygons_.corners.size() ||
           (type >= triangle && !is_face && type != strip)) {
         reader_.fail("holds cells of type " + std::to_string(type) +
-                     ", which are no faces; save a surface as POLYDATA.");
+                     ", which are not faces. Save a surface as POLYDATA.");
       }
       if (is_face || type == strip) {
         VtkPolygons& to = is_face ? kept : strips_;
@@ -297,8 +296,7 @@ class LegacyVtkReader {
   }
 
   [[noreturn]] void fail_cut() const {
-    reader_.fail("holds less numbers than it announces; it was cut off" +
-                 std::string(export_again));
+    reader_.fail("has fewer numbers than it announces. It was cut off" + std::string(export_again));
   }
 
   ByteReader& reader_;

@@ -110,12 +110,12 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   report.dropped_volume_share = outer_volume / (outer_volume + report.volume);
   if (report.dropped_volume_share > options.dropped_volume_limit) {
     refuse(
-        "The mesh falls into " + std::to_string(report.components - report.inner_components) +
-        " separate bodies and the largest holds only " +
+        "The mesh has " + std::to_string(report.components - report.inner_components) +
+        " separate bodies and the largest has only " +
         format_percent(1.0 - report.dropped_volume_share) +
         " of their volume, so there is no main body. Split the mesh (wscvt split MESH FOLDER; in "
-        "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body on "
-        "its own, or all of them by wscvt batch MESH -o OUT --parts.");
+        "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body "
+        "separately, or all of them by wscvt batch MESH -o OUT --parts.");
   }
 }
 
@@ -161,7 +161,7 @@ void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshChe
     if (!precision.empty()) refuse("The mesh encloses no volume. " + precision);
     refuse("The mesh encloses no volume: it is flat, with an area of " +
            format_number(report.area) + " and a volume of " + format_number(report.volume) +
-           "; load the closed surface of a grain.");
+           ". Load the closed surface of a grain.");
   }
   report.centroid = origin + sums.centroid();
   report.sliver_faces = sums.flat_triangles;
@@ -206,7 +206,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   }
   if (mesh.triangles.empty()) {
     refuse("All " + std::to_string(report.input_faces) +
-           " faces of the mesh have two corners in one place, so it encloses no volume; load the "
+           " faces of the mesh have two corners in one place, so it encloses no volume. Load the "
            "closed surface of a grain.");
   }
   execution.report(0.25, stage);
@@ -216,7 +216,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.folded_faces = duplicates.folded;
   if (mesh.triangles.empty()) {
     refuse(
-        "The faces of the mesh lie on each other in pairs, so it encloses no volume; load the "
+        "The faces of the mesh lie on each other in pairs, so it encloses no volume. Load the "
         "closed surface of a grain.");
   }
   if (duplicates.copies + duplicates.folded > 0) rings = edge_rings(mesh, execution);
@@ -249,7 +249,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
         ErrorCode::InvalidInput,
         std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
             " is not orientable: its faces cannot all be turned to face outward, so they enclose "
-            "nothing; give it two sides first (" +
+            "nothing. Give it two sides first (" +
             where_meshlab_closes() + "), or scan the grain again.",
         finest_tried_percent);
   }

@@ -249,8 +249,8 @@ const Format& format_of(const std::string& path, MeshUse use) {
   const Format* const format = known_format(path, use);
   if (format == nullptr) {
     refuse("\"" + path + "\" does not end in " + mesh_extensions(use) +
-           (use == MeshUse::Read ? "; convert the mesh to one of these."
-                                 : "; give a name that does."));
+           (use == MeshUse::Read ? ". Convert the mesh to one of these."
+                                 : ". Give a name that does."));
   }
   return *format;
 }
@@ -294,7 +294,7 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   const bool is_pipe = std::filesystem::is_fifo(status);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !is_pipe) {
-    fail(path, "is a folder or a device; give the name of a file.");
+    fail(path, "is a folder or a device. Give the name of a file.");
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
@@ -364,9 +364,9 @@ void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates
   const Format& format = format_of(path, MeshUse::Write);
   const std::size_t lost = format.write == write_stl ? fallen_together(mesh.points) : 0;
   if (lost > 0) {
-    fail(path, "cannot hold this mesh: binary STL keeps seven digits of a coordinate, in which " +
+    fail(path, "cannot store this mesh: binary STL keeps seven digits of a coordinate, so " +
                    std::to_string(lost) +
-                   " vertices fall together with others; write PLY, OBJ or OFF, or move the mesh "
+                   " vertices coincide with others. Write PLY, OBJ or OFF, or move the mesh "
                    "to the origin first.");
   }
   write_file(path, [&](std::ostream& stream) { return format.write(stream, mesh, coordinates); });
@@ -386,7 +386,7 @@ void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes,
       if (attribute.values.size() == count) continue;
       refuse("The attribute \"" + attribute.name + "\" has " +
              std::to_string(attribute.values.size()) + " values for " + std::to_string(count) +
-             " vertices or faces; give one each.");
+             " vertices or faces. Give one each.");
     }
   }
   write_file(path, [&](std::ostream& stream) {

@@ -78,7 +78,7 @@ class ObjReader {
  private:
   void add_vertex(TextFields fields) {
     if (mesh_.points.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-      reader_.fail("has more vertices than can be numbered; reduce the scan first.");
+      reader_.fail("has more vertices than can be numbered. Reduce the scan first.");
     }
     Vector3 point;
     for (double& coordinate : point) {
@@ -88,7 +88,7 @@ class ObjReader {
         reader_.fail_line(
             field.empty()
                 ? "gives a vertex fewer than three coordinates" + std::string(export_again)
-                : "has " + in_quotes(field) + " where a coordinate is due" + export_again);
+                : "has " + in_quotes(field) + " instead of a coordinate" + export_again);
       }
       coordinate = *value;
     }
@@ -177,7 +177,7 @@ class ObjReader {
       const std::optional<std::int64_t> number = whole_number_in(vertex);
       if (!number || *number == 0) {
         reader_.fail_line("has " + in_quotes(field) +
-                          " where a face's vertex is due, numbered from 1" + export_again);
+                          " instead of a face's vertex, numbered from 1" + export_again);
       }
       const auto known = static_cast<std::int64_t>(mesh_.points.size());
       const std::int64_t index = *number > 0 ? *number - 1 : known + *number;

@@ -30,20 +30,20 @@ void check_keyword(ByteReader& reader, std::string_view keyword) {
   const std::string form(keyword.substr(0, keyword.find("OFF")));
   if (keyword.find("OFF") == std::string_view::npos || keyword.substr(form.size()) != "OFF" ||
       form.find_first_not_of("STCN4n") != std::string::npos) {
-    reader.fail("does not begin with the word \"OFF\" and is no OFF file" +
+    reader.fail("does not begin with the word \"OFF\" and is not an OFF file" +
                 std::string(export_again));
   }
   if (form.find_first_of("4n") != std::string::npos) {
-    reader.fail("holds coordinates in other than three dimensions (" + in_quotes(keyword) +
-                "); export it as plain OFF.");
+    reader.fail("has coordinates that are not in three dimensions (" + in_quotes(keyword) +
+                "). Export it as plain OFF.");
   }
 }
 
 std::size_t whole_number(ByteReader& reader, std::string_view field, const std::string& due) {
   const std::optional<std::int64_t> value = whole_number_in(field);
   if (!value || *value < 0) {
-    reader.fail_line((field.empty() ? "ends" : "has " + in_quotes(field)) + " where " + due +
-                     " is due" + export_again);
+    reader.fail_line((field.empty() ? "lacks " : "has " + in_quotes(field) + " instead of ") + due +
+                     export_again);
   }
   return static_cast<std::size_t>(*value);
 }
@@ -51,7 +51,7 @@ std::size_t whole_number(ByteReader& reader, std::string_view field, const std::
 [[noreturn]] void fail_cut(ByteReader& reader, const std::string& what, std::size_t number,
                            std::size_t count) {
   reader.fail("ends before " + what + " " + std::to_string(number) + " of " +
-              std::to_string(count) + "; it was cut off" + export_again);
+              std::to_string(count) + ". It was cut off" + export_again);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ IndexedMesh read_off(ByteReader& reader) {
   check_keyword(reader, header.next());
   std::string_view field = header.next();
   if (field == "BINARY") {
-    reader.fail("is a binary OFF file, which is not read; export it as text, or as PLY.");
+    reader.fail("is a binary OFF file, which is not supported. Export it as text, or as PLY.");
   }
   if (field.empty()) {  // the counts may be beside the keyword or below it
     line = next_line(reader);
@@ -72,7 +72,7 @@ IndexedMesh read_off(ByteReader& reader) {
   const std::size_t vertices = whole_number(reader, field, "the number of vertices");
   const std::size_t faces = whole_number(reader, header.next(), "the number of faces");
   if (vertices > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    reader.fail("declares more vertices than can be numbered; reduce the scan first.");
+    reader.fail("declares more vertices than can be numbered. Reduce the scan first.");
   }
   // The shortest vertex is "0 0 0" and a line break, the shortest face "0" and a line break. The
   // last line needs no line break. Refuses a header that declares more than fits.
@@ -80,7 +80,7 @@ IndexedMesh read_off(ByteReader& reader) {
   if (vertices > left / 6 || faces > (left - 6 * vertices) / 2) {
     reader.fail("declares " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
                 " faces, but only " + std::to_string(reader.remaining()) +
-                " bytes are left for them; it was cut off" + export_again);
+                " bytes are left for them. It was cut off" + export_again);
   }
 
   IndexedMesh mesh;
@@ -94,8 +94,8 @@ IndexedMesh read_off(ByteReader& reader) {
       const std::optional<double> value = number_in(field);
       if (!value) {
         reader.fail_line("(vertex " + std::to_string(i) + ") " +
-                         (field.empty() ? "ends" : "has " + in_quotes(field)) +
-                         " where a coordinate is due" + export_again);
+                         (field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
+                         " a coordinate" + export_again);
       }
       coordinate = *value;
     }

@@ -87,11 +87,11 @@ class PcdReader {
       read_columns();
     } else {
       reader_.fail_line("has data as " + in_quotes(form) +
-                        "; save it as ascii, binary or binary_compressed.");
+                        ". Save it as ascii, binary or binary_compressed.");
     }
     if (left_out_ > 0) {
       reader_.warn("has " + std::to_string(left_out_) + " of " + std::to_string(points_) +
-                   " points at no finite place, which were left out.");
+                   " points without finite coordinates. They were left out.");
     }
     if (mesh_.points.empty()) reader_.fail("holds no points" + std::string(export_again));
     return std::move(mesh_);
@@ -132,7 +132,7 @@ class PcdReader {
         check_fields();
         return form;
       } else if (key != "version" && key != "viewpoint") {
-        reader_.fail_line("has " + in_quotes(key) + " where a part of a PCD header is due" +
+        reader_.fail_line("has " + in_quotes(key) + " instead of a part of a PCD header" +
                           export_again);
       }
     }
@@ -143,8 +143,8 @@ class PcdReader {
   std::size_t number(std::string_view word, std::size_t most) {
     const std::optional<std::int64_t> value = whole_number_in(word);
     if (!value || *value < 0 || static_cast<std::uint64_t>(*value) > most) {
-      reader_.fail_line("has " + in_quotes(word) + " where a number from 0 to " +
-                        std::to_string(most) + " is due" + export_again);
+      reader_.fail_line("has " + in_quotes(word) + " instead of a number from 0 to " +
+                        std::to_string(most) + export_again);
     }
     return static_cast<std::size_t>(*value);
   }
@@ -186,7 +186,7 @@ class PcdReader {
 
   [[noreturn]] void fail_cut() {
     reader_.fail("announces " + std::to_string(points_) +
-                 " points, which it does not hold; it was cut off" + export_again);
+                 " points but does not have them. It was cut off" + export_again);
   }
 
   void read_text() {
@@ -201,8 +201,7 @@ class PcdReader {
           if (column != columns_[axis]) continue;
           const std::optional<double> value = number_in(word);
           if (!value) {
-            reader_.fail_line("has " + in_quotes(word) + " where a coordinate is due" +
-                              export_again);
+            reader_.fail_line("has " + in_quotes(word) + " instead of a coordinate" + export_again);
           }
           point[static_cast<Eigen::Index>(axis)] = *value;
         }

@@ -48,7 +48,7 @@ TexturePicture read_picture(const std::string& path) {
   const bool is_known =
       stbi_info_from_file(file.get(), &picture.width, &picture.height, &parts) != 0;
   if (is_known && static_cast<double>(picture.width) * picture.height > most_pixels) {
-    fail(path, "is larger than 400 million pixels; save it smaller.");
+    fail(path, "is larger than 400 million pixels. Save it smaller.");
   }
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       is_known ? stbi_load_from_file(file.get(), &picture.width, &picture.height, &parts, 3)
@@ -57,7 +57,7 @@ TexturePicture read_picture(const std::string& path) {
   if (pixels == nullptr && std::string_view(stbi_failure_reason()) == "outofmem") {
     throw std::bad_alloc();
   }
-  if (pixels == nullptr) fail(path, "is no picture that can be read, or is cut short.");
+  if (pixels == nullptr) fail(path, "is not a readable picture, or is cut short.");
   const std::size_t size = std::size_t{3} * static_cast<std::size_t>(picture.width) *
                            static_cast<std::size_t>(picture.height);
   picture.colours.assign(pixels.get(), pixels.get() + size);

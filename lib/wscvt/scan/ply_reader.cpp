@@ -119,7 +119,7 @@ Header read_header(ByteReader& reader) {
   Header header;
   std::optional<std::string_view> line = reader.line();
   if (!line || TextFields(*line).next() != "ply") {
-    reader.fail("does not begin with the line \"ply\" and is no PLY file" +
+    reader.fail("does not begin with the line \"ply\" and is not a PLY file" +
                 std::string(export_again));
   }
   bool format_known = false;
@@ -143,7 +143,7 @@ Header read_header(ByteReader& reader) {
       const auto found = encodings.find(format);
       if (found == encodings.end()) {
         reader.fail_line("gives the format " + in_quotes(format) +
-                         "; it must be ascii, binary_little_endian or binary_big_endian.");
+                         ". It must be ascii, binary_little_endian or binary_big_endian.");
       }
       header.encoding = found->second;
       format_known = true;
@@ -154,7 +154,7 @@ Header read_header(ByteReader& reader) {
       const std::optional<std::int64_t> count = whole_number_in(field);
       if (!count || *count < 0) {
         reader.fail_line("gives " + in_quotes(field) + " for the number of elements " +
-                         in_quotes(element.name) + "; it must be a whole number from 0.");
+                         in_quotes(element.name) + ". It must be a whole number from 0.");
       }
       element.count = static_cast<std::uint64_t>(*count);
       header.elements.push_back(std::move(element));
@@ -170,7 +170,7 @@ Header read_header(ByteReader& reader) {
         const std::optional<ScalarType> known = scalar_type(count_type);
         if (!known || *known == ScalarType::Float32 || *known == ScalarType::Float64) {
           reader.fail_line("counts a list in the type " + in_quotes(count_type) +
-                           "; it must be a type of whole numbers.");
+                           ". It must be a type of whole numbers.");
         }
         property.count_type = *known;
         type = lower_case(fields.next());
@@ -185,7 +185,7 @@ Header read_header(ByteReader& reader) {
       header.elements.back().properties.push_back(std::move(property));
     } else {
       reader.fail_line("of the header begins with " + in_quotes(keyword) +
-                       ", which is no keyword of PLY" + export_again);
+                       ", which is not a keyword of PLY" + export_again);
     }
   }
   reader.fail("has a header without the line \"end_header\"" + std::string(export_again));
@@ -254,7 +254,7 @@ class Body {
     vertices_ = vertices->count;
     if (vertices_ > most_vertices) {
       reader_.fail("declares " + std::to_string(vertices_) +
-                   " vertices, more than can be numbered; reduce the scan first.");
+                   " vertices, more than can be numbered. Reduce the scan first.");
     }
     bool has_faces = false;
     for (const Element& element : header_.elements) {
@@ -284,7 +284,7 @@ class Body {
 
   [[noreturn]] void fail_cut(const Element& element, std::uint64_t record) const {
     reader_.fail("ends within " + element.name + " " + std::to_string(record) + ", but declares " +
-                 std::to_string(element.count) + " of them; it was cut off" + export_again);
+                 std::to_string(element.count) + " of them. It was cut off" + export_again);
   }
 
   [[noreturn]] void fail_record(const Element& element, std::uint64_t record,
@@ -305,7 +305,7 @@ class Body {
     if (element.count > (reader_.remaining() + 1) / least) {
       reader_.fail("declares " + std::to_string(element.count) + " elements \"" + element.name +
                    "\", but only " + std::to_string(reader_.remaining()) +
-                   " bytes are left for them; it was cut off" + export_again);
+                   " bytes are left for them. It was cut off" + export_again);
     }
   }
 
@@ -622,7 +622,7 @@ class Body {
       fail_record(element, record,
                   field.empty() ? "holds fewer numbers than the header declares for one" +
                                       std::string(export_again)
-                                : "has " + in_quotes(field) + " where a number is due.");
+                                : "has " + in_quotes(field) + " instead of a number.");
     };
     scalars_.resize(element.properties.size());
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -650,8 +650,9 @@ class Body {
   std::uint64_t list_count(const Element& element, std::uint64_t record, double count) const {
     if (!(count >= 0.0 && count < 4294967296.0) ||
         count != static_cast<double>(static_cast<std::uint64_t>(count))) {
-      fail_record(element, record,
-                  "has a list whose count is no whole number from 0" + std::string(export_again));
+      fail_record(
+          element, record,
+          "has a list whose count is not a whole number from 0" + std::string(export_again));
     }
     return static_cast<std::uint64_t>(count);
   }

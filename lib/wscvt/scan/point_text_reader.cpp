@@ -72,23 +72,23 @@ IndexedMesh read_point_text(ByteReader& reader) {
       }
       if (found != std::array<int, 3>{1, 1, 1}) {
         reader.fail_line(
-            "is no point, and does not name columns x, y and z, each once; name them, "
-            "or give a file of numbers alone.");
+            "is not a point and does not name the columns x, y and z, each once. Name them, or "
+            "give a file with numbers only.");
       }
       continue;
     }
     is_first = false;
     if (mesh.points.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-      reader.fail("holds more points than can be numbered; reduce the scan first.");
+      reader.fail("holds more points than can be numbered. Reduce the scan first.");
     }
     Vector3 point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view field = columns[axis] < fields.size() ? fields[columns[axis]] : "";
       const std::optional<double> value = number_in(field);
       if (!value) {
-        reader.fail_line((field.empty() ? "ends" : "has " + in_quotes(field)) +
-                         std::string(" where the coordinate ") + "xyz"[axis] +
-                         " of a point is due" + export_again);
+        reader.fail_line((field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
+                         std::string(" the coordinate ") + "xyz"[axis] + " of a point" +
+                         export_again);
       }
       point[static_cast<Eigen::Index>(axis)] = *value;
     }

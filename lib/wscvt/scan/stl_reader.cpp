@@ -20,7 +20,7 @@ constexpr auto most_triangles =
 
 std::int32_t next_index(ByteReader& reader, const IndexedMesh& mesh) {
   if (mesh.triangles.size() >= most_triangles) {
-    reader.fail("has more triangles than can be numbered; reduce the scan first.");
+    reader.fail("has more triangles than can be numbered. Reduce the scan first.");
   }
   return static_cast<std::int32_t>(mesh.points.size());
 }
@@ -35,20 +35,22 @@ IndexedMesh read_binary(ByteReader& reader) {
   const std::uintmax_t expected = header_size + std::uintmax_t{record_size} * triangles;
   const std::uintmax_t held = (reader.remaining() - header_size) / record_size;
   if (expected > reader.remaining()) {
-    reader.fail("is no text and announces " + std::to_string(triangles) + " triangles, but holds " +
-                std::to_string(held) + "; it is no STL file or was cut off" + export_again);
+    reader.fail("is not text and announces " + std::to_string(triangles) +
+                " triangles, but holds " + std::to_string(held) +
+                ". It is not an STL file or was cut off" + export_again);
   }
   // Some programs leave bytes after the last triangle, a line break or zeros. If there is room for
   // a triangle, the count is wrong.
   if (held > triangles) {
-    reader.fail("is no text and announces " + std::to_string(triangles) + " triangles, but holds " +
-                std::to_string(held) + "; it is no STL file" + export_again);
+    reader.fail("is not text and announces " + std::to_string(triangles) +
+                " triangles, but holds " + std::to_string(held) + ". It is not an STL file" +
+                export_again);
   }
   if (triangles == 0) reader.fail("holds no triangles" + std::string(export_again));
   if (reader.remaining() > expected) {
     const std::uintmax_t more = reader.remaining() - expected;
     reader.warn("has " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
-                " behind its last triangle, which were left out. If triangles are missing, export "
+                " behind its last triangle. They were left out. If triangles are missing, export "
                 "it again from the program it came from.");
   }
   reader.skip(header_size);
@@ -143,9 +145,9 @@ class TextReader {
 
   [[noreturn]] void fail(const std::string& word, const std::string& due) {
     if (word.empty()) {
-      reader_.fail("ends where " + due + " is due; it was cut off" + export_again);
+      reader_.fail("ends before " + due + ". It was cut off" + export_again);
     }
-    reader_.fail_line("has " + in_quotes(word) + " where " + due + " is due" + export_again);
+    reader_.fail_line("has " + in_quotes(word) + " instead of " + due + export_again);
   }
 
   ByteReader& reader_;

@@ -39,18 +39,17 @@ std::size_t first_wrong(std::size_t count, const Execution& execution, const Pre
 void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
   const std::size_t faces = mesh.triangles.size();
-  if (vertices == 0) refuse("The mesh is empty: it has no vertices; load the scan of a grain.");
+  if (vertices == 0) refuse("The mesh is empty: it has no vertices. Load the scan of a grain.");
   if (faces == 0) {
-    refuse(
-        "The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
-        " but no faces, so it encloses no volume; remesh it as a point cloud first, which makes a "
-        "closed surface of the points.");
+    refuse("The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
+           " but no faces, so it encloses no volume. Remesh it as a point cloud first, to make a "
+           "closed surface of the points.");
   }
   constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
   if (faces > limit || vertices > limit) {
     refuse("The mesh has " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
            " faces, more than the " + std::to_string(limit) +
-           " that can be numbered; reduce the scan first.");
+           " that can be numbered. Reduce the scan first.");
   }
   const std::size_t bad_face = first_wrong(faces, execution, [&](std::size_t f) {
     const Triangle& t = mesh.triangles[f];
@@ -62,7 +61,7 @@ void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
     const Triangle& t = mesh.triangles[bad_face];
     refuse("Face " + std::to_string(bad_face) + " names the vertices " + std::to_string(t[0]) +
            ", " + std::to_string(t[1]) + " and " + std::to_string(t[2]) + ", but the mesh has " +
-           std::to_string(vertices) + "; the file or the program that made it is at fault.");
+           std::to_string(vertices) + ". The file or the program that made it is wrong.");
   }
 }
 
@@ -86,7 +85,7 @@ std::size_t drop_lost_faces(IndexedMesh& mesh, const Execution& execution) {
     };
     refuse("All faces of the mesh have a corner that is not at a finite position, e.g. vertex " +
            std::to_string(first) + " at (" + coordinate(p.x()) + ", " + coordinate(p.y()) + ", " +
-           coordinate(p.z()) + "); the file or the program that made it is at fault.");
+           coordinate(p.z()) + "). The file or the program that made it is wrong.");
   }
   return faces - mesh.triangles.size();
 }
@@ -101,9 +100,9 @@ std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution) {
 std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
-      throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
-                                               " has a coordinate that is not a finite number; "
-                                               "remove it from the scan.");
+      throw Error(ErrorCode::InvalidInput,
+                  "Point " + std::to_string(i) +
+                      " has a coordinate that is not a finite number. Remove it from the scan.");
     }
   }
   const auto less = [](const Vector3& a, const Vector3& b) {
@@ -113,9 +112,9 @@ std::vector<Vector3> different_points(std::vector<Vector3> points, const Executi
   execution.report(0.0, "Sorting the points");  // sorting a million points takes tenths of a second
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 4) {
-    throw Error(ErrorCode::InvalidInput, "The scan has " + std::to_string(points.size()) +
-                                             " different points and no faces; a body needs at "
-                                             "least 4.");
+    throw Error(ErrorCode::InvalidInput,
+                "The scan has " + std::to_string(points.size()) +
+                    " different points and no faces. A body needs at least 4.");
   }
   check_scan_size(points);
   return points;

@@ -63,11 +63,11 @@ bool has_voxel_steps(const IndexedMesh& mesh) {
 
 std::string voxel_steps_advice(const std::string& name) {
   return name +
-         " is made of the faces of voxels. Its area is that of their steps, up to half as much "
-         "again as the grain's; its volume is right. A remesh that is smoother is nearer to the "
-         "grain: do not make it follow the steps by more nodes or error-adaptive weighting. Make "
-         "the mesh from the volume (wscvt extract), which smooths the steps and keeps the volume, "
-         "or smooth it before, e.g. by Taubin's filter in MeshLab.";
+         " is made of the faces of voxels. Their steps make its area up to half as large again as "
+         "the grain's. Its volume is correct. A smoother remesh is closer to the grain, so do not "
+         "follow the steps with more nodes or error-adaptive weighting. Make the mesh from the "
+         "volume (wscvt extract), which smooths the steps and keeps the volume. Or smooth it "
+         "first, e.g. by Taubin's filter in MeshLab.";
 }
 
 }  // namespace wscvt

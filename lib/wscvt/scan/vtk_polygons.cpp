@@ -11,7 +11,7 @@ namespace wscvt {
 void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first, std::size_t points,
                   const ByteReader& reader, std::vector<Triangle>& triangles) {
   if (first + points > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    reader.fail("has more points than can be numbered; reduce the scan first.");
+    reader.fail("has more points than can be numbered. Reduce the scan first.");
   }
   std::vector<std::int64_t> corners;
   corners.reserve(polygons.corners.size());

@@ -181,7 +181,7 @@ class VtpReader {
         const std::string kind = value_of(file_, "type");
         if (kind != "PolyData") {
           reader_.fail("holds " + in_quotes(kind) +
-                       ", not the polygons of a mesh; save a surface as PolyData.");
+                       ", not the polygons of a mesh. Save a surface as PolyData.");
         }
       } else if (!is_vtk) {
         fail_xml();
@@ -254,7 +254,7 @@ class VtpReader {
           whole_number_in(value_of(array.attributes, "offset", "0"));
       if (appendix_ == 0 || !offset || *offset < 0 ||
           static_cast<std::uint64_t>(*offset) > text_.size() - appendix_) {
-        reader_.fail("has no appended data where an array says" + std::string(export_again));
+        reader_.fail("has no appended data at an array's offset" + std::string(export_again));
       }
       return typed_numbers<Number>(
           type,
@@ -272,7 +272,7 @@ class VtpReader {
     for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
       const std::optional<Number> value = number_of_type<Number>(field);
       if (!value) {
-        reader_.fail("has " + in_quotes(field) + " where a number is due" + export_again);
+        reader_.fail("has " + in_quotes(field) + " instead of a number" + export_again);
       }
       result.push_back(*value);
     }
@@ -301,7 +301,7 @@ class VtpReader {
       return *all;
     }
     if (packer != "vtkZLibDataCompressor") {
-      reader_.fail("is packed by " + in_quotes(packer) + "; save it plain, or by ZLib.");
+      reader_.fail("is packed by " + in_quotes(packer) + ". Save it plain, or by ZLib.");
     }
     const std::uint64_t blocks = next_length(bytes);
     const std::uint64_t block = next_length(bytes);
@@ -364,8 +364,7 @@ class VtpReader {
     if (type == "UInt32") return converted<Number, std::uint32_t>(bytes);
     if (type == "Int64") return converted<Number, std::int64_t>(bytes);
     if (type == "UInt64") return converted<Number, std::uint64_t>(bytes);
-    reader_.fail("has an array of " + in_quotes(type) + " where other numbers are due" +
-                 export_again);
+    reader_.fail("has an array of " + in_quotes(type) + " instead of other numbers" + export_again);
   }
 
   ByteReader& reader_;

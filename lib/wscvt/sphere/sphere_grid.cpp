@@ -146,7 +146,7 @@ void spread_stencils(double* nodes, int rows, std::size_t stride, const Vector3*
 SphereGrid::SphereGrid(int rows, int stencil) : rows_(rows), stencil_(stencil), halo_(stencil / 2) {
   if (rows < 8 || (stencil != 4 && stencil != 6)) {
     throw Error(ErrorCode::InvalidInput,
-                "A grid of the sphere needs 8 rows or more and a stencil of 4 or 6; it was given " +
+                "A grid of the sphere needs 8 rows or more and a stencil of 4 or 6, not " +
                     std::to_string(rows) + " and " + std::to_string(stencil) + ".");
   }
   nodes_.assign(static_cast<std::size_t>(rows_ + 2 * halo_) * stride(), 0.0);
@@ -157,7 +157,7 @@ SphereGrid::SphereGrid(int rows, int stencil, const std::vector<double>& values)
   const std::size_t count = static_cast<std::size_t>(rows_) * columns();
   if (values.size() != count) {
     throw Error(ErrorCode::InvalidInput, "A grid of the sphere with " + std::to_string(rows_) +
-                                             " rows takes " + std::to_string(count) +
+                                             " rows needs " + std::to_string(count) +
                                              " values, not " + std::to_string(values.size()) + ".");
   }
   for (int row = 0; row < rows_; ++row) {
@@ -275,7 +275,7 @@ void SphereGrid::interpolate(const std::vector<const SphereGrid*>& grids, const 
   if (values.size() != grids.size()) {
     throw Error(ErrorCode::InvalidInput,
                 "There are " + std::to_string(grids.size()) + " grids of the sphere and " +
-                    std::to_string(values.size()) + " arrays for their values; give one each.");
+                    std::to_string(values.size()) + " arrays for their values. Give one each.");
   }
   if (grids.empty()) return;
   const auto function = grids[0]->stencil_ == 4 ? interpolate_stencils<4> : interpolate_stencils<6>;

@@ -18,7 +18,7 @@ namespace {
 void require_at_least(int value, int least, const char* what) {
   if (value < least) {
     throw Error(ErrorCode::InvalidInput, std::string("The ") + what + " is " +
-                                             std::to_string(value) + "; it must be at least " +
+                                             std::to_string(value) + ". It must be at least " +
                                              std::to_string(least) + ".");
   }
 }
@@ -138,7 +138,7 @@ std::vector<Vector3> warped_lattice(int count, const DensityFunction& density, i
       const double value = values[j * columns + k];
       if (!(value > 0.0) || !std::isfinite(value)) {
         throw Error(ErrorCode::InvalidInput,
-                    "The seed density is not a positive number everywhere; check the surface the "
+                    "The seed density is not a positive number everywhere. Check the surface the "
                     "weights are computed from.");
       }
       row[k + 1] = row[k] + value;

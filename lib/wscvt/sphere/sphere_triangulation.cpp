@@ -95,13 +95,13 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
   if (!weights.empty() && weights.size() != seeds.size()) {
     throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(weights.size()) +
                                              " weights for " + std::to_string(seeds.size()) +
-                                             " seeds; give one each, or none.");
+                                             " seeds. Give one each, or none.");
   }
   // The exact arithmetic of the predicates ends the program at NaN.
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (seeds[i].allFinite()) continue;
     throw Error(ErrorCode::InvalidInput,
-                "Seed " + std::to_string(i) + " is not a finite direction; give unit vectors.");
+                "Seed " + std::to_string(i) + " is not a finite direction. Give unit vectors.");
   }
   if (!can_be_lifted(weights)) {
     return "a weight is not a number, or far larger than the sphere's own solid angle. Use more "

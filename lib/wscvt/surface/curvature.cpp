@@ -123,7 +123,7 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
                                                         const Execution& execution) {
   if (rings < 1) {
     throw Error(ErrorCode::InvalidInput, "The number of rings for the curvature fit is " +
-                                             std::to_string(rings) + "; give 1 or more, e.g. 2.");
+                                             std::to_string(rings) + ". Give 1 or more, e.g. 2.");
   }
   const VertexCorners corners(mesh);
   std::vector<PrincipalCurvatures> result(mesh.points.size());

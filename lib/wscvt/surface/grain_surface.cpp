@@ -21,8 +21,8 @@ void check_grain_surface(const GrainSurface& surface) {
   const std::string ending = ending_of(surface.coefficients_file);
   if (ending == ".dat" || ending == ".json" || ending == ".sh") return;
   throw Error(ErrorCode::InvalidInput,
-              "The file of the coefficients is \"" + surface.coefficients_file +
-                  "\"; harmonics are made of a file whose name ends in .dat, .sh or .json.");
+              "The coefficients file is \"" + surface.coefficients_file +
+                  "\". Give a file whose name ends in .dat, .sh or .json.");
 }
 
 bool holds_map(const GrainSurface& surface) {

@@ -77,7 +77,7 @@ RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& ex
   for (const double radius : grid.radii) {
     if (!(radius > 0.0 && std::isfinite(radius))) {
       throw Error(ErrorCode::InvalidInput,
-                  "A radius of the surface is not a positive number; give a surface that goes once "
+                  "A radius of the surface is not a positive number. Give a surface that goes once "
                   "around its origin.");
     }
   }
@@ -265,7 +265,7 @@ class Fitter {
     }
     throw Error(ErrorCode::NumericalFailure,
                 "No spherical-harmonic series of degree " + std::to_string(degree) +
-                    " or lower describes the surface with a positive radius everywhere; check that "
+                    " or lower describes the surface with a positive radius everywhere. Check that "
                     "the mesh is closed around its centre.");
   }
 

@@ -70,20 +70,20 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_co
     double imaginary = 0.0;
     if (!(fields >> n >> m >> real >> imaginary) || !(fields >> std::ws).eof()) {
       refuse_line(path, line,
-                  with_commas ? "does not hold the four numbers l, m, C, S."
-                              : "does not hold the four numbers n m Re Im.");
+                  with_commas ? "does not have the four numbers l, m, C, S."
+                              : "does not have the four numbers n m Re Im.");
     }
     if (n < 0 || n > maximum_harmonic_degree || m < -n || m > n) {
       refuse_line(path, line,
                   "gives n = " + std::to_string(n) + ", m = " + std::to_string(m) +
-                      "; n must be 0 to " + std::to_string(maximum_harmonic_degree) +
+                      ". n must be 0 to " + std::to_string(maximum_harmonic_degree) +
                       " and m from -n to n.");
     }
     if (coefficients.size() < harmonic_count(n)) coefficients.resize(harmonic_count(n));
     ComplexCoefficient& coefficient = coefficients[harmonic_index(n, m)];
     if (coefficient.line != 0) {
       refuse_line(path, line,
-                  "gives again what line " + std::to_string(coefficient.line) + " gave.");
+                  "repeats the coefficient of line " + std::to_string(coefficient.line) + ".");
     }
     coefficient = {line, {real, imaginary}};
   }
@@ -91,7 +91,7 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_co
     throw Error(ErrorCode::InputOutput,
                 "Reading the file " + path + " failed at line " + std::to_string(line) + ".");
   }
-  if (coefficients.empty()) refuse_file(path, "it holds no coefficients.");
+  if (coefficients.empty()) refuse_file(path, "it has no coefficients.");
   return coefficients;
 }
 
@@ -150,7 +150,7 @@ auto read_json(const std::string& path, const Read& read) {
 HarmonicKind kind_of(const std::string& path, const nlohmann::json& json) {
   const std::string kind = json.value("kind", std::string(radial_kind));
   if (kind != radial_kind && kind != map_kind) {
-    refuse_file(path, "its \"kind\" is \"" + kind + "\"; it must be \"" + radial_kind + "\" or \"" +
+    refuse_file(path, "its \"kind\" is \"" + kind + "\". It must be \"" + radial_kind + "\" or \"" +
                           map_kind + "\".");
   }
   return kind == map_kind ? HarmonicKind::Map : HarmonicKind::Radial;
@@ -161,22 +161,22 @@ std::vector<double> coefficients_of(const std::string& path, const nlohmann::jso
   // The JSON library would read 2.7 as 2, 1e30 as any number and true as 1.
   if (!degree_json.is_number_integer() || degree_json < 0 ||
       degree_json > maximum_harmonic_degree) {
-    refuse_file(path, "its \"degree\" is no whole number from 0 to " +
+    refuse_file(path, "its \"degree\" is not a whole number from 0 to " +
                           std::to_string(maximum_harmonic_degree) + ".");
   }
   const int degree = degree_json.get<int>();
-  if (!values.is_array()) refuse_file(path, "its \"coefficients\" are no list.");
+  if (!values.is_array()) refuse_file(path, "its \"coefficients\" are not a list.");
   std::vector<double> coefficients;
   for (const nlohmann::json& coefficient : values) {
     if (!coefficient.is_number()) {
-      refuse_file(path, "coefficient " + std::to_string(coefficients.size()) + " is no number.");
+      refuse_file(path, "coefficient " + std::to_string(coefficients.size()) + " is not a number.");
     }
     coefficients.push_back(coefficient.get<double>());
   }
   if (coefficients.size() != harmonic_count(degree)) {
     refuse_file(path, "\"degree\" is " + std::to_string(degree) + " and there are " +
                           std::to_string(coefficients.size()) +
-                          " coefficients; there must be (degree + 1)^2, degree 0 to " +
+                          " coefficients. There must be (degree + 1)^2, degree 0 to " +
                           std::to_string(maximum_harmonic_degree) + ".");
   }
   return coefficients;
@@ -188,7 +188,7 @@ HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
   if (degree < -1) {
     throw Error(ErrorCode::InvalidInput, "The degree to cut the series at is " +
                                              std::to_string(degree) +
-                                             "; give 0 or more, or -1 to keep all.");
+                                             ". Give 0 or more, or -1 to keep all.");
   }
   const std::vector<ComplexCoefficient> complex = read_lines(path, false);
   check_convention(complex, path);
@@ -230,10 +230,9 @@ HarmonicSurface read_shtools(const std::string& path, int degree) {
     for (int m = -l; m <= l; ++m) {
       const ComplexCoefficient& row = rows[harmonic_index(l, m)];
       if (m < 0 && row.line != 0) {
-        refuse_line(
-            path, row.line,
-            "is of a negative order, which SHTOOLS does not write; name the file .dat if it "
-            "is of the NIST particle shape sets.");
+        refuse_line(path, row.line,
+                    "has a negative order, but SHTOOLS does not write these. Name the file .dat if "
+                    "it is from the NIST particle shape sets.");
       }
       if (m < 0) continue;
       if (row.line == 0) {
@@ -241,7 +240,7 @@ HarmonicSurface read_shtools(const std::string& path, int degree) {
                               " is missing.");
       }
       if (m == 0 && row.value.imag() != 0.0) {
-        refuse_line(path, row.line, "has a sine of order 0, which there is not.");
+        refuse_line(path, row.line, "has a sine of order 0, which does not exist.");
       }
       real[harmonic_index(l, m)] = shtools_factor(m) * row.value.real();
       if (m > 0) real[harmonic_index(l, -m)] = shtools_factor(m) * row.value.imag();
@@ -271,8 +270,8 @@ HarmonicKind read_harmonic_kind(const std::string& path) {
 HarmonicSurface read_harmonics(const std::string& path) {
   return read_json(path, [&](const nlohmann::json& json) {
     if (kind_of(path, json) != HarmonicKind::Radial) {
-      refuse_file(
-          path, "it holds series of x, y and z, not one of the radius; read it as a harmonic map.");
+      refuse_file(path,
+                  "it has series of x, y and z, not one of the radius. Read it as a harmonic map.");
     }
     return make_surface(path, coefficients_of(path, json.at("degree"), json.at("coefficients")));
   });
@@ -290,7 +289,7 @@ void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
 HarmonicMap read_harmonic_map(const std::string& path) {
   return read_json(path, [&](const nlohmann::json& json) {
     if (kind_of(path, json) != HarmonicKind::Map) {
-      refuse_file(path, "it holds one series, of the radius; read it as a radial surface.");
+      refuse_file(path, "it has one series, of the radius. Read it as a radial surface.");
     }
     const nlohmann::json& all = json.at("coefficients");
     std::array<std::vector<double>, 3> coefficients;

@@ -119,7 +119,7 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
   for (const double weight : quadrature.weights) area += weight;
   if (!(area > 0.0 && std::isfinite(area))) {
     throw Error(ErrorCode::InvalidInput,
-                "The mapped surface has no area to fit a series to; check the mesh first.");
+                "The mapped surface has no area to fit a series to. Check the mesh first.");
   }
   WeightedDirections points{quadrature.directions, quadrature.weights};
   for (double& weight : points.weights) weight *= 4.0 * pi / area;
@@ -159,7 +159,7 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
   }
   throw Error(ErrorCode::NumericalFailure,
               "No series of spherical harmonics describes the mapped surface, not even of degree "
-              "0; check the mesh for faces without area.");
+              "0. Check the mesh for faces without area.");
 }
 
 }  // namespace wscvt

@@ -42,7 +42,7 @@ HarmonicMap::HarmonicMap(std::array<std::vector<double>, 3> coefficients)
                                                std::to_string(coefficients_[0].size()) + ", " +
                                                std::to_string(coefficients_[1].size()) + " and " +
                                                std::to_string(coefficients_[2].size()) +
-                                               " coefficients; give them the same degree.");
+                                               " coefficients. Give them the same degree.");
     }
     for (std::size_t i = 0; i < coefficients_[k].size(); ++i) {
       if (!std::isfinite(coefficients_[k][i])) {

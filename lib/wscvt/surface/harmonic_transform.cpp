@@ -50,7 +50,7 @@ HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosi
     throw Error(ErrorCode::InvalidInput,
                 "A harmonic transform needs a degree from 0 to " +
                     std::to_string(maximum_harmonic_degree) +
-                    ", at least one azimuth and as many sines as cosines; it was given degree " +
+                    ", at least one azimuth and as many sines as cosines. It was given degree " +
                     std::to_string(degree) + ", " + std::to_string(azimuths) + " azimuths, " +
                     std::to_string(cosines.size()) + " cosines and " +
                     std::to_string(sines.size()) + " sines.");
@@ -80,7 +80,7 @@ std::vector<double> HarmonicTransform::synthesize(const std::vector<double>& coe
                                                   const Execution& execution) const {
   if (coefficients.size() != harmonic_count(degree_)) {
     throw Error(ErrorCode::InvalidInput,
-                "The harmonic transform of degree " + std::to_string(degree_) + " takes " +
+                "The harmonic transform of degree " + std::to_string(degree_) + " needs " +
                     std::to_string(harmonic_count(degree_)) + " coefficients, not " +
                     std::to_string(coefficients.size()) + ".");
   }
@@ -112,7 +112,7 @@ std::vector<double> HarmonicTransform::analyze(const std::vector<double>& values
   if (values.size() != rows() * azimuths()) {
     throw Error(ErrorCode::InvalidInput,
                 "The harmonic transform on a grid of " + std::to_string(rows()) + " x " +
-                    std::to_string(azimuths()) + " takes as many values, not " +
+                    std::to_string(azimuths()) + " needs as many values, not " +
                     std::to_string(values.size()) + ".");
   }
   const Eigen::Map<const RowMajor> grid(values.data(), rows_, azimuths_);

@@ -23,7 +23,7 @@ constexpr std::size_t mapped_block = 8192;
 [[noreturn]] void refuse_directions(const std::string& what) {
   throw Error(ErrorCode::InvalidInput,
               "The mesh is not spread over the sphere: " + what +
-                  " Take the directions map_to_sphere gives for this mesh.");
+                  " Use the directions that map_to_sphere returns for this mesh.");
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
           const Vector3& b = directions_[t[1]];
           const Vector3& c = directions_[t[2]];
           if (!counter_clockwise(a, b, c)) {
-            refuse_directions("face " + std::to_string(f) + " is turned over there.");
+            refuse_directions("face " + std::to_string(f) + " is inverted there.");
           }
           part += solid_angle(a, b, c);
           // The sum of a thin triangle's directions may be short, but it is never zero.

@@ -33,16 +33,17 @@ constexpr const char* collapse_stage = "Collapsing the scan";
 /// Checks that a mesh is one sphere. Returns its half-edges.
 HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
-  const std::string advice = " Run check_mesh on it first, and close holes and handles it reports.";
+  const std::string advice =
+      " Run check_mesh on it first, and close the holes and handles that it reports.";
   if (vertices < 4 || mesh.triangles.size() < 4) {
     refuse("The mesh has " + std::to_string(vertices) + " vertices and " +
            std::to_string(mesh.triangles.size()) +
-           " faces; a map to the sphere needs a closed surface, of at least four each.");
+           " faces. A map to the sphere needs a closed surface with at least four of each.");
   }
   constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
   if (mesh.triangles.size() > limit) {
     refuse("The mesh has " + std::to_string(mesh.triangles.size()) + " faces, more than the " +
-           std::to_string(limit) + " that can be numbered; reduce the scan first.");
+           std::to_string(limit) + " that can be numbered. Reduce the scan first.");
   }
   for (std::size_t i = 0; i < vertices; ++i) {
     if (!mesh.points[i].allFinite()) {
@@ -67,7 +68,7 @@ HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
       const Triangle& t = mesh.triangles[h / 3];
       refuse("The mesh is not closed: the edge from vertex " + std::to_string(t[h % 3]) + " to " +
              std::to_string(t[(h % 3 + 1) % 3]) +
-             " does not lie between two faces that run along it in opposite ways." + advice);
+             " is not shared by two faces with opposite directions along it." + advice);
     }
   }
   execution.report(0.0, collapse_stage);
@@ -101,14 +102,14 @@ HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
     }
   }
   if (reached != mesh.triangles.size()) {
-    refuse("The mesh falls into several parts, of which the first has " + std::to_string(reached) +
-           " of " + std::to_string(mesh.triangles.size()) + " faces." + advice);
+    refuse("The mesh has several parts. The first has " + std::to_string(reached) + " of " +
+           std::to_string(mesh.triangles.size()) + " faces." + advice);
   }
   // Euler: V - E + F = 2 - 2 g with E = 3 F / 2.
   if (mesh.triangles.size() + 4 != 2 * vertices) {
     const std::size_t genus = (mesh.triangles.size() + 4 - 2 * vertices) / 4;
     refuse("The mesh has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
-           ", and only a surface without any can be mapped to the sphere; cut and cap them first, "
+           ". Only a surface without handles can be mapped to the sphere. Cut and cap them first, "
            "or smooth or fill the scan where it touches itself.");
   }
   return links;
@@ -331,9 +332,8 @@ class MeshCollapse::Queue {
     for (;;) {
       if (entries_.empty()) {
         throw Error(ErrorCode::NumericalFailure,
-                    "The scan could not be taken apart further than to " +
-                        std::to_string(mesh_.alive_) +
-                        " vertices; its faces do not form one closed surface without handles.");
+                    "The scan could not be simplified below " + std::to_string(mesh_.alive_) +
+                        " vertices. Its faces do not form one closed surface without handles.");
       }
       const Entry entry = pop();
       const std::int32_t v = entry.vertex;

@@ -27,11 +27,11 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
                          double folded_share, const Execution& execution)
     : star_shaped_(folded_share == 0.0), cube_(CubeMap::resolution_for(mesh.triangles.size())) {
   if (mesh.triangles.empty()) {
-    throw Error(ErrorCode::InvalidInput, "The mesh is empty; check it before casting rays at it.");
+    throw Error(ErrorCode::InvalidInput, "The mesh is empty. Check it before casting rays at it.");
   }
   if (!(unit > 0.0 && std::isfinite(unit))) {
     throw Error(ErrorCode::InvalidInput, "The unit of length is " + std::to_string(unit) +
-                                             "; give a positive one, e.g. the equivalent radius.");
+                                             ". Give a positive one, e.g. the equivalent radius.");
   }
   mesh_.triangles = mesh.triangles;
   mesh_.points.resize(mesh.points.size());
@@ -41,7 +41,7 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   if (folded_share >= 1.0) {
     throw Error(ErrorCode::InvalidInput,
                 "The centre lies outside the mesh or on it, so rays from it do not go round the "
-                "surface once; take a centre inside, e.g. the centroid of a compact grain.");
+                "surface once. Use a centre inside, e.g. the centroid of a compact grain.");
   }
 
   std::vector<CubeMap::Image> images(mesh_.points.size());
@@ -115,7 +115,7 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
   if (hit.triangle < 0) {
     throw Error(ErrorCode::NumericalFailure,
                 "A ray from the centre meets no triangle: the mesh is not closed or an edge of it "
-                "passes through the centre; check the mesh first.");
+                "passes through the centre. Check the mesh first.");
   }
   return hit;
 }

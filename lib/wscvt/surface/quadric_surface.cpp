@@ -17,7 +17,7 @@ void check_semi_axes(const Vector3& semi_axes) {
     if (!(semi_axes[i] > 0.0) || !std::isfinite(semi_axes[i])) {
       throw Error(ErrorCode::InvalidInput, "Semi-axis " + std::to_string(i + 1) + " is " +
                                                format_number(semi_axes[i]) +
-                                               "; give three positive lengths.");
+                                               ". Give three positive lengths.");
     }
   }
 }

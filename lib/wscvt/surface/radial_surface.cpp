@@ -172,7 +172,7 @@ SurfaceIntegrals integrate(const RadialSurface& surface, const Execution& execut
     if (!(fine.volume > 0.0) || !std::isfinite(fine.volume) || !std::isfinite(fine.area)) {
       throw Error(
           ErrorCode::InvalidInput,
-          "The surface encloses no volume about its origin; check its axes or coefficients.");
+          "The surface encloses no volume about its origin. Check its axes or coefficients.");
     }
     const double change = std::max(std::abs(fine.volume - coarse.volume) / fine.volume,
                                    std::abs(fine.area - coarse.area) / fine.area);
@@ -180,8 +180,8 @@ SurfaceIntegrals integrate(const RadialSurface& surface, const Execution& execut
     coarse = fine;
   }
   throw Error(ErrorCode::InvalidInput,
-              "Seen from its origin the surface is too long, too flat or too sharp to be measured; "
-              "make its axes more alike, or round its edges.");
+              "The surface is too long, too flat or too sharp to be measured from its origin. Make "
+              "its axes more alike, or round its edges.");
 }
 
 }  // namespace wscvt

@@ -97,7 +97,7 @@ class Embedding {
       throw Error(ErrorCode::NumericalFailure,
                   "The scan cannot be mapped to the sphere: no room is left for vertex " +
                       std::to_string(v) +
-                      " beside its neighbours. Remove needle-shaped faces about it, e.g. by "
+                      " beside its neighbours. Remove needle-shaped faces around it, e.g. by "
                       "remeshing the scan there.");
     }
     directions_[v] = place->direction;
@@ -293,9 +293,9 @@ void verify(const std::vector<Triangle>& triangles, const std::vector<Vector3>& 
   if (sums.turned > 0 || !(std::abs(sums.solid_angle / (4.0 * pi) - 1.0) < 1e-3)) {
     throw Error(ErrorCode::NumericalFailure,
                 "The map to the sphere has " + std::to_string(sums.turned) +
-                    " triangles turned over and covers the sphere " +
+                    " inverted triangles and covers the sphere " +
                     format_number(sums.solid_angle / (4.0 * pi)) +
-                    " times; remove needle-shaped faces, e.g. by remeshing the scan.");
+                    " times. Remove needle-shaped faces, e.g. by remeshing the scan.");
   }
 }
 

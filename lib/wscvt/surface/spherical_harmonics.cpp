@@ -27,7 +27,7 @@ namespace {
 void check_degree(int degree) {
   if (degree < 0 || degree > maximum_harmonic_degree) {
     throw Error(ErrorCode::InvalidInput, "The degree of the spherical harmonics is " +
-                                             std::to_string(degree) + "; give one from 0 to " +
+                                             std::to_string(degree) + ". Give one from 0 to " +
                                              std::to_string(maximum_harmonic_degree) + ".");
   }
 }
@@ -295,7 +295,7 @@ void associated_legendre(int degree, int m, const double* cosines, const double*
   if (m < 0 || m > degree) {
     throw Error(ErrorCode::InvalidInput,
                 "The order of an associated Legendre function is " + std::to_string(m) +
-                    "; give one from 0 to the degree " + std::to_string(degree) + ".");
+                    ". Give one from 0 to the degree " + std::to_string(degree) + ".");
   }
   const double constant = sectoral_constant(m);
   for (std::size_t j = 0; j < count; ++j) values[j] = constant * std::pow(sines[j], m);

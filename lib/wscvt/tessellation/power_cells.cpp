@@ -41,7 +41,7 @@ void compute_power_cells(const SphereTriangulation& triangulation,
     throw Error(ErrorCode::InvalidInput,
                 "The triangulation has " + std::to_string(triangulation.vertex_count()) +
                     " vertices, but there are " + std::to_string(count) + " seeds and " +
-                    std::to_string(weights.size()) + " weights; give one each.");
+                    std::to_string(weights.size()) + " weights. Give one each.");
   }
   const std::vector<Triangle>& triangles = triangulation.triangles();
   const std::vector<std::int32_t>& opposite = triangulation.opposite();

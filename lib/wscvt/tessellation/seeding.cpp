@@ -38,8 +38,9 @@ std::vector<Vector3> unrelaxed_seeds(Sampling sampling, int count) {
     case Sampling::Weighted:
       break;
   }
-  throw Error(ErrorCode::InvalidInput,
-              "The weighted sampling comes out of a relaxation; ask for another, or relax.");
+  throw Error(
+      ErrorCode::InvalidInput,
+      "The weighted sampling is the result of a relaxation. Use another sampling, or relax.");
 }
 
 std::vector<Vector3> start_seeds(const SurfaceSeedModel& model, int count,

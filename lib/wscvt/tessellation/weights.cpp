@@ -64,7 +64,7 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
     : node_count_((check_weighting_options(options), node_count)) {
   if (node_count < 4) {
     throw Error(ErrorCode::InvalidInput, "The number of nodes is " + std::to_string(node_count) +
-                                             "; a closed mesh needs at least 4.");
+                                             ". A closed mesh needs at least 4.");
   }
   const double count = node_count;
   const TabulatedSurface table(surface, node_count, execution);
