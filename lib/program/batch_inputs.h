@@ -15,7 +15,7 @@ namespace wscvt::program {
 /// lists that cannot be read.
 std::vector<std::string> grain_files(const std::vector<std::string>& inputs);
 
-/// Returns whether an input of a batch is a folder, a pattern or a list, and so not a file.
+/// Returns whether an input of a batch is a folder, a pattern or a list.
 bool names_files(const std::string& input);
 
 /// Part `index`, from 1, of `count` parts of a sample.
