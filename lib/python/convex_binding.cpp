@@ -47,7 +47,8 @@ void bind_convex(py::module_& module) {
              "Divides a grain into at most `parts` convex parts, for physics engines. Returns a "
              "list with a pair (vertices, faces) for each part, and a dictionary with distances "
              "from the grain, volume and the grain's mass properties. part_faces: max. number of "
-             "faces of a part. tolerance: distance that needs no cut, % of the equivalent radius. "
+             "faces of a part. tolerance: max. distance of a hull that is not cut, % of the "
+             "equivalent radius. "
              "The scan and the options of its remesh are as for remesh. Raises Error.");
 }
 

@@ -194,8 +194,8 @@ void add_files(RemeshClass& type) {
            py::arg("scale") = 1.0, py::arg("size") = 0.0,
            "Returns a structured array (N,) with the fields x, y, z (length), nx, ny, nz (unit, "
            "outward) and area (length^2, a third of the triangles around the node). frame: input, "
-           "centred or "
-           "principal; scale: factor of lengths; size: equivalent diameter, instead of scale.")
+           "centred or principal; scale: scale factor; size: equivalent diameter, instead of "
+           "scale.")
       .def(
           "write_node_table", &write_node_file, py::arg("path"), py::kw_only(),
           py::arg("frame") = "input", py::arg("scale") = 1.0, py::arg("size") = 0.0,

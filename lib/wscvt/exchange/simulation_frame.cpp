@@ -15,7 +15,7 @@ void check_frame_options(const FrameOptions& options) {
   if (options.size > 0.0 && options.scale != 1.0) {
     throw Error(ErrorCode::InvalidInput,
                 "There is an equivalent diameter of " + format_typed(options.size) +
-                    " and a factor of lengths of " + format_typed(options.scale) +
+                    " and a scale factor of " + format_typed(options.scale) +
                     ", but each of them sets the size. Give one of them.");
   }
 }
