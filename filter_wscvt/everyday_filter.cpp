@@ -21,8 +21,8 @@ std::string everyday_name() { return "Remeshing: Grain to a Number of Nodes"; }
 
 std::string everyday_help() {
   // MeshLab's search finds a filter by the words of its name and of this text.
-  return "Remeshes the scan of a sand or rock grain (a particle) for DEM to <b>exactly the given "
-         "number of nodes</b>, with even triangles (isotropic CVT, WSCVT) and the same volume. "
+  return "Remeshes the scan of a sand or rock grain (a particle) for DEM to <b>exactly the number "
+         "of nodes asked for</b>, with even triangles (isotropic CVT, WSCVT) and the same volume. "
          "Use it to simplify, decimate or resample. Set the number of nodes. The other defaults "
          "suit most grains. More parameters: Weighted Spherical Centroidal Voronoi";
 }

@@ -293,7 +293,7 @@ TEST_F(ProgramOptions, AGridThatIsTooLargeIsRefusedBeforeTheRemesh) {
             "--sdf-spacing 0.001" +
             frame);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.errors.find("(--sdf-spacing) of 0.001 takes a grid of "), std::string::npos)
+    EXPECT_NE(outcome.errors.find("(--sdf-spacing) of 0.001 needs a grid of "), std::string::npos)
         << outcome.errors;
     EXPECT_FALSE(exists("bad.ply") || exists("grid.npy"));
   }

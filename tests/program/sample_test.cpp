@@ -116,7 +116,7 @@ TEST_F(Sample, RefusesWhatIsNone) {
                   {"meshes", 1, "wscvt batch meshes -o"},
                   {"meshes/a.stl", 1, "wscvt batch"},
                   {"units.csv", 1, "axis_i_box [mm]"},
-                  {"numbers.csv", 1, "numbers: d, e."},
+                  {"numbers.csv", 1, "numeric columns: d, e."},
                   {"no.csv", 1, "no.csv"}},
                  {"bad.pdf"});
 }

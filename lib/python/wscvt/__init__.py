@@ -82,7 +82,8 @@ def create(surface, **options):
     azimuthal_exponent: like polar_exponent, around the equator.
     coefficients_file: for harmonics, a path that ends in .dat, .sh or .json.
     coefficient_degree: degree at which the series is cut; -1 keeps all.
-    threads, progress: as for remesh.
+    threads: as for remesh.
+    progress: as for remesh.
     All other options have the names and values of options(). By default, nodes are on the surface.
 
     Raises Error, and TypeError for unknown options.
@@ -163,7 +164,8 @@ def extract(labels, voxel_size=1.0, **options):
     smallest: min. number of voxels of a grain, 100 by default.
     at_border: include grains that touch the border and are cut by it. Off by default.
     smoothing: passes that smooth the voxels' steps, 0 to 1000, 20 by default.
-    threads, progress: as for remesh.
+    threads: as for remesh.
+    progress: as for remesh.
 
     Issues a UserWarning for a grain in pieces, and keeps its largest piece. Issues a UserWarning
     for a grain that is too thin to be smoothed, and omits it. Each mesh is closed and has exactly
@@ -186,7 +188,8 @@ def clump(vertices, faces=None, spheres=20, **options):
     smallest_radius: of a sphere, in % of the equivalent radius.
     inside: keep all spheres inside the scan.
     remesh_nodes: nodes of a remesh whose error of first contact is compared; 0: no comparison.
-    threads, progress: as for remesh.
+    threads: as for remesh.
+    progress: as for remesh.
 
     The dictionary is the JSON report of "wscvt clump". Its "spheres" are an array (k, 4) of x, y, z
     and radius. Raises Error, and TypeError for unknown options.
@@ -201,7 +204,8 @@ def describe(vertices, faces=None, reference=None, **options):
     reference: a mesh to measure against, as a pair (vertices, faces), a path, or a mesh of trimesh
         or PyVista. The dictionary then has errors in % and distances too.
     roundness_ball, roughness_cutoff: as for "wscvt describe".
-    threads, progress: as for remesh.
+    threads: as for remesh.
+    progress: as for remesh.
 
     The dictionary is the JSON report of "wscvt describe". Raises Error, and TypeError for a
     reference of another type.
@@ -225,7 +229,8 @@ def distance_grid(vertices, faces=None, spacing=0.0, **options):
 
     vertices, faces: as for remesh.
     spacing: length; 0 means 1/50 of the equivalent diameter.
-    threads, progress: as for remesh.
+    threads: as for remesh.
+    progress: as for remesh.
 
     Returns (values, origin, spacing): values (nx, ny, nz), length, negative inside; values[i, j, k]
     is at origin + spacing * (i, j, k). Raises Error, also for more than 20 million points.
@@ -300,7 +305,8 @@ def sample(table, other=None, *, report=(), density=None, **options):
     mark: error in %, for "levels". They list the number of nodes above which 90 % of the grains
         have a smaller error. 1 by default.
     seed, repetitions: for the 95 % intervals and p; 1 and 1000 by default.
-    threads, progress: as for remesh.
+    threads: as for remesh.
+    progress: as for remesh.
 
     The dictionary is the JSON report of "wscvt sample". Raises Error, and TypeError for other types
     of table.
