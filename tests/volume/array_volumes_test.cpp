@@ -395,7 +395,7 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
            {"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 0 float\n",
             "structured points"},
            {head("BINARY", "7 5 4") + scalars, "another number"},
-           {head("BINARY", "7 5 0") + scalars, "sizes"},
+           {head("BINARY", "7 5 0") + scalars, "dimensions"},
            {head("BINARY", "7 5 3"), "no array"},
            {head("BINARY", "7 5 3") + "POINT_DATA 105\nTENSORS t float\n", "\"tensors\""},
            {head("BINARY", "7 5 3") + "POINT_DATA 105\nSCALARS l bit\nLOOKUP_TABLE d\n", "bit"},
