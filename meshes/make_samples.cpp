@@ -12,7 +12,7 @@
 #include <string>
 
 #include "grains/ct_grain.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace {
 

@@ -57,9 +57,9 @@ for step in "$@"; do
       configure asan-ubsan
       cmake --build --preset asan-ubsan -j "$jobs" --target \
         replay_mesh_file replay_coefficient_file replay_soup replay_remesh replay_volume_file \
-        base_tests sphere_tests scan_tests exchange_tests tessellation_tests nodes_tests
+        base_tests sphere_tests mesh_files_tests repair_tests exchange_tests tessellation_tests nodes_tests
       ctest --preset asan-ubsan -j "$jobs" -R '^replay_'
-      ctest --preset asan-ubsan -j "$jobs" -L '^(base|sphere|scan|exchange|tessellation|nodes)$' ;;
+      ctest --preset asan-ubsan -j "$jobs" -L '^(base|sphere|mesh_files|repair|exchange|tessellation|nodes)$' ;;
     format)
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)

@@ -3,9 +3,9 @@
 // table. A grain that is refused costs its own row only. `wscvt batch` does more: it resumes and
 // shards.
 #include <wscvt/base/error.h>
+#include <wscvt/mesh_files/mesh_io.h>
 #include <wscvt/remesh.h>
 #include <wscvt/report/report.h>
-#include <wscvt/scan/mesh_io.h>
 
 #include <exception>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // distances MESH REFERENCE: how far two meshes are apart, and the vertex of MESH that is farthest
 // off.
 #include <wscvt/measures/distances.h>
-#include <wscvt/scan/mesh_io.h>
+#include <wscvt/mesh_files/mesh_io.h>
 
 #include <algorithm>
 #include <exception>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <wscvt/mesh_files/mesh_io.h>
 #include <wscvt/remesh.h>
 #include <wscvt/report/report.h>
-#include <wscvt/scan/mesh_io.h>
 
 #include <iostream>
 

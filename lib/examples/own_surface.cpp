@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // own_surface OUTPUT: a surface of one's own formula, as published with WSCVT-D weights: a ball
 // with a bump, whose radius in the direction (x, y, z) is 1 + 0.3 exp(-8 (1 - z)).
+#include <wscvt/mesh_files/mesh_io.h>
 #include <wscvt/remesh.h>
-#include <wscvt/scan/mesh_io.h>
 #include <wscvt/surface/sphere_surface.h>
 
 #include <cmath>

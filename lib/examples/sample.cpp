@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sample TABLE [PAGE.html]: statistics of a table of grains, such as shape.csv of `wscvt batch` or
 // a table with the columns grain, axis_i_box and volume.
+#include <toolbox/report/sample_report.h>
 #include <wscvt/base/error.h>
-#include <wscvt/report/sample_report.h>
 
 #include <exception>
 #include <iostream>

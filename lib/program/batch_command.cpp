@@ -19,6 +19,9 @@
 #include "grain_run.h"
 #include "remesh_arguments.h"
 #include "signals.h"
+#include "toolbox/clump/scan_contacts.h"
+#include "toolbox/report/sample_summary.h"
+#include "toolbox/report/sample_table.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
@@ -27,13 +30,10 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/clump/scan_contacts.h"
 #include "wscvt/measures/carried_attributes.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/sample_summary.h"
-#include "wscvt/report/sample_table.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 

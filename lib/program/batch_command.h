@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "batch_inputs.h"
-#include "volume/label_grains.h"
+#include "toolbox/report/shape_table.h"
+#include "toolbox/volume/label_grains.h"
 #include "wscvt/remesh/remesh_options.h"
-#include "wscvt/report/shape_table.h"
 
 namespace wscvt::program {
 

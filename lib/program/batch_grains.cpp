@@ -5,12 +5,12 @@
 
 #include "progress_line.h"
 #include "signals.h"
-#include "volume/label_table.h"
+#include "toolbox/volume/label_table.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wscvt/base/error.h"
-#include "wscvt/scan/bodies.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/bodies.h"
 
 namespace wscvt::program {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "batch_inputs.h"
-#include "volume/label_grains.h"
+#include "toolbox/volume/label_grains.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/mesh_attributes.h"

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <limits>
 
-#include "volume/label_volume.h"
+#include "toolbox/volume/label_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
 

@@ -9,7 +9,7 @@
 
 #include "batch_command.h"
 #include "grain_queue.h"
-#include "wscvt/report/sample_table.h"
+#include "toolbox/report/sample_table.h"
 
 namespace wscvt::program {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "batch_inputs.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
 

@@ -12,15 +12,15 @@
 #include "grain_run.h"
 #include "output_paths.h"
 #include "signals.h"
+#include "toolbox/clump/clump.h"
+#include "toolbox/exchange/clump_files.h"
+#include "toolbox/report/clump_report.h"
+#include "toolbox/report/sample_table.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/clump/clump.h"
-#include "wscvt/exchange/clump_files.h"
-#include "wscvt/report/clump_report.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/json.h"
-#include "wscvt/report/sample_table.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 

@@ -7,8 +7,8 @@
 
 #include "batch_inputs.h"
 #include "common_arguments.h"
-#include "wscvt/clump/clump_options.h"
-#include "wscvt/exchange/simulation_options.h"
+#include "toolbox/clump/clump_options.h"
+#include "toolbox/exchange/simulation_options.h"
 
 namespace wscvt::program {
 

@@ -5,13 +5,13 @@
 #include "common_arguments.h"
 #include "exit_code.h"
 #include "output_paths.h"
+#include "toolbox/report/clump_report.h"
+#include "toolbox/report/sample_summary.h"
+#include "toolbox/report/sample_table.h"
+#include "toolbox/report/shape_table.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/report/clump_report.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/sample_summary.h"
-#include "wscvt/report/sample_table.h"
-#include "wscvt/report/shape_table.h"
 
 namespace wscvt::program {
 

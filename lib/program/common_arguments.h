@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
 

@@ -6,11 +6,11 @@
 #include "command.h"
 #include "exit_code.h"
 #include "output_paths.h"
+#include "toolbox/report/parts_report.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/report/parts_report.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt::program {
 

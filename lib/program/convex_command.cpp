@@ -8,11 +8,11 @@
 #include "help_text.h"
 #include "output_paths.h"
 #include "remesh_arguments.h"
+#include "toolbox/convex/parts.h"
+#include "toolbox/exchange/part_files.h"
+#include "toolbox/report/parts_report.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/convex/parts.h"
-#include "wscvt/exchange/part_files.h"
-#include "wscvt/report/parts_report.h"
 
 namespace wscvt::program {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common_arguments.h"
-#include "wscvt/convex/convex_options.h"
-#include "wscvt/exchange/simulation_options.h"
+#include "toolbox/convex/convex_options.h"
+#include "toolbox/exchange/simulation_options.h"
 #include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::program {

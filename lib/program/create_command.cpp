@@ -9,9 +9,9 @@
 #include "remesh_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_io.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt::program {

@@ -8,15 +8,15 @@
 #include <utility>
 
 #include "shape_files.h"
+#include "toolbox/sample/grain_table.h"
+#include "toolbox/sample/quick_shape.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/sample/grain_table.h"
-#include "wscvt/sample/quick_shape.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/mesh_check.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/harmonic_surface.h"
 

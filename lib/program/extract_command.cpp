@@ -12,12 +12,12 @@
 #include "exit_code.h"
 #include "grain_run.h"
 #include "signals.h"
-#include "volume/label_table.h"
+#include "toolbox/volume/label_table.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
 

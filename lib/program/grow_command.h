@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/sample/grow_options.h"
+#include "toolbox/sample/grow_options.h"
 #include "wscvt/surface/surface_options.h"
 
 namespace wscvt::program {

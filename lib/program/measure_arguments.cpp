@@ -6,13 +6,13 @@
 
 #include "command.h"
 #include "output_paths.h"
+#include "toolbox/clump/sphere_mesh.h"
+#include "toolbox/exchange/clump_files.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/clump/sphere_mesh.h"
-#include "wscvt/exchange/clump_files.h"
 #include "wscvt/measures/grain_measures.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 

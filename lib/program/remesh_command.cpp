@@ -14,9 +14,9 @@
 #include "wrong_call.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/measures/carried_attributes.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 

@@ -7,12 +7,12 @@
 #include "common_arguments.h"
 #include "exit_code.h"
 #include "output_paths.h"
+#include "toolbox/report/sample_report.h"
+#include "toolbox/sample/sample_files.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/error.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/sample_report.h"
-#include "wscvt/sample/sample_files.h"
 
 namespace wscvt::program {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/sample/detail_levels.h"
-#include "wscvt/sample/grain_sample.h"
+#include "toolbox/sample/detail_levels.h"
+#include "toolbox/sample/grain_sample.h"
 
 namespace wscvt::program {
 

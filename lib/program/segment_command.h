@@ -4,7 +4,7 @@
 #include <CLI/App.hpp>
 #include <string>
 
-#include "volume/segmentation.h"
+#include "toolbox/volume/segmentation.h"
 
 namespace wscvt::program {
 

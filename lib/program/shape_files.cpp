@@ -8,11 +8,11 @@
 
 #include "batch_inputs.h"
 #include "grain_run.h"
-#include "volume/label_volume.h"
+#include "toolbox/volume/label_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/mesh_check.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/shtools_io.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/sample/sample_grain.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/sample/sample_grain.h"
 #include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt::program {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "output_paths.h"
-#include "wscvt/exchange/simulation_files.h"
+#include "toolbox/exchange/simulation_files.h"
 
 namespace wscvt::program {
 

@@ -13,8 +13,8 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/scan/bodies.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/bodies.h"
 
 namespace wscvt::program {
 

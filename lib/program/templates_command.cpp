@@ -15,17 +15,17 @@
 #include "grain_run.h"
 #include "output_paths.h"
 #include "signals.h"
+#include "toolbox/clump/clump_fit.h"
+#include "toolbox/exchange/template_files.h"
+#include "toolbox/sample/grow_options.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/clump/clump_fit.h"
-#include "wscvt/exchange/template_files.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
-#include "wscvt/sample/grow_options.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::program {
 

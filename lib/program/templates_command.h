@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "wscvt/sample/templates.h"
+#include "toolbox/sample/templates.h"
 
 namespace wscvt::program {
 

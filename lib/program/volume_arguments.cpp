@@ -7,7 +7,7 @@
 #include "command.h"
 #include "progress_line.h"
 #include "signals.h"
-#include "volume/segmentation.h"
+#include "toolbox/volume/segmentation.h"
 #include "work.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "volume/label_grains.h"
+#include "toolbox/volume/label_grains.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt::program {

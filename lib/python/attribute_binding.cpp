@@ -11,7 +11,7 @@
 #include "conversion.h"
 #include "work.h"
 #include "wscvt/measures/carried_attributes.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::python {
 

@@ -5,9 +5,9 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/clump/clump.h"
+#include "toolbox/report/clump_report.h"
 #include "work.h"
-#include "wscvt/clump/clump.h"
-#include "wscvt/report/clump_report.h"
 
 namespace wscvt::python {
 

@@ -8,9 +8,9 @@
 #include "bindings.h"
 #include "conversion.h"
 #include "option_arguments.h"
+#include "toolbox/convex/parts.h"
+#include "toolbox/report/parts_report.h"
 #include "work.h"
-#include "wscvt/convex/parts.h"
-#include "wscvt/report/parts_report.h"
 
 namespace wscvt::python {
 

@@ -6,8 +6,8 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/exchange/distance_grid.h"
 #include "work.h"
-#include "wscvt/exchange/distance_grid.h"
 #include "wscvt/measures/distances.h"
 
 namespace wscvt::python {

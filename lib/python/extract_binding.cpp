@@ -9,7 +9,7 @@
 
 #include "bindings.h"
 #include "conversion.h"
-#include "volume/label_grains.h"
+#include "toolbox/volume/label_grains.h"
 #include "work.h"
 #include "wscvt/base/error.h"
 

@@ -8,7 +8,7 @@
 
 #include "bindings.h"
 #include "conversion.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::python {
 

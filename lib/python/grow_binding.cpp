@@ -12,12 +12,12 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/sample/grain_grower.h"
+#include "toolbox/sample/grown_mesh.h"
+#include "toolbox/sample/nearest_grain.h"
+#include "toolbox/sample/templates.h"
 #include "work.h"
-#include "wscvt/sample/grain_grower.h"
-#include "wscvt/sample/grown_mesh.h"
-#include "wscvt/sample/nearest_grain.h"
-#include "wscvt/sample/templates.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt::python {
 

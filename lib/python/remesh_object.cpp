@@ -10,10 +10,10 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/exchange/node_table.h"
+#include "toolbox/exchange/simulation_files.h"
 #include "work.h"
 #include "wscvt/base/error.h"
-#include "wscvt/exchange/node_table.h"
-#include "wscvt/exchange/simulation_files.h"
 
 namespace wscvt::python {
 

@@ -16,10 +16,10 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/report/sample_report.h"
+#include "toolbox/sample/sample_files.h"
 #include "work.h"
 #include "wscvt/base/error.h"
-#include "wscvt/report/sample_report.h"
-#include "wscvt/sample/sample_files.h"
 
 namespace wscvt::python {
 

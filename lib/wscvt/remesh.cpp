@@ -14,7 +14,7 @@
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/remesh/suggestions.h"
 #include "wscvt/remesh/target_search.h"
-#include "wscvt/scan/closing_advice.h"
+#include "wscvt/repair/closing_advice.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/scaled_surface.h"

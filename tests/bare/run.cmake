@@ -24,7 +24,8 @@ if(targets MATCHES "(wscvt_program|[a-z]+_tests|filter_wscvt):")
   message(FATAL_ERROR "More than the library is to be built: ${CMAKE_MATCH_1}.")
 endif()
 
-file(GLOB_RECURSE sources ${source_dir}/lib/wscvt/*.h ${source_dir}/lib/wscvt/*.cpp)
+file(GLOB_RECURSE sources ${source_dir}/lib/wscvt/*.h ${source_dir}/lib/wscvt/*.cpp
+  ${source_dir}/lib/toolbox/*.h ${source_dir}/lib/toolbox/*.cpp)
 foreach(source ${sources})
   file(STRINGS ${source} includes
     REGEX "^ *# *include *[<\"](gtest|gmock|benchmark|CLI|Q[A-Z]|vcg|common/|meshlab)")

@@ -29,9 +29,9 @@
 #include "grains/ct_grain.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace {
 

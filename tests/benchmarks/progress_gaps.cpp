@@ -14,12 +14,12 @@
 
 #include "dense_grain.h"
 #include "support/test_shapes.h"
+#include "toolbox/exchange/distance_grid.h"
 #include "wscvt/base/error.h"
-#include "wscvt/exchange/distance_grid.h"
 #include "wscvt/measures/grain_measures.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 namespace {

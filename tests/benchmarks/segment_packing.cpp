@@ -12,9 +12,9 @@
 #include <string>
 
 #include "grains/packing.h"
-#include "volume/grey_threshold.h"
-#include "volume/itk_filters.h"
-#include "volume/segmentation_page.h"
+#include "toolbox/volume/grey_threshold.h"
+#include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/segmentation_page.h"
 #include "wscvt/base/output_file.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "dense_grain.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/clump/clump.h"
+#include "toolbox/clump/clump.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "support/distance_bodies.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
-#include "wscvt/clump/sphere_mesh.h"
+#include "toolbox/clump/sphere_mesh.h"
 #include "wscvt/measures/distances.h"
 
 namespace wscvt {

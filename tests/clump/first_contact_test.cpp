@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/clump/first_contact.h"
+#include "toolbox/clump/first_contact.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/clump/scan_contacts.h"
+#include "toolbox/clump/scan_contacts.h"
 
 #include <gtest/gtest.h>
 

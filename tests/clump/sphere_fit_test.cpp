@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/clump/sphere_fit.h"
+#include "toolbox/clump/sphere_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "wscvt/clump/point_blocks.h"
+#include "toolbox/clump/point_blocks.h"
 
 namespace wscvt {
 namespace {

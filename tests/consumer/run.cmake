@@ -14,7 +14,7 @@ endfunction()
 file(REMOVE_RECURSE ${work_dir})
 run(${CMAKE_COMMAND} --install ${build_dir} --prefix ${work_dir}/prefix)
 # Every header that is installed finds what it includes, and machinery is not among them.
-file(GLOB_RECURSE headers RELATIVE ${work_dir}/prefix/include ${work_dir}/prefix/include/wscvt/*.h)
+file(GLOB_RECURSE headers RELATIVE ${work_dir}/prefix/include/wscvt-3 ${work_dir}/prefix/include/wscvt-3/*.h)
 set(every_header)
 foreach(header ${headers})
   if(header MATCHES "/sphere/|_triangulation|/relaxation.h|refinement_|weights|_surface_|half_edges")
@@ -23,15 +23,15 @@ foreach(header ${headers})
   string(APPEND every_header "#include <${header}>\n")
 endforeach()
 # lib/README.md's table of rooms names them, each in its room, and no others.
-file(STRINGS ${source_dir}/lib/README.md rows REGEX "^\\| `[a-z.]+/?` \\|")
+file(STRINGS ${source_dir}/lib/README.md rows REGEX "^\\| `(wscvt|toolbox)/[a-z_.]+/?` \\|")
 set(named)
 foreach(row ${rows})
-  string(REGEX MATCH "^\\| `([a-z]+/)?" found "${row}")
+  string(REGEX MATCH "^\\| `((wscvt|toolbox)/([a-z_]+/)?)" found "${row}")
   set(room ${CMAKE_MATCH_1})
   string(REGEX REPLACE ".*\\|([^|]*)\\|$" "\\1" cell "${row}")
   string(REGEX MATCHALL "[a-z_]+\\.h" names "${cell}")
   foreach(name ${names})
-    list(APPEND named wscvt/${room}${name})
+    list(APPEND named ${room}${name})
   endforeach()
 endforeach()
 list(SORT named)
@@ -42,24 +42,24 @@ if(NOT named STREQUAL installed)
 endif()
 # The shells of the library build on these as well: how they write texts and files, tables of samples and
 # volumes, contacts of a batch, and virtual grains, which the program and Python offer, but no C++ interface yet.
-set(of_the_project wscvt/base/convex_hull.h wscvt/base/lower_case.h wscvt/clump/scan_contacts.h
-  wscvt/sample/quick_shape.h wscvt/scan/folded_solid_angle.h wscvt/base/file_name.h wscvt/base/machine_refused.h
+set(of_the_project wscvt/base/convex_hull.h wscvt/base/lower_case.h toolbox/clump/scan_contacts.h
+  toolbox/sample/quick_shape.h wscvt/repair/folded_solid_angle.h wscvt/base/file_name.h wscvt/base/machine_refused.h
   wscvt/base/option_words.h wscvt/base/output_file.h wscvt/base/pi.h wscvt/base/readable_text.h
-  wscvt/base/text_format.h wscvt/exchange/distance_grid.h wscvt/exchange/node_table.h
-  wscvt/exchange/template_files.h wscvt/measures/form_axes.h wscvt/remesh/option_advice.h wscvt/remesh/remesh_warnings.h
+  wscvt/base/text_format.h toolbox/exchange/distance_grid.h toolbox/exchange/node_table.h
+  toolbox/exchange/template_files.h wscvt/measures/form_axes.h wscvt/remesh/option_advice.h wscvt/remesh/remesh_warnings.h
   wscvt/report/descriptor_report.h wscvt/report/json.h wscvt/report/mass_table.h
-  wscvt/report/sample_summary.h wscvt/report/sample_table.h
-  wscvt/report/shape_table.h wscvt/sample/given_sizes.h wscvt/sample/grain_grower.h
-  wscvt/sample/grow_options.h
-  wscvt/sample/grown_mesh.h wscvt/sample/nearest_grain.h wscvt/sample/sample_grain.h
-  wscvt/scan/bodies.h wscvt/scan/mesh_check.h
+  toolbox/report/sample_summary.h toolbox/report/sample_table.h
+  toolbox/report/shape_table.h toolbox/sample/given_sizes.h toolbox/sample/grain_grower.h
+  toolbox/sample/grow_options.h
+  toolbox/sample/grown_mesh.h toolbox/sample/nearest_grain.h toolbox/sample/sample_grain.h
+  wscvt/repair/bodies.h wscvt/repair/mesh_check.h
   wscvt/sphere/sphere_triangulation.h wscvt/surface/shtools_io.h)
 file(GLOB_RECURSE shells ${source_dir}/lib/program/*.h ${source_dir}/lib/program/*.cpp
   ${source_dir}/lib/python/*.cpp ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp)
 foreach(shell ${shells})
-  file(STRINGS ${shell} lines REGEX "^ *# *include *[<\"]wscvt/")
+  file(STRINGS ${shell} lines REGEX "^ *# *include *[<\"](wscvt|toolbox)/")
   foreach(line ${lines})
-    string(REGEX REPLACE ".*[<\"](wscvt/[^>\"]+)[>\"].*" "\\1" included ${line})
+    string(REGEX REPLACE ".*[<\"]((wscvt|toolbox)/[^>\"]+)[>\"].*" "\\1" included ${line})
     if(NOT included IN_LIST headers AND NOT included IN_LIST of_the_project)
       message(FATAL_ERROR "${shell} includes ${included}, which is not installed.")
     endif()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/convex/body_cut.h"
+#include "toolbox/convex/body_cut.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
+#include "toolbox/convex/convex_body.h"
+#include "toolbox/convex/cut_choice.h"
+#include "toolbox/convex/cut_tree.h"
+#include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/convex/convex_body.h"
-#include "wscvt/convex/cut_choice.h"
-#include "wscvt/convex/cut_tree.h"
-#include "wscvt/convex/signed_grid.h"
 
 namespace wscvt {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/convex/convex_parts.h"
+#include "toolbox/convex/convex_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
+#include "toolbox/convex/convex_body.h"
+#include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/convex/convex_body.h"
-#include "wscvt/convex/signed_grid.h"
 #include "wscvt/measures/distances.h"
 
 namespace wscvt {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/exchange/clump_files.h"
+#include "toolbox/exchange/clump_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/exchange/distance_grid.h"
+#include "toolbox/exchange/distance_grid.h"
 
 #include <gtest/gtest.h>
 

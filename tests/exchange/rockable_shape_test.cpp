@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/exchange/rockable_shape.h"
+#include "toolbox/exchange/rockable_shape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/exchange/simulation_files.h"
+#include "toolbox/exchange/simulation_files.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "support/expect_error.h"
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
-#include "wscvt/exchange/distance_grid.h"
+#include "toolbox/exchange/distance_grid.h"
 #include "wscvt/remesh.h"
 
 namespace wscvt {

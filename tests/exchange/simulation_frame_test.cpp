@@ -6,8 +6,8 @@
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
+#include "toolbox/exchange/simulation_options.h"
 #include "wscvt/base/error.h"
-#include "wscvt/exchange/simulation_options.h"
 
 namespace wscvt {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/exchange/template_files.h"
+#include "toolbox/exchange/template_files.h"
 
 #include <gtest/gtest.h>
 

@@ -8,15 +8,15 @@
 
 #include "fuzz/promise.h"
 #include "wscvt/base/error.h"
-#include "wscvt/scan/byte_reader.h"
-#include "wscvt/scan/legacy_vtk_reader.h"
-#include "wscvt/scan/obj_reader.h"
-#include "wscvt/scan/off_reader.h"
-#include "wscvt/scan/pcd_reader.h"
-#include "wscvt/scan/ply_reader.h"
-#include "wscvt/scan/point_text_reader.h"
-#include "wscvt/scan/stl_reader.h"
-#include "wscvt/scan/vtp_reader.h"
+#include "wscvt/mesh_files/byte_reader.h"
+#include "wscvt/mesh_files/legacy_vtk_reader.h"
+#include "wscvt/mesh_files/obj_reader.h"
+#include "wscvt/mesh_files/off_reader.h"
+#include "wscvt/mesh_files/pcd_reader.h"
+#include "wscvt/mesh_files/ply_reader.h"
+#include "wscvt/mesh_files/point_text_reader.h"
+#include "wscvt/mesh_files/stl_reader.h"
+#include "wscvt/mesh_files/vtp_reader.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "marching_cubes.h"
 #include "voxel_blur.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt::test {
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "support/test_shapes.h"
-#include "wscvt/scan/folded_solid_angle.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt {
 namespace {

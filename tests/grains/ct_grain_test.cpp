@@ -9,9 +9,9 @@
 #include "grains/marching_cubes.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
-#include "wscvt/scan/folded_solid_angle.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "grains/marching_cubes.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt::test {
 

@@ -19,7 +19,7 @@
 #include "programs.h"
 #include "remesh_filter.h"
 #include "sample_meshes.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::host_test {
 namespace {

@@ -21,9 +21,9 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_options.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt::host_test {
 namespace {

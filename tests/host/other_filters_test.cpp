@@ -15,7 +15,7 @@
 #include "sample_meshes.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt::host_test {

@@ -18,7 +18,7 @@
 
 #include "program_run.h"
 #include "wscvt/base/version.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {

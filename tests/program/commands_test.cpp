@@ -19,9 +19,9 @@
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/grain_measures.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 namespace {

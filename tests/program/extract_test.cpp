@@ -12,7 +12,7 @@
 #include "support/made_volume.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {

@@ -9,7 +9,7 @@
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/readable_text.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {

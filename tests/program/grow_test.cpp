@@ -8,8 +8,8 @@
 #include "program_run.h"
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/nodes/self_intersections.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 namespace {

@@ -13,7 +13,7 @@
 #include "support/flat_json.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {

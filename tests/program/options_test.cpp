@@ -10,8 +10,8 @@
 #include "program_run.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh/remesh_options.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 namespace {

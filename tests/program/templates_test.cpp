@@ -6,9 +6,9 @@
 
 #include "program_run.h"
 #include "support/random_sample.h"
+#include "toolbox/sample/grain_table.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/sample/grain_table.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {

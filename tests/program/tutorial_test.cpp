@@ -6,7 +6,7 @@
 
 #include "program_run.h"
 #include "support/test_shapes.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {

@@ -17,9 +17,9 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
+#include "wscvt/repair/envelope.h"
+#include "wscvt/repair/mesh_check.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/envelope.h"
-#include "wscvt/scan/mesh_check.h"
 
 /// What the library promises for every input, as checks that name what is broken; an empty sentence
 /// means that all is kept. The property tests and the fuzz targets share them.

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
-#include "wscvt/scan/mesh_io.h"
 
 namespace wscvt {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/clump_report.h"
+#include "toolbox/report/clump_report.h"
 
 #include <gtest/gtest.h>
 

@@ -14,11 +14,11 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/version.h"
 #include "wscvt/remesh.h"
+#include "wscvt/repair/mesh_check.h"
 #include "wscvt/report/csv_table.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/report.h"
-#include "wscvt/scan/mesh_check.h"
 
 namespace wscvt {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/parts_report.h"
+#include "toolbox/report/parts_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/sample_report.h"
+#include "toolbox/report/sample_report.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {

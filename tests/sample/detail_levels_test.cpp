@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/detail_levels.h"
+#include "toolbox/sample/detail_levels.h"
 
 #include <gtest/gtest.h>
 

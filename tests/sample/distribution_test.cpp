@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/distribution.h"
+#include "toolbox/sample/distribution.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/given_sizes.h"
+#include "toolbox/sample/given_sizes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/grain_grower.h"
+#include "toolbox/sample/grain_grower.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include "grains/bent_grain.h"
 #include "support/expect_error.h"
 #include "support/random_sample.h"
+#include "toolbox/sample/grown_mesh.h"
+#include "toolbox/sample/quick_shape.h"
+#include "toolbox/sample/sample_comparison.h"
 #include "wscvt/nodes/self_intersections.h"
-#include "wscvt/sample/grown_mesh.h"
-#include "wscvt/sample/quick_shape.h"
-#include "wscvt/sample/sample_comparison.h"
-#include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/repair/folded_solid_angle.h"
 
 namespace wscvt {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/grown_mesh.h"
+#include "toolbox/sample/grown_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
 #include "support/random_sample.h"
+#include "toolbox/sample/quick_shape.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/mesh_quality.h"
-#include "wscvt/sample/quick_shape.h"
 
 namespace wscvt {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/nearest_grain.h"
+#include "toolbox/sample/nearest_grain.h"
 
 #include <gtest/gtest.h>
 

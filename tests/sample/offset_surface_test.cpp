@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/offset_surface.h"
+#include "toolbox/sample/offset_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/random_stream.h"
+#include "toolbox/sample/random_stream.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/sample_grain.h"
+#include "toolbox/sample/sample_grain.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/nodes/self_intersections.h"
-#include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/sample_statistics.h"
+#include "toolbox/sample/sample_statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/sample/distribution.h"
+#include "toolbox/sample/random_stream.h"
+#include "toolbox/sample/sample_comparison.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/sample/distribution.h"
-#include "wscvt/sample/random_stream.h"
-#include "wscvt/sample/sample_comparison.h"
 
 namespace wscvt {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/sample/templates.h"
+#include "toolbox/sample/templates.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "support/expect_error.h"
-#include "wscvt/sample/nonnegative_minimum.h"
-#include "wscvt/sample/random_stream.h"
+#include "toolbox/sample/nonnegative_minimum.h"
+#include "toolbox/sample/random_stream.h"
 
 namespace wscvt {
 namespace {

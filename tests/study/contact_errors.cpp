@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "support/test_shapes.h"
-#include "wscvt/exchange/simulation_options.h"
-#include "wscvt/scan/mesh_check.h"
+#include "toolbox/exchange/simulation_options.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt::study {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "toolbox/exchange/distance_grid.h"
+#include "toolbox/exchange/node_table.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/exchange/distance_grid.h"
-#include "wscvt/exchange/node_table.h"
 
 namespace wscvt::study {
 

@@ -9,7 +9,7 @@
 
 #include "study/contact_samplings.h"
 #include "support/test_shapes.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::study {
 namespace {

@@ -17,7 +17,7 @@
 #include "study/contact_errors.h"
 #include "study/contact_samplings.h"
 #include "study/table.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace {
 

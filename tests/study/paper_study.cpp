@@ -18,7 +18,7 @@
 #include "study/table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/scan/mesh_io.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "grains/bent_grain.h"
-#include "wscvt/sample/random_stream.h"
-#include "wscvt/scan/mesh_io.h"
+#include "toolbox/sample/random_stream.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace {
 

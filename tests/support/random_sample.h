@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "support/random_harmonics.h"
+#include "toolbox/sample/sample_grain.h"
 #include "wscvt/base/error.h"
-#include "wscvt/sample/sample_grain.h"
 
 namespace wscvt::test {
 

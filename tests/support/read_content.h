@@ -10,7 +10,7 @@
 #include "support/expect_error.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/scan/byte_reader.h"
+#include "wscvt/mesh_files/byte_reader.h"
 
 namespace wscvt::test {
 

@@ -14,7 +14,7 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/repair/mesh_check.h"
 #include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/sphere_map.h"
 

@@ -10,7 +10,7 @@
 #include "support/random_triangulations.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/repair/mesh_check.h"
 
 namespace wscvt {
 namespace {

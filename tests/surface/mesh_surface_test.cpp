@@ -10,7 +10,7 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/scan/mesh_check.h"
+#include "wscvt/repair/mesh_check.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {

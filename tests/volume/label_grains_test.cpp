@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume/label_grains.h"
+#include "toolbox/volume/label_grains.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "support/expect_error.h"
 #include "support/made_volume.h"
-#include "volume/label_table.h"
+#include "toolbox/volume/label_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
 

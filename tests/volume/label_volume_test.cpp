@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume/label_volume.h"
+#include "toolbox/volume/label_volume.h"
 
 #include <gtest/gtest.h>
 #include <tiffio.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume/segmentation.h"
+#include "toolbox/volume/segmentation.h"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@
 #include "support/cancelled_runs.h"
 #include "support/tiff_pages.h"
 #include "support/volume_folder.h"
-#include "volume/grey_threshold.h"
-#include "volume/itk_filters.h"
-#include "volume/label_grains.h"
-#include "volume/label_writer.h"
-#include "volume/segmentation_page.h"
+#include "toolbox/volume/grey_threshold.h"
+#include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/label_grains.h"
+#include "toolbox/volume/label_writer.h"
+#include "toolbox/volume/segmentation_page.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {

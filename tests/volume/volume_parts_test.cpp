@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume/volume_parts.h"
+#include "toolbox/volume/volume_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "support/seeds.h"
 #include "support/volume_folder.h"
-#include "volume/label_grains.h"
+#include "toolbox/volume/label_grains.h"
 
 namespace wscvt {
 namespace {

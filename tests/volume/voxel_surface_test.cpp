@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume/voxel_surface.h"
+#include "toolbox/volume/voxel_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 #include "support/expect_error.h"
 #include "support/made_volume.h"
-#include "volume/smoothed_surface.h"
+#include "toolbox/volume/smoothed_surface.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/descriptors.h"

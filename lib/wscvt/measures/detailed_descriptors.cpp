@@ -12,7 +12,7 @@
 #include "wscvt/measures/printed_sdq.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"
-#include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {

@@ -10,7 +10,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/measures/direction_search.h"
 #include "wscvt/measures/planar_hull.h"
-#include "wscvt/scan/coordinates.h"
+#include "wscvt/repair/coordinates.h"
 
 namespace wscvt {
 

@@ -6,8 +6,8 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/voxel_steps.h"
+#include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/voxel_steps.h"
 
 namespace wscvt {
 

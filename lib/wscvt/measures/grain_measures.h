@@ -9,7 +9,7 @@
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/scan/scan_options.h"
+#include "wscvt/repair/scan_options.h"
 
 namespace wscvt {
 

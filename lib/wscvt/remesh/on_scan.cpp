@@ -8,7 +8,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/contact_fit.h"
 #include "wscvt/nodes/self_intersections.h"
-#include "wscvt/scan/handles.h"
+#include "wscvt/repair/handles.h"
 #include "wscvt/surface/curvature.h"
 
 namespace wscvt {

@@ -8,7 +8,7 @@
 #include "wscvt/remesh/normalized_scan.h"
 #include "wscvt/remesh/remesh_method.h"
 #include "wscvt/remesh/remesh_options.h"
-#include "wscvt/scan/scan_options.h"
+#include "wscvt/repair/scan_options.h"
 #include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {

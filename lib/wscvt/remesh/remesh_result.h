@@ -14,7 +14,7 @@
 #include "wscvt/nodes/nodes_options.h"
 #include "wscvt/nodes/scan_nodes_options.h"
 #include "wscvt/remesh/remesh_options.h"
-#include "wscvt/scan/scan_options.h"
+#include "wscvt/repair/scan_options.h"
 #include "wscvt/surface/surface_options.h"
 #include "wscvt/tessellation/tessellation_options.h"
 

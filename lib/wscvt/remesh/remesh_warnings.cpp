@@ -6,8 +6,8 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/scan/closing_advice.h"
-#include "wscvt/scan/voxel_steps.h"
+#include "wscvt/repair/closing_advice.h"
+#include "wscvt/repair/voxel_steps.h"
 
 namespace wscvt {
 

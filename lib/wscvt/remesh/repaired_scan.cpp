@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "wscvt/scan/coordinates.h"
-#include "wscvt/scan/envelope.h"
-#include "wscvt/scan/mesh_check.h"
-#include "wscvt/scan/point_cloud.h"
-#include "wscvt/scan/steep_area.h"
+#include "wscvt/repair/coordinates.h"
+#include "wscvt/repair/envelope.h"
+#include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/point_cloud.h"
+#include "wscvt/repair/steep_area.h"
 
 namespace wscvt {
 

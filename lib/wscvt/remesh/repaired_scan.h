@@ -6,7 +6,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/remesh/remesh_options.h"
-#include "wscvt/scan/scan_options.h"
+#include "wscvt/repair/scan_options.h"
 
 namespace wscvt {
 

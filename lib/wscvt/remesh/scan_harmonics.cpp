@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/harmonic_map.h"
 #include "wscvt/surface/mapped_surface.h"

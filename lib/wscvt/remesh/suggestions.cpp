@@ -6,7 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/scan/closing_advice.h"
+#include "wscvt/repair/closing_advice.h"
 
 namespace wscvt {
 

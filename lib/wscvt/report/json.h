@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/clump/clump_options.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
@@ -31,7 +30,6 @@ Json json_of(const MassProperties& mass);
 
 /// Every option with the name and value of the command line.
 Json json_of(const RemeshOptions& options);
-Json json_of(const ClumpOptions& options);
 
 /// Returns the value of each descriptor under its key.
 Json json_of(const std::vector<DescriptorValue>& values);

@@ -6,7 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/scan/folded_solid_angle.h"
+#include "wscvt/repair/folded_solid_angle.h"
 
 namespace wscvt {
 

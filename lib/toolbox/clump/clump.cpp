@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/clump/clump.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "toolbox/clump/sphere_mesh.h"
+#include "toolbox/clump/unit_frame.h"
+#include "wscvt/base/equivalent_radius.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/remesh.h"
+#include "wscvt/remesh/remesh_warnings.h"
+#include "wscvt/remesh/repaired_scan.h"
+#include "wscvt/repair/enclosure.h"
+
+namespace wscvt {
+
+namespace {
+
+MassError mass_error(const MassProperties& mass, const ShapeDescriptors& grain, double radius) {
+  ShapeDescriptors value;
+  value.inertia_tensor = mass.inertia_tensor;
+  return {relative_error_percent(mass.volume, grain.volume),
+          100.0 * (mass.centroid - grain.centroid).norm() / radius,
+          inertia_error_percent(value, grain)};
+}
+
+/// Sums spheres, overlaps counted repeatedly.
+MassProperties summed_mass(const std::vector<Sphere>& spheres) {
+  MassProperties mass;
+  for (const Sphere& sphere : spheres) {
+    const double volume = 4.0 / 3.0 * pi * std::pow(sphere.radius, 3);
+    mass.volume += volume;
+    mass.centroid += volume * sphere.centre;
+  }
+  mass.centroid /= mass.volume;
+  for (const Sphere& sphere : spheres) {
+    const double volume = 4.0 / 3.0 * pi * std::pow(sphere.radius, 3);
+    const Vector3 from = sphere.centre - mass.centroid;
+    mass.inertia_tensor += volume * ((0.4 * sphere.radius * sphere.radius + from.squaredNorm()) *
+                                         Eigen::Matrix3d::Identity() -
+                                     from * from.transpose());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(mass.inertia_tensor);
+  mass.principal_moments = solver.eigenvalues();
+  Eigen::Matrix3d axes = solver.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
+  mass.principal_axes = Eigen::Quaterniond(axes);
+  return mass;
+}
+
+double intersection_over_union(const IndexedMesh& grain, const std::vector<Sphere>& spheres,
+                               const Execution& execution) {
+  constexpr double points = 60000.0;
+  Vector3 low = spheres.front().centre;
+  Vector3 high = low;
+  const auto include = [&](const Vector3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  };
+  for (const Vector3& p : grain.points) include(p);
+  for (const Sphere& sphere : spheres) {
+    include(sphere.centre + Vector3::Constant(sphere.radius));
+    include(sphere.centre - Vector3::Constant(sphere.radius));
+  }
+  const Vector3 size = high - low;
+  const double step = std::cbrt(size.prod() / points);
+  std::vector<Vector3> grid;
+  for (double x = 0.5 * step; x < size.x(); x += step) {
+    for (double y = 0.5 * step; y < size.y(); y += step) {
+      for (double z = 0.5 * step; z < size.z(); z += step) grid.push_back(low + Vector3(x, y, z));
+    }
+  }
+  const std::vector<char> inside = are_inside(grain, grid, execution);
+  std::size_t both = 0;
+  std::size_t either = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const bool covered = std::any_of(spheres.begin(), spheres.end(), [&](const Sphere& sphere) {
+      return sphere.distance(grid[i]) < 0.0;
+    });
+    both += covered && inside[i] != 0 ? 1 : 0;
+    either += covered || inside[i] != 0 ? 1 : 0;
+  }
+  return static_cast<double>(both) / static_cast<double>(either);
+}
+
+/// Returns the number of groups of connected spheres.
+std::size_t group_count(const std::vector<Sphere>& spheres) {
+  std::vector<char> seen(spheres.size(), 0);
+  std::size_t groups = 0;
+  for (std::size_t start = 0; start < spheres.size(); ++start) {
+    if (seen[start] != 0) continue;
+    ++groups;
+    std::vector<std::size_t> open = {start};
+    seen[start] = 1;
+    while (!open.empty()) {
+      const Sphere sphere = spheres[open.back()];
+      open.pop_back();
+      for (std::size_t other = 0; other < spheres.size(); ++other) {
+        if (seen[other] != 0 || sphere.distance(spheres[other].centre) > spheres[other].radius) {
+          continue;
+        }
+        seen[other] = 1;
+        open.push_back(other);
+      }
+    }
+  }
+  return groups;
+}
+
+void add_warnings(ClumpResult& result) {
+  append_repair_warnings(result.input, "made a clump", result.warnings);
+  const ClumpOptions& options = result.options;
+  const double error = 100.0 * result.rms_distance / result.equivalent_radius;
+  const std::string count =
+      std::to_string(result.spheres.size()) + (result.spheres.size() == 1 ? " sphere" : " spheres");
+  if (options.max_error_percent > 0.0 && error > options.max_error_percent) {
+    result.warnings.push_back("With " + count + " the rms distance is " + format_number(error, 3) +
+                              " % of the equivalent radius, more than the allowed " +
+                              format_typed(options.max_error_percent) +
+                              " %. Give a larger --max-spheres, or allow a larger error.");
+  } else if (options.max_error_percent == 0.0 &&
+             result.spheres.size() < static_cast<std::size_t>(options.sphere_count)) {
+    result.warnings.push_back("Only " + count + " of the smallest radius fit inside.");
+  }
+  constexpr double least_shared = 0.5;
+  if (result.intersection_over_union < least_shared) {
+    result.warnings.push_back(
+        "Scan and clump have only " + format_percent(result.intersection_over_union) +
+        " of the volume of both in common (intersection over union). Give more spheres: flat and "
+        "long grains need many.");
+  }
+  const std::size_t groups = group_count(result.spheres);
+  if (groups > 1) {
+    result.warnings.push_back("The spheres are in " + std::to_string(groups) +
+                              " groups that do not touch each other. Give more spheres, or leave "
+                              "out --inside, if they must be connected.");
+  }
+}
+
+/// Returns the error of first contact of remeshes, if the option asks for it.
+ContactError remesh_contact(const IndexedMesh& grain, const UnitFrame& frame, int nodes,
+                            double reach, const std::vector<double>& scan,
+                            const Execution& execution) {
+  RemeshOptions options;
+  options.node_count = nodes;
+  options.measures.suggestions = false;
+  const IndexedMesh mesh = frame.to_unit(remesh(grain, options, execution).mesh);
+  return contact_error(ContactHeights(mesh, reach, execution).distances(execution), scan);
+}
+
+/// Measures the errors of the spheres in the unit frame.
+void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const UnitFrame& frame,
+             ClumpResult& result, const Execution& execution) {
+  constexpr std::size_t samples = 20000;
+  const UnionDistance distance =
+      union_distance(area_uniform_samples(unit, samples), spheres, execution);
+  result.rms_distance = frame.radius * distance.root_mean_square;
+  result.largest_distance = frame.radius * distance.largest;
+  execution.report(0.3, "Measuring the clump");
+  result.intersection_over_union = intersection_over_union(unit, spheres, execution);
+  double reach = 0.0;
+  for (const Vector3& p : unit.points) reach = std::max(reach, p.norm());
+  for (const Sphere& sphere : spheres) {
+    reach = std::max(reach, sphere.centre.norm() + sphere.radius);
+  }
+  reach *= 1.2;  // a remesh of few nodes extends farther
+  execution.report(0.5, "Measuring the clump");
+  const std::vector<double> scan = ContactHeights(unit, reach, execution).distances(execution);
+  result.contact =
+      contact_error(ContactHeights(spheres, reach, execution).distances(execution), scan);
+  if (result.options.compared_nodes > 0) {
+    result.remesh_contact =
+        remesh_contact(result.repaired_scan, frame, result.options.compared_nodes, reach, scan,
+                       execution.part(0.6, 1.0));
+  }
+}
+
+}  // namespace
+
+void check_clump_options(const ClumpOptions& options) {
+  require_in_range(options.sphere_count, sphere_count_option);
+  require_in_range(options.max_error_percent, clump_error_option);
+  require_in_range(options.most_spheres, most_spheres_option);
+  require_in_range(options.smallest_radius_percent, smallest_radius_option);
+  require_in_range(options.compared_nodes, compared_nodes_option);
+  if (options.compared_nodes > 0) require_in_range(options.compared_nodes, node_count_option);
+  require_in_range(options.max_repaired_area_percent, mended_area_limit_option);
+  check_envelope_options(options.envelope);
+}
+
+ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Execution& execution) {
+  check_clump_options(options);
+  RemeshOptions repairs;
+  repairs.points = options.points;
+  repairs.envelope = options.envelope;
+  repairs.max_repaired_area_percent = options.max_repaired_area_percent;
+  RepairedScan repaired = repair_scan(std::move(scan), repairs, execution.part(0.0, 0.15));
+  ClumpResult result;
+  result.options = options;
+  result.input = repaired.checked.report;
+  result.repaired_scan = std::move(repaired.checked.mesh);
+  result.original = describe_shape(result.repaired_scan, execution);
+  result.equivalent_radius = equivalent_radius(result.original.volume);
+  if (!repaired.precision_warning.empty()) result.warnings.push_back(repaired.precision_warning);
+
+  const UnitFrame frame(result.original);
+  const IndexedMesh unit = frame.to_unit(result.repaired_scan);
+  FittedSpheres fitted = fit_spheres(unit, options, execution.part(0.15, 0.8));
+  measure(unit, fitted.spheres, frame, result, execution.part(0.8, 1.0));
+  // Rounding must not push a sphere outside that touches the surface from within.
+  const double shrink = options.inside ? 1.0 - 1e-9 : 1.0;
+  for (const Sphere& sphere : fitted.spheres) {
+    result.spheres.push_back({frame.to_scan(sphere.centre), shrink * frame.radius * sphere.radius});
+  }
+  for (const ClumpStage& stage : fitted.stages) {
+    result.stages.push_back({stage.spheres, frame.radius * stage.rms_distance});
+  }
+  result.surface = sphere_union_mesh(result.spheres, execution);
+  result.united.mass = mass_properties(describe_shape(result.surface, execution));
+  result.summed.mass = summed_mass(result.spheres);
+  for (SphereMass* const mass : {&result.united, &result.summed}) {
+    mass->error = mass_error(mass->mass, result.original, result.equivalent_radius);
+  }
+  add_warnings(result);
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/clump/clump_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "toolbox/clump/medial_spheres.h"
+#include "toolbox/clump/point_blocks.h"
+#include "toolbox/clump/sphere_fit.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/measures/inscribed_sphere.h"
+#include "wscvt/repair/enclosure.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double held_weight = 8.0;  ///< of spheres that bulge out, while spheres are added
+constexpr std::size_t most_candidates = 3000;
+constexpr std::size_t judged = 20000;  ///< samples for the reported errors
+constexpr std::size_t depth_samples = 40000;
+constexpr double least_radius = 1e-3;
+/// Largest radius of a sphere / radius of the largest inscribed sphere. Without a limit, the face
+/// of a thin plate would become part of a sphere that contains everything on one side of it.
+constexpr double most_bulge = 2.0;
+constexpr const char* stage_name = "Fitting spheres";
+
+/// Points of a grid, inside and outside the mesh: some 2,000 inside a body as thick as wide.
+struct GridPoints {
+  std::vector<Vector3> inside;
+  std::vector<Vector3> outside;
+};
+GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
+  constexpr double spacing = 0.13;
+  Vector3 low = mesh.points[static_cast<std::size_t>(mesh.triangles.front()[0])];
+  Vector3 high = low;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t) {
+      low = low.cwiseMin(mesh.points[static_cast<std::size_t>(v)]);
+      high = high.cwiseMax(mesh.points[static_cast<std::size_t>(v)]);
+    }
+  }
+  // A long body of equivalent radius 1 is thin, but its box may be large if it is inclined.
+  constexpr double most_points = 20000.0;
+  const double step = std::max(spacing, std::cbrt((high - low).prod() / most_points));
+  const Vector3 middle = 0.5 * (low + high);
+  const Eigen::Array3d half = ((high - low) / (2.0 * step)).array().ceil() + 1.0;
+  std::vector<Vector3> all;
+  for (double i = -half[0]; i <= half[0]; ++i) {
+    for (double j = -half[1]; j <= half[1]; ++j) {
+      for (double k = -half[2]; k <= half[2]; ++k) all.push_back(middle + step * Vector3(i, j, k));
+    }
+  }
+  const std::vector<char> inside = are_inside(mesh, all, execution);
+  GridPoints points;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    (inside[i] != 0 ? points.inside : points.outside).push_back(all[i]);
+  }
+  return points;
+}
+
+/// A fit to which spheres are added.
+class Growth {
+ public:
+  Growth(const IndexedMesh& grain, const ClumpOptions& options, const Execution& execution)
+      : options_(options),
+        execution_(execution),
+        smallest_(std::max(least_radius, 0.01 * options.smallest_radius_percent)),
+        surface_(grain, execution),
+        judged_(area_uniform_samples(grain, judged)),
+        depths_(options.inside ? area_uniform_samples(grain, depth_samples)
+                               : std::vector<Vector3>()),
+        fit_(begin(grain)) {}
+
+  FittedSpheres run() {
+    const bool is_target = options_.max_error_percent > 0.0;
+    const auto most =
+        static_cast<std::size_t>(is_target ? options_.most_spheres : options_.sphere_count);
+    FittedSpheres result;
+    std::size_t next_stage = 1;
+    while (true) {
+      const std::size_t count = fit_.spheres().size();
+      if (count >= next_stage || count >= most) {
+        const double error = rms_distance(let_down(fit_));
+        result.stages.push_back({count, error});
+        next_stage = count + std::max<std::size_t>(1, count / (is_target ? 10 : 4));
+        if (is_target && 100.0 * error <= options_.max_error_percent) break;
+      }
+      if (count >= most || !add_sphere()) break;
+      execution_.report(0.9 * static_cast<double>(count) / static_cast<double>(most), stage_name);
+    }
+    relocate();
+    fit_ = let_down(std::move(fit_));
+    for (double before = 2.0 * fit_.energy(); fit_.energy() < 0.9999 * before;) {
+      before = fit_.energy();
+      sweep(fit_, 10);
+    }
+    result.spheres = fit_.spheres();
+    if (options_.inside) keep_inside(result.spheres);
+    result.stages.back() = {result.spheres.size(),
+                            union_distance(judged_, result.spheres, execution_).root_mean_square};
+    return result;
+  }
+
+ private:
+  SphereFit begin(const IndexedMesh& grain) {
+    const InscribedSphere largest = largest_inscribed_sphere(grain, execution_);
+    if (options_.inside && largest.radius < smallest_) {
+      refuse("No sphere fits inside the grain: the largest has a radius of " +
+             format_number(100.0 * largest.radius, 3) +
+             " % of the equivalent radius, less than --smallest-radius. Give a smaller "
+             "--smallest-radius, or leave out --inside.");
+    }
+    const bool is_target = options_.max_error_percent > 0.0;
+    const auto count =
+        static_cast<std::size_t>(is_target ? options_.most_spheres : options_.sphere_count);
+    // A sphere has four unknowns, and none of them may follow single samples.
+    const std::vector<SurfaceSample> samples =
+        surface_samples(grain, std::max<std::size_t>(4000, 80 * count));
+    std::vector<Vector3> points;
+    points.reserve(samples.size());
+    for (const SurfaceSample& sample : samples) points.push_back(sample.point);
+    const std::size_t step = (samples.size() + most_candidates - 1) / most_candidates;
+    const double smallest = smallest_in_fit(grain);
+    for (Sphere& sphere : medial_spheres(samples, step, 1.001 * largest.upper_bound, execution_)) {
+      if (options_.inside) {
+        const Vector3& nearest = depths_.points()[depths_.nearest(sphere.centre)];
+        sphere.radius = std::min(sphere.radius, (nearest - sphere.centre).norm());
+        if (sphere.radius < smallest) continue;
+      }
+      sphere.radius = std::max(sphere.radius, smallest);
+      candidates_.push_back(sphere);
+    }
+    const GridPoints grid = grid_points(grain, execution_);
+    SphereFit fit(points, grid.inside, grid.outside,
+                  {smallest, std::max(smallest, most_bulge * largest.upper_bound),
+                   options_.inside ? &depths_ : nullptr});
+    fit.set_inner_weight(held_weight);
+    fit.add({largest.centre, std::max(largest.radius, smallest_)});
+    sweep(fit, 10);
+    return fit;
+  }
+
+  void sweep(SphereFit& fit, int times) const {
+    for (int i = 0; i < times; ++i) {
+      execution_.report(0.9, stage_name);
+      fit.sweep();
+    }
+  }
+
+  /// Returns the smallest radius during the fit. Between the samples of the depths the surface may
+  /// be nearer, and a sphere that is shrunk to it must not become too small.
+  double smallest_in_fit(const IndexedMesh& grain) const {
+    if (!options_.inside || options_.smallest_radius_percent == 0.0) return smallest_;
+    double area = 0.0;
+    for (const auto& [a, b, c] : grain.triangles) {
+      area += 0.5 * doubled_area_normal(grain.points[a], grain.points[b], grain.points[c]).norm();
+    }
+    return std::sqrt(smallest_ * smallest_ + area / depth_samples);
+  }
+
+  /// Adds the candidate that lowers the energy most. Gains nearly always fall as spheres are added.
+  /// So usually only the candidates with the largest gains are evaluated again, and sometimes all.
+  bool add_sphere() {
+    if (candidates_.empty()) return false;
+    const std::size_t count = fit_.spheres().size();
+    const bool all = count >= next_judging_ || gains_.size() != candidates_.size();
+    const auto judge = [&](std::size_t i) {
+      gains_[i] = fit_.energy() - fit_.energy_with(candidates_[i]);
+    };
+    if (all) {
+      gains_.resize(candidates_.size());
+      next_judging_ = count + 1 + count / 64;
+      execution_.parallel_for(candidates_.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) judge(i);
+      });
+    }
+    std::vector<char> is_judged(candidates_.size(), all ? 1 : 0);
+    std::size_t best = 0;
+    while (true) {
+      best =
+          static_cast<std::size_t>(std::max_element(gains_.begin(), gains_.end()) - gains_.begin());
+      if (is_judged[best] != 0) break;
+      judge(best);
+      is_judged[best] = 1;
+    }
+    fit_.add(candidates_[best]);
+    sweep(fit_, 4);
+    return true;
+  }
+
+  /// Shrinks the spheres to the surface between the samples, and drops spheres that are then too
+  /// small.
+  void keep_inside(std::vector<Sphere>& spheres) const {
+    for (Sphere& sphere : spheres) {
+      sphere.radius = surface_.contains(sphere.centre) ? surface_.distance(sphere.centre) : 0.0;
+    }
+    spheres.erase(std::remove_if(spheres.begin(), spheres.end(),
+                                 [&](const Sphere& sphere) { return sphere.radius < smallest_; }),
+                  spheres.end());
+  }
+
+  /// Removes the spheres that matter least and adds as many: one at first, and one more after each
+  /// failure.
+  void relocate() {
+    constexpr int most_failures = 4;
+    constexpr int most_moves = 40;
+    const std::size_t count = fit_.spheres().size();
+    int failures = 0;
+    for (int move = 0; move < most_moves && failures < most_failures; ++move) {
+      if (count < static_cast<std::size_t>(failures) + 2) break;
+      SphereFit before = fit_;
+      for (int i = 0; i <= failures; ++i) fit_.remove(fit_.least_needed());
+      next_judging_ = 0;
+      while (fit_.spheres().size() < count && add_sphere()) continue;
+      sweep(fit_, 6);
+      const bool is_better = fit_.energy() < 0.9999 * before.energy();
+      failures = is_better ? 0 : failures + 1;
+      if (!is_better) fit_ = std::move(before);
+    }
+  }
+
+  /// Reduces the weight of spheres that bulge out to the weight of gaps.
+  SphereFit let_down(SphereFit fit) const {
+    for (double weight = 0.5 * held_weight; weight >= 1.0; weight *= 0.5) {
+      fit.set_inner_weight(weight);
+      sweep(fit, options_.inside ? 2 : 12);
+    }
+    return fit;
+  }
+
+  double rms_distance(const SphereFit& fit) const {
+    return union_distance(judged_, fit.spheres(), execution_).root_mean_square;
+  }
+
+  const ClumpOptions& options_;
+  const Execution& execution_;
+  double smallest_;  ///< radius
+  MeshDistance surface_;
+  std::vector<Vector3> judged_;
+  PointBlocks depths_;  ///< of the surface, if spheres must be inside
+  std::vector<Sphere> candidates_;
+  std::vector<double> gains_;     ///< energy that each candidate saved when last evaluated
+  std::size_t next_judging_ = 0;  ///< number of spheres at which all are evaluated again
+  SphereFit fit_;
+};
+
+}  // namespace
+
+UnionDistance union_distance(const std::vector<Vector3>& points, const std::vector<Sphere>& spheres,
+                             const Execution& execution) {
+  constexpr std::size_t block = 1024;
+  struct Sums {
+    double squares = 0.0;
+    double largest = 0.0;
+    Sums& operator+=(const Sums& other) {
+      squares += other.squares;
+      largest = std::max(largest, other.largest);
+      return *this;
+    }
+  };
+  const Sums sums =
+      execution.parallel_sum(points.size(), block, Sums(), [&](std::size_t begin, std::size_t end) {
+        Sums part;
+        for (std::size_t i = begin; i < end; ++i) {
+          double least = spheres.front().distance(points[i]);
+          for (const Sphere& sphere : spheres) {
+            least = std::min(least, sphere.distance(points[i]));
+          }
+          part.squares += least * least;
+          part.largest = std::max(part.largest, std::abs(least));
+        }
+        return part;
+      });
+  return {std::sqrt(sums.squares / static_cast<double>(points.size())), sums.largest};
+}
+
+FittedSpheres fit_spheres(const IndexedMesh& unit_grain, const ClumpOptions& options,
+                          const Execution& execution) {
+  execution.report(0.0, stage_name);
+  return Growth(unit_grain, options, execution).run();
+}
+
+}  // namespace wscvt

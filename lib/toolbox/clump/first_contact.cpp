@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/clump/first_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "wscvt/base/pi.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double passing = -1e20;  ///< below it, bodies pass each other
+constexpr float nothing = -1e30F;  ///< height without a body
+
+/// Returns uniform random rotations (Shoemake 1992). Uses only the generator's bits, because the
+/// standard does not fix the results of its distributions.
+std::vector<Eigen::Matrix3d> random_turns(int count) {
+  std::mt19937_64 random(1);
+  const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
+  std::vector<Eigen::Matrix3d> turns;
+  for (int i = 0; i < count; ++i) {
+    const double u = uniform();
+    const double v = 2.0 * pi * uniform();
+    const double w = 2.0 * pi * uniform();
+    const double a = std::sqrt(1.0 - u);
+    const double b = std::sqrt(u);
+    turns.push_back(
+        Eigen::Quaterniond(b * std::cos(w), a * std::sin(v), a * std::cos(v), b * std::sin(w))
+            .toRotationMatrix());
+  }
+  return turns;
+}
+
+/// The pixels with their centres between two positions along an axis; positions in pixels.
+struct PixelSpan {
+  int first;
+  int last;
+  PixelSpan(double from, double to)
+      : first(std::max(0, static_cast<int>(std::ceil(from - 0.5)))),
+        last(std::min(ContactHeights::pixels - 1, static_cast<int>(std::floor(to - 0.5)))) {}
+};
+
+/// The pixels of one pose.
+class HeightMap {
+ public:
+  HeightMap(double reach, std::vector<float>& top, std::vector<float>& bottom)
+      : scale_(0.5 * ContactHeights::pixels / reach), top_(top), bottom_(bottom) {
+    const std::size_t count = std::size_t{ContactHeights::pixels} * ContactHeights::pixels;
+    top_.assign(count, nothing);
+    bottom_.assign(count, -nothing);
+  }
+
+  void add_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const std::array<double, 3> x = {place(a.x()), place(b.x()), place(c.x())};
+    const std::array<double, 3> y = {place(a.y()), place(b.y()), place(c.y())};
+    const double area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
+    if (area == 0.0) return;
+    const PixelSpan rows(std::min({y[0], y[1], y[2]}), std::max({y[0], y[1], y[2]}));
+    const PixelSpan columns(std::min({x[0], x[1], x[2]}), std::max({x[0], x[1], x[2]}));
+    for (int row = rows.first; row <= rows.last; ++row) {
+      for (int column = columns.first; column <= columns.last; ++column) {
+        const double px = column + 0.5;
+        const double py = row + 0.5;
+        const double u = ((x[2] - x[1]) * (py - y[1]) - (y[2] - y[1]) * (px - x[1])) / area;
+        const double v = ((x[0] - x[2]) * (py - y[2]) - (y[0] - y[2]) * (px - x[2])) / area;
+        if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) continue;
+        add(row, column, u * a.z() + v * b.z() + (1.0 - u - v) * c.z());
+      }
+    }
+  }
+
+  void add_sphere(const Vector3& centre, double radius) {
+    const PixelSpan rows(place(centre.y() - radius), place(centre.y() + radius));
+    const PixelSpan columns(place(centre.x() - radius), place(centre.x() + radius));
+    for (int row = rows.first; row <= rows.last; ++row) {
+      const double dy = way(row) - centre.y();
+      for (int column = columns.first; column <= columns.last; ++column) {
+        const double dx = way(column) - centre.x();
+        const double squared = radius * radius - dx * dx - dy * dy;
+        if (!(squared > 0.0)) continue;
+        const double height = std::sqrt(squared);
+        add(row, column, centre.z() + height);
+        add(row, column, centre.z() - height);
+      }
+    }
+  }
+
+ private:
+  double place(double way) const { return scale_ * way + 0.5 * ContactHeights::pixels; }
+  double way(int pixel) const { return (pixel + 0.5 - 0.5 * ContactHeights::pixels) / scale_; }
+  void add(int row, int column, double height) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(row) * ContactHeights::pixels + static_cast<std::size_t>(column);
+    const auto value = static_cast<float>(height);
+    top_[pixel] = std::max(top_[pixel], value);
+    bottom_[pixel] = std::min(bottom_[pixel], value);
+  }
+
+  double scale_;
+  std::vector<float>& top_;
+  std::vector<float>& bottom_;
+};
+
+}  // namespace
+
+ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Execution& execution) {
+  const std::vector<Eigen::Matrix3d> turns = random_turns(poses);
+  maps_.resize(turns.size());
+  execution.parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t pose = begin; pose < end; ++pose) {
+      HeightMap map(reach, maps_[pose].top, maps_[pose].bottom);
+      std::vector<Vector3> turned;
+      turned.reserve(mesh.points.size());
+      for (const Vector3& p : mesh.points) turned.push_back(turns[pose] * p);
+      for (const auto& [a, b, c] : mesh.triangles) {
+        map.add_triangle(turned[static_cast<std::size_t>(a)], turned[static_cast<std::size_t>(b)],
+                         turned[static_cast<std::size_t>(c)]);
+      }
+    }
+  });
+}
+
+ContactHeights::ContactHeights(const std::vector<Sphere>& spheres, double reach,
+                               const Execution& execution) {
+  const std::vector<Eigen::Matrix3d> turns = random_turns(poses);
+  maps_.resize(turns.size());
+  execution.parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t pose = begin; pose < end; ++pose) {
+      HeightMap map(reach, maps_[pose].top, maps_[pose].bottom);
+      for (const Sphere& sphere : spheres) {
+        map.add_sphere(turns[pose] * sphere.centre, sphere.radius);
+      }
+    }
+  });
+}
+
+std::vector<double> ContactHeights::distances(const Execution& execution) const {
+  const std::size_t count = maps_.size();
+  std::vector<double> result(count * (count - 1));
+  execution.parallel_for(result.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t pair = begin; pair < end; ++pair) {
+      const std::size_t below = pair / (count - 1);
+      const std::size_t above = (below + 1 + pair % (count - 1)) % count;
+      const float* const top = maps_[below].top.data();
+      const float* const bottom = maps_[above].bottom.data();
+      // Eight maxima, which the compiler updates at once.
+      std::array<float, 8> largest;
+      largest.fill(nothing);
+      for (std::size_t i = 0; i < maps_[below].top.size(); i += largest.size()) {
+        for (std::size_t lane = 0; lane < largest.size(); ++lane) {
+          const float sum = top[i + lane] - bottom[i + lane];
+          largest[lane] = sum > largest[lane] ? sum : largest[lane];
+        }
+      }
+      result[pair] = *std::max_element(largest.begin(), largest.end());
+    }
+  });
+  return result;
+}
+
+ContactError contact_error(const std::vector<double>& distances, const std::vector<double>& scan) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const bool both_touch = distances[i] > passing && scan[i] > passing;
+    if (both_touch) errors.push_back(100.0 * (distances[i] - scan[i]));
+  }
+  ContactError error;
+  const auto count = static_cast<double>(errors.size());
+  for (const double one : errors) error.mean += one / count;
+  double squares = 0.0;
+  for (const double one : errors) squares += (one - error.mean) * (one - error.mean);
+  if (!errors.empty()) error.scatter = std::sqrt(squares / count);
+  return error;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "toolbox/clump/sphere.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Error of first contact over pairs of poses, in % of the equivalent radius: the centroids'
+/// distance at which two equal bodies touch, less this distance for the scans. Below 0 the bodies
+/// come nearer than the scans can: they hide overlap.
+struct ContactError {
+  double mean = 0.0;
+  double scatter = 0.0;  ///< standard deviation about the mean
+};
+
+/// Heights above a plane through the origin, and depths below it, of a body of equivalent radius 1
+/// about the origin, in random but fixed directions. If two bodies approach each other along a line
+/// through both origins, they touch at the largest sum of height and depth.
+class ContactHeights {
+ public:
+  static constexpr int poses = 32;
+  static constexpr int pixels = 256;
+
+  /// Measures heights within `reach` of the origin; bodies that are compared need the same reach.
+  ContactHeights(const IndexedMesh& mesh, double reach, const Execution& execution);
+  ContactHeights(const std::vector<Sphere>& spheres, double reach, const Execution& execution);
+
+  /// Returns the distances of the origins at first contact, for each pose against each other pose;
+  /// below -1e20 if the bodies pass each other, as bodies with a hole may.
+  std::vector<double> distances(const Execution& execution) const;
+
+ private:
+  struct Map {
+    std::vector<float> top;
+    std::vector<float> bottom;
+  };
+  std::vector<Map> maps_;
+};
+
+/// Returns the error of distances against the scan's, over the pairs in which both touch.
+ContactError contact_error(const std::vector<double>& distances, const std::vector<double>& scan);
+
+}  // namespace wscvt

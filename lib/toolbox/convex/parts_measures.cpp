@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "toolbox/convex/convex_body.h"
+#include "toolbox/convex/convex_parts.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/surface/mesh_place.h"
+
+namespace wscvt {
+
+namespace {
+
+struct Box {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 high = -low;
+
+  void add(const Vector3& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  bool holds(const Vector3& p) const {
+    return (p - low).minCoeff() >= 0.0 && (high - p).minCoeff() >= 0.0;
+  }
+};
+
+/// The parts, with a quick test for points outside all parts.
+class Union {
+ public:
+  explicit Union(const ConvexParts& parts) {
+    for (const IndexedMesh& part : parts) {
+      bodies_.push_back(convex_body(part.points));
+      boxes_.emplace_back();
+      for (const Vector3& p : part.points) {
+        boxes_.back().add(p);
+        box_.add(p);
+      }
+    }
+  }
+
+  const std::vector<ConvexBody>& bodies() const { return bodies_; }
+  const Box& box() const { return box_; }
+
+  /// Returns the number of parts that contain the point.
+  int count(const Vector3& point) const {
+    int count = 0;
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      if (boxes_[k].holds(point) && bodies_[k].excess(point) < 0.0) ++count;
+    }
+    return count;
+  }
+
+ private:
+  std::vector<ConvexBody> bodies_;
+  std::vector<Box> boxes_;
+  Box box_;
+};
+
+double shared_volume(const Union& parts, const Execution& execution) {
+  constexpr int cells = 96;
+  const Vector3 size = parts.box().high - parts.box().low;
+  const double spacing = size.maxCoeff() / cells;
+  const auto counts = (size / spacing).array().ceil().cast<int>();
+  const auto layers = static_cast<std::size_t>(counts[2]);
+  const double shared = execution.parallel_sum(layers, 1, 0.0, [&](std::size_t k, std::size_t) {
+    int more = 0;
+    for (int j = 0; j < counts[1]; ++j) {
+      for (int i = 0; i < counts[0]; ++i) {
+        const Vector3 middle =
+            parts.box().low + spacing * Vector3(i + 0.5, j + 0.5, static_cast<double>(k) + 0.5);
+        more += std::max(0, parts.count(middle) - 1);
+      }
+    }
+    return static_cast<double>(more);
+  });
+  return shared * spacing * spacing * spacing;
+}
+
+std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
+  constexpr std::size_t samples = 20000;
+  const double beyond = 1e-6 * (all.box().high - all.box().low).norm();
+  const IndexedMesh mesh = joined(parts);
+  std::vector<Vector3> points;
+  for (const MeshPlace& place : area_uniform_places(mesh, samples)) {
+    const auto& [a, b, c] = mesh.triangles[place.triangle];
+    const Vector3 normal =
+        doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).normalized();
+    const Vector3 point = point_at(mesh, place);
+    // The other part lies beyond a face that two parts share.
+    if (all.count(point + beyond * normal) == 0) points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vector3> outer_points(const ConvexParts& parts) {
+  return outer_points(parts, Union(parts));
+}
+
+PartsMeasures measure_parts(const ConvexParts& parts, const IndexedMesh& grain,
+                            const Execution& execution) {
+  if (parts.empty()) refuse("There is no convex part with a volume. Give closed convex meshes.");
+  const Union all(parts);
+  PartsMeasures measures;
+  measures.grain_volume = volume_of(grain, execution);
+  if (!(measures.grain_volume > 0.0)) {
+    refuse("The grain encloses no positive volume. Give a closed mesh whose faces look outward.");
+  }
+  for (const ConvexBody& body : all.bodies()) measures.parts_volume += body.volume;
+  measures.shared_volume = shared_volume(all, execution);
+  measures.parts_volume -= measures.shared_volume;
+
+  const MeshDistance to_grain(grain, execution);
+  const std::vector<Vector3> points = outer_points(parts, all);
+  double squares = 0.0;
+  for (const double d : to_grain.distances(points, execution)) {
+    squares += d * d;
+    measures.largest_distance = std::max(measures.largest_distance, d);
+  }
+  measures.rms_distance =
+      std::sqrt(squares / static_cast<double>(std::max<std::size_t>(points.size(), 1)));
+
+  std::vector<Vector3> outside;
+  for (const Vector3& p : grain.points) {
+    const bool is_held = std::any_of(all.bodies().begin(), all.bodies().end(),
+                                     [&](const ConvexBody& body) { return body.excess(p) <= 0.0; });
+    if (!is_held) outside.push_back(p);
+  }
+  if (!outside.empty()) {
+    const MeshDistance to_parts(joined(parts), execution);
+    for (const double d : to_parts.distances(outside, execution)) {
+      measures.largest_gap = std::max(measures.largest_gap, d);
+    }
+  }
+  return measures;
+}
+
+}  // namespace wscvt

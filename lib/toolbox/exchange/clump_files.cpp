@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/exchange/clump_files.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/next_prime.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/base/version.h"
+
+namespace wscvt {
+
+namespace {
+
+/// A clump in the frame of a file.
+struct FramedClump {
+  std::vector<Sphere> spheres;
+  MassProperties mass;  ///< the grain's
+};
+
+FramedClump in_frame(const ClumpResult& clump, const FrameOptions& options) {
+  const SimulationFrame frame = simulation_frame(clump.original, options);
+  FramedClump framed;
+  for (const Sphere& sphere : clump.spheres) {
+    framed.spheres.push_back({frame.point(sphere.centre), frame.scale * sphere.radius});
+  }
+  framed.mass = in_frame(mass_properties(clump.original), frame);
+  return framed;
+}
+
+std::string numbers(const std::vector<double>& values, const char* between) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : between) + format_exact(value);
+  return text;
+}
+
+std::vector<double> row_of(const Sphere& sphere) {
+  return {sphere.centre.x(), sphere.centre.y(), sphere.centre.z(), sphere.radius};
+}
+
+std::string rows_of(const std::vector<Sphere>& spheres, const char* between) {
+  std::string text;
+  for (const Sphere& sphere : spheres) text += numbers(row_of(sphere), between) + "\n";
+  return text;
+}
+
+std::vector<double> moments(const FramedClump& clump) {
+  const Vector3& m = clump.mass.principal_moments;
+  return {m[0], m[1], m[2]};
+}
+
+std::string made_by_text() { return std::string("wscvt ") + version(); }
+
+std::string name_of(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+/// Returns the name of a fix in LIGGGHTS, which may have letters, digits and underscores.
+std::string liggghts_name(const std::string& path) {
+  std::string name = "clump_" + name_of(path);
+  name.resize(name.size() - std::string(".multisphere").size());
+  for (char& c : name) {
+    const bool is_kept = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    if (!is_kept) c = '_';
+  }
+  return name;
+}
+
+/// Returns a prime above 10,000 that differs between names: LIGGGHTS refuses two templates with one
+/// seed.
+int liggghts_seed(const std::string& name) {
+  std::uint32_t hash = 2166136261U;  // FNV-1a
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return next_prime(10000 + static_cast<int>(hash % 1000000000U));
+}
+
+std::string liggghts_fix(const FramedClump& clump, const std::string& path) {
+  const std::string name = liggghts_name(path);
+  return "# Made by " + made_by_text() +
+         ". Mass and tensor of inertia are the grain's, at unit density times\n"
+         "# the variable density. Each such file counts clump_type up. Before the first write:\n"
+         "#   variable density equal 2500\n#   variable clump_type equal 1\n"
+         "variable clump_mass equal ${density}*" +
+         format_exact(clump.mass.volume) + "\n" +
+         [&] {
+           std::string lines;
+           const std::vector<double> values = moments(clump);
+           const std::array<const char*, 3> names = {"xx", "yy", "zz"};
+           for (std::size_t k = 0; k < 3; ++k) {
+             lines += std::string("variable clump_") + names[k] + " equal ${density}*" +
+                      format_exact(values[k]) + "\n";
+           }
+           return lines;
+         }() +
+         "fix " + name + " all particletemplate/multisphere " +
+         std::to_string(liggghts_seed(name)) +
+         " atom_type 1 density constant ${density} nspheres " +
+         std::to_string(clump.spheres.size()) + " ntry 100000 spheres file \"" + name_of(path) +
+         "\" scale 1.0 type ${clump_type} mass ${clump_mass} inertia_tensor ${clump_xx} 0 0 "
+         "${clump_yy} 0 ${clump_zz} use_density\nvariable clump_type equal ${clump_type}+1\n";
+}
+
+std::string yade_script(const FramedClump& clump) {
+  std::string spheres;
+  for (const Sphere& sphere : clump.spheres) {
+    const Vector3& c = sphere.centre;
+    spheres += "    ((" + numbers({c.x(), c.y(), c.z()}, ", ") + "), " +
+               format_exact(sphere.radius) + "),\n";
+  }
+  return "# Made by " + made_by_text() +
+         ". A clump for Yade: import this file in a script of Yade's.\n"
+         "# Coordinates are the grain's principal axes about its centroid; mass and moments are "
+         "the\n"
+         "# grain's at unit density.\n"
+         "from yade import O, Matrix3, Quaternion, Vector3, utils\n\n"
+         "volume = " +
+         format_exact(clump.mass.volume) + "\nmoments = (" + numbers(moments(clump), ", ") +
+         ")\nspheres = [\n" + spheres +
+         "]\n\n"
+         "# For O.bodies.replaceByClumps, which takes mass and inertia from the spheres.\n"
+         "template = utils.clumpTemplate(relRadii=[r for c, r in spheres], relPositions=[c for c, "
+         "r in "
+         "spheres])\n\n\n"
+         "def add(position=(0, 0, 0), orientation=None, material=-1, density=2650.0):\n"
+         "    \"\"\"Adds a clump with the grain's mass and moments; its number, and those of its "
+         "spheres. Yade\n"
+         "    keeps the centre of mass of the spheres.\"\"\"\n"
+         "    turn = orientation if orientation is not None else Quaternion(1, 0, 0, 0)\n"
+         "    bodies = [utils.sphere(Vector3(position) + turn * Vector3(c), r, material=material) "
+         "for "
+         "c, r in spheres]\n"
+         "    number, members = O.bodies.appendClumped(bodies, discretization=0)\n"
+         "    state = O.bodies[number].state\n"
+         "    state.mass = density * volume\n"
+         "    to_grain = (turn.conjugate() * state.ori).toRotationMatrix()\n"
+         "    tensor = Matrix3(moments[0], 0, 0, 0, moments[1], 0, 0, 0, moments[2])\n"
+         "    turned = to_grain.transpose() * tensor * to_grain\n"
+         "    state.inertia = density * Vector3(turned[0, 0], turned[1, 1], turned[2, 2])\n"
+         "    return number, members\n";
+}
+
+std::string chrono_table(const FramedClump& clump) {
+  return "x,y,z,r\n" + rows_of(clump.spheres, ",") +
+         "# volume = " + format_exact(clump.mass.volume) +
+         "\n# Ixx, yy, zz = " + numbers(moments(clump), ", ") + "\n# made by " + made_by_text() +
+         "; mass is density times volume, moments are density times Ixx, yy, zz\n";
+}
+
+std::string pfc_command(const FramedClump& clump, const std::string& path) {
+  std::string name = name_of(path);
+  name.resize(name.size() - std::string(".p3dat").size());
+  std::replace(name.begin(), name.end(), '\'', '_');
+  std::string text = "; made by " + made_by_text() + "; mass properties are the grain's\n" +
+                     "clump template create ...\n  name '" + name + "' ...\n  pebbles " +
+                     std::to_string(clump.spheres.size()) + " ...\n";
+  for (const Sphere& sphere : clump.spheres) {
+    const Vector3& c = sphere.centre;
+    text += "    " + numbers({sphere.radius, c.x(), c.y(), c.z()}, " ") + " ...\n";
+  }
+  return text + "  volume " + format_exact(clump.mass.volume) + " ...\n  inertia " +
+         numbers(moments(clump), " ") + " 0 0 0\n";
+}
+
+/// LAMMPS adds the masses of atoms for the energies that it prints, but uses the body's mass and
+/// moments from the head of the file.
+std::string lammps_molecule(const FramedClump& clump, double density) {
+  const std::vector<Sphere>& spheres = clump.spheres;
+  double cubes = 0.0;
+  for (const Sphere& sphere : spheres) cubes += std::pow(sphere.radius, 3);
+  const double mass = density * clump.mass.volume;
+  std::string coordinates, types, diameters, masses;
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    const Vector3& c = spheres[k].centre;
+    const std::string number = std::to_string(k + 1) + " ";
+    coordinates += number + numbers({c.x(), c.y(), c.z()}, " ") + "\n";
+    types += number + "1\n";
+    diameters += number + format_exact(2.0 * spheres[k].radius) + "\n";
+    masses += number + format_exact(mass * std::pow(spheres[k].radius, 3) / cubes) + "\n";
+  }
+  std::vector<double> tensor = moments(clump);
+  for (double& moment : tensor) moment *= density;
+  return "# made by " + made_by_text() + "; mass and moments are the grain's, density " +
+         format_exact(density) + "\n\n" + std::to_string(spheres.size()) + " atoms\n" +
+         format_exact(mass) + " mass\n0 0 0 com\n" + numbers(tensor, " ") +
+         " 0 0 0 inertia\n\nCoords\n\n" + coordinates + "\nTypes\n\n" + types + "\nDiameters\n\n" +
+         diameters + "\nMasses\n\n" + masses;
+}
+
+/// Writes the format of MercuryDPM's Clump driver; readers before 2024 need these names in small
+/// letters.
+void write_mercury(const std::string& path, const FramedClump& clump) {
+  const std::filesystem::path folder(path);
+  std::error_code error;
+  for (const char* part : {"Clump", "Inertia"}) {
+    std::filesystem::create_directories(folder / part, error);  // writing reports errors
+  }
+  const std::vector<double> m = moments(clump);
+  write_file((folder / "Clump/Clump.txt").string(), rows_of(clump.spheres, ","));
+  write_file((folder / "Inertia/Mass.txt").string(), format_exact(clump.mass.volume) + "\n");
+  write_file((folder / "Inertia/TOI.txt").string(), numbers({m[0], 0, 0}, ",") + "\n" +
+                                                        numbers({0, m[1], 0}, ",") + "\n" +
+                                                        numbers({0, 0, m[2]}, ",") + "\n");
+  write_file((folder / "Inertia/PD.txt").string(), "1,0,0\n0,1,0\n0,0,1\n");
+}
+
+bool ends_with(const std::string& path, const std::string& ending) {
+  if (path.size() <= ending.size()) return false;
+  return std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char a, char b) {
+    return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b);
+  });
+}
+
+/// Returns the longest matching ending; empty if there is none.
+std::string clump_ending(const std::string& path) {
+  std::string found;
+  for (const std::string& ending : clump_endings()) {
+    if (ends_with(path, ending) && ending.size() > found.size()) found = ending;
+  }
+  return found;
+}
+
+}  // namespace
+
+const std::vector<std::string>& clump_endings() {
+  static const std::vector<std::string> endings = {
+      ".csv", ".multisphere", ".py", ".chrono.csv", ".mclump", ".p3dat", ".molecule"};
+  return endings;
+}
+
+bool is_clump_name(const std::string& path) { return !clump_ending(path).empty(); }
+
+void check_clump_path(const std::string& path) {
+  if (is_clump_name(path)) return;
+  refuse("\"" + path +
+         "\" does not have the ending of a clump format. Give a name that ends in .csv, "
+         ".multisphere (LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump "
+         "(MercuryDPM), .p3dat (PFC) or .molecule (LAMMPS).");
+}
+
+std::vector<std::string> files_of_clump(const std::string& path) {
+  const std::string ending = clump_ending(path);
+  if (ending == ".multisphere") return {path, path + ".in"};
+  if (ending == ".mclump") {
+    return {path + "/Clump/Clump.txt", path + "/Inertia/Mass.txt", path + "/Inertia/TOI.txt",
+            path + "/Inertia/PD.txt"};
+  }
+  return {path};
+}
+
+void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
+                 double density) {
+  check_clump_path(path);
+  require_in_range(density, clump_density_option);
+  const std::string ending = clump_ending(path);
+  FrameOptions used = frame;
+  if (ending != ".csv") used.frame = Frame::Principal;
+  const FramedClump framed = in_frame(clump, used);
+  if (ending == ".csv") {
+    write_file(path, "x,y,z,r\n" + rows_of(framed.spheres, ","));
+  } else if (ending == ".multisphere") {
+    write_file(path, rows_of(framed.spheres, " "));
+    write_file(path + ".in", liggghts_fix(framed, path));
+  } else if (ending == ".py") {
+    write_file(path, yade_script(framed));
+  } else if (ending == ".chrono.csv") {
+    write_file(path, chrono_table(framed));
+  } else if (ending == ".mclump") {
+    write_mercury(path, framed);
+  } else if (ending == ".molecule") {
+    write_file(path, lammps_molecule(framed, density));
+  } else {
+    write_file(path, pfc_command(framed, path));
+  }
+}
+
+namespace {
+
+constexpr const char* header = "x,y,z,r";
+
+/// Reads a line without its end.
+bool next_line(std::istream& stream, std::string& line) {
+  if (!std::getline(stream, line)) return false;
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return true;
+}
+
+}  // namespace
+
+bool is_clump_file(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  return next_line(stream, line) && line == header;
+}
+
+std::vector<Sphere> read_clump(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream.is_open()) {
+    throw Error(ErrorCode::InputOutput,
+                "\"" + path + "\" cannot be opened. Check that the file exists.");
+  }
+  std::string line;
+  if (!next_line(stream, line) || line != header) {
+    refuse("\"" + path + "\" is not a table of spheres: its first line is not \"x,y,z,r\".");
+  }
+  std::vector<Sphere> spheres;
+  for (std::size_t number = 2; next_line(stream, line); ++number) {
+    if (line.empty() || line.front() == '#') continue;
+    std::array<double, 4> values{};
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    bool is_read = true;
+    for (std::size_t k = 0; k < values.size() && is_read; ++k) {
+      const auto [rest, error] = std::from_chars(at, end, values[k]);
+      const bool is_last = k + 1 == values.size();
+      is_read = error == std::errc() && std::isfinite(values[k]) &&
+                (is_last ? rest == end : rest != end && *rest == ',');
+      at = rest + 1;
+    }
+    if (!is_read || !(values[3] > 0.0)) {
+      refuse("Line " + std::to_string(number) + " of \"" + path +
+             "\" is not x,y,z,r with a radius above 0.");
+    }
+    spheres.push_back({Vector3(values[0], values[1], values[2]), values[3]});
+  }
+  if (spheres.empty()) refuse("\"" + path + "\" contains no sphere.");
+  return spheres;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "toolbox/convex/convex_parts.h"
+#include "wscvt/base/option.h"
+#include "wscvt/measures/descriptors.h"
+
+namespace wscvt {
+
+/// Density of a grain in the files of engines that need masses.
+inline constexpr NumberOption<double> parts_density_option = {
+    "density",     "density",
+    0.0,           std::numeric_limits<double>::infinity(),
+    Ends::Neither, "mass per unit volume, for mass and inertia in .urdf and .xml"};
+
+/// Returns the endings of files of parts: ".obj", ".urdf", ".xml".
+const std::vector<std::string>& part_endings();
+
+/// Throws Error(InvalidInput), with the endings, for a name with another ending.
+void check_part_file(const std::string& path);
+
+/// Writes parts in the format of the ending, whole or not at all (see write_file):
+/// - .obj: all parts, one group per part, "part_1" to "part_K";
+/// - .urdf: a robot of one link, with the mass and inertia of `mass` times `density`. Its parts are
+///   OBJ files beside it, "NAME_1.obj" to "NAME_K.obj", which are written first;
+/// - .xml: MuJoCo's MJCF, a free body with the same mass and inertia; the file contains the parts.
+/// Coordinates keep all their digits. Throws Error(InputOutput) when a file cannot be written, and
+/// as check_part_file.
+void write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,
+                 double density);
+
+}  // namespace wscvt

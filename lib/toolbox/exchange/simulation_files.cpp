@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/exchange/simulation_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "toolbox/exchange/distance_grid.h"
+#include "toolbox/exchange/node_table.h"
+#include "toolbox/exchange/rockable_shape.h"
+#include "toolbox/exchange/simulation_options.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/remesh/repaired_scan.h"
+#include "wscvt/report/json.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Returns a file's name as one word.
+std::string word_of(const std::string& path) {
+  std::string word = std::filesystem::path(path).stem().string();
+  std::replace_if(
+      word.begin(), word.end(), [](unsigned char c) { return c <= ' '; }, '_');
+  return word.empty() ? "grain" : word;
+}
+
+std::string grid_description(const DistanceGrid& grid, const RemeshResult& result,
+                             const SimulationFrame& frame, const SimulationOptions& options,
+                             const ReportOrigin& origin) {
+  const Eigen::Quaterniond& axes = frame.axes;
+  return json_document(
+      {{"format", "wscvt-grid"},
+       {"version", 1},
+       {"made_by", made_by()},
+       {"source", told(origin.source)},
+       {"date", told(origin.date)},
+       {"surface", key_of(options.surface)},
+       {"values", "signed distance, negative inside, [x][y][z]"},
+       {"origin", json_of(grid.origin)},
+       {"spacing", grid.spacing},
+       {"counts", {{"x", grid.counts[0]}, {"y", grid.counts[1]}, {"z", grid.counts[2]}}},
+       {"frame",
+        {{"name", key_of(options.frame.frame)},
+         {"origin_in_scan", json_of(frame.origin)},
+         {"axes_in_scan", {{"w", axes.w()}, {"x", axes.x()}, {"y", axes.y()}, {"z", axes.z()}}},
+         {"scale", frame.scale}}},
+       {"mass", json_of(in_frame(mass_properties(result.original), frame))}});
+}
+
+}  // namespace
+
+void check_simulation_options(const SimulationOptions& options) {
+  check_frame_options(options.frame);
+  require_valid(options.surface);
+  require_in_range(options.grid.spacing, grid_spacing_option);
+}
+
+void check_nodes_path(const std::string& path, const SimulationOptions& options) {
+  const std::string ending = ending_of(path);
+  if (ending == ".csv" || ending == ".vtp") return;
+  if (ending != ".shp") {
+    throw Error(ErrorCode::InvalidInput, "Unknown format of a node table: \"" + path +
+                                             "\". Use .csv, .vtp or .shp (Rockable).");
+  }
+  if (options.frame.frame != Frame::Principal) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "\"" + path +
+            "\" is a Rockable shape. It must be in its principal axes: use the frame principal.");
+  }
+}
+
+void check_grid_path(const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (ending == ".npy" || ending == ".vti" || ending == ".json") return;
+  throw Error(ErrorCode::InvalidInput, "Unknown format of signed distances: \"" + path +
+                                           "\". Use .npy, .vti or .json (NetDEM).");
+}
+
+std::string grid_description_path(const std::string& path) {
+  return ending_of(path) == ".npy" ? path + ".json" : "";
+}
+
+void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const SimulationOptions& options,
+                   const Execution& execution) {
+  if (options.grid.spacing == 0.0) return;
+  try {
+    scan = repair_scan(std::move(scan), remesh, execution).checked.mesh;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    return;
+  }
+  const SimulationFrame frame = simulation_frame(describe_shape(scan, execution), options.frame);
+  check_grid(in_frame(std::move(scan), frame), options.grid);
+}
+
+void write_nodes(const std::string& path, const RemeshResult& result,
+                 const SimulationOptions& options) {
+  check_nodes_path(path, options);
+  const SimulationFrame frame = simulation_frame(result.original, options.frame);
+  const NodeTable nodes = node_table(in_frame(result.mesh, frame));
+  const std::string ending = ending_of(path);
+  if (ending == ".csv") return write_file(path, nodes_csv(nodes));
+  if (ending == ".vtp") return write_file(path, nodes_vtp(nodes));
+  write_file(path, rockable_shape(word_of(path), nodes,
+                                  in_frame(mass_properties(result.original), frame)));
+}
+
+void write_distance_grid(const std::string& path, const RemeshResult& result,
+                         const SimulationOptions& options, const ReportOrigin& origin,
+                         const Execution& execution) {
+  check_grid_path(path);
+  const SimulationFrame frame = simulation_frame(result.original, options.frame);
+  const IndexedMesh& surface =
+      options.surface == GridSurface::Remesh ? result.mesh : result.repaired_scan;
+  const DistanceGrid grid = distance_grid(in_frame(surface, frame), options.grid, execution);
+  const std::string ending = ending_of(path);
+  if (ending == ".vti") return write_file(path, grid_vti(grid));
+  if (ending == ".json") return write_file(path, grid_netdem(grid));
+  write_file(path, grid_npy(grid));
+  write_file(grid_description_path(path), grid_description(grid, result, frame, options, origin));
+}
+
+}  // namespace wscvt

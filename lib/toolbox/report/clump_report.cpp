@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/report/clump_report.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/report/csv_table.h"
+#include "wscvt/report/figures.h"
+#include "wscvt/report/html_document.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/mass_table.h"
+#include "wscvt/report/page_figures.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Options under their command-line names.
+struct OptionMembers {
+  Json members = Json::object();
+  template <class Number>
+  void operator()(const Number& value, const NumberOption<Number>& option) {
+    members[std::string(option.key)] = value;
+  }
+  void operator()(const bool& value, const FlagOption& option) {
+    members[std::string(option.key)] = value;
+  }
+};
+
+double percent_of_radius(const ClumpResult& clump, double length) {
+  return 100.0 * length / clump.equivalent_radius;
+}
+
+Json json_of(const ContactError& error) {
+  return {{"mean_percent", error.mean}, {"scatter_percent", error.scatter}};
+}
+
+Json json_of(const SphereMass& mass) {
+  return {{"mass", json_of(mass.mass)},
+          {"volume_error_percent", mass.error.volume_percent},
+          {"centroid_error_percent", mass.error.centroid_percent},
+          {"inertia_error_percent", mass.error.inertia_percent}};
+}
+
+Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
+  const ContactError none = {std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::quiet_NaN()};
+  Json stages = Json::array();
+  for (const ClumpStage& stage : clump.stages) {
+    stages.push_back({{"spheres", stage.spheres},
+                      {"rms_percent", percent_of_radius(clump, stage.rms_distance)}});
+  }
+  Json spheres = Json::array();
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Sphere& sphere : clump.spheres) {
+    smallest = std::min(smallest, sphere.radius);
+    spheres.push_back({sphere.centre.x(), sphere.centre.y(), sphere.centre.z(), sphere.radius});
+  }
+  return {{"format", "wscvt-clump"},
+          {"version", 1},
+          {"made_by", made_by()},
+          {"source", told(origin.source)},
+          {"date", told(origin.date)},
+          {"options", wscvt::json_of(clump.options)},
+          {"input",
+           {{"vertices", clump.input.vertices},
+            {"faces", clump.input.faces},
+            {"genus", clump.input.genus},
+            {"equivalent_radius", clump.equivalent_radius}}},
+          {"sphere_count", clump.spheres.size()},
+          {"smallest_radius", smallest},
+          {"rms_distance", clump.rms_distance},
+          {"rms_percent", percent_of_radius(clump, clump.rms_distance)},
+          {"largest_distance", clump.largest_distance},
+          {"largest_percent", percent_of_radius(clump, clump.largest_distance)},
+          {"intersection_over_union", clump.intersection_over_union},
+          {"first_contact",
+           {{"clump", json_of(clump.contact)},
+            {"remesh", json_of(clump.remesh_contact.value_or(none))}}},
+          {"grain", wscvt::json_of(mass_properties(clump.original))},
+          {"union", json_of(clump.united)},
+          {"sum", json_of(clump.summed)},
+          {"stages", std::move(stages)},
+          {"spheres", std::move(spheres)},
+          {"warnings", clump.warnings}};
+}
+
+std::string counted_spheres(const ClumpResult& clump) {
+  const std::size_t count = clump.spheres.size();
+  return std::to_string(count) + (count == 1 ? " sphere" : " spheres");
+}
+
+std::vector<std::vector<std::string>> error_rows(const ClumpResult& clump) {
+  const auto distance = [&](const std::string& label, double length) {
+    return std::vector<std::string>{label, format_number(length, 4),
+                                    format_number(percent_of_radius(clump, length), 3)};
+  };
+  return {{"error of the clump", "length", "% of equivalent radius"},
+          distance("rms distance from scan to clump", clump.rms_distance),
+          distance("largest distance from scan to clump", clump.largest_distance)};
+}
+
+std::vector<std::vector<std::string>> contact_rows(const ClumpResult& clump) {
+  const auto row = [](const std::string& name, const ContactError& error) {
+    return std::vector<std::string>{name, format_number(error.mean, 3),
+                                    format_number(error.scatter, 3)};
+  };
+  std::vector<std::vector<std::string>> rows = {
+      {"first contact, % of equivalent radius", "mean error", "scatter"},
+      row("clump of " + counted_spheres(clump), clump.contact)};
+  if (clump.remesh_contact) {
+    rows.push_back(row("remesh of " + std::to_string(clump.options.compared_nodes) + " nodes",
+                       *clump.remesh_contact));
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> mass_error_rows(const ClumpResult& clump) {
+  const auto row = [](const std::string& name, const MassError& error) {
+    return std::vector<std::string>{name, format_number(error.volume_percent, 3),
+                                    format_number(error.centroid_percent, 3),
+                                    format_number(error.inertia_percent, 3)};
+  };
+  return {{"error if taken for the grain's", "volume %", "centroid, % of radius", "inertia %"},
+          row("union of the spheres", clump.united.error),
+          row("sum over the spheres", clump.summed.error)};
+}
+
+std::vector<NamedMass> masses(const ClumpResult& clump) {
+  return {{"grain", mass_properties(clump.original)},
+          {"union of the spheres", clump.united.mass},
+          {"sum over the spheres", clump.summed.mass}};
+}
+
+/// The mass properties for a log: one number per cell, since its lines have 80 columns.
+std::vector<std::vector<std::string>> single_mass_rows(const ClumpResult& clump) {
+  std::vector<std::vector<std::string>> rows = {{"Mass at unit density", "grain", "union", "sum"}};
+  const std::vector<NamedMass> bodies = masses(clump);
+  const auto add = [&](const std::string& label, const auto& number_of) {
+    rows.push_back({"  " + label});
+    for (const NamedMass& body : bodies) {
+      rows.back().push_back(format_number(number_of(body.mass)));
+    }
+  };
+  constexpr std::array<char, 3> axes{'x', 'y', 'z'};
+  add("volume, length^3", [](const MassProperties& m) { return m.volume; });
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    add(std::string("centroid ") + axes[static_cast<std::size_t>(i)] + ", length",
+        [i](const MassProperties& m) { return m.centroid[i]; });
+  }
+  for (const auto& [i, j] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}) {
+    add(std::string("inertia about it ") + axes[static_cast<std::size_t>(i)] +
+            axes[static_cast<std::size_t>(j)] + ", length^5",
+        [i = i, j = j](const MassProperties& m) { return m.inertia_tensor(i, j); });
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    add("principal moment " + std::to_string(i + 1) + ", length^5",
+        [i](const MassProperties& m) { return m.principal_moments[i]; });
+  }
+  // In Eigen's order w comes last.
+  for (const auto& [name, i] : {std::pair('w', 3), {'x', 0}, {'y', 1}, {'z', 2}}) {
+    add(std::string("principal axes, quaternion ") + name,
+        [i = i](const MassProperties& m) { return m.principal_axes.coeffs()[i]; });
+  }
+  return rows;
+}
+
+Json json_of(const ClumpOptions& options) {
+  OptionMembers members;
+  for_each_clump_option(options, members);
+  return std::move(members.members);
+}
+
+}  // namespace
+
+std::vector<std::string> clump_lines(const ClumpResult& clump) {
+  std::vector<std::string> lines = {
+      "Scan        " + std::to_string(clump.input.vertices) + " vertices, " +
+          std::to_string(clump.input.faces) + " faces, equivalent radius " +
+          format_number(clump.equivalent_radius),
+      "Clump       " + counted_spheres(clump) + ", intersection over union " +
+          format_number(clump.intersection_over_union, 4)};
+  const auto append = [&](const std::vector<std::vector<std::string>>& rows) {
+    for (std::string& line : aligned_lines(rows)) lines.push_back(std::move(line));
+  };
+  append(error_rows(clump));
+  append(contact_rows(clump));
+  append(mass_error_rows(clump));
+  append(single_mass_rows(clump));
+  return lines;
+}
+
+std::string clump_json(const ClumpResult& clump, const ReportOrigin& origin) {
+  return json_document(report_of(clump, origin));
+}
+
+std::string clump_csv(const ClumpResult& clump, const ReportOrigin& origin) {
+  return csv_of(report_of(clump, origin));
+}
+
+std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
+                       const Execution& execution) {
+  const PageFigures figures =
+      page_figures(ShownMesh{clump.repaired_scan, "scan"}, {clump.surface, "clump"}, execution);
+  const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
+  HtmlDocument page("Clump" + (name.empty() ? "" : " of " + name) + " with " +
+                    counted_spheres(clump));
+  page.add_paragraph(origin_sentence(origin));
+  for (const std::string& warning : clump.warnings) page.add_warning(warning);
+  page.add_figures(figures.pictures);
+  page.add_heading("Distances");
+  page.add_rows(error_rows(clump));
+  page.add_paragraph("Intersection over union of the volumes: " +
+                     format_number(clump.intersection_over_union, 4) + ".");
+  page.add_heading("First contact");
+  page.add_paragraph(
+      "Two equal bodies near each other along the line through their centroids, in " +
+      std::to_string(ContactHeights::poses * (ContactHeights::poses - 1)) +
+      " pairs of poses. The error is the distance of the centroids at first contact, minus the "
+      "distance for two scans. If the error is negative, the bodies get too close.");
+  page.add_rows(contact_rows(clump));
+  page.add_heading("Mass properties");
+  page.add_rows(mass_rows(masses(clump)));
+  page.add_rows(mass_error_rows(clump));
+  std::vector<CurvePoint> points;
+  for (const ClumpStage& stage : clump.stages) {
+    points.push_back(
+        {static_cast<double>(stage.spheres), percent_of_radius(clump, stage.rms_distance)});
+  }
+  std::vector<Figure> curves = {figures.distributions.back()};
+  if (points.size() > 1) {
+    curves.push_back({logarithmic_figure("number of spheres", "rms distance, %", std::move(points),
+                                         clump.options.max_error_percent),
+                      "Rms distance from scan to clump, in % of the equivalent radius, for fewer "
+                      "spheres."});
+  }
+  page.add_heading("Distributions");
+  page.add_figures(curves);
+  page.add_heading("Log");
+  page.add_lines(clump_lines(clump));
+  return page.text();
+}
+
+bool is_clump_table(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  return std::getline(stream, line) && line.rfind("grain,status,error", 0) == 0 &&
+         line.find(",first_contact.clump.mean_percent,") != std::string::npos;
+}
+
+void check_clump_report(const std::string& path) {
+  if (report_format(path) == ReportFormat::Row) return check_table(path, clump_csv(ClumpResult()));
+  check_writable(path);
+}
+
+void write_report(const std::string& path, const ClumpResult& clump, const ReportOrigin& origin,
+                  const Execution& execution) {
+  switch (report_format(path)) {
+    case ReportFormat::Page:
+      return write_file(path, clump_html(clump, origin, execution));
+    case ReportFormat::Document:
+      return write_file(path, clump_json(clump, origin));
+    case ReportFormat::Row:
+      return append_to_table(path, clump_csv(clump, origin));
+  }
+}
+
+}  // namespace wscvt

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "toolbox/report/sample_page_script.h"
+#include "toolbox/report/sample_report.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/report/html_document.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/mesh_view.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Keeps the page below 6 MB: 50 descriptors of 10,000 grains are 4 MB with four digits.
+constexpr std::size_t most_grains = 10000;
+constexpr std::size_t most_thumbnails = 100;
+/// Drawn at twice the size, then halved.
+constexpr int thumbnail_pixels = 144;
+
+constexpr const char* page_style =
+    "<style>select, input { font: inherit; } input { width: 5em; } .thumbs { display: grid; "
+    "grid-template-columns: repeat(auto-fill, minmax(5em, 1fr)); gap: 0.3em; max-height: 34em; "
+    "overflow-y: auto; } .thumbs figcaption { text-align: center; } figcaption button { "
+    "margin-left: 0.5em; font-size: 0.9em; } @media print { button, select, input { display: none; "
+    "} .thumbs { max-height: none; } .thumbs.thumbs { grid-template-columns: repeat(10, 1fr); } "
+    "}</style>\n";
+
+/// Returns at most `most` rows, evenly spaced in the order of size. They keep the shape of the
+/// distribution.
+std::vector<std::size_t> evenly_by_size(const GrainSample& sample, std::size_t most) {
+  std::vector<std::size_t> order(sample.grains.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (order.size() <= most) return order;
+  const auto size = [&](std::size_t k) { return sample.sizes[static_cast<Eigen::Index>(k)]; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return size(a) < size(b); });
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < most; ++k) {
+    chosen.push_back(order[k * (order.size() - 1) / (most - 1)]);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+/// Four digits are enough for a figure.
+void append_short(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += "null";
+    return;
+  }
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::general, 4);
+  text.append(digits.data(), end.ptr);
+}
+
+template <class Vector>
+std::string short_list(const Vector& values, const std::vector<std::size_t>& rows) {
+  std::string text = "[";
+  for (const std::size_t row : rows) {
+    if (text.size() > 1) text += ',';
+    append_short(text, values[static_cast<Eigen::Index>(row)]);
+  }
+  return text + "]";
+}
+
+/// Writes JSON that is safe inside an HTML element.
+std::string in_page(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string result;
+  for (const char c : text) {
+    if (c == '<') {
+      result += "\\u003c";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+/// Returns a picture as a data URL; empty if the mesh cannot be read.
+std::string thumbnail(const std::string& file, const Execution& execution) {
+  IndexedMesh mesh;
+  try {
+    mesh = read_mesh(file, execution);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    return "";
+  }
+  const MeshView view = view_of({&mesh}, thumbnail_pixels);
+  const std::string element =
+      image_element(halved(draw(mesh, look_at(mesh, view), view, false, {})), "");
+  const std::size_t begin = element.find("data:");
+  return element.substr(begin, element.find('"', begin) - begin);
+}
+
+std::string thumbnails(const ReportedSample& one, const std::vector<std::size_t>& rows,
+                       std::size_t most, const Execution& execution) {
+  std::string text = "{";
+  if (!one.folder.empty() && !one.sample.files.empty()) {
+    const std::vector<std::size_t> shown = evenly_by_size(one.sample, most);
+    for (std::size_t place = 0; place < rows.size(); ++place) {
+      if (!std::binary_search(shown.begin(), shown.end(), rows[place])) continue;
+      execution.report(0.0, "Drawing the grains");
+      const auto file = std::filesystem::path(one.folder) / one.sample.files[rows[place]];
+      const std::string picture = thumbnail(file.string(), execution);
+      if (picture.empty()) continue;
+      text += (text.size() > 1 ? ",\"" : "\"") + std::to_string(place) + "\":\"" + picture + "\"";
+    }
+  }
+  return text + "}";
+}
+
+std::string size_name(const GrainSample& sample) {
+  const std::string name = sample.size_name.substr(0, sample.size_name.find(':'));
+  return sample.size_unit.empty() ? name : name + ", " + sample.size_unit;
+}
+
+std::string sample_data(const ReportedSample& one, std::size_t samples,
+                        const Execution& execution) {
+  const GrainSample& sample = one.sample;
+  const std::vector<std::size_t> rows = evenly_by_size(sample, most_grains / samples);
+  Json grains = Json::array();
+  for (const std::size_t row : rows) {
+    grains.push_back(std::filesystem::path(sample.grains[row]).filename().string());
+  }
+  Json columns = Json::array();
+  std::string values = "[";
+  for (std::size_t k = 0; k < sample.columns.size(); ++k) {
+    columns.push_back({{"name", sample.columns[k].name}, {"unit", sample.columns[k].unit}});
+    if (k > 0) values += ',';
+    values += short_list(sample.values.col(static_cast<Eigen::Index>(k)), rows);
+  }
+  const Json head = {{"name", one.name},
+                     {"count", sample.grains.size()},
+                     {"sizeName", size_name(sample)},
+                     {"columns", columns},
+                     {"grains", grains}};
+  std::string text = in_page(head);
+  text.pop_back();
+  return text + ",\"size\":" + short_list(sample.sizes, rows) +
+         ",\"mass\":" + short_list(sample.masses, rows) + ",\"values\":" + values +
+         "],\"thumbs\":" + thumbnails(one, rows, most_thumbnails / samples, execution) + "}";
+}
+
+Json needed_of(const SampleStatistics& s) {
+  Json list = Json::array();
+  const auto add = [&](const std::string& name, const Estimate& e) {
+    list.push_back({{"name", name}, {"value", e.value}, {"lower", e.lower}, {"upper", e.upper}});
+  };
+  add("D10 by mass", s.size_by_mass.d10);
+  add("D50 by mass", s.size_by_mass.d50);
+  add("D60 by mass", s.size_by_mass.d60);
+  for (const ColumnStatistics& column : s.columns) {
+    if (column.count > 0) add("mean of " + column.column.name, column.by_number.mean);
+  }
+  return list;
+}
+
+Json levels_of(const DetailLevels& levels) {
+  Json rows = Json::array();
+  for (const DescriptorLevels& row : levels.rows) {
+    Json median = Json::array();
+    Json most = Json::array();
+    for (const LevelError& error : row.levels) {
+      median.push_back(error.median);
+      most.push_back(error.percent_90);
+    }
+    rows.push_back({{"name", row.name}, {"median", median}, {"percent_90", most}});
+  }
+  return {{"nodes", levels.nodes}, {"mark", levels.mark_percent}, {"rows", rows}};
+}
+
+std::string data_of(const SampleReport& report, const Execution& execution) {
+  std::string text = "{\"samples\":[";
+  for (const ReportedSample& one : report.samples) {
+    if (&one != &report.samples.front()) text += ',';
+    text += sample_data(one, report.samples.size(), execution);
+  }
+  text += "],\"needed\":" + in_page(needed_of(report.samples.front().statistics));
+  return text + ",\"levels\":" + (report.levels ? in_page(levels_of(*report.levels)) : "null") +
+         "}";
+}
+
+std::string with_interval(const Estimate& e) {
+  std::string text = format_number(e.value, 4);
+  if (std::isfinite(e.lower)) {
+    text += " (" + format_number(e.lower, 4) + " to " + format_number(e.upper, 4) + ")";
+  }
+  return text;
+}
+
+std::vector<std::vector<std::string>> size_table(const SampleReport& report) {
+  std::vector<std::vector<std::string>> rows = {{"size"}};
+  const auto add = [&](const std::string& label, Estimate SizeEstimates::*member) {
+    std::vector<std::string> row = {label};
+    for (const ReportedSample& one : report.samples) {
+      row.push_back(with_interval(one.statistics.size_by_mass.*member));
+      row.push_back(with_interval(one.statistics.size_by_number.*member));
+    }
+    rows.push_back(std::move(row));
+  };
+  for (const ReportedSample& one : report.samples) {
+    const std::string of = report.samples.size() > 1 ? one.name + ", " : "";
+    rows[0].push_back(of + "by mass");
+    rows[0].push_back(of + "by number");
+  }
+  add("D10", &SizeEstimates::d10);
+  add("D30", &SizeEstimates::d30);
+  add("D50", &SizeEstimates::d50);
+  add("D60", &SizeEstimates::d60);
+  add("D90", &SizeEstimates::d90);
+  add("Cu = D60 / D10", &SizeEstimates::uniformity);
+  add("Cc = D30^2 / (D10 D60)", &SizeEstimates::curvature);
+  return rows;
+}
+
+std::vector<std::vector<std::string>> statistics_table(const ReportedSample& one) {
+  std::vector<std::vector<std::string>> rows = {{"descriptor", "grains", "mean by number",
+                                                 "std. dev. (n - 1)", "10 %", "median", "90 %",
+                                                 "mean by mass", "correlation with size"}};
+  for (const ColumnStatistics& c : one.statistics.columns) {
+    if (c.count == 0) continue;
+    const auto value = [](const Estimate& e) { return format_number(e.value, 4); };
+    rows.push_back({heading_of(c.column), std::to_string(c.count), with_interval(c.by_number.mean),
+                    value(c.by_number.deviation), value(c.by_number.percent_10),
+                    value(c.by_number.median), value(c.by_number.percent_90), value(c.by_mass.mean),
+                    with_interval(c.size_correlation)});
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> comparison_table(const SampleReport& report) {
+  std::vector<std::vector<std::string>> rows = {{"descriptor", "K-S by number", "p",
+                                                 "Wasserstein / deviation", "p", "K-S by mass", "p",
+                                                 "Wasserstein / deviation", "p"}};
+  for (const ColumnComparison& row : report.comparison) {
+    std::vector<std::string> cells = {heading_of(row.column)};
+    for (const SampleDistance& d : {row.by_number, row.by_mass}) {
+      for (const double value :
+           {d.kolmogorov, d.kolmogorov_p, d.wasserstein / row.deviation, d.wasserstein_p}) {
+        cells.push_back(format_number(value, 3));
+      }
+    }
+    rows.push_back(std::move(cells));
+  }
+  return rows;
+}
+
+/// An error this small is rounding.
+std::string shown_error(double percent) {
+  return percent < 1e-9 ? "exact" : format_number(percent, 3);
+}
+
+std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels) {
+  std::vector<std::vector<std::string>> rows = {{"median, 90 % of the errors, %"}};
+  for (const double nodes : levels.nodes) rows[0].push_back("N = " + format_number(nodes, 4));
+  rows[0].push_back("N for " + format_number(levels.mark_percent, 3) + " %");
+  for (const DescriptorLevels& row : levels.rows) {
+    std::vector<std::string> cells = {row.name};
+    for (const LevelError& error : row.levels) {
+      cells.push_back(error.count == 0
+                          ? "-"
+                          : shown_error(error.median) + ", " + shown_error(error.percent_90));
+    }
+    cells.push_back(format_number(row.nodes_needed, 4));
+    rows.push_back(std::move(cells));
+  }
+  return rows;
+}
+
+void add_place(HtmlDocument& page, const std::string& id) {
+  page.add_html("<p id=\"" + id + "-choice\"></p>\n<div class=\"figures\" id=\"" + id +
+                "\"></div>\n");
+}
+
+void add_introduction(HtmlDocument& page, const SampleReport& report) {
+  page.add_paragraph(origin_sentence({}));
+  for (const ReportedSample& one : report.samples) {
+    const std::size_t count = one.sample.grains.size();
+    std::string text = one.name + ": " + std::to_string(count) + " grains";
+    if (one.sample.failed > 0) text += ", " + std::to_string(one.sample.failed) + " failed";
+    text += ". Size: " + one.sample.size_name + ".";
+    if (count > most_grains / report.samples.size()) {
+      text += " Figures show " + std::to_string(most_grains / report.samples.size()) +
+              " of the grains, chosen evenly by size. Tables use all grains.";
+    }
+    page.add_paragraph(text);
+    for (const std::string& note : one.sample.notes) page.add_warning(note);
+  }
+  const int repetitions = report.samples.front().statistics.repetitions;
+  if (repetitions > 0) {
+    page.add_paragraph("In brackets: 95 % intervals from " + std::to_string(repetitions) +
+                       " random samples drawn from this one (percentile bootstrap, seed " +
+                       std::to_string(report.options.seed) + ").");
+  }
+}
+
+}  // namespace
+
+std::string sample_html(const SampleReport& report, const Execution& execution) {
+  std::string title = "Sample " + report.samples.front().name;
+  if (report.samples.size() > 1)
+    title = "Samples " + report.samples.front().name + " and " + report.samples.back().name;
+  HtmlDocument page(title);
+  page.add_html(page_style);
+  add_introduction(page, report);
+  page.add_heading("Size");
+  page.add_rows(size_table(report));
+  add_place(page, "curves");
+  if (!report.comparison.empty()) {
+    page.add_heading("Distances between the samples");
+    page.add_paragraph(
+        "K-S: largest difference of the fractions below a value (Kolmogorov and Smirnov). "
+        "Wasserstein: "
+        "area between the two fractions, over the first sample's standard deviation. p: fraction "
+        "of "
+        "random partitions of all grains that are as far apart. If p < 0.05, the samples differ by "
+        "more than chance.");
+    page.add_rows(comparison_table(report));
+  }
+  page.add_heading("Form");
+  add_place(page, "forms");
+  page.add_heading("Descriptors");
+  add_place(page, "distributions");
+  if (report.levels) {
+    page.add_heading("Errors of the remeshes against the number of nodes");
+    page.add_paragraph(
+        "Distances and contact errors are in % of the equivalent radius, errors of descriptors in "
+        "% of the scan's value, all without sign. Contact error: distance of two remeshes at first "
+        "contact, minus the distance of two scans, over random pairs of poses. The table has its "
+        "mean and its standard deviation over the pairs (scatter).");
+    add_place(page, "levels");
+    page.add_rows(levels_table(*report.levels));
+  }
+  page.add_heading("Number of grains needed");
+  page.add_html(
+      "<p><label>Wanted 95 % interval: value &plusmn; <input id=\"wanted\" type=\"number\" "
+      "value=\"2\" min=\"0.01\" step=\"any\"> %</label></p>\n<div class=\"wide\"><table><thead><tr>"
+      "<th>statistic</th><th>value</th><th>interval now, &plusmn; %</th><th>grains needed</th></tr>"
+      "</thead><tbody id=\"needed\"></tbody></table></div>\n");
+  page.add_heading("Grains");
+  page.add_html("<p id=\"thumb-choice\"></p>\n<div class=\"thumbs\" id=\"thumbs\"></div>\n");
+  page.add_heading("All descriptors");
+  for (const ReportedSample& one : report.samples) {
+    if (report.samples.size() > 1) page.add_paragraph(one.name + ":");
+    page.add_rows(statistics_table(one));
+  }
+  page.add_paragraph(
+      "Correlation: rank correlation (Spearman). Reports as .csv or .json have intervals for all "
+      "columns.");
+  page.add_html("<script type=\"application/json\" id=\"data\">" + data_of(report, execution) +
+                "</script>\n<script>" + sample_page_script + "</script>\n");
+  return page.text();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/report/sample_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <utility>
+
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Descriptors of the terminal's table. The files contain all descriptors.
+constexpr const char* main_columns[] = {"volume",
+                                        "area",
+                                        "equivalent_diameter",
+                                        "sphericity_wadell",
+                                        "convexity",
+                                        "aspect_ratio_box",
+                                        "zingg_elongation_box",
+                                        "zingg_flatness_box",
+                                        "roundness_wadell",
+                                        "sdq_invariant",
+                                        "sq"};
+
+bool is_main(const std::string& name) {
+  return std::find(std::begin(main_columns), std::end(main_columns), name) !=
+         std::end(main_columns);
+}
+
+/// Errors of the remesh itself, not of a descriptor.
+bool is_distance_or_contact(const std::string& name) {
+  return name == "rms_distance" || name.rfind("contact_error_", 0) == 0;
+}
+
+std::string short_number(double value) { return format_number(value, 4); }
+
+/// Visits a sample's sizes: the name, the statistic by mass and by number.
+template <class Visitor>
+void for_each_size(const SampleStatistics& s, const Visitor& visit) {
+  const std::pair<const char*, Estimate SizeEstimates::*> rows[] = {
+      {"D10", &SizeEstimates::d10},     {"D30", &SizeEstimates::d30},
+      {"D50", &SizeEstimates::d50},     {"D60", &SizeEstimates::d60},
+      {"D90", &SizeEstimates::d90},     {"Cu", &SizeEstimates::uniformity},
+      {"Cc", &SizeEstimates::curvature}};
+  for (const auto& [name, member] : rows) {
+    visit(name, s.size_by_mass.*member, s.size_by_number.*member);
+  }
+}
+
+/// Visits a descriptor's statistics: the name and the estimate.
+template <class Visitor>
+void for_each_estimate(const ColumnEstimates& c, const Visitor& visit) {
+  visit("mean", c.mean);
+  visit("standard_deviation", c.deviation);
+  visit("percent_10", c.percent_10);
+  visit("median", c.median);
+  visit("percent_90", c.percent_90);
+}
+
+std::vector<std::string> wrapped(const std::string& text) {
+  constexpr std::size_t most = 80;
+  std::vector<std::string> lines;
+  std::string remaining = text;
+  while (remaining.size() > most) {
+    std::size_t space = remaining.rfind(' ', most);
+    if (space == std::string::npos || space == 0) space = remaining.find(' ', 1);
+    if (space == std::string::npos) break;
+    lines.push_back(remaining.substr(0, space));
+    remaining.erase(0, space + 1);
+  }
+  lines.push_back(remaining);
+  return lines;
+}
+
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+std::string of_grains(const ReportedSample& one) {
+  const std::size_t count = one.sample.grains.size();
+  return one.name + ": " + std::to_string(count) + " grains" +
+         (one.sample.failed > 0 ? ", " + std::to_string(one.sample.failed) + " failed" : "");
+}
+
+void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
+  append(lines, wrapped(of_grains(one)));
+  for (const std::string& note : one.sample.notes) append(lines, wrapped(note));
+  append(lines, wrapped("Size: " + one.sample.size_name +
+                        (one.sample.size_unit.empty() ? "" : ", " + one.sample.size_unit)));
+  lines.push_back("Mass of all grains: " + short_number(one.statistics.mass));
+  std::vector<std::vector<std::string>> rows = {
+      {"", "by mass", "95 % from", "to", "by number", "95 % from", "to"}};
+  for_each_size(one.statistics, [&](const char* name, const Estimate& mass, const Estimate& count) {
+    rows.push_back({name, short_number(mass.value), short_number(mass.lower),
+                    short_number(mass.upper), short_number(count.value), short_number(count.lower),
+                    short_number(count.upper)});
+  });
+  append(lines, aligned_lines(rows));
+  rows = {{"by number", "mean", "95 % from", "to", "median", "by mass"}};
+  for (const ColumnStatistics& column : one.statistics.columns) {
+    if (!is_main(column.column.name) || column.count == 0) continue;
+    const Estimate& mean = column.by_number.mean;
+    rows.push_back({column.column.name, short_number(mean.value), short_number(mean.lower),
+                    short_number(mean.upper), short_number(column.by_number.median.value),
+                    short_number(column.by_mass.mean.value)});
+  }
+  if (rows.size() > 1) append(lines, aligned_lines(rows));
+}
+
+std::vector<std::vector<std::string>> comparison_rows(const SampleReport& report, bool all) {
+  std::vector<std::vector<std::string>> rows = {
+      {"by number", "K-S distance", "p", "Wasserstein / deviation", "p"}};
+  for (const ColumnComparison& row : report.comparison) {
+    if (!all && row.column.name != "size" && !is_main(row.column.name)) continue;
+    const SampleDistance& d = row.by_number;
+    rows.push_back({row.column.name, short_number(d.kolmogorov), short_number(d.kolmogorov_p),
+                    short_number(d.wasserstein / row.deviation), short_number(d.wasserstein_p)});
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> level_rows(const DetailLevels& levels, bool all) {
+  // Four columns fit a terminal's line.
+  const std::size_t shown =
+      all ? levels.nodes.size() : std::min<std::size_t>(levels.nodes.size(), 4);
+  const std::size_t first = levels.nodes.size() - shown;
+  std::vector<std::vector<std::string>> rows = {{"90 % of errors, %"}};
+  for (std::size_t k = first; k < levels.nodes.size(); ++k) {
+    rows[0].push_back("N " + short_number(levels.nodes[k]));
+  }
+  rows[0].push_back("N for " + short_number(levels.mark_percent) + " %");
+  for (const DescriptorLevels& row : levels.rows) {
+    if (row.levels.back().count == 0) continue;
+    if (!all && !is_main(row.name) && !is_distance_or_contact(row.name)) continue;
+    std::vector<std::string> cells = {row.name};
+    for (std::size_t k = first; k < row.levels.size(); ++k) {
+      // An error this small is rounding.
+      const double error = row.levels[k].percent_90;
+      cells.push_back(error < 1e-9 ? "exact" : short_number(error));
+    }
+    cells.push_back(short_number(row.nodes_needed));
+    rows.push_back(std::move(cells));
+  }
+  return rows;
+}
+
+Json json_of(const Estimate& estimate) {
+  return {{"value", estimate.value}, {"lower", estimate.lower}, {"upper", estimate.upper}};
+}
+
+Json json_of(const ColumnEstimates& estimates) {
+  Json json = Json::object();
+  for_each_estimate(estimates,
+                    [&](const char* name, const Estimate& one) { json[name] = json_of(one); });
+  return json;
+}
+
+Json json_of(const SampleDistance& d) {
+  return {{"kolmogorov_smirnov", d.kolmogorov},
+          {"kolmogorov_smirnov_p", d.kolmogorov_p},
+          {"wasserstein", d.wasserstein},
+          {"wasserstein_p", d.wasserstein_p}};
+}
+
+Json json_of(const ReportedSample& one) {
+  const SampleStatistics& s = one.statistics;
+  Json by_mass = Json::object();
+  Json by_number = Json::object();
+  for_each_size(s, [&](const char* name, const Estimate& mass, const Estimate& count) {
+    by_mass[name] = json_of(mass);
+    by_number[name] = json_of(count);
+  });
+  Json columns = Json::object();
+  for (const ColumnStatistics& column : s.columns) {
+    columns[column.column.name] = {{"unit", column.column.unit},
+                                   {"count", column.count},
+                                   {"minimum", column.smallest},
+                                   {"maximum", column.largest},
+                                   {"by_number", json_of(column.by_number)},
+                                   {"by_mass", json_of(column.by_mass)},
+                                   {"size_correlation", json_of(column.size_correlation)}};
+  }
+  return {{"name", one.name},
+          {"grains", one.sample.grains.size()},
+          {"failed", one.sample.failed},
+          {"notes", one.sample.notes},
+          {"density", one.sample.density},
+          {"mass", s.mass},
+          {"repetitions", s.repetitions},
+          {"size", {{"by_mass", by_mass}, {"by_number", by_number}}},
+          {"descriptors", columns}};
+}
+
+Json json_of(const DetailLevels& levels) {
+  Json rows = Json::object();
+  for (const DescriptorLevels& row : levels.rows) {
+    Json errors = Json::array();
+    for (std::size_t k = 0; k < row.levels.size(); ++k) {
+      errors.push_back({{"nodes", levels.nodes[k]},
+                        {"grains", row.levels[k].count},
+                        {"median_percent", row.levels[k].median},
+                        {"percent_90_percent", row.levels[k].percent_90}});
+    }
+    rows[row.name] = {{"errors", errors}, {"nodes_needed", row.nodes_needed}};
+  }
+  return {{"mark_percent", levels.mark_percent}, {"descriptors", rows}};
+}
+
+/// Rows of a sample's CSV for the errors at each number of nodes.
+void append_levels(const std::string& sample, const DetailLevels& levels, std::string& text) {
+  for (const DescriptorLevels& row : levels.rows) {
+    const auto add = [&](const std::string& unit, const std::string& statistic, double value) {
+      text +=
+          csv_record({sample, row.name, unit, "number", statistic, format_exact(value), "", ""});
+    };
+    for (std::size_t k = 0; k < row.levels.size(); ++k) {
+      const std::string nodes = "_n" + format_number(levels.nodes[k], 9);
+      add("%", "error_median" + nodes, row.levels[k].median);
+      add("%", "error_percent_90" + nodes, row.levels[k].percent_90);
+    }
+    add("", "nodes_needed", row.nodes_needed);
+  }
+}
+
+}  // namespace
+
+void add_sample(SampleReport& report, const std::string& name, const SampleTables& sample,
+                const std::vector<double>& densities, double mark_percent,
+                const Execution& execution) {
+  const std::size_t number = report.samples.size();
+  SampleOptions options = report.options;
+  if (!densities.empty()) options.density = densities[std::min(number, densities.size() - 1)];
+  const std::size_t shown = finest_table(sample.tables);
+  ReportedSample one;
+  one.name = name;
+  if (!sample.files.empty()) {
+    one.folder = std::filesystem::path(sample.files[shown]).parent_path().string();
+    if (one.folder.empty()) one.folder = ".";
+  }
+  one.sample = sample_of(sample.tables[shown], options);
+  one.statistics = measure_sample(one.sample, options, execution);
+  if (number == 0 && sample.tables.size() > 1) {
+    DetailLevels levels = measure_levels(sample.tables, mark_percent);
+    if (!levels.rows.empty()) report.levels = std::move(levels);
+  }
+  report.samples.push_back(std::move(one));
+}
+
+void compare_samples(SampleReport& report, const Execution& execution) {
+  if (report.samples.size() != 2) return;
+  report.comparison = compare_samples(report.samples[0].sample, report.samples[1].sample,
+                                      report.options, execution);
+}
+
+std::vector<std::string> sample_lines(const SampleReport& report) {
+  std::vector<std::string> lines;
+  for (const ReportedSample& one : report.samples) append_sample(one, lines);
+  if (!report.comparison.empty()) append(lines, aligned_lines(comparison_rows(report, false)));
+  if (report.levels) append(lines, aligned_lines(level_rows(*report.levels, false)));
+  return lines;
+}
+
+std::string sample_json(const SampleReport& report) {
+  Json samples = Json::array();
+  for (const ReportedSample& one : report.samples) samples.push_back(json_of(one));
+  Json comparison = Json::object();
+  for (const ColumnComparison& row : report.comparison) {
+    comparison[row.column.name] = {{"unit", row.column.unit},
+                                   {"deviation", row.deviation},
+                                   {"by_number", json_of(row.by_number)},
+                                   {"by_mass", json_of(row.by_mass)}};
+  }
+  const SampleOptions& options = report.options;
+  return json_document({{"format", "wscvt-sample-statistics"},
+                        {"version", 1},
+                        {"made_by", made_by()},
+                        {"options",
+                         {{"size", key_of(options.size)},
+                          {"of", key_of(options.of)},
+                          {"seed", options.seed},
+                          {"repetitions", options.repetitions}}},
+                        {"samples", samples},
+                        {"comparison", comparison},
+                        {"levels", report.levels ? json_of(*report.levels) : Json()}});
+}
+
+std::string sample_csv(const SampleReport& report) {
+  std::string text = csv_record(
+      {"sample", "descriptor", "unit", "weighting", "statistic", "value", "lower", "upper"});
+  for (const ReportedSample& one : report.samples) {
+    const auto add = [&](const GrainColumn& column, const char* weighting, const char* statistic,
+                         const Estimate& e) {
+      text += csv_record({one.name, column.name, column.unit, weighting, statistic,
+                          format_exact(e.value), format_exact(e.lower), format_exact(e.upper)});
+    };
+    for_each_size(one.statistics,
+                  [&](const char* name, const Estimate& mass, const Estimate& count) {
+                    const bool is_ratio = name[0] == 'C';
+                    const GrainColumn size = {"size", is_ratio ? "" : one.sample.size_unit};
+                    add(size, "mass", name, mass);
+                    add(size, "number", name, count);
+                  });
+    for (const ColumnStatistics& column : one.statistics.columns) {
+      for (const auto& [weighting, estimates] :
+           {std::pair("number", column.by_number), std::pair("mass", column.by_mass)}) {
+        const char* name = weighting;
+        for_each_estimate(estimates, [&](const char* statistic, const Estimate& e) {
+          add(column.column, name, statistic, e);
+        });
+      }
+      add({column.column.name, ""}, "number", "size_correlation", column.size_correlation);
+    }
+  }
+  if (report.levels) append_levels(report.samples.front().name, *report.levels, text);
+  return text;
+}
+
+void write_sample_report(const std::string& path, const SampleReport& report,
+                         const Execution& execution) {
+  switch (report_format(path)) {
+    case ReportFormat::Page:
+      write_file(path, sample_html(report, execution));
+      return;
+    case ReportFormat::Document:
+      write_file(path, sample_json(report));
+      return;
+    case ReportFormat::Row:
+      write_file(path, sample_csv(report));
+      return;
+  }
+}
+
+}  // namespace wscvt

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "toolbox/sample/detail_levels.h"
+#include "toolbox/sample/sample_comparison.h"
+#include "toolbox/sample/sample_files.h"
+#include "toolbox/sample/sample_statistics.h"
+#include "wscvt/base/execution.h"
+
+namespace wscvt {
+
+/// A sample with its name and statistics.
+struct ReportedSample {
+  std::string name;
+  std::string folder;  ///< of the grains' mesh files; empty: no thumbnails
+  GrainSample sample;
+  SampleStatistics statistics;
+};
+
+/// Statistics of one sample, or of two samples with their comparison.
+struct SampleReport {
+  SampleOptions options;
+  std::vector<ReportedSample> samples;       ///< one or two
+  std::vector<ColumnComparison> comparison;  ///< of two samples
+  std::optional<DetailLevels> levels;        ///< of the first sample
+};
+
+/// Measures a sample with the report's options and adds it. If a sample has several tables, the
+/// finest is shown (see finest_table). The tables of the first sample give the levels.
+/// `mark_percent`: see measure_levels. `densities`: one for all samples, one per sample, or empty
+/// (see SampleOptions::density). Throws the errors of sample_of, measure_sample and measure_levels.
+void add_sample(SampleReport& report, const std::string& name, const SampleTables& sample,
+                const std::vector<double>& densities, double mark_percent,
+                const Execution& execution);
+
+/// Compares the samples of the report if there are two. Throws the errors of compare_samples(a, b,
+/// ...).
+void compare_samples(SampleReport& report, const Execution& execution);
+
+/// Returns lines of at most 80 characters: sizes, the main descriptors, the comparison, the levels.
+std::vector<std::string> sample_lines(const SampleReport& report);
+
+/// Returns all statistics as a JSON document.
+std::string sample_json(const SampleReport& report);
+
+/// Returns all statistics as CSV (RFC 4180), a row per statistic: sample, descriptor, unit,
+/// weighting, statistic, value, lower, upper. The last rows are the errors at each number of nodes:
+/// error_median_n100, error_percent_90_n100 and nodes_needed.
+std::string sample_csv(const SampleReport& report);
+
+/// Returns an HTML report for reading and printing, one file without references to other files:
+/// size curve, diagrams of form, histograms, thumbnails, the number of grains that an interval
+/// needs. The reader chooses the descriptor, and saves each figure as SVG and its data as CSV. The
+/// report contains the numbers of at most 10,000 grains of a sample and pictures of at most 100,
+/// chosen evenly by size.
+std::string sample_html(const SampleReport& report, const Execution& execution);
+
+/// Writes the report in the format of the file's name: .html, .json or .csv. Throws the errors of
+/// report_format and write_file.
+void write_sample_report(const std::string& path, const SampleReport& report,
+                         const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/report/sample_summary.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "toolbox/sample/distribution.h"
+#include "wscvt/base/csv_reader.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/option.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/report/figures.h"
+#include "wscvt/report/html_document.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr const char* colour = "#0a58b4";
+
+/// A number of a grain: a column of the table, or the quotient of two.
+struct Source {
+  const char* key;
+  const char* label;
+  const char* unit;
+  const char* column;
+  const char* divisor;  ///< null: none
+};
+constexpr Source sources[] = {
+    {"equivalent_radius", "equivalent radius", "length", "input.equivalent_radius", nullptr},
+    {"volume", "volume", "length^3", "descriptors.volume.scan", nullptr},
+    {"aspect_ratio", "aspect ratio S / L", "", "descriptors.aspect_ratio_inertia.scan", nullptr},
+    {"elongation", "elongation I / L", "", "descriptors.axis_i_inertia.scan",
+     "descriptors.axis_l_inertia.scan"},
+    {"flatness", "flatness S / I", "", "descriptors.axis_s_inertia.scan",
+     "descriptors.axis_i_inertia.scan"},
+    {"sphericity", "sphericity (Wadell)", "", "descriptors.sphericity_wadell.scan", nullptr},
+    {"volume_error", "error of the volume", "%", "descriptors.volume.error_percent", nullptr},
+    {"area_error", "error of the area", "%", "descriptors.area.error_percent", nullptr},
+    {"sphericity_error", "error of the sphericity", "%",
+     "descriptors.sphericity_wadell.error_percent", nullptr},
+    {"rms_distance", "rms distance / equivalent radius", "%",
+     "rms_distance.percent_of_equivalent_radius", nullptr},
+    {"edge_ratio", "mean of longest / shortest edge", "", "quality.remesh.edge_ratio.mean",
+     nullptr},
+    {"smallest_angle", "smallest angle", "degrees", "quality.remesh.smallest_angle_degrees",
+     nullptr},
+};
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw Error(ErrorCode::InvalidInput, "\"" + path + "\" " + what);
+}
+
+/// The columns of a table by name.
+class Header {
+ public:
+  Header(const std::string& path, std::vector<std::string> names)
+      : path_(path), names_(std::move(names)) {}
+
+  std::size_t place(std::string_view name) const {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    if (found == names_.end()) {
+      refuse(path_, "has no column " + std::string(name) +
+                        ", so it is not a table of a sample. Give a table that batch wrote.");
+    }
+    return static_cast<std::size_t>(found - names_.begin());
+  }
+  std::size_t size() const { return names_.size(); }
+
+ private:
+  const std::string& path_;
+  std::vector<std::string> names_;
+};
+
+double number_of(const std::string& field) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(field.data(), field.data() + field.size(), value);
+  return value;
+}
+
+double mean_of(const std::vector<double>& values) { return Distribution(values).mean(); }
+double deviation_of(const std::vector<double>& values) { return Distribution(values).deviation(); }
+
+double first_of(const std::vector<double>& values) { return quantile(values, 0.0); }
+double last_of(const std::vector<double>& values) { return quantile(values, 1.0); }
+
+std::string with_unit(const SampleDistribution& one) {
+  return one.unit.empty() ? one.label : one.label + ", " + one.unit;
+}
+
+/// Formats a number of a row. An error this small is rounding.
+std::string shown(const SampleDistribution& one, double value, int digits) {
+  const bool is_rounding = one.unit == "%" && std::abs(value) < 1e-9;
+  return is_rounding ? "exact" : format_number(value, digits);
+}
+
+std::vector<std::vector<std::string>> table_of(const SampleSummary& summary) {
+  std::vector<std::vector<std::string>> rows = {
+      {"Quantity", "mean", "std. dev. (n - 1)", "smallest", "10 %", "50 %", "90 %", "largest"}};
+  for (const SampleDistribution& one : summary.distributions) {
+    if (one.values.empty()) continue;
+    rows.push_back({with_unit(one), shown(one, mean_of(one.values), 4),
+                    shown(one, deviation_of(one.values), 4), shown(one, first_of(one.values), 4),
+                    shown(one, quantile(one.values, 0.1), 4),
+                    shown(one, quantile(one.values, 0.5), 4),
+                    shown(one, quantile(one.values, 0.9), 4), shown(one, last_of(one.values), 4)});
+  }
+  return rows;
+}
+
+std::string count_line(const SampleSummary& summary) {
+  return std::to_string(summary.grains) + (summary.grains == 1 ? " grain: " : " grains: ") +
+         std::to_string(summary.grains - summary.failed) + " remeshed, " +
+         std::to_string(summary.with_warnings) + " of them with warnings, " +
+         std::to_string(summary.failed) + " failed";
+}
+
+}  // namespace
+
+SampleSummary summarise_table(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream.is_open()) {
+    throw Error(ErrorCode::InputOutput,
+                "\"" + path + "\" cannot be opened. Check that the file exists.");
+  }
+  CsvReader reader(stream);
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) refuse(path, "is empty. Give a table that batch wrote.");
+  const Header header(path, fields);
+  const std::size_t grain = header.place("grain");
+  const std::size_t status = header.place("status");
+  const std::size_t error = header.place("error");
+  const std::size_t warnings = header.place("warnings");
+  SampleSummary summary;
+  std::vector<std::pair<std::size_t, std::optional<std::size_t>>> places;
+  for (const Source& source : sources) {
+    places.emplace_back(header.place(source.column), std::nullopt);
+    if (source.divisor != nullptr) places.back().second = header.place(source.divisor);
+    summary.distributions.push_back({source.key, source.label, source.unit, {}});
+  }
+  while (reader.next(fields)) {
+    if (fields.size() != header.size()) {
+      refuse(path, "has " + std::to_string(fields.size()) + " fields in row " +
+                       std::to_string(summary.grains + 1) + " and " +
+                       std::to_string(header.size()) + " columns. Create it again.");
+    }
+    ++summary.grains;
+    if (fields[status] != "done") {
+      ++summary.failed;
+      if (summary.failures.size() < most_failures_named) {
+        summary.failures.push_back({fields[grain], fields[error]});
+      }
+      continue;
+    }
+    if (!fields[warnings].empty()) ++summary.with_warnings;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto& [column, divisor] = places[k];
+      const double value =
+          number_of(fields[column]) / (divisor ? number_of(fields[*divisor]) : 1.0);
+      if (std::isfinite(value)) summary.distributions[k].values.push_back(value);
+    }
+  }
+  if (reader.is_cut()) {
+    refuse(path, "ends within a row. Run its batch command again to complete it.");
+  }
+  for (SampleDistribution& one : summary.distributions) {
+    std::sort(one.values.begin(), one.values.end());
+  }
+  return summary;
+}
+
+Histogram histogram_of(const std::vector<double>& values) {
+  // Square-root rule, with bins wide enough to be visible.
+  const auto bins = static_cast<std::size_t>(
+      std::clamp(std::sqrt(static_cast<double>(values.size())), 8.0, 60.0));
+  Histogram histogram{first_of(values), last_of(values), std::vector<std::size_t>(bins, 0)};
+  const double size = std::max(std::abs(histogram.lower), std::abs(histogram.upper));
+  if (!(histogram.upper - histogram.lower > 1e-9 * size)) {
+    // All values are equal except for rounding: use a bin around them.
+    const double half = std::max(size * 0.01, 1e-300);
+    histogram.lower -= half;
+    histogram.upper += half;
+  }
+  const double width = (histogram.upper - histogram.lower) / static_cast<double>(bins);
+  for (const double value : values) {
+    const double bin = std::floor((value - histogram.lower) / width);
+    ++histogram
+          .counts[static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(bins - 1)))];
+  }
+  return histogram;
+}
+
+std::string summary_json(const SampleSummary& summary) {
+  Json distributions = Json::object();
+  for (const SampleDistribution& one : summary.distributions) {
+    distributions[one.key] = {{"label", one.label},
+                              {"unit", one.unit},
+                              {"count", one.values.size()},
+                              {"mean", mean_of(one.values)},
+                              {"standard_deviation", deviation_of(one.values)},
+                              {"minimum", first_of(one.values)},
+                              {"percent_10", quantile(one.values, 0.1)},
+                              {"median", quantile(one.values, 0.5)},
+                              {"percent_90", quantile(one.values, 0.9)},
+                              {"maximum", last_of(one.values)}};
+  }
+  Json failures = Json::array();
+  for (const SampleFailure& one : summary.failures) {
+    failures.push_back({{"grain", one.grain}, {"error", one.error}});
+  }
+  return json_document({{"format", "wscvt-sample"},
+                        {"version", 1},
+                        {"made_by", made_by()},
+                        {"grains", summary.grains},
+                        {"remeshed", summary.grains - summary.failed},
+                        {"with_warnings", summary.with_warnings},
+                        {"failed", summary.failed},
+                        {"distributions", distributions},
+                        {"failures", failures}});
+}
+
+std::string summary_html(const SampleSummary& summary) {
+  HtmlDocument page("A sample of " + std::to_string(summary.grains) + " grains");
+  page.add_paragraph(origin_sentence({}));
+  page.add_paragraph(count_line(summary) + ".");
+  std::vector<Figure> figures;
+  for (const SampleDistribution& one : summary.distributions) {
+    if (one.values.empty()) continue;
+    figures.push_back(
+        {histogram_figure(with_unit(one), "grains", {{"sample", colour, histogram_of(one.values)}}),
+         capitalised(one.label) + " of " + std::to_string(one.values.size()) +
+             " grains, half of them below " + format_number(quantile(one.values, 0.5), 4) + "."});
+  }
+  page.add_heading("Distributions");
+  page.add_rows(table_of(summary));
+  page.add_figures(figures);
+  if (!summary.failures.empty()) {
+    page.add_heading("Failures");
+    std::vector<std::vector<std::string>> rows = {{"grain", "error"}};
+    for (const SampleFailure& one : summary.failures) rows.push_back({one.grain, one.error});
+    page.add_rows(rows, RowKind::Typed);
+    if (summary.failed > summary.failures.size()) {
+      page.add_paragraph("And " + std::to_string(summary.failed - summary.failures.size()) +
+                         " more. See the table.");
+    }
+  }
+  return page.text();
+}
+
+std::vector<std::string> summary_lines(const SampleSummary& summary) {
+  std::vector<std::string> lines = {count_line(summary)};
+  // Columns that fit 80 characters. The files have all columns.
+  std::vector<std::vector<std::string>> rows = {{"Quantity", "mean", "10 %", "50 %", "90 %"}};
+  for (const SampleDistribution& one : summary.distributions) {
+    if (one.values.empty()) continue;
+    rows.push_back({with_unit(one), shown(one, mean_of(one.values), 3)});
+    for (const double share : {0.1, 0.5, 0.9}) {
+      rows.back().push_back(shown(one, quantile(one.values, share), 3));
+    }
+  }
+  if (rows.size() == 1) return lines;
+  for (std::string& line : aligned_lines(rows)) lines.push_back(std::move(line));
+  return lines;
+}
+
+void write_summary(const std::string& path, const SampleSummary& summary) {
+  write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary)
+                                                             : summary_json(summary));
+}
+
+void check_summary(const std::string& path) {
+  if (report_format(path) == ReportFormat::Row) {
+    throw Error(ErrorCode::InvalidInput,
+                "\"" + path + "\" is not a name for a summary. Use .html or .json.");
+  }
+  check_writable(path);
+}
+
+}  // namespace wscvt

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/report/shape_table.h"
+
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "toolbox/sample/grain_table.h"
+#include "wscvt/base/csv_reader.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_table.h"
+
+namespace wscvt {
+
+namespace {
+
+struct ShapeValue {
+  GrainColumn column;
+  double value;
+};
+
+void append_frame(const std::string& mesh, const ShapeDescriptors& basic,
+                  std::vector<ShapeValue>& values) {
+  const MassProperties mass = mass_properties(basic);
+  const auto vector = [&](const std::string& name, const char* const(&parts)[3],
+                          const std::string& unit, const Vector3& at) {
+    for (int k = 0; k < 3; ++k) values.push_back({{mesh + name + parts[k], unit}, at[k]});
+  };
+  vector("centroid_", {"x", "y", "z"}, "length", mass.centroid);
+  vector("principal_moment_", {"least", "middle", "greatest"}, "length^5", mass.principal_moments);
+  const Eigen::Quaterniond& q = mass.principal_axes;
+  const std::pair<const char*, double> parts[] = {
+      {"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}};
+  for (const auto& [name, part] : parts) {
+    values.push_back({{mesh + "principal_axes_" + name, ""}, part});
+  }
+}
+
+void append_quality(const std::string& mesh, const MeshQuality& quality,
+                    std::vector<ShapeValue>& values) {
+  values.push_back({{mesh + "edge_length_mean", "length"}, quality.edge_length.mean});
+  values.push_back({{mesh + "edge_length_variation", ""}, quality.edge_variation});
+  values.push_back({{mesh + "edge_ratio_mean", ""}, quality.edge_ratio.mean});
+  values.push_back({{mesh + "smallest_angle", "degrees"}, quality.smallest_angle});
+}
+
+void append_mesh(const std::string& mesh, const DetailedDescriptors& descriptors,
+                 const MeshQuality& quality, std::vector<ShapeValue>& values) {
+  for (DescriptorValue& one : list_descriptors(descriptors)) {
+    values.push_back({{mesh + one.key, std::move(one.unit)}, one.value});
+  }
+  append_frame(mesh, descriptors.basic, values);
+  append_quality(mesh, quality, values);
+}
+
+/// Visits the numbers of a row, in the order of the columns.
+std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& shape) {
+  std::vector<ShapeValue> values = {{{"nodes", ""}, static_cast<double>(result.mesh.points.size())},
+                                    {{"rms_distance", "length"}, result.rms_distance}};
+  if (shape.contacts) {
+    values.push_back({{"contact_error_mean", "%"}, shape.contacts->mean});
+    values.push_back({{"contact_error_scatter", "%"}, shape.contacts->scatter});
+  }
+  if (shape.scan) {
+    append_mesh("scan.", *shape.scan, result.original_quality, values);
+    const MeshCheckReport& input = result.input;
+    values.push_back({{"scan.vertices", ""}, static_cast<double>(input.vertices)});
+    values.push_back({{"scan.genus", ""}, static_cast<double>(input.genus)});
+    values.push_back(
+        {{"scan.repaired_area_fraction", ""}, input.flap_area_share + input.filled_area_share});
+    values.push_back({{"scan.voxel_steps", ""}, input.has_voxel_steps ? 1.0 : 0.0});
+  }
+  if (shape.remesh) append_mesh("remesh.", *shape.remesh, result.quality, values);
+  return values;
+}
+
+std::vector<std::string> columns_of(const ShapeMeasures& measures) {
+  GrainShape shape;
+  if (describes_scan(measures.described)) shape.scan.emplace();
+  if (describes_remesh(measures.described)) shape.remesh.emplace();
+  if (measures.contacts) shape.contacts.emplace();
+  std::vector<std::string> names = {"grain", "status", "error", "file"};
+  for (const ShapeValue& one : values_of(RemeshResult(), shape)) {
+    names.push_back(heading_of(one.column));
+  }
+  return names;
+}
+
+}  // namespace
+
+bool is_shape_table(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  CsvReader reader(stream);
+  std::vector<std::string> fields;
+  return reader.next(fields) && fields.size() > 3 && fields[0] == "grain" && fields[3] == "file";
+}
+
+std::string shape_header(const ShapeMeasures& measures) { return csv_record(columns_of(measures)); }
+
+GrainShape describe_result(const RemeshResult& result, Described what, const Execution& execution) {
+  GrainShape shape;
+  const DetailedOptions options;
+  if (describes_scan(what)) {
+    shape.scan = describe_shape_in_detail(result.repaired_scan, options, execution.part(0.0, 0.8));
+  }
+  if (describes_remesh(what)) {
+    shape.remesh = describe_shape_in_detail(result.mesh, options, execution.part(0.8, 1.0));
+  }
+  return shape;
+}
+
+std::string shape_row(const std::string& grain, const std::string& file, const RemeshResult& result,
+                      const GrainShape& shape) {
+  std::vector<std::string> fields = {grain, "done", "", file};
+  for (const ShapeValue& one : values_of(result, shape)) fields.push_back(format_exact(one.value));
+  return csv_record(fields);
+}
+
+std::string failed_shape_row(const std::string& grain, const std::string& error,
+                             const ShapeMeasures& measures) {
+  std::vector<std::string> fields(columns_of(measures).size());
+  fields[0] = grain;
+  fields[1] = "failed";
+  fields[2] = error;
+  return csv_record(fields);
+}
+
+}  // namespace wscvt

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "toolbox/clump/first_contact.h"
+#include "wscvt/base/option.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/remesh/remesh_result.h"
+
+namespace wscvt {
+
+/// The meshes of a grain whose shape is measured.
+enum class Described { Both, Scan, Remesh, None };
+
+template <>
+struct EnumerationTable<Described> {
+  static constexpr std::string_view key = "describe";
+  static constexpr std::string_view subject = "table of shapes";
+  static constexpr Enumerator<Described> rows[] = {
+      {Described::Both, "both", "scan and remesh", "all descriptors of scan and remesh"},
+      {Described::Scan, "scan", "scan", "all descriptors of the scan"},
+      {Described::Remesh, "remesh", "remesh", "all descriptors of the remesh"},
+      {Described::None, "none", "none", "no table of shapes; saves time"},
+  };
+};
+
+inline bool describes_scan(Described what) {
+  return what == Described::Both || what == Described::Scan;
+}
+inline bool describes_remesh(Described what) {
+  return what == Described::Both || what == Described::Remesh;
+}
+
+/// The measures of a table of shapes, which decide its columns.
+struct ShapeMeasures {
+  Described described = Described::Both;
+  bool contacts = false;  ///< first contact of the remesh against the scan's, see ScanContacts
+};
+
+/// The measures of a grain, empty if not requested.
+struct GrainShape {
+  std::optional<DetailedDescriptors> scan;
+  std::optional<DetailedDescriptors> remesh;
+  std::optional<ContactError> contacts;
+};
+
+// The table of shapes of a sample: CSV (RFC 4180) with one row per grain, for read_grain_table. Its
+// columns are "grain", "status" and "error" as in the sample's table; "file", the remesh's file
+// name; "nodes"; "rms_distance [length]" from scan to remesh; if contacts are measured,
+// "contact_error_mean [%]" and "contact_error_scatter [%]" of the equivalent radius, see
+// ContactError. Then, with the prefix "scan." or "remesh." for each described mesh: the keys of
+// list_descriptors, the principal frame (centroid, principal moments at unit density, unit
+// quaternion) and the quality of the mesh.
+
+/// Whether a file begins like a table of shapes. False if it cannot be read.
+bool is_shape_table(const std::string& path);
+
+/// Returns the first record.
+std::string shape_header(const ShapeMeasures& measures);
+
+/// Describes the result's meshes. The scan is measured only if the result contains the repaired
+/// scan. Throws the errors of describe_shape_in_detail.
+GrainShape describe_result(const RemeshResult& result, Described what, const Execution& execution);
+
+/// Returns the record of a grain whose remesh is in `file`.
+std::string shape_row(const std::string& grain, const std::string& file, const RemeshResult& result,
+                      const GrainShape& shape);
+
+/// Returns the record of a grain without a remesh or without descriptors.
+std::string failed_shape_row(const std::string& grain, const std::string& error,
+                             const ShapeMeasures& measures);
+
+}  // namespace wscvt

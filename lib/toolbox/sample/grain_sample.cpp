@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/sample/grain_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/readable_text.h"
+
+namespace wscvt {
+
+namespace {
+
+const char* column_of(SizeMeasure size) {
+  switch (size) {
+    case SizeMeasure::Sieve:
+      return "axis_i_box";
+    case SizeMeasure::EquivalentDiameter:
+      return "equivalent_diameter";
+    case SizeMeasure::LargestFeret:
+      return "feret_max";
+    case SizeMeasure::SmallestFeret:
+      break;
+  }
+  return "feret_min";
+}
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// Position and orientation of a grain are not its shape.
+bool is_pose(const std::string& name) {
+  return starts_with(name, "centroid_") || starts_with(name, "principal_axes_");
+}
+
+std::string counted(std::size_t count, const std::string& grains) {
+  return std::to_string(count) + (count == 1 ? " grain " : " grains ") + grains;
+}
+
+/// Returns the columns of a mesh, as indices into the table.
+std::vector<std::size_t> places_of(const GrainTable& table, const std::string& mesh) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const std::string& name = table.columns[k].name;
+    if (starts_with(name, mesh) && !is_pose(name.substr(mesh.size()))) places.push_back(k);
+  }
+  return places;
+}
+
+std::vector<std::size_t> choose_columns(const GrainTable& table, const SampleOptions& options,
+                                        GrainSample& sample) {
+  const std::string wanted = key_of(options.of) + ".";
+  const std::string other = options.of == SampledMesh::Scan ? "remesh." : "scan.";
+  std::string mesh = wanted;
+  std::vector<std::size_t> places = places_of(table, mesh);
+  if (places.empty()) {
+    mesh = other;
+    places = places_of(table, mesh);
+    if (!places.empty()) {
+      sample.notes.push_back("The table has no columns \"" + wanted + "\", so these are the \"" +
+                             other + "\" columns.");
+    }
+  }
+  if (places.empty()) {
+    mesh.clear();
+    places = places_of(table, mesh);
+  }
+  for (const std::size_t place : places) {
+    sample.columns.push_back(
+        {table.columns[place].name.substr(mesh.size()), table.columns[place].unit});
+  }
+  return places;
+}
+
+std::optional<std::size_t> find(const GrainSample& sample, const std::string& name) {
+  for (std::size_t k = 0; k < sample.columns.size(); ++k) {
+    if (sample.columns[k].name == name) return k;
+  }
+  return {};
+}
+
+[[noreturn]] void refuse_without_size(const GrainTable& table, const std::string& column) {
+  for (const std::string& text : table.text_columns) {
+    if (text == column || text == "scan." + column) {
+      refuse("The column \"" + text +
+             "\" has a text in its first row. Write numbers only, and the "
+             "unit in the heading, such as \"" +
+             text + " [mm]\".");
+    }
+  }
+  // Only the first names of a long table.
+  constexpr std::size_t most = 20;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(most, table.columns.size()); ++k) {
+    names += (names.empty() ? "" : ", ") + readable(table.columns[k].name, "");
+  }
+  if (table.columns.size() > most) names += ", ...";
+  refuse("The table has no column \"" + column +
+         "\" for the size of the grains. Rename a column, or choose another size: " +
+         keys_of<SizeMeasure>() + ". Its numeric columns: " + names + ".");
+}
+
+/// Returns the mass of a grain from its row and volume.
+using MassOf = std::function<double(Eigen::Index row, double volume)>;
+
+/// Chooses the source of the masses.
+MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSample& sample) {
+  const auto column = [&](std::size_t place) {
+    return [&table, place](Eigen::Index row) {
+      return table.values(row, static_cast<Eigen::Index>(place));
+    };
+  };
+  const auto mass = table.find("mass");
+  const auto density = table.find("density");
+  if (!options.density && (mass || density)) {
+    sample.density = std::numeric_limits<double>::quiet_NaN();
+    if (mass) {
+      sample.notes.push_back("Masses are from the column \"mass\".");
+      return [read = column(*mass)](Eigen::Index row, double) { return read(row); };
+    }
+    sample.notes.push_back("Densities are from the column \"density\".");
+    return
+        [read = column(*density)](Eigen::Index row, double volume) { return read(row) * volume; };
+  }
+  sample.density = options.density.value_or(1.0);
+  return [all = sample.density](Eigen::Index, double volume) { return all * volume; };
+}
+
+}  // namespace
+
+GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
+  if (options.density) require_in_range(*options.density, density_option);
+  require_in_range(options.repetitions, repetitions_option);
+  GrainSample sample;
+  sample.failed = table.failed;
+  const std::vector<std::size_t> places = choose_columns(table, options, sample);
+  const std::string size_column = column_of(options.size);
+  const auto size_place = find(sample, size_column);
+  if (!size_place) {
+    refuse_without_size(table, size_column);
+  }
+  sample.size_name = label_of(options.size);
+  sample.size_unit = sample.columns[*size_place].unit;
+  const auto value = [&](Eigen::Index grain, std::size_t column) {
+    return table.values(grain, static_cast<Eigen::Index>(places[column]));
+  };
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < table.values.rows(); ++k) {
+    if (value(k, *size_place) > 0.0) kept.push_back(k);
+  }
+  const std::size_t without = table.grains.size() - kept.size();
+  if (without > 0) {
+    sample.notes.push_back(counted(without, "without a size left out."));
+  }
+  if (kept.size() < 2) {
+    refuse("The table has " + counted(kept.size(), "with a size") +
+           ". Statistics need two or more.");
+  }
+  const auto volume = find(sample, "volume");
+  if (!volume && (options.density || !table.find("mass"))) {
+    sample.notes.push_back(
+        "The table has no column \"volume\", so masses are computed for spheres of the grains' "
+        "size.");
+  }
+  const MassOf mass_of = masses_of(table, options, sample);
+  const auto rows = static_cast<Eigen::Index>(kept.size());
+  sample.values.resize(rows, static_cast<Eigen::Index>(places.size()));
+  sample.sizes.resize(rows);
+  sample.masses.resize(rows);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const Eigen::Index k = kept[static_cast<std::size_t>(row)];
+    sample.grains.push_back(table.grains[static_cast<std::size_t>(k)]);
+    if (!table.files.empty()) sample.files.push_back(table.files[static_cast<std::size_t>(k)]);
+    for (std::size_t column = 0; column < places.size(); ++column) {
+      sample.values(row, static_cast<Eigen::Index>(column)) = value(k, column);
+    }
+    const double size = value(k, *size_place);
+    sample.sizes[row] = size;
+    sample.masses[row] = mass_of(k, volume ? value(k, *volume) : pi / 6.0 * size * size * size);
+  }
+  return sample;
+}
+
+}  // namespace wscvt

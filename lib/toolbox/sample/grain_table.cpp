@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/sample/grain_table.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <unordered_set>
+#include <utility>
+
+#include "wscvt/base/csv_reader.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/readable_text.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns nothing for text. `decimal` is the decimal mark besides the point.
+std::optional<double> field_number(std::string_view field, char decimal) {
+  std::string with_point;
+  std::string_view text = trimmed(field);
+  if (decimal != '.' && text.find(decimal) != std::string_view::npos) {
+    with_point = text;
+    with_point[text.find(decimal)] = '.';
+    text = with_point;
+  }
+  if (text.empty() || text == "NA") return missing;
+  if (text.front() == '+') text.remove_prefix(1);
+  double value = missing;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return {};
+  // A value outside the range of double, or infinite, is missing.
+  return error == std::errc() && std::isfinite(value) ? value : missing;
+}
+
+GrainColumn column_of(std::string_view heading) {
+  const std::string_view text = trimmed(heading);
+  const std::size_t bracket = text.rfind('[');
+  if (text.empty() || text.back() != ']' || bracket == std::string_view::npos) {
+    return {std::string(text), ""};
+  }
+  return {std::string(trimmed(text.substr(0, bracket))),
+          std::string(trimmed(text.substr(bracket + 1, text.size() - bracket - 2)))};
+}
+
+/// Content of a column.
+enum class Role { Undecided, Number, Text };
+
+/// Reads the rows of a file one after the other.
+class TableReader {
+ public:
+  TableReader(const std::string& path, char decimal) : path_(path), decimal_(decimal) {}
+
+  void read_heading(const std::vector<std::string>& fields);
+  void read_row(const std::vector<std::string>& fields);
+  GrainTable table();
+
+  /// Counts the line breaks of the last record.
+  void count_lines(const std::string& record) {
+    line_ = next_line_;
+    next_line_ += static_cast<std::size_t>(std::count(record.begin(), record.end(), '\n'));
+  }
+
+  /// Whether the table is a batch's, which may be cut in its last row.
+  bool has_status() const { return status_field_.has_value(); }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    refuse("\"" + readable(path_, "") + "\", line " + std::to_string(line_) + ": " + what);
+  }
+
+ private:
+  const std::string& path_;
+  char decimal_;
+  std::size_t line_ = 1;
+  std::size_t next_line_ = 1;
+  std::vector<GrainColumn> fields_;
+  std::vector<Role> roles_;
+  std::size_t name_field_ = 0;
+  std::optional<std::size_t> file_field_;
+  std::optional<std::size_t> status_field_;
+  std::vector<std::vector<double>> numbers_;  ///< of each field that is not text
+  GrainTable table_;
+};
+
+void TableReader::read_heading(const std::vector<std::string>& fields) {
+  std::unordered_set<std::string> names;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    std::string heading = fields[k];
+    // Spreadsheets write this mark at the beginning of a UTF-8 file.
+    if (k == 0 && heading.rfind("\xEF\xBB\xBF", 0) == 0) heading.erase(0, 3);
+    fields_.push_back(column_of(heading));
+    const std::string& name = fields_.back().name;
+    if (!names.insert(name).second) {
+      fail("two columns are named \"" + readable(name, "") + "\". Rename one of them.");
+    }
+    if (name == "grain") name_field_ = k;
+    if (name == "file") file_field_ = k;
+    if (name == "status") status_field_ = k;
+  }
+  if (fields_.size() == 1) {
+    fail(
+        "the table has only one column. Separate columns by commas, semicolons or tabs; the first "
+        "line has their names.");
+  }
+  for (const GrainColumn& column : fields_) {
+    const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
+    roles_.push_back(is_text ? Role::Text : Role::Undecided);
+  }
+  roles_[name_field_] = Role::Text;
+  numbers_.resize(fields_.size());
+}
+
+void TableReader::read_row(const std::vector<std::string>& fields) {
+  if (fields.size() != fields_.size()) {
+    fail("the row has " + std::to_string(fields.size()) + " fields, and the heading has " +
+         std::to_string(fields_.size()) + ". Write one field per column.");
+  }
+  if (status_field_ && fields[*status_field_] == "failed") {
+    ++table_.failed;
+    return;
+  }
+  table_.grains.push_back(fields[name_field_]);
+  if (file_field_) table_.files.push_back(fields[*file_field_]);
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (roles_[k] == Role::Text) continue;
+    const std::optional<double> number = field_number(fields[k], decimal_);
+    if (!number && roles_[k] == Role::Number) {
+      fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
+           "\", and numbers above it. Write a number, or leave the field empty.");
+    }
+    if (!trimmed(fields[k]).empty()) roles_[k] = number ? Role::Number : Role::Text;
+    numbers_[k].push_back(number.value_or(missing));
+  }
+}
+
+GrainTable TableReader::table() {
+  if (table_.grains.empty()) fail("no row of the table has a grain.");
+  std::vector<std::size_t> taken;
+  for (std::size_t k = 0; k < fields_.size(); ++k) {
+    // A column of a batch may be empty for all of its grains.
+    if (roles_[k] == Role::Text) {
+      table_.text_columns.push_back(fields_[k].name);
+      continue;
+    }
+    taken.push_back(k);
+    table_.columns.push_back(fields_[k]);
+  }
+  if (std::count(roles_.begin(), roles_.end(), Role::Number) == 0) {
+    fail("no column of the table has numbers. Write numbers without units, with decimal points.");
+  }
+  const auto rows = static_cast<Eigen::Index>(table_.grains.size());
+  table_.values.resize(rows, static_cast<Eigen::Index>(taken.size()));
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    const std::vector<double> numbers = std::move(numbers_[taken[k]]);
+    table_.values.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows);
+  }
+  return std::move(table_);
+}
+
+/// Returns the separator of the columns of a heading. Rewinds the stream.
+char separator_of(std::istream& stream) {
+  std::string heading;
+  std::getline(stream, heading);
+  stream.clear();
+  stream.seekg(0);
+  for (const char separator : {',', ';', '\t'}) {
+    if (heading.find(separator) != std::string::npos) return separator;
+  }
+  return ',';
+}
+
+}  // namespace
+
+std::optional<std::size_t> GrainTable::find(std::string_view name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const GrainColumn& column) { return column.name == name; });
+  if (found == columns.end()) return {};
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::size_t GrainTable::index_of(std::string_view name) const {
+  if (const auto found = find(name)) return *found;
+  std::string names;
+  for (const GrainColumn& column : columns) {
+    names += (names.empty() ? "" : ", ") + readable(column.name, "");
+  }
+  refuse("The table has no numeric column named \"" + readable(name, "") +
+         "\". Choose one of: " + names + ".");
+}
+
+std::string heading_of(const GrainColumn& column) {
+  return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
+}
+
+GrainTable read_grain_table(const std::string& path) {
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream.is_open()) refuse_to_open(path, errno);
+  const char separator = separator_of(stream);
+  CsvReader reader(stream, separator);
+  TableReader table(path, separator == ',' ? '.' : ',');
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) {
+    table.fail("the file has no table. Write a heading and a row per grain.");
+  }
+  table.count_lines(reader.text());
+  table.read_heading(fields);
+  while (reader.next(fields)) {
+    table.count_lines(reader.text());
+    table.read_row(fields);
+  }
+  if (stream.bad()) refuse_to_read(path);
+  if (!table.has_status() && reader.last(fields)) {
+    table.count_lines("");
+    table.read_row(fields);
+  } else if (reader.is_cut()) {
+    table.count_lines("");
+    table.fail(
+        "the file ends within this row. If the row is complete, end it with a line break. "
+        "Otherwise run the batch of this table again to complete it.");
+  }
+  return table.table();
+}
+
+}  // namespace wscvt

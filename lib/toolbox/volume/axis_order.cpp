@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/axis_order.h"
+
+#include <algorithm>
+
+#include "toolbox/volume/volume_formats.h"
+
+namespace wscvt {
+
+namespace {
+
+std::string text_of(const std::vector<std::int64_t>& counts) {
+  std::string text;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    text += (k == 0 ? "" : " x ") + std::to_string(counts[k]);
+  }
+  return text;
+}
+
+/// Returns the conventional roles of dimensions.
+std::vector<int> usual_roles(const std::vector<std::int64_t>& counts) {
+  std::vector<int> roles(counts.size(), -1);
+  int next = 0;  // x, the last dimension
+  for (std::size_t k = counts.size(); k-- > 0 && next < 3;) {
+    if (counts[k] > 1) roles[k] = next++;
+  }
+  // An image gets a dimension of one slice, so that its refusal names the real cause.
+  for (std::size_t k = counts.size(); k-- > 0 && next < 3;) {
+    if (roles[k] < 0) roles[k] = next++;
+  }
+  return roles;
+}
+
+}  // namespace
+
+ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice,
+                             const std::string& path) {
+  if (shape.counts.size() < 3) {
+    refuse_volume(path, "holds an array of " + text_of(shape.counts) +
+                            ", but a volume needs three dimensions.");
+  }
+  const std::vector<int> roles = shape.roles.empty() ? usual_roles(shape.counts) : shape.roles;
+  ShapedVolume volume;
+  std::array<std::int64_t, 3> counts{};
+  std::size_t of_space = 0;
+  for (std::size_t k = shape.counts.size(); k-- > 0;) {
+    const bool is_space = roles[k] >= 0;
+    volume.axes.push_back({is_space ? AxisKind::Space : AxisKind::Frame, shape.counts[k]});
+    if (!is_space) continue;
+    if (of_space < 3) {
+      counts[of_space] = shape.counts[k];
+      volume.geometry.order[of_space] = roles[k];
+    }
+    ++of_space;
+  }
+  std::array<Eigen::Index, 3> sorted = volume.geometry.order;
+  std::sort(sorted.begin(), sorted.end());
+  if (of_space != 3 || sorted != std::array<Eigen::Index, 3>{0, 1, 2}) {
+    refuse_volume(path, "holds an array of " + text_of(shape.counts) +
+                            " whose dimensions are not x, y and z. Save one volume.");
+  }
+  std::size_t frames = 0;
+  for (const VolumeAxis& axis : volume.axes) {
+    frames += axis.kind == AxisKind::Frame && axis.count > 1 ? 1 : 0;
+  }
+  if (frames > 1) {
+    refuse_volume(path, "holds an array of " + text_of(shape.counts) +
+                            " with more than one dimension besides space. Save only one volume.");
+  }
+  volume.picks = picks_of(volume.axes, choice, path);
+  volume.geometry.counts = voxel_counts(counts, path);
+  volume.geometry.has_size = shape.voxel_size.minCoeff() > 0.0;
+  if (volume.geometry.has_size) volume.geometry.unit = shape.unit;
+  const Vector3 size = volume.geometry.has_size ? shape.voxel_size : Vector3(Vector3::Ones());
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::Index axis = volume.geometry.order[static_cast<std::size_t>(k)];
+    axes(axis, k) = size[axis];
+  }
+  set_lattice(volume.geometry, axes, 0.5 * size, choice, path);
+  return volume;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/byte_source.h"
+
+#include <bzlib.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/endian/conversion.hpp>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Bytes per read.
+constexpr std::size_t block_size = std::size_t{1} << 20;
+
+class FileBytes : public ByteSource {
+ public:
+  FileBytes(const std::string& path, std::uint64_t offset)
+      : path_(path), buffer_(block_size), offset_(offset) {
+    stream_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    errno = 0;
+    stream_.open(path, std::ios::binary);
+    if (!stream_.is_open()) refuse_to_open(path, errno);
+    FileBytes::rewind();
+  }
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    stream_.read(bytes, static_cast<std::streamsize>(count));
+    if (stream_.bad()) refuse_to_read(path_);
+    return static_cast<std::size_t>(stream_.gcount());
+  }
+
+  void skip(std::uint64_t count) override {
+    // Skips within the buffer, which seeking would discard.
+    if (count < block_size) {
+      stream_.ignore(static_cast<std::streamsize>(count));
+    } else {
+      stream_.seekg(static_cast<std::streamoff>(count), std::ios::cur);
+    }
+  }
+
+  void rewind() override {
+    stream_.clear();
+    stream_.seekg(static_cast<std::streamoff>(offset_));
+  }
+
+ private:
+  std::string path_;
+  std::vector<char> buffer_;
+  std::ifstream stream_;
+  std::uint64_t offset_;
+};
+
+[[noreturn]] void refuse_damaged(const std::string& path) {
+  throw Error(ErrorCode::InputOutput,
+              "\"" + path +
+                  "\" holds packed voxels that are damaged. Copy the file again, or export it "
+                  "again.");
+}
+
+class InflatedBytes : public ByteSource {
+ public:
+  InflatedBytes(std::unique_ptr<ByteSource> packed, std::string path)
+      : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {
+    constexpr int gzip_or_zlib = 32;  // zlib distinguishes them by their first bytes
+    if (::inflateInit2(&stream_, MAX_WBITS + gzip_or_zlib) != Z_OK) throw std::bad_alloc();
+  }
+  InflatedBytes(const InflatedBytes&) = delete;
+  InflatedBytes& operator=(const InflatedBytes&) = delete;
+  ~InflatedBytes() override { ::inflateEnd(&stream_); }
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    std::size_t filled = 0;
+    while (filled < count) {
+      if (stream_.avail_in == 0) {
+        const std::size_t got = packed_->read(buffer_.data(), buffer_.size());
+        if (got == 0) return filled;
+        stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
+        stream_.avail_in = static_cast<uInt>(got);
+      }
+      const auto wanted = static_cast<uInt>(std::min(count - filled, block_size));
+      stream_.next_out = reinterpret_cast<Bytef*>(bytes + filled);
+      stream_.avail_out = wanted;
+      const int outcome = ::inflate(&stream_, Z_NO_FLUSH);
+      filled += wanted - stream_.avail_out;
+      if (outcome == Z_STREAM_END) {
+        ::inflateReset(&stream_);
+      } else if (outcome != Z_OK && outcome != Z_BUF_ERROR) {
+        refuse_damaged(path_);
+      }
+    }
+    return filled;
+  }
+
+  void rewind() override {
+    packed_->rewind();
+    ::inflateReset(&stream_);
+    stream_.avail_in = 0;
+  }
+
+ private:
+  std::unique_ptr<ByteSource> packed_;
+  std::string path_;
+  std::vector<char> buffer_;
+  z_stream stream_{};
+};
+
+class BunzippedBytes : public ByteSource {
+ public:
+  BunzippedBytes(std::unique_ptr<ByteSource> packed, std::string path)
+      : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {
+    begin();
+  }
+  BunzippedBytes(const BunzippedBytes&) = delete;
+  BunzippedBytes& operator=(const BunzippedBytes&) = delete;
+  ~BunzippedBytes() override { ::BZ2_bzDecompressEnd(&stream_); }
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    std::size_t filled = 0;
+    while (filled < count) {
+      if (stream_.avail_in == 0) {
+        const std::size_t got = packed_->read(buffer_.data(), buffer_.size());
+        if (got == 0) return filled;
+        stream_.next_in = buffer_.data();
+        stream_.avail_in = static_cast<unsigned>(got);
+      }
+      const auto wanted = static_cast<unsigned>(std::min(count - filled, block_size));
+      stream_.next_out = bytes + filled;
+      stream_.avail_out = wanted;
+      const int outcome = ::BZ2_bzDecompress(&stream_);
+      filled += wanted - stream_.avail_out;
+      if (outcome == BZ_STREAM_END) {
+        restart();
+      } else if (outcome != BZ_OK) {
+        refuse_damaged(path_);
+      }
+    }
+    return filled;
+  }
+
+  void rewind() override {
+    packed_->rewind();
+    stream_.avail_in = 0;
+    restart();
+  }
+
+ private:
+  void begin() {
+    if (::BZ2_bzDecompressInit(&stream_, 0, 0) != BZ_OK) throw std::bad_alloc();
+  }
+  void restart() {
+    char* const next = stream_.next_in;
+    const unsigned left = stream_.avail_in;
+    ::BZ2_bzDecompressEnd(&stream_);
+    stream_ = {};
+    begin();
+    stream_.next_in = next;
+    stream_.avail_in = left;
+  }
+
+  std::unique_ptr<ByteSource> packed_;
+  std::string path_;
+  std::vector<char> buffer_;
+  bz_stream stream_{};
+};
+
+/// Six-bit values of the characters; -1 for other characters.
+constexpr std::array<signed char, 256> base64_values() {
+  std::array<signed char, 256> values{};
+  for (auto& value : values) value = -1;
+  for (std::size_t k = 0; k < 26; ++k) {
+    values['A' + k] = static_cast<signed char>(k);
+    values['a' + k] = static_cast<signed char>(26 + k);
+  }
+  for (std::size_t k = 0; k < 10; ++k) values['0' + k] = static_cast<signed char>(52 + k);
+  values['+'] = 62;
+  values['/'] = 63;
+  return values;
+}
+
+class Base64Bytes : public ByteSource {
+ public:
+  explicit Base64Bytes(std::unique_ptr<ByteSource> text)
+      : text_(std::move(text)), buffer_(block_size / 4) {}
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    static constexpr std::array<signed char, 256> values = base64_values();
+    std::size_t filled = 0;
+    while (filled < count) {
+      if (next_ == made_.size()) {
+        made_.clear();
+        next_ = 0;
+        if (has_ended_) return filled;
+        // Four characters are three bytes; the last group of a text may be shorter, padded with
+        // "=".
+        std::array<int, 4> group{};
+        std::size_t held = 0;
+        std::size_t padding = 0;
+        while (held + padding < 4) {
+          const int c = next_character();
+          if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
+          const int value = c < 0 ? -1 : values[static_cast<std::size_t>(c)];
+          if (c == '=') {
+            ++padding;
+          } else if (value >= 0 && padding == 0) {
+            group[held++] = value;
+          } else {
+            has_ended_ = true;
+            break;
+          }
+        }
+        const int word = group[0] << 18 | group[1] << 12 | group[2] << 6 | group[3];
+        for (std::size_t k = 1; k < held; ++k) {
+          made_ += static_cast<char>(word >> (24 - 8 * static_cast<int>(k)) & 0xff);
+        }
+        continue;
+      }
+      bytes[filled++] = made_[next_++];
+    }
+    return filled;
+  }
+
+  void rewind() override {
+    text_->rewind();
+    begin_ = end_ = 0;
+    made_.clear();
+    next_ = 0;
+    has_ended_ = false;
+  }
+
+ private:
+  /// Returns the next character; -1 at the end.
+  int next_character() {
+    if (begin_ == end_) {
+      begin_ = 0;
+      end_ = text_->read(buffer_.data(), buffer_.size());
+      if (end_ == 0) return -1;
+    }
+    return static_cast<unsigned char>(buffer_[begin_++]);
+  }
+
+  std::unique_ptr<ByteSource> text_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::string made_;
+  std::size_t next_ = 0;
+  bool has_ended_ = false;
+};
+
+class BytesOfNumbers : public ByteSource {
+ public:
+  BytesOfNumbers(std::unique_ptr<ByteSource> text, std::string path)
+      : text_(std::move(text)), path_(std::move(path)), buffer_(block_size / 4) {}
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    std::size_t filled = 0;
+    while (filled < count) {
+      if (next_ == made_.size() && !next_number()) break;
+      bytes[filled++] = static_cast<char>(made_[next_++]);
+    }
+    return filled;
+  }
+
+  void rewind() override {
+    text_->rewind();
+    begin_ = end_ = 0;
+    next_ = made_.size();
+    has_ended_ = false;
+  }
+
+ private:
+  static bool is_between(int c) { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
+
+  bool next_number() {
+    int c = next_character();
+    while (is_between(c)) c = next_character();
+    std::string field;
+    constexpr std::size_t longest = 100;
+    for (; c >= 0 && !is_between(c) && field.size() < longest; c = next_character()) {
+      field += static_cast<char>(c);
+    }
+    if (field.empty()) return false;
+    const std::optional<double> number = number_in(field);
+    if (!number || field.size() == longest) {
+      throw Error(ErrorCode::InputOutput, "\"" + path_ + "\" has " + in_quotes(field) +
+                                              " instead of a voxel. Export it again.");
+    }
+    boost::endian::endian_store<double, sizeof(double), boost::endian::order::little>(made_.data(),
+                                                                                      *number);
+    next_ = 0;
+    return true;
+  }
+
+  /// Returns the next character; -1 at the end or at a "<" of XML.
+  int next_character() {
+    if (has_ended_) return -1;
+    if (begin_ == end_) {
+      begin_ = 0;
+      end_ = text_->read(buffer_.data(), buffer_.size());
+    }
+    if (begin_ == end_ || buffer_[begin_] == '<') {
+      has_ended_ = true;
+      return -1;
+    }
+    return static_cast<unsigned char>(buffer_[begin_++]);
+  }
+
+  std::unique_ptr<ByteSource> text_;
+  std::string path_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  bool has_ended_ = false;
+  std::array<unsigned char, sizeof(double)> made_{};
+  std::size_t next_ = sizeof(double);
+};
+
+class PickedBytes : public ByteSource {
+ public:
+  PickedBytes(std::unique_ptr<ByteSource> bytes, std::uint64_t block, std::uint64_t count,
+              std::uint64_t place)
+      : bytes_(std::move(bytes)), block_(block), count_(count), place_(place) {}
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    std::size_t filled = 0;
+    while (filled < count) {
+      if (left_ == 0) {
+        bytes_->skip(block_ * (is_first_ ? place_ : count_ - 1));
+        is_first_ = false;
+        left_ = block_;
+      }
+      const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(left_, count - filled));
+      const std::size_t got = bytes_->read(bytes + filled, wanted);
+      filled += got;
+      left_ -= got;
+      if (got < wanted) break;
+    }
+    return filled;
+  }
+
+  void rewind() override {
+    bytes_->rewind();
+    left_ = 0;
+    is_first_ = true;
+  }
+
+ private:
+  std::unique_ptr<ByteSource> bytes_;
+  std::uint64_t block_;
+  std::uint64_t count_;
+  std::uint64_t place_;
+  std::uint64_t left_ = 0;  ///< in the block
+  bool is_first_ = true;
+};
+
+class BytesBehind : public ByteSource {
+ public:
+  BytesBehind(std::unique_ptr<ByteSource> bytes, std::uint64_t offset)
+      : bytes_(std::move(bytes)), offset_(offset) {
+    bytes_->rewind();
+    bytes_->skip(offset_);
+  }
+
+  std::size_t read(char* bytes, std::size_t count) override { return bytes_->read(bytes, count); }
+  void skip(std::uint64_t count) override { bytes_->skip(count); }
+  void rewind() override {
+    bytes_->rewind();
+    bytes_->skip(offset_);
+  }
+
+ private:
+  std::unique_ptr<ByteSource> bytes_;
+  std::uint64_t offset_;
+};
+
+class JoinedBytes : public ByteSource {
+ public:
+  using Open = std::function<std::unique_ptr<ByteSource>(const std::string& path)>;
+
+  JoinedBytes(std::vector<std::string> paths, std::uint64_t part, Open open)
+      : paths_(std::move(paths)), part_(part), open_(std::move(open)) {}
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    std::size_t filled = 0;
+    while (filled < count) {
+      if (left_ == 0) {
+        if (next_ == paths_.size()) break;
+        bytes_ = open_(paths_[next_++]);
+        left_ = part_;
+      }
+      const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(left_, count - filled));
+      const std::size_t got = bytes_->read(bytes + filled, wanted);
+      if (got < wanted) {
+        throw Error(ErrorCode::InputOutput,
+                    "\"" + paths_[next_ - 1] + "\" has fewer voxels than its part, " +
+                        std::to_string(part_) + " bytes. Copy it again, or export it again.");
+      }
+      filled += got;
+      left_ -= got;
+    }
+    return filled;
+  }
+
+  void rewind() override {
+    bytes_.reset();
+    next_ = 0;
+    left_ = 0;
+  }
+
+ private:
+  std::vector<std::string> paths_;
+  std::uint64_t part_;
+  Open open_;
+  std::unique_ptr<ByteSource> bytes_;
+  std::size_t next_ = 0;
+  std::uint64_t left_ = 0;
+};
+
+}  // namespace
+
+void ByteSource::skip(std::uint64_t count) {
+  std::array<char, 4096> passed{};
+  while (count > 0) {
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(count, passed.size()));
+    if (read(passed.data(), wanted) < wanted) return;
+    count -= wanted;
+  }
+}
+
+std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t offset) {
+  return std::make_unique<FileBytes>(path, offset);
+}
+
+std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
+  return std::make_unique<InflatedBytes>(std::move(packed), std::move(path));
+}
+
+std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
+  return std::make_unique<BunzippedBytes>(std::move(packed), std::move(path));
+}
+
+std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text) {
+  return std::make_unique<Base64Bytes>(std::move(text));
+}
+
+std::unique_ptr<ByteSource> bytes_of_numbers(std::unique_ptr<ByteSource> text, std::string path) {
+  return std::make_unique<BytesOfNumbers>(std::move(text), std::move(path));
+}
+
+std::unique_ptr<ByteSource> picked_bytes(std::unique_ptr<ByteSource> bytes, std::uint64_t block,
+                                         std::uint64_t count, std::uint64_t place) {
+  return std::make_unique<PickedBytes>(std::move(bytes), block, count, place);
+}
+
+std::unique_ptr<ByteSource> bytes_behind(std::unique_ptr<ByteSource> bytes, std::uint64_t offset) {
+  return std::make_unique<BytesBehind>(std::move(bytes), offset);
+}
+
+std::unique_ptr<ByteSource> joined_bytes(
+    std::vector<std::string> paths, std::uint64_t part,
+    std::function<std::unique_ptr<ByteSource>(const std::string& path)> open) {
+  return std::make_unique<JoinedBytes>(std::move(paths), part, std::move(open));
+}
+
+std::uint64_t file_size(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) refuse_to_open(path, error.value());
+  return size;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// HDF5, read slice by slice by its own library (4 MB). MATLAB's files are HDF5 from version 7.3 on.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "toolbox/volume/axis_order.h"
+#include "toolbox/volume/volume_formats.h"
+#include "toolbox/volume/voxel_rows.h"
+#ifdef WSCVT_HAS_HDF5
+#include <hdf5.h>
+
+#include <boost/endian/conversion.hpp>
+#include <mutex>
+
+#include "wscvt/base/file_name.h"
+#include "wscvt/mesh_files/text_fields.h"
+#endif
+
+namespace wscvt {
+
+#ifdef WSCVT_HAS_HDF5
+
+namespace {
+
+/// Locks the library: Debian's is not thread-safe, and several threads of a batch read volumes.
+std::unique_lock<std::mutex> alone() {
+  static std::mutex mutex;
+  std::unique_lock<std::mutex> lock(mutex);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // otherwise it prints every error
+  return lock;
+}
+
+/// An object of the library, closed at the end of its scope.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept
+      : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+
+  operator hid_t() const { return id_; }
+  bool is_there() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+std::optional<VoxelType> type_of(hid_t data_set) {
+  Handle type(H5Dget_type(data_set), H5Tclose);
+  if (!type.is_there()) return std::nullopt;
+  // Truth values of h5py and PyTables are enumerations of 0 and 1.
+  if (H5Tget_class(type) == H5T_ENUM) type = Handle(H5Tget_super(type), H5Tclose);
+  const std::size_t size = H5Tget_size(type);
+  const bool is_float = H5Tget_class(type) == H5T_FLOAT;
+  const bool has_size =
+      is_float ? size == 4 || size == 8 : size == 1 || size == 2 || size == 4 || size == 8;
+  if ((!is_float && H5Tget_class(type) != H5T_INTEGER) || !has_size) return std::nullopt;
+  return VoxelType{static_cast<int>(size), is_float || H5Tget_sign(type) == H5T_SGN_2, is_float,
+                   boost::endian::order::native == boost::endian::order::big};
+}
+
+std::vector<hsize_t> counts_of(hid_t data_set) {
+  const Handle space(H5Dget_space(data_set), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 1) return {};
+  std::vector<hsize_t> counts(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space, counts.data(), nullptr);
+  return counts;
+}
+
+/// Finds the paths of the data sets that can be a volume.
+void find_volumes(hid_t group, const std::string& path, int depth, std::size_t& left,
+                  std::vector<std::string>& found) {
+  H5G_info_t info{};
+  constexpr int deepest = 16;  // groups may contain themselves
+  if (depth > deepest || H5Gget_info(group, &info) < 0) return;
+  for (hsize_t k = 0; k < info.nlinks && left > 0; ++k, --left) {
+    char name[512];
+    H5L_info_t link{};
+    if (H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name,
+                           H5P_DEFAULT) < 0 ||
+        H5Lget_info(group, name, &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD ||
+        name[0] == '#') {  // MATLAB's own
+      continue;
+    }
+    const Handle object(H5Oopen(group, name, H5P_DEFAULT), H5Oclose);
+    if (!object.is_there()) continue;
+    const std::string here = path + "/" + name;
+    if (H5Iget_type(object) == H5I_GROUP) {
+      find_volumes(object, here, depth + 1, left, found);
+    } else if (H5Iget_type(object) == H5I_DATASET && counts_of(object).size() >= 3 &&
+               type_of(object)) {
+      found.push_back(here);
+    }
+  }
+}
+
+bool is_of_matlab(hid_t data_set) { return H5Aexists(data_set, "MATLAB_class") > 0; }
+
+/// Returns the voxel size along x, y and z, from an attribute of Fiji and ilastik: z, y, x in
+/// micrometres.
+Vector3 voxel_size_of(hid_t data_set) {
+  Vector3 size = Vector3::Zero();
+  constexpr const char* name = "element_size_um";
+  if (H5Aexists(data_set, name) <= 0) return size;
+  const Handle attribute(H5Aopen(data_set, name, H5P_DEFAULT), H5Aclose);
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space) != 3) return size;
+  double values[3] = {};
+  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values) < 0) return size;
+  return {values[2], values[1], values[0]};
+}
+
+ArrayShape shape_of(hid_t data_set, const std::string& path) {
+  ArrayShape shape;
+  for (const hsize_t count : counts_of(data_set)) {
+    constexpr hsize_t most = 1000000000;
+    if (count < 1 || count > most) {
+      refuse_volume(path, "has a dimension of " + std::to_string(count) + ". Export it again.");
+    }
+    shape.counts.push_back(static_cast<std::int64_t>(count));
+  }
+  if (is_of_matlab(data_set)) {
+    // MATLAB's rows are y, its columns x, and the first dimension is the fastest; the file reverses
+    // them.
+    shape.roles.assign(shape.counts.size(), -1);
+    const std::size_t last = shape.counts.size() - 1;
+    shape.roles[last] = 1;
+    shape.roles[last - 1] = 0;
+    shape.roles[last - 2] = 2;
+  }
+  shape.voxel_size = voxel_size_of(data_set);
+  shape.unit = "um";
+  return shape;
+}
+
+/// Reads one slice at a time.
+class Hdf5Volume : public LabelVolume {
+ public:
+  Hdf5Volume(const ShapedVolume& volume, std::string path, std::string name,
+             const VolumeChoice& choice)
+      : LabelVolume(volume.geometry), path_(std::move(path)) {
+    const auto lock = alone();
+    file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    // The dimensions, the slowest first; the first dimension of space is the slices'.
+    for (std::size_t k = volume.axes.size(); k-- > 0;) {
+      const VolumeAxis& axis = volume.axes[k];
+      const bool is_space = axis.kind == AxisKind::Space;
+      begin_.push_back(is_space ? 0 : static_cast<hsize_t>(chosen_place(axis, choice, path_)));
+      counts_.push_back(is_space ? static_cast<hsize_t>(axis.count) : 1);
+      if (is_space && slices_ == none) slices_ = counts_.size() - 1;
+    }
+    counts_[slices_] = 1;
+    data_set_ = Handle(H5Dopen2(file_, name.c_str(), access_list(name)), H5Dclose);
+    const std::optional<VoxelType> type = type_of(data_set_);
+    if (!type) refuse_volume(path_, "was changed while it was read. Run the command again.");
+    type_ = *type;
+    const Handle stored(H5Dget_type(data_set_), H5Tclose);
+    memory_type_ = Handle(H5Tget_native_type(stored, H5T_DIR_ASCEND), H5Tclose);
+  }
+  Hdf5Volume(const Hdf5Volume&) = delete;
+  Hdf5Volume& operator=(const Hdf5Volume&) = delete;
+  ~Hdf5Volume() override {
+    const auto lock = alone();
+    memory_type_ = Handle(H5I_INVALID_HID, H5Tclose);
+    data_set_ = Handle(H5I_INVALID_HID, H5Dclose);
+    file_ = Handle(H5I_INVALID_HID, H5Fclose);
+  }
+
+  const std::vector<Label>& next_row() override {
+    const auto rows = static_cast<std::size_t>(geometry().counts[1]);
+    const auto row_bytes =
+        static_cast<std::size_t>(geometry().counts[0]) * static_cast<std::size_t>(type_.bytes);
+    if (next_ % rows == 0) read_slice(next_ / rows, rows * row_bytes);
+    row_.resize(static_cast<std::size_t>(geometry().counts[0]));
+    labels_of(
+        slice_.data() + next_ % rows * row_bytes, type_, is_grey(), row_,
+        {path_, static_cast<std::int64_t>(next_ % rows), static_cast<std::int64_t>(next_ / rows)});
+    ++next_;
+    return row_;
+  }
+
+  void rewind() override { next_ = 0; }
+
+ private:
+  static constexpr std::size_t none = 100;
+
+  /// Keeps unpacked chunks of the current slice in memory, up to 256 MB.
+  Handle access_list(const std::string& name) const {
+    Handle list(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    const Handle plain(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle made(H5Dget_create_plist(plain), H5Pclose);
+    if (H5Pget_layout(made) != H5D_CHUNKED) return list;
+    std::vector<hsize_t> chunk(counts_.size());
+    H5Pget_chunk(made, static_cast<int>(chunk.size()), chunk.data());
+    double bytes = 8.0;
+    for (std::size_t k = 0; k < chunk.size(); ++k) {
+      const auto chunks = static_cast<double>((counts_[k] + chunk[k] - 1) / chunk[k] + 1);
+      bytes *= chunks * static_cast<double>(chunk[k]);
+    }
+    constexpr double most = 256.0 * 1024 * 1024;
+    constexpr std::size_t slots = 100003;  // a prime, as the library recommends
+    H5Pset_chunk_cache(list, slots, static_cast<std::size_t>(std::min(bytes, most)), 1.0);
+    return list;
+  }
+
+  void read_slice(std::size_t z, std::size_t bytes) {
+    constexpr std::size_t most = std::size_t{1} << 32;
+    if (bytes > most) refuse_volume(path_, "has slices of more than 4 GiB, which is too large.");
+    const auto lock = alone();
+    slice_.resize(bytes);
+    begin_[slices_] = z;
+    const Handle space(H5Dget_space(data_set_), H5Sclose);
+    const Handle memory(H5Screate_simple(static_cast<int>(counts_.size()), counts_.data(), nullptr),
+                        H5Sclose);
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, begin_.data(), nullptr, counts_.data(),
+                            nullptr) < 0 ||
+        H5Dread(data_set_, memory_type_, memory, space, H5P_DEFAULT, slice_.data()) < 0) {
+      refuse_volume(path_,
+                    "is damaged, or packed by a filter that is not installed. Copy it again, "
+                    "or export it packed by gzip.");
+    }
+  }
+
+  std::string path_;
+  Handle file_{H5I_INVALID_HID, H5Fclose};
+  Handle data_set_{H5I_INVALID_HID, H5Dclose};
+  Handle memory_type_{H5I_INVALID_HID, H5Tclose};
+  std::vector<hsize_t> begin_;
+  std::vector<hsize_t> counts_;
+  std::size_t slices_ = none;  ///< the dimension
+  VoxelType type_;
+  std::size_t next_ = 0;  ///< row
+  std::vector<char> slice_;
+  std::vector<Label> row_;
+};
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice) {
+  file_size(path);  // throws if there is no file
+  std::string name;
+  ArrayShape shape;
+  {
+    const auto lock = alone();
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    if (!file.is_there()) {
+      refuse_volume(path,
+                    ending_of(path) == ".mat"
+                        ? "is not a MATLAB file of version 7.3. Save it by save(..., '-v7.3')."
+                        : "is not an HDF5 file, or is damaged. Export it again.");
+    }
+    std::vector<std::string> names;
+    std::size_t left = 100000;
+    find_volumes(file, "", 0, left, names);
+    if (names.empty()) {
+      refuse_volume(path, "has no data set of numbers with three dimensions. Export it again.");
+    }
+    VolumeChoice from_root = choice;
+    if (!choice.array.empty() && choice.array.front() != '/') from_root.array = "/" + choice.array;
+    name = names[chosen_array(names, from_root, path)];
+    const Handle data_set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    shape = shape_of(data_set, path);
+  }
+  const ShapedVolume volume = volume_of_shape(shape, choice, path);
+  return std::make_unique<Hdf5Volume>(volume, path, name, choice);
+}
+
+#else
+
+std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice&) {
+  refuse_volume(path,
+                "cannot be read: this program was built without HDF5. Install libhdf5-dev and "
+                "build it again, or save the volume as .nrrd.");
+}
+
+#endif
+
+}  // namespace wscvt

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "toolbox/volume/label_volume.h"
+#include "wscvt/base/execution.h"
+
+namespace wscvt {
+
+/// A label and the position of its voxels.
+struct LabelExtent {
+  Label label = 0;
+  std::uint64_t voxels = 0;
+  VoxelCounts begin = {};           ///< its first voxel along each axis
+  VoxelCounts end = {};             ///< one after its last
+  std::size_t pieces = 0;           ///< of the label, connected by faces of voxels
+  std::uint64_t largest_piece = 0;  ///< voxels of the largest piece
+
+  /// Returns the fraction of voxels outside the largest piece.
+  double left_out() const {
+    return 1.0 - static_cast<double>(largest_piece) / static_cast<double>(voxels);
+  }
+  bool touches_border(const VoxelCounts& counts) const;
+};
+
+/// Largest number of labels of a volume. A grey image mistaken for labels has more.
+inline constexpr std::size_t most_labels = 1000000;
+
+/// Calls visit(label, y, z, begin, end) for every stretch of one label along x, in the order of the
+/// file; stops if visit returns false.
+template <class Visit>
+bool visit_stretches(const std::vector<Label>& row, std::int32_t y, std::int32_t z,
+                     const Visit& visit) {
+  const auto count = static_cast<std::int32_t>(row.size());
+  for (std::int32_t begin = 0; begin < count;) {
+    const Label label = row[static_cast<std::size_t>(begin)];
+    std::int32_t end = begin + 1;
+    while (end < count && row[static_cast<std::size_t>(end)] == label) ++end;
+    if (!visit(label, y, z, begin, end)) return false;
+    begin = end;
+  }
+  return true;
+}
+
+/// Reads the volume once from its beginning, and returns its labels without the background, in
+/// their order, with the number of pieces of each. Needs memory for the labels and the stretches of
+/// two slices. Throws Error: InvalidInput for more than `most_labels`, Cancelled, and what the
+/// volume throws.
+std::vector<LabelExtent> label_census(LabelVolume& volume, Label background,
+                                      const Execution& execution);
+
+}  // namespace wscvt

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/label_grains.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/segmentation.h"
+#include "toolbox/volume/volume_parts.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+void check_volume_options(const VolumeOptions& options) {
+  require_in_range(options.smallest, smallest_option);
+  require_in_range(options.smoothing, smoothing_option);
+  if (options.separate) {
+    require_in_range(*options.separate, separate_option);
+    require_filters();
+  }
+  if (options.choice.channel) require_in_range(*options.choice.channel, channel_option);
+  if (options.choice.frame) require_in_range(*options.choice.frame, frame_option);
+  if (!options.choice.voxel_size) return;
+  for (const double size : *options.choice.voxel_size) require_in_range(size, voxel_size_option);
+}
+
+LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
+                         const Execution& execution)
+    : options_(options) {
+  check_volume_options(options);
+  volume_ = open_volume(path, options.choice);
+  const bool is_numbered_anew = options.parts || options.separate;
+  const Execution numbering = execution.part(0.0, 0.5);
+  if (options.separate) {
+    volume_ = separated(*volume_, options.background, *options.separate, numbering);
+  } else if (options.parts) {
+    volume_ = parts_of(std::move(volume_), options.background, numbering);
+  }
+  if (is_numbered_anew) options_.background = 0;
+  labels_ = label_census(*volume_, options_.background,
+                         is_numbered_anew ? execution.part(0.5, 1.0) : execution);
+  if (labels_.empty()) {
+    throw Error(ErrorCode::InvalidInput, "\"" + path + "\" has no label except the background, " +
+                                             std::to_string(options.background) +
+                                             ". Check it, or give --background.");
+  }
+  for (std::size_t k = 0; k < labels_.size(); ++k) {
+    if (state(labels_[k]) == LabelState::Taken) taken_.push_back(k);
+  }
+  std::stable_sort(taken_.begin(), taken_.end(), [&](std::size_t a, std::size_t b) {
+    return labels_[a].end[2] < labels_[b].end[2];
+  });
+}
+
+std::string LabelGrains::name_of(Label label) const {
+  const auto found = volume_->names().find(label);
+  return found == volume_->names().end() ? "" : found->second;
+}
+
+double LabelGrains::left_out() const {
+  std::uint64_t all = 0;
+  std::uint64_t left_out = 0;
+  for (const std::size_t k : taken_) {
+    const LabelExtent& label = labels_[k];
+    const bool is_kept = static_cast<std::int64_t>(label.largest_piece) >= options_.smallest;
+    all += label.voxels;
+    left_out += label.voxels - (is_kept ? label.largest_piece : 0);
+  }
+  return all == 0 ? 0.0 : static_cast<double>(left_out) / static_cast<double>(all);
+}
+
+LabelState LabelGrains::state(const LabelExtent& label) const {
+  if (static_cast<std::int64_t>(label.voxels) < options_.smallest) return LabelState::TooSmall;
+  const bool is_cut = !options_.at_border && label.touches_border(geometry().counts);
+  return is_cut ? LabelState::AtTheBorder : LabelState::Taken;
+}
+
+void LabelGrains::want(const std::vector<std::size_t>& grains) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  at_work_.clear();
+  for (const std::size_t grain : grains) at_work_[labels_[taken_[grain]].label];
+  next_slice_ = 0;
+  volume_->rewind();
+}
+
+void LabelGrains::begin_again() {
+  for (auto& [label, stretches] : at_work_) stretches.clear();
+  volume_->rewind();
+  next_slice_ = 0;
+}
+
+void LabelGrains::read_to(std::int32_t slice, const Execution& execution) {
+  if (is_behind_) begin_again();
+  const auto take_stretch = [&](Label found, std::int32_t y, std::int32_t z, std::int32_t begin,
+                                std::int32_t end) {
+    const auto place = at_work_.find(found);
+    if (place != at_work_.end()) place->second.push_back({z, y, begin, end});
+    return true;
+  };
+  is_behind_ = true;  // in case the following code throws
+  for (; next_slice_ < slice; ++next_slice_) {
+    execution.report(0.0, "Reading the volume");
+    for (std::int32_t y = 0; y < geometry().counts[1]; ++y) {
+      visit_stretches(volume_->next_row(), y, next_slice_, take_stretch);
+    }
+  }
+  is_behind_ = false;
+}
+
+std::vector<VoxelStretch> LabelGrains::stretches_of(std::size_t grain, const Execution& execution) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const LabelExtent& label = labels_[taken_[grain]];
+  const auto [place, was_read_before] = at_work_.try_emplace(label.label);
+  if (was_read_before) is_behind_ = true;
+  try {
+    read_to(label.end[2], execution);
+  } catch (const Error& error) {
+    // The whole volume was readable when the labels were found.
+    if (error.code() == ErrorCode::InputOutput) throw MachineRefused(error.what());
+    throw;
+  }
+  std::vector<VoxelStretch> stretches = std::move(place->second);
+  at_work_.erase(place);
+  return stretches;
+}
+
+LabelGrain LabelGrains::read(std::size_t grain, const Execution& execution) {
+  const VoxelSurface surface = voxel_surface(stretches_of(grain, execution));
+  LabelGrain result;
+  result.pieces = surface.pieces;
+  result.enclosed = surface.enclosed;
+  result.piece_voxels = surface.piece_voxels;
+  result.pore_voxels = surface.pore_voxels;
+  if (surface.enclosed >= options_.smallest) {
+    result.mesh = smoothed_surface(surface, options_.smoothing, geometry());
+  }
+  return result;
+}
+
+std::vector<std::string> warnings_of(const LabelGrain& grain) {
+  std::vector<std::string> warnings;
+  if (grain.pieces > 1) {
+    warnings.push_back(
+        "The label is in " + std::to_string(grain.pieces) +
+        " pieces. The largest was used. The others, " +
+        format_percent(1.0 - static_cast<double>(grain.enclosed) /
+                                 static_cast<double>(grain.piece_voxels)) +
+        " of the volume, were left out. If they are grains, segment the volume again.");
+  }
+  if (grain.pore_voxels > 0) {
+    warnings.push_back("The label has pores of " +
+                       format_percent(static_cast<double>(grain.pore_voxels) /
+                                      static_cast<double>(grain.piece_voxels)) +
+                       " of its volume. They were filled.");
+  }
+  return warnings;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// MetaImage as ITK defines it: https://docs.itk.org/en/latest/learn/metaio.html
+#include <array>
+#include <utility>
+
+#include "toolbox/volume/header_file.h"
+#include "toolbox/volume/volume_formats.h"
+#include "toolbox/volume/voxel_rows.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+struct MetaHeader {
+  std::int64_t dimensions = 3;
+  std::vector<std::int64_t> sizes;
+  std::string type;
+  std::int64_t channels = 1;
+  bool is_text = false;
+  bool is_packed = false;
+  bool big_endian = false;
+  std::string unit;
+  std::vector<double> spacing;
+  std::vector<double> directions;
+  std::vector<double> origin;
+  std::int64_t header_size = 0;
+  std::string data_file;
+  std::vector<std::string> list;  ///< of `ElementDataFile = LIST`
+};
+
+bool is_true(const std::string& value) {
+  const std::string lower = lower_case(value);
+  return lower == "true" || lower == "t" || lower == "1";
+}
+
+// Unknown fields are the writer's notes: ITK's writer adds an image's whole dictionary. All fields
+// for the position and type of voxels are known.
+void read_field(const std::string& name, const std::string& value, const HeaderFile& file,
+                MetaHeader& header) {
+  if (name == "objecttype") {
+    if (lower_case(value) != "image") file.fail_line("is of no image.");
+  } else if (name == "ndims") {
+    header.dimensions = whole_number_of(value, file);
+  } else if (name == "dimsize") {
+    header.sizes.clear();
+    TextFields fields(value);
+    for (auto field = fields.next(); !field.empty(); field = fields.next()) {
+      header.sizes.push_back(whole_number_of(field, file));
+    }
+  } else if (name == "elementtype") {
+    header.type = value;
+  } else if (name == "elementnumberofchannels") {
+    header.channels = whole_number_of(value, file);
+  } else if (name == "binarydata") {
+    header.is_text = !is_true(value);
+  } else if (name == "compresseddata") {
+    header.is_packed = is_true(value);
+  } else if (name == "binarydatabyteordermsb" || name == "elementbyteordermsb") {
+    header.big_endian = is_true(value);
+  } else if (name == "distanceunits") {
+    header.unit = value == "?" ? "" : value;
+  } else if (name == "elementspacing" || (name == "elementsize" && header.spacing.empty())) {
+    header.spacing = numbers_in(value, file);
+  } else if (name == "transformmatrix" || name == "rotation" || name == "orientation") {
+    header.directions = numbers_in(value, file);
+  } else if (name == "offset" || name == "position" || name == "origin") {
+    header.origin = numbers_in(value, file);
+  } else if (name == "headersize") {
+    header.header_size = whole_number_of(value, file);
+  } else if (name == "elementdatafile") {
+    header.data_file = value;
+  }
+}
+
+MetaHeader read_meta_header(HeaderFile& file) {
+  MetaHeader header;
+  while (header.data_file.empty()) {  // the last field
+    const std::string line = file.line();
+    const std::size_t sign = line.find('=');
+    if (line.empty()) continue;
+    if (sign == std::string::npos) file.fail_line("is not that of a MetaImage.");
+    read_field(lower_case(trimmed(line.substr(0, sign))),
+               std::string(trimmed(line.substr(sign + 1))), file, header);
+  }
+  if (lower_case(header.data_file).rfind("list", 0) != 0) return header;
+  while (!file.is_at_end()) {
+    const std::string line = file.line();
+    if (!line.empty()) header.list.push_back(line);
+  }
+  return header;
+}
+
+/// Returns the dimensions in the file's order: channels, x, y, z, and frames as a fourth dimension.
+std::vector<VolumeAxis> axes_of(const MetaHeader& header, const std::string& path) {
+  if (header.sizes.empty()) refuse_volume(path, "does not say how large it is. Export it again.");
+  if (header.dimensions != static_cast<std::int64_t>(header.sizes.size())) {
+    refuse_volume(path, "says that it has " + std::to_string(header.dimensions) +
+                            " dimensions, but has sizes of " + std::to_string(header.sizes.size()) +
+                            ". Export it again.");
+  }
+  if (header.dimensions == 2) {
+    refuse_volume(path, "has two dimensions: it is one image, but grains need a stack of images.");
+  }
+  if (header.dimensions != 3 && header.dimensions != 4) {
+    refuse_volume(
+        path, "has " + std::to_string(header.dimensions) + " dimensions. Save only one volume.");
+  }
+  std::vector<VolumeAxis> axes;
+  if (header.channels != 1) axes.push_back({AxisKind::Channel, header.channels});
+  for (std::size_t k = 0; k < header.sizes.size(); ++k) {
+    axes.push_back({k < 3 ? AxisKind::Space : AxisKind::Frame, header.sizes[k]});
+  }
+  return axes;
+}
+
+/// Returns the first three numbers of as many as there are dimensions.
+Vector3 vector_of(const std::vector<double>& numbers, const MetaHeader& header,
+                  const Vector3& fallback, const std::string& path) {
+  if (numbers.empty()) return fallback;
+  if (numbers.size() != header.sizes.size()) {
+    refuse_volume(
+        path,
+        "has a spacing or an offset of another number of axes than its sizes. Export it again.");
+  }
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+void set_geometry(const MetaHeader& header, const VolumeChoice& choice, const std::string& path,
+                  VolumeGeometry& geometry) {
+  geometry.counts = voxel_counts({header.sizes[0], header.sizes[1], header.sizes[2]}, path);
+  geometry.has_size = !header.spacing.empty();
+  geometry.unit = unit_of(header.unit);
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
+  const std::size_t side = header.sizes.size();
+  if (!header.directions.empty()) {
+    if (header.directions.size() != side * side) {
+      refuse_volume(path,
+                    "has directions of another number of axes than its sizes. Export it "
+                    "again.");
+    }
+    for (std::size_t k = 0; k < 9; ++k) {
+      directions(static_cast<Eigen::Index>(k % 3), static_cast<Eigen::Index>(k / 3)) =
+          header.directions[k / 3 * side + k % 3];
+    }
+  }
+  const Vector3 spacing = vector_of(header.spacing, header, Vector3::Ones(), path);
+  set_lattice(geometry, directions * spacing.asDiagonal(),
+              vector_of(header.origin, header, Vector3::Zero(), path), choice, path);
+}
+
+std::vector<std::string> files_of(const MetaHeader& header, const std::string& path) {
+  const std::string lower = lower_case(header.data_file);
+  if (lower == "local") return {path};
+  if (lower.rfind("list", 0) == 0) {
+    if (header.list.empty()) refuse_volume(path, "has an empty list of files. Export it again.");
+    std::vector<std::string> files;
+    for (const std::string& name : header.list) files.push_back(voxel_file_beside(path, name));
+    return files;
+  }
+  if (header.data_file.find('%') == std::string::npos) {
+    return {voxel_file_beside(path, header.data_file)};
+  }
+  // "s_%03d.raw 1 24 1": first, last and step, as MetaIO reads them; the last two are optional.
+  TextFields fields(header.data_file);
+  const std::string pattern(fields.next());
+  std::array<std::int64_t, 3> numbers = {1, header.sizes.back(), 1};
+  bool has_last = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string_view field = fields.next();
+    if (field.empty()) break;
+    const std::optional<std::int64_t> value = whole_number_in(field);
+    if (!value) {
+      refuse_volume(path,
+                    "has " + in_quotes(header.data_file) +
+                        " as its files. Write a pattern, and its first number, last and step.");
+    }
+    numbers[k] = *value;
+    has_last = has_last || k == 1;
+  }
+  if (!has_last) numbers[1] = numbers[0] + header.sizes.back() - 1;
+  return voxel_files_beside(path, pattern, numbers[0], numbers[1], numbers[2]);
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_meta_image(const std::string& path, const VolumeChoice& choice) {
+  HeaderFile file(path);
+  const MetaHeader header = read_meta_header(file);
+  refuse_array_choice(choice, path);
+  const std::vector<VolumeAxis> axes = axes_of(header, path);
+  VolumeGeometry geometry;
+  set_geometry(header, choice, path, geometry);
+  VoxelType type = voxel_type_of(header.type, path);
+  type.big_endian = header.big_endian;
+
+  const bool is_local = lower_case(header.data_file) == "local";
+  VoxelData data;
+  data.picks = picks_of(axes, choice, path);
+  data.paths = files_of(header, path);
+  data.offset = is_local ? file.offset() : 0;
+  if (header.is_packed) data.packing = Packing::Deflate;
+  if (header.is_text) data.packing = Packing::Text;
+  data.at_end = header.header_size == -1 && data.packing == Packing::None;
+  if (header.header_size > 0) data.offset = static_cast<std::uint64_t>(header.header_size);
+  return volume_of_files(geometry, type, data);
+}
+
+}  // namespace wscvt

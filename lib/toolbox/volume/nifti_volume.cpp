@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// NIfTI. libnifti2 reads the header, of both versions and byte orders, and computes the axes. It
+// can read voxels only all at once: a volume of 4 gigavoxels would need 8 GB. So they are read
+// here, row by row.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "toolbox/volume/volume_formats.h"
+#include "toolbox/volume/voxel_rows.h"
+#ifdef WSCVT_HAS_NIFTI
+#include <nifti2_io.h>
+
+#include <cmath>
+#include <mutex>
+
+#include "wscvt/base/file_name.h"
+#endif
+
+namespace wscvt {
+
+#ifdef WSCVT_HAS_NIFTI
+
+namespace {
+
+/// Returns the type of a data type code of the header. NIfTI has its own codes.
+VoxelType type_of(int code, const std::string& path) {
+  switch (code) {
+    case DT_UINT8:
+      return {1, false, false, false};
+    case DT_INT8:
+      return {1, true, false, false};
+    case DT_UINT16:
+      return {2, false, false, false};
+    case DT_INT16:
+      return {2, true, false, false};
+    case DT_UINT32:
+      return {4, false, false, false};
+    case DT_INT32:
+      return {4, true, false, false};
+    case DT_UINT64:
+      return {8, false, false, false};
+    case DT_INT64:
+      return {8, true, false, false};
+    case DT_FLOAT32:
+      return {4, true, true, false};
+    case DT_FLOAT64:
+      return {8, true, true, false};
+    default:
+      refuse_volume(path, std::string("has voxels of NIfTI's type ") + nifti_datatype_string(code) +
+                              ". Save labels as whole numbers.");
+  }
+}
+
+/// Reads a signed whole number from a header.
+std::int64_t number_at(const std::string& head, std::size_t place, std::size_t size, bool big) {
+  std::uint64_t value = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t from = place + (big ? k : size - 1 - k);
+    value = value << 8 | static_cast<unsigned char>(head[from]);
+  }
+  const std::size_t spare = 64 - 8 * size;
+  return static_cast<std::int64_t>(value << spare) >> spare;
+}
+
+/// Refuses headers that libnifti2 would refuse, because it always prints this to the standard
+/// error.
+void check_header(const std::string& path) {
+  std::unique_ptr<ByteSource> bytes = file_bytes(path, 0);
+  if (ending_of(path) == ".gz") bytes = inflated_bytes(std::move(bytes), path);
+  std::string head(540, '\0');
+  head.resize(bytes->read(head.data(), head.size()));
+  const auto is_of = [&](std::size_t size, const char* magic, std::size_t place, bool big) {
+    return head.size() >= size && number_at(head, 0, 4, big) == static_cast<std::int64_t>(size) &&
+           head.compare(place, 4, std::string(magic) + '\0') == 0;
+  };
+  for (const bool big : {false, true}) {
+    const bool is_first = is_of(348, "n+1", 344, big);
+    if (!is_first && !is_of(540, "n+2", 4, big)) continue;
+    type_of(static_cast<int>(number_at(head, is_first ? 70 : 12, 2, big)), path);
+    const std::size_t size = is_first ? 2 : 8;
+    const std::size_t place = is_first ? 40 : 16;
+    const std::int64_t dimensions = number_at(head, place, size, big);
+    for (std::int64_t k = 1; k <= 7; ++k) {
+      const std::int64_t count =
+          number_at(head, place + static_cast<std::size_t>(k) * size, size, big);
+      if (dimensions < 1 || dimensions > 7 || (k <= dimensions && count < 1)) {
+        refuse_volume(path, "has a NIfTI header with dimensions below 1. Export it again.");
+      }
+    }
+    return;
+  }
+  refuse_volume(path, "is not a NIfTI file of one part. Save it as .nii or .nii.gz.");
+}
+
+struct FreeImage {
+  void operator()(nifti_image* image) const { nifti_image_free(image); }
+};
+using NiftiImage = std::unique_ptr<nifti_image, FreeImage>;
+
+NiftiImage header_of(const std::string& path) {
+  // The library stores its verbosity in a global.
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  nifti_set_debug_level(0);
+  NiftiImage image(nifti_image_read(path.c_str(), 0));
+  if (!image) refuse_volume(path, "is not a NIfTI file, or is damaged. Export it again.");
+  return image;
+}
+
+std::string unit_of_code(int code) {
+  if (code == NIFTI_UNITS_METER) return "m";
+  if (code == NIFTI_UNITS_MM) return "mm";
+  return code == NIFTI_UNITS_MICRON ? "um" : "";
+}
+
+void set_geometry(const nifti_image& image, const VolumeChoice& choice, const std::string& path,
+                  VolumeGeometry& geometry) {
+  geometry.counts = voxel_counts({image.nx, image.ny, image.nz}, path);
+  geometry.unit = unit_of_code(image.xyz_units);
+  // sform, qform, or only the sizes, in this order of preference.
+  Eigen::Matrix3d axes = Vector3(image.dx, image.dy, image.dz).asDiagonal();
+  Vector3 origin = Vector3::Zero();
+  if (image.sform_code > 0 || image.qform_code > 0) {
+    const nifti_dmat44& placed = image.sform_code > 0 ? image.sto_xyz : image.qto_xyz;
+    for (Eigen::Index row = 0; row < 3; ++row) {
+      for (Eigen::Index column = 0; column < 3; ++column) axes(row, column) = placed.m[row][column];
+      origin[row] = placed.m[row][3];
+    }
+  }
+  geometry.has_size = true;
+  set_lattice(geometry, axes, origin, choice, path);
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice& choice) {
+  refuse_array_choice(choice, path);
+  check_header(path);
+  const NiftiImage image = header_of(path);
+  if (image->nifti_type != NIFTI_FTYPE_NIFTI1_1 && image->nifti_type != NIFTI_FTYPE_NIFTI2_1) {
+    refuse_volume(path, "is not a NIfTI file of one part. Save it as .nii or .nii.gz.");
+  }
+  const bool is_scaled =
+      image->scl_slope != 0.0 && (image->scl_slope != 1.0 || image->scl_inter != 0.0);
+  if (is_scaled) {
+    refuse_volume(path, "scales its voxels by " + std::to_string(image->scl_slope) + " and adds " +
+                            std::to_string(image->scl_inter) +
+                            ", so they are not labels. Save them unscaled.");
+  }
+  VolumeGeometry geometry;
+  set_geometry(*image, choice, path, geometry);
+  VoxelType type = type_of(image->datatype, path);
+  constexpr int msb_first = 2;  // the library does not export its name for it
+  type.big_endian = image->byteorder == msb_first;
+  const std::int64_t more = std::max<std::int64_t>(1, image->nu) *
+                            std::max<std::int64_t>(1, image->nv) *
+                            std::max<std::int64_t>(1, image->nw);
+  VoxelData data;
+  data.paths = {path};
+  data.offset = static_cast<std::uint64_t>(std::max<std::int64_t>(0, image->iname_offset));
+  data.picks = picks_of({{AxisKind::Space, image->nx},
+                         {AxisKind::Space, image->ny},
+                         {AxisKind::Space, image->nz},
+                         {AxisKind::Frame, std::max<std::int64_t>(1, image->nt)},
+                         {AxisKind::Channel, more}},
+                        choice, path);
+  if (ending_of(path) != ".gz") return volume_of_files(geometry, type, data);
+  // The offset is in the unpacked bytes.
+  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
+  for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
+  check_voxel_bytes(wanted, file_size(path), Packing::Deflate, path);
+  return volume_of_bytes(
+      geometry, type,
+      picked_voxels(bytes_behind(inflated_bytes(file_bytes(path, 0), path), data.offset),
+                    data.picks, static_cast<std::uint64_t>(type.bytes)),
+      path);
+}
+
+#else
+
+std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice&) {
+  refuse_volume(path,
+                "cannot be read: this program was built without libnifti2. Install libnifti2-dev "
+                "and build it again, or save the volume as .nrrd.");
+}
+
+#endif
+
+}  // namespace wscvt

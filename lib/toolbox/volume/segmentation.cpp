@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/segmentation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "toolbox/volume/grey_threshold.h"
+#include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/volume_parts.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Labels in memory.
+class HeldVolume : public LabelVolume {
+ public:
+  HeldVolume(const VolumeGeometry& geometry, std::vector<Label> labels)
+      : LabelVolume(geometry), labels_(std::move(labels)) {}
+
+  const std::vector<Label>& next_row() override {
+    const auto begin = labels_.begin() + static_cast<std::ptrdiff_t>(next_);
+    row_.assign(begin, begin + geometry().counts[0]);
+    next_ += row_.size();
+    return row_;
+  }
+  void rewind() override { next_ = 0; }
+
+ private:
+  std::vector<Label> labels_;
+  std::vector<Label> row_;
+  std::size_t next_ = 0;
+};
+
+/// Maps the labels 0, 1, 2, ... of a volume to other numbers.
+class RenumberedVolume : public LabelVolume {
+ public:
+  RenumberedVolume(std::unique_ptr<LabelVolume> volume, std::vector<Label> numbers)
+      : LabelVolume(volume->geometry()), volume_(std::move(volume)), numbers_(std::move(numbers)) {}
+
+  const std::vector<Label>& next_row() override {
+    row_ = volume_->next_row();
+    for (Label& label : row_) label = numbers_[label];
+    return row_;
+  }
+  void rewind() override { volume_->rewind(); }
+
+ private:
+  std::unique_ptr<LabelVolume> volume_;
+  std::vector<Label> numbers_;
+  std::vector<Label> row_;
+};
+
+/// Calls take(labels) for each row of a volume, from its beginning.
+template <class Take>
+void for_each_row(LabelVolume& volume, const Execution& execution, const Take& take) {
+  const VoxelCounts& counts = volume.geometry().counts;
+  volume.rewind();
+  for (std::int32_t z = 0; z < counts[2]; ++z) {
+    execution.report(static_cast<double>(z) / counts[2], "Reading the volume");
+    for (std::int32_t y = 0; y < counts[1]; ++y) take(volume.next_row());
+  }
+}
+
+std::size_t voxels_of(const VoxelCounts& counts) {
+  return static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]) *
+         static_cast<std::size_t>(counts[2]);
+}
+
+/// Statistics of the grey values of a volume; values that are not finite are ignored.
+struct GreyRange {
+  float least = std::numeric_limits<float>::max();
+  float largest = std::numeric_limits<float>::lowest();
+  bool are_two = true;
+  bool are_whole = true;
+  /// Range of all values but a thousandth at each end, widened by a quarter of it at both ends.
+  float lower = 0.0F;
+  float upper = 0.0F;
+  double equal_neighbours = 0.0;  ///< fraction of equal neighbours along x
+};
+
+GreyRange range_of(LabelVolume& volume, const Execution& execution) {
+  GreyRange range;
+  std::vector<float> sample;
+  std::uint64_t count = 0;
+  std::uint64_t equal = 0;
+  std::optional<float> other;
+  for_each_row(volume, execution, [&](const std::vector<Label>& row) {
+    float before = std::numeric_limits<float>::quiet_NaN();
+    for (const Label code : row) {
+      const float value = grey_value(code);
+      if (!std::isfinite(value)) continue;
+      if (value == before) ++equal;
+      constexpr std::uint64_t sampled = 61;  // no common factor with usual row lengths
+      if (count++ % sampled == 0) sample.push_back(value);
+      if (value == before) continue;
+      before = value;
+      if (count > 1 && value != sample.front()) {
+        if (other && value != *other) range.are_two = false;
+        other = value;
+      }
+      range.least = std::min(range.least, value);
+      range.largest = std::max(range.largest, value);
+      range.are_whole = range.are_whole && value == std::floor(value);
+    }
+  });
+  if (!(range.least < range.largest)) {
+    refuse(count == 0 ? "The volume has no number."
+                      : "All voxels of the volume are " + format_number(range.least) +
+                            ": there is nothing to separate. Check the channel, the frame or the "
+                            "array.");
+  }
+  range.equal_neighbours = static_cast<double>(equal) / static_cast<double>(count);
+  std::sort(sample.begin(), sample.end());
+  const float first = sample[sample.size() / 1000];
+  const float last = sample[sample.size() - 1 - sample.size() / 1000];
+  // All but a thousandth may have one value.
+  const float beyond = first < last ? 0.25F * (last - first) : range.largest - range.least;
+  range.lower = std::max(range.least, first - beyond);
+  range.upper = std::min(range.largest, last + beyond);
+  return range;
+}
+
+/// Returns a mask of the voxels for which `is_material` is true.
+template <class IsMaterial>
+std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& execution,
+                                  const IsMaterial& is_material) {
+  std::vector<std::uint8_t> mask;
+  mask.reserve(voxels_of(volume.geometry().counts));
+  for_each_row(volume, execution, [&](const std::vector<Label>& row) {
+    for (const Label value : row) mask.push_back(is_material(value) ? 1 : 0);
+  });
+  return mask;
+}
+
+/// Returns the material among grey values; sets `threshold` to the computed one if it was not
+/// given.
+std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
+                                      std::optional<double>& threshold,
+                                      const Execution& execution) {
+  constexpr double most = std::numeric_limits<std::uint16_t>::max();
+  // Whole numbers of 16 bits are used as they are. Other values are quantized; a few outliers must
+  // not widen the steps.
+  const bool is_short = range.are_whole && double{range.largest} - range.least <= most;
+  const double base = is_short ? range.least : range.lower;
+  const double step = is_short ? 1.0 : (range.upper - base) / most;
+  std::vector<std::uint16_t> grey;
+  grey.reserve(voxels_of(scan.geometry().counts));
+  for_each_row(scan, execution.part(0.0, 0.2), [&](const std::vector<Label>& row) {
+    for (const Label code : row) {
+      // NaN lies outside the scanned region.
+      const float value = code == 0 ? range.least : grey_value(code);
+      grey.push_back(
+          static_cast<std::uint16_t>(std::clamp(std::round((value - base) / step), 0.0, most)));
+    }
+  });
+  grey = median_of(grey, scan.geometry().counts, execution.part(0.2, 1.0));
+  if (!threshold) {
+    std::vector<std::uint64_t> counts(static_cast<std::size_t>(most) + 1, 0);
+    for (const std::uint16_t value : grey) ++counts[value];
+    const auto is_some = [](std::uint64_t count) { return count > 0; };
+    if (std::count_if(counts.begin(), counts.end(), is_some) < 2) {
+      refuse("All voxels have one grey value after smoothing. Give --threshold.");
+    }
+    threshold = base + step * level_between_peaks(counts);
+  }
+  const double level = (*threshold - base) / step;
+  std::vector<std::uint8_t> mask(grey.size());
+  for (std::size_t k = 0; k < grey.size(); ++k) mask[k] = grey[k] >= level ? 1 : 0;
+  return mask;
+}
+
+std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
+  return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
+}
+
+/// Returns the parts of a mask, with touching parts separated.
+std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
+                                           const VolumeGeometry& geometry, double depth,
+                                           const Execution& execution) {
+  const Vector3 spacing = geometry.axes.colwise().norm();
+  const double voxel = std::cbrt(spacing.prod());
+  std::vector<Label> basins = basins_of(mask, geometry.counts, {spacing[0], spacing[1], spacing[2]},
+                                        depth * voxel, execution.part(0.0, 0.9));
+  mask = {};
+  return parts_of(std::make_unique<HeldVolume>(geometry, std::move(basins)), 0,
+                  execution.part(0.9, 1.0));
+}
+
+/// Numbers the grains from 1, and gives one more number to all that are too small.
+void drop_small(Segmentation& result, std::int64_t smallest, const Execution& execution) {
+  const std::vector<LabelExtent> all = label_census(*result.labels, 0, execution);
+  std::vector<Label> numbers(all.size() + 1, 0);  // parts are numbered without gaps
+  for (const LabelExtent& part : all) {
+    result.material += part.voxels;
+    if (static_cast<std::int64_t>(part.voxels) < smallest) {
+      result.dropped += part.voxels;
+      continue;
+    }
+    result.grains.push_back(part);
+    result.grains.back().label = static_cast<Label>(result.grains.size());
+    numbers[part.label] = result.grains.back().label;
+  }
+  if (result.grains.empty()) {
+    refuse("No grain is left: all " + std::to_string(all.size()) + " parts of material from " +
+           format_number(result.threshold) + " on have fewer than " + std::to_string(smallest) +
+           " voxels. Give another --threshold, or a lower --smallest.");
+  }
+  for (std::size_t part = 1; part < numbers.size(); ++part) {
+    if (numbers[part] == 0) numbers[part] = static_cast<Label>(result.grains.size() + 1);
+  }
+  result.labels = std::make_unique<RenumberedVolume>(std::move(result.labels), std::move(numbers));
+}
+
+/// Returns the result of `work`. If memory is insufficient, throws MachineRefused with the amount
+/// needed.
+template <class Work>
+auto with_memory(const VoxelCounts& counts, const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    constexpr double bytes_a_voxel = 25e-9;
+    throw MachineRefused(
+        "There is not enough memory to separate the grains of a volume of this size, about " +
+        format_number(bytes_a_voxel * static_cast<double>(voxels_of(counts)), 2) +
+        " GB. Cut the volume into parts, or halve its resolution.");
+  }
+}
+
+Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
+                       const Execution& execution) {
+  if (options.threshold) require_in_range(*options.threshold, threshold_option);
+  require_in_range(options.separate, separate_option);
+  require_in_range(options.smallest, smallest_kept_option);
+  require_filters();
+  const VolumeGeometry& geometry = scan.geometry();
+  scan.read_grey_values();
+  const GreyRange range = range_of(scan, execution.part(0.0, 0.1));
+  Segmentation result;
+  result.is_mask = range.are_two;
+  result.is_flat = !range.are_two && range.equal_neighbours > 0.9;
+  result.voxels = voxels_of(geometry.counts);
+  std::optional<double> threshold = options.threshold;
+  if (result.is_mask && !threshold) threshold = range.largest;
+  std::vector<std::uint8_t> mask;
+  const Execution reading = execution.part(0.1, 0.4);
+  if (result.is_mask) {
+    mask = mask_of(scan, reading, [&](Label code) { return grey_value(code) >= *threshold; });
+  } else {
+    mask = material_of(scan, range, threshold, reading);
+  }
+  result.threshold = *threshold;
+  const std::uint64_t open = material_count(mask);
+  fill_holes(mask, geometry.counts, execution.part(0.4, 0.5));
+  result.filled = material_count(mask) - open;
+  result.labels =
+      parts_of_mask(std::move(mask), geometry, options.separate, execution.part(0.5, 0.95));
+  drop_small(result, options.smallest, execution.part(0.95, 1.0));
+  return result;
+}
+
+}  // namespace
+
+Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
+                     const Execution& execution) {
+  return with_memory(scan.geometry().counts, [&] { return segmented(scan, options, execution); });
+}
+
+std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double depth,
+                                       const Execution& execution) {
+  require_filters();
+  require_in_range(depth, separate_option);
+  std::optional<Label> material;
+  const auto is_material = [&](Label value) {
+    if (value == background) return false;
+    if (material && *material != value) {
+      refuse("The volume has the labels " + std::to_string(*material) + " and " +
+             std::to_string(value) + ", but --separate needs a mask with one label. Leave it out.");
+    }
+    material = value;
+    return true;
+  };
+  std::unique_ptr<LabelVolume> parts = with_memory(mask.geometry().counts, [&] {
+    std::vector<std::uint8_t> voxels = mask_of(mask, execution.part(0.0, 0.2), is_material);
+    fill_holes(voxels, mask.geometry().counts, execution.part(0.2, 0.3));
+    return parts_of_mask(std::move(voxels), mask.geometry(), depth, execution.part(0.3, 1.0));
+  });
+  for (const std::string& note : mask.notes()) parts->add_note(note);
+  return parts;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "toolbox/volume/label_census.h"
+#include "toolbox/volume/label_volume.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/option.h"
+
+namespace wscvt {
+
+// From grey values, or a mask, to labelled grains. The whole volume is in memory, at most 25 bytes
+// per voxel. The result does not depend on the number of threads.
+
+struct SegmentationOptions {
+  /// Smallest grey value of material; empty: see level_between_peaks.
+  std::optional<double> threshold;
+  /// See separate_option; a voxel's edge is the cube root of its volume. Steps of voxels make false
+  /// maxima of up to half a voxel. True necks between touching grains begin a little above.
+  double separate = 0.75;
+  /// Voxels of the smallest grain to keep: a grain of 6 voxels across has no measurable shape.
+  std::int64_t smallest = 100;
+};
+
+inline constexpr NumberOption<double> threshold_option = {
+    "threshold", "smallest grey value of the material", -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity()};
+inline constexpr NumberOption<double> separate_option = {
+    "separate",
+    "depth of the neck between two grains",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::Neither,
+    "in voxels. It says how much closer to the surface the neck's middle is than the smaller "
+    "grain's middle. Larger values join parts, smaller values cut them"};
+inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
+    "smallest", "number of voxels of the smallest grain",
+    1,          std::numeric_limits<std::int64_t>::max(),
+    Ends::Both, "smaller grains are dropped"};
+
+/// Result of segment.
+struct Segmentation {
+  /// Grains from 1, each of one part, in the order in which they begin; 0 between them; dropped
+  /// parts have the number of grains plus 1. Readable repeatedly, see LabelVolume.
+  std::unique_ptr<LabelVolume> labels;
+  std::vector<LabelExtent> grains;  ///< by their labels
+  bool is_mask = false;             ///< two values only: not smoothed, no threshold computed
+  bool is_flat = false;             ///< most neighbours are equal, as in a volume of labels
+  double threshold = 0.0;           ///< as used
+  std::uint64_t voxels = 0;         ///< of the volume
+  std::uint64_t material = 0;       ///< voxels of grains, including dropped ones
+  std::uint64_t dropped = 0;        ///< voxels of grains smaller than the smallest
+  std::uint64_t filled = 0;         ///< voxels of holes, which count as material
+};
+
+/// Segments a scan, which gives grey values from then on (see LabelVolume) and may be read again:
+/// the median of each voxel and its 26 neighbours, the threshold, holes in the material filled,
+/// touching parts separated. A volume of two values is a mask; the larger value is the material.
+/// Throws Error: InvalidInput for options out of range, without ITK, for a volume of one value, and
+/// if no grain is left; Cancelled, and what the volume throws.
+Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
+                     const Execution& execution);
+
+/// Separates touching grains of a mask, all that is not background, as segment does. Returns its
+/// parts with labels from 1, without dropping any. Throws as segment does, and for a volume of
+/// several labels.
+std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double depth,
+                                       const Execution& execution);
+
+}  // namespace wscvt

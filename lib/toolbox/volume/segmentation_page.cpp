@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/segmentation_page.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "toolbox/report/sample_summary.h"
+#include "toolbox/sample/distribution.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/report/figures.h"
+#include "wscvt/report/html_document.h"
+
+namespace wscvt {
+
+namespace {
+
+/// A slice across an axis: grey values and labels, rows along `down`.
+struct ShownSlice {
+  std::size_t axis;
+  std::size_t right;
+  std::size_t down;
+  std::int32_t place;
+  std::vector<Label> values;
+  std::vector<Label> labels;
+};
+
+/// Reads the slices' parts of each row of a volume into the member `of` of each slice.
+void read_slices(LabelVolume& volume, std::vector<ShownSlice>& slices,
+                 std::vector<Label> ShownSlice::*of, const Execution& execution) {
+  const VoxelCounts& counts = volume.geometry().counts;
+  volume.rewind();
+  for (std::int32_t z = 0; z < counts[2]; ++z) {
+    execution.report(static_cast<double>(z) / counts[2], "Drawing slices");
+    for (std::int32_t y = 0; y < counts[1]; ++y) {
+      const std::vector<Label>& row = volume.next_row();
+      for (ShownSlice& slice : slices) {
+        std::vector<Label>& taken = slice.*of;
+        if (slice.axis == 0) {
+          taken.push_back(row[static_cast<std::size_t>(slice.place)]);
+        } else if ((slice.axis == 1 ? y : z) == slice.place) {
+          taken.insert(taken.end(), row.begin(), row.end());
+        }
+      }
+    }
+  }
+}
+
+/// Returns the values shown as black and white: all but a few at each end.
+std::pair<double, double> shown_range(const std::vector<ShownSlice>& slices) {
+  std::vector<double> values;
+  for (const ShownSlice& slice : slices) {
+    for (const Label code : slice.values) {
+      if (std::isfinite(grey_value(code))) values.push_back(grey_value(code));
+    }
+  }
+  std::sort(values.begin(), values.end());
+  constexpr double left_out = 0.002;
+  const double least = quantile(values, left_out);
+  const double largest = quantile(values, 1.0 - left_out);
+  return {least, largest > least ? largest : least + 1.0};
+}
+
+constexpr std::array<Colour, 6> outline_colours = {
+    {{255, 220, 0}, {0, 220, 255}, {255, 90, 255}, {60, 230, 60}, {255, 150, 30}, {120, 160, 255}}};
+
+Picture picture_of(const ShownSlice& slice, const VolumeGeometry& geometry, double pixel,
+                   Label grains, const std::pair<double, double>& range) {
+  const auto count = [&](std::size_t axis) { return geometry.counts[axis]; };
+  const auto length = [&](std::size_t axis) {
+    return geometry.axes.col(static_cast<Eigen::Index>(axis)).norm();
+  };
+  const auto pixels = [&](std::size_t axis) {
+    return std::max(1, static_cast<int>(std::lround(count(axis) * length(axis) / pixel)));
+  };
+  Picture picture{pixels(slice.right), pixels(slice.down), {}};
+  const auto voxel = [&](int u, int v) {
+    const std::int64_t x = static_cast<std::int64_t>(u) * count(slice.right) / picture.width;
+    const std::int64_t y = static_cast<std::int64_t>(v) * count(slice.down) / picture.height;
+    return static_cast<std::size_t>(y * count(slice.right) + x);
+  };
+  const auto label = [&](int u, int v) {
+    return slice
+        .labels[voxel(std::clamp(u, 0, picture.width - 1), std::clamp(v, 0, picture.height - 1))];
+  };
+  for (int v = 0; v < picture.height; ++v) {
+    for (int u = 0; u < picture.width; ++u) {
+      const float value = grey_value(slice.values[voxel(u, v)]);
+      const double share =
+          std::isnan(value) ? 0.0 : (value - range.first) / (range.second - range.first);
+      const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+      Colour colour = {grey, grey, grey};
+      const Label here = label(u, v);
+      constexpr int wide = 2;
+      const bool is_outline = label(u - wide, v) != here || label(u + wide, v) != here ||
+                              label(u, v - wide) != here || label(u, v + wide) != here;
+      if (here > grains) {
+        colour = {255, static_cast<std::uint8_t>(grey / 3), static_cast<std::uint8_t>(grey / 3)};
+      } else if (here != 0 && is_outline) {
+        colour = outline_colours[here % outline_colours.size()];
+      }
+      picture.pixels.push_back(colour);
+    }
+  }
+  return picture;
+}
+
+std::size_t grains_at_border(const Segmentation& segmentation) {
+  const VoxelCounts& counts = segmentation.labels->geometry().counts;
+  return static_cast<std::size_t>(
+      std::count_if(segmentation.grains.begin(), segmentation.grains.end(),
+                    [&](const LabelExtent& grain) { return grain.touches_border(counts); }));
+}
+
+double share_of(std::uint64_t part, std::uint64_t all) {
+  return static_cast<double>(part) / static_cast<double>(all);
+}
+
+/// Returns sentences about signs of a wrong segmentation.
+std::vector<std::string> doubts_of(const Segmentation& segmentation) {
+  std::vector<std::string> doubts;
+  if (segmentation.is_flat) {
+    doubts.push_back(
+        "Most voxels have the value of their neighbour: these may be labels already. wscvt batch "
+        "and extract read labels directly.");
+  }
+  constexpr double much = 0.05;
+  if (share_of(segmentation.dropped, segmentation.material) > much) {
+    doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
+                     " of the material is in parts that are too small, red in the slices: noise, "
+                     "or a wrong threshold. Give --threshold, or a lower --smallest.");
+  }
+  std::uint64_t largest = 0;
+  for (const LabelExtent& grain : segmentation.grains) largest = std::max(largest, grain.voxels);
+  constexpr double most = 0.75;
+  if (segmentation.grains.size() > 2 && share_of(largest, segmentation.material) > most) {
+    doubts.push_back("One grain has " + format_percent(share_of(largest, segmentation.material)) +
+                     " of the material: it may be several. Give a smaller --separate, or a higher "
+                     "--threshold.");
+  }
+  return doubts;
+}
+
+}  // namespace
+
+std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
+  const std::size_t count = segmentation.grains.size();
+  std::vector<std::string> lines = {
+      std::to_string(count) + (count == 1 ? " grain, " : " grains, ") +
+      std::to_string(grains_at_border(segmentation)) + " of them at the border"};
+  lines.push_back(
+      (segmentation.is_mask
+           ? "The volume is a mask; its material is "
+           : "Threshold " + format_number(segmentation.threshold) + "; the material is ") +
+      format_percent(share_of(segmentation.material, segmentation.voxels)) +
+      " of the volume, holes of " +
+      format_percent(share_of(segmentation.filled, segmentation.material)) + " of it were filled");
+  lines.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
+                  " of the material is in parts that are too small and was dropped");
+  for (const std::string& doubt : doubts_of(segmentation)) lines.push_back("Look: " + doubt);
+  return lines;
+}
+
+std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
+                                     const Execution& execution) {
+  const VolumeGeometry& geometry = scan.geometry();
+  std::vector<ShownSlice> slices = {{2, 0, 1, geometry.counts[2] / 2, {}, {}},
+                                    {1, 0, 2, geometry.counts[1] / 2, {}, {}},
+                                    {0, 1, 2, geometry.counts[0] / 2, {}, {}}};
+  scan.read_grey_values();
+  read_slices(scan, slices, &ShownSlice::values, execution.part(0.0, 0.5));
+  read_slices(*segmentation.labels, slices, &ShownSlice::labels, execution.part(0.5, 1.0));
+  double longest = 0.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    longest = std::max(longest,
+                       geometry.counts[static_cast<std::size_t>(k)] * geometry.axes.col(k).norm());
+  }
+  constexpr double pixels = 600.0;
+  const std::pair<double, double> range = shown_range(slices);
+  std::vector<Picture> pictures;
+  for (const ShownSlice& slice : slices) {
+    pictures.push_back(picture_of(slice, geometry, longest / pixels,
+                                  static_cast<Label>(segmentation.grains.size()), range));
+  }
+  return pictures;
+}
+
+std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentation,
+                              const ReportOrigin& origin, const Execution& execution) {
+  const VolumeGeometry& geometry = scan.geometry();
+  HtmlDocument page("Grains of a scan: " + std::to_string(segmentation.grains.size()));
+  page.add_paragraph(origin_sentence(origin));
+  for (const std::string& doubt : doubts_of(segmentation)) page.add_warning(doubt);
+  const std::vector<Picture> pictures = outlined_slices(scan, segmentation, execution);
+  const std::array<const char*, 3> captions = {"In the middle of z: x to the right, y down.",
+                                               "In the middle of y: x to the right, z down.",
+                                               "In the middle of x: y to the right, z down."};
+  std::vector<Figure> figures;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    figures.push_back({image_element(pictures[k], captions[k]), captions[k]});
+  }
+  page.add_figures(figures);
+  page.add_paragraph(
+      "Each grain has its own outline. If an outline goes around two grains, make --separate "
+      "smaller. If a line cuts through a grain, make --separate larger. If outlines are off the "
+      "edges of the grains, give --threshold. Red parts were dropped.");
+  page.add_lines(segmentation_lines(segmentation));
+  std::vector<double> diameters;
+  for (const LabelExtent& grain : segmentation.grains) {
+    const double volume = static_cast<double>(grain.voxels) * geometry.voxel_volume();
+    diameters.push_back(std::cbrt(6.0 * volume / pi));
+  }
+  std::sort(diameters.begin(), diameters.end());
+  const std::string unit = geometry.unit.empty() ? "" : ", " + geometry.unit;
+  const std::string what = "diameter of the sphere of equal volume" + unit;
+  page.add_heading("Sizes");
+  std::vector<std::string> row = {what};
+  for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+    row.push_back(format_number(quantile(diameters, share), 4));
+  }
+  page.add_rows({{"of the grains", "smallest", "10 %", "50 %", "90 %", "largest"}, row});
+  page.add_figures(
+      {{histogram_figure(what, "grains", {{"grains", "#0a58b4", histogram_of(diameters)}}),
+        "Sizes of " + std::to_string(diameters.size()) + " grains."}});
+  return page.text();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "toolbox/volume/segmentation.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/report/picture.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+/// Returns a few lines about a segmentation: grains, grains at the border, dropped voxels, the
+/// threshold.
+std::vector<std::string> segmentation_lines(const Segmentation& segmentation);
+
+/// Draws the middle slice across each axis, x, y, z: grey values with the outlines of the grains in
+/// a few colours, dropped parts in red. Voxels keep their proportions; pictures are 300 to 900
+/// pixels wide and high, as far as the proportions allow. Reads scan and labels once.
+std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
+                                     const Execution& execution);
+
+/// Returns an HTML page for checking a segmentation: the slices, the lines, the sizes of the
+/// grains.
+std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentation,
+                              const ReportOrigin& origin, const Execution& execution);
+
+}  // namespace wscvt

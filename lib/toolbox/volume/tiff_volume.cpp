@@ -1,0 +1,481 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "toolbox/volume/image_stack.h"
+#include "toolbox/volume/volume_formats.h"
+#include "toolbox/volume/voxel_rows.h"
+#ifdef WSCVT_HAS_TIFF
+#include <boost/endian/conversion.hpp>
+#include <cmath>
+#include <cstring>
+
+#include "toolbox/volume/tiff_file.h"
+#include "toolbox/volume/tiff_layout.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/text_fields.h"
+#endif
+
+namespace wscvt {
+
+#ifdef WSCVT_HAS_TIFF
+
+namespace {
+
+/// Size and type of a page.
+struct Page {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  int bits = 8;            ///< of a number: 1, 2, 4, or the type's
+  VoxelType type;          ///< bytes for numbers of less than 8 bits
+  int samples = 1;         ///< numbers per voxel
+  bool is_planar = false;  ///< samples follow each other, not interleaved
+  bool shows_0_as_white = false;
+
+  bool operator==(const Page& other) const {
+    return width == other.width && height == other.height && bits == other.bits &&
+           type.has_sign == other.type.has_sign && type.is_float == other.type.is_float &&
+           samples == other.samples && is_planar == other.is_planar;
+  }
+
+  std::string text() const {
+    return std::to_string(width) + " x " + std::to_string(height) + " voxels of " +
+           std::to_string(samples) + " x " + std::to_string(bits) + " bits";
+  }
+};
+
+Page page_of(const TiffFile& file) {
+  TIFF* const tiff = file.get();
+  Page page;
+  std::uint16_t bits = 1;
+  std::uint16_t samples = 1;
+  std::uint16_t format = SAMPLEFORMAT_UINT;
+  std::uint16_t planes = PLANARCONFIG_CONTIG;
+  std::uint16_t compression = COMPRESSION_NONE;
+  std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
+  std::uint32_t depth = 1;
+  if (TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &page.width) == 0 ||
+      TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &page.height) == 0) {
+    file.fail("does not say how large its pages are");
+  }
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &planes);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_IMAGEDEPTH, &depth);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+  if (compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG) {
+    file.fail("is packed by JPEG, which changes numbers, so they are not labels any more");
+  }
+  if (depth != 1) file.fail("has pages of " + std::to_string(depth) + " slices");
+  const bool is_float = format == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64);
+  const bool has_sign = format == SAMPLEFORMAT_INT;
+  const bool is_whole = (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID || has_sign) &&
+                        (bits == 8 || bits == 16 || bits == 32 || bits == 64);
+  const bool is_small =
+      format == SAMPLEFORMAT_UINT && samples == 1 && (bits == 1 || bits == 2 || bits == 4);
+  if (samples < 1 || (!is_whole && !is_small && !is_float)) {
+    refuse_volume(file.path(), "has " + std::to_string(samples) + " numbers of " +
+                                   std::to_string(bits) +
+                                   " bits per voxel, of an unknown kind. Save labels as "
+                                   "whole numbers of 8, 16, 32 or 64 bits.");
+  }
+  page.bits = bits;
+  page.type = {std::max(1, bits / 8), has_sign || is_float, is_float,
+               boost::endian::order::native == boost::endian::order::big};
+  page.samples = samples;
+  page.is_planar = planes == PLANARCONFIG_SEPARATE && samples > 1;
+  page.shows_0_as_white = photometric == PHOTOMETRIC_MINISWHITE;
+  return page;
+}
+
+/// A slice: a page of a file.
+struct SlicePage {
+  std::size_t file = 0;
+  std::uint32_t page = 0;
+};
+
+/// Slices that are pages of one file, or files of one page.
+class TiffStack : public LabelVolume {
+ public:
+  /// `sample`: number of the selected sample of each voxel.
+  TiffStack(const VolumeGeometry& geometry, const Page& page, int sample,
+            std::vector<std::string> files, std::vector<SlicePage> slices)
+      : LabelVolume(geometry),
+        page_(page),
+        sample_(static_cast<std::uint16_t>(sample)),
+        files_(std::move(files)),
+        slices_(std::move(slices)),
+        next_row_(page.height) {}
+
+  const std::vector<Label>& next_row() override {
+    if (next_row_ == page_.height) next_page();
+    const std::size_t in_band = next_row_ % band_rows_;
+    if (in_band == 0) read_band();
+    row_.resize(page_.width);
+    unpack_row(band_.data() + in_band * row_bytes_);
+    labels_of(voxels_.data(), page_.type, is_grey(), row_,
+              {file_->path(), next_row_, static_cast<std::int64_t>(next_slice_) - 1});
+    ++next_row_;
+    return row_;
+  }
+
+  void rewind() override {
+    file_.reset();
+    next_slice_ = 0;
+    next_row_ = page_.height;
+  }
+
+ private:
+  void next_page() {
+    const SlicePage& slice = slices_.at(next_slice_);
+    const bool is_same_file = file_ && file_at_ == slice.file;
+    if (!is_same_file) {
+      file_ = std::make_unique<TiffFile>(files_[slice.file]);
+      file_at_ = slice.file;
+      page_at_ = 0;
+    }
+    // Pages are a linked list: followed forwards, and restarted if necessary.
+    bool is_found = true;
+    if (slice.page < page_at_) {
+      is_found = TIFFSetDirectory(file_->get(), static_cast<tdir_t>(slice.page)) != 0;
+    } else {
+      for (; is_found && page_at_ < slice.page; ++page_at_) {
+        is_found = TIFFReadDirectory(file_->get()) != 0;
+      }
+    }
+    page_at_ = slice.page;
+    if (!is_found) refuse_volume(file_->path(), "has lost pages. Copy it again.");
+    ++next_slice_;
+    const Page here = page_of(*file_);
+    if (!(here == page_)) {
+      refuse_volume(file_->path(), "has the page " + std::to_string(slice.page + 1) + " of " +
+                                       here.text() + ", but the first has " + page_.text() +
+                                       ". Save all slices alike.");
+    }
+    begin_page();
+  }
+
+  void begin_page() {
+    std::uint32_t rows = 0;
+    tile_width_ = 0;
+    row_bytes_ = static_cast<std::size_t>(TIFFScanlineSize64(file_->get()));
+    if (TIFFIsTiled(file_->get()) != 0) {
+      TIFFGetField(file_->get(), TIFFTAG_TILEWIDTH, &tile_width_);
+      TIFFGetField(file_->get(), TIFFTAG_TILELENGTH, &rows);
+      // A tile may extend beyond the page, so it can be larger than the page.
+      check_bytes(std::uint64_t{rows} * tile_width_);
+    } else {
+      TIFFGetFieldDefaulted(file_->get(), TIFFTAG_ROWSPERSTRIP, &rows);
+    }
+    band_rows_ = std::clamp<std::uint32_t>(rows, 1, page_.height);
+    check_bytes(std::uint64_t{band_rows_} * page_.width);
+    next_row_ = 0;
+  }
+
+  void check_bytes(std::uint64_t voxels) const {
+    const auto bytes =
+        static_cast<std::uint64_t>(page_.type.bytes) * static_cast<std::uint64_t>(page_.samples);
+    if (voxels > file_->most_bytes() / bytes) {
+      file_->fail("claims strips or tiles larger than itself");
+    }
+  }
+
+  void read_band() {
+    band_.resize(row_bytes_ * std::min(band_rows_, page_.height - next_row_));
+    const std::uint16_t plane = page_.is_planar ? sample_ : std::uint16_t{0};
+    if (tile_width_ == 0) {
+      read_strip(plane);
+    } else {
+      read_tiles(plane);
+    }
+  }
+
+  void read_strip(std::uint16_t plane) {
+    const auto wanted = static_cast<tmsize_t>(band_.size());
+    const std::uint32_t strip = TIFFComputeStrip(file_->get(), next_row_, plane);
+    if (TIFFReadEncodedStrip(file_->get(), strip, band_.data(), wanted) != wanted) {
+      file_->fail("is cut short or damaged");
+    }
+  }
+
+  /// Reads the tiles, side by side, of the next rows.
+  void read_tiles(std::uint16_t plane) {
+    const tmsize_t tile_bytes = TIFFTileSize(file_->get());
+    const auto tile_row_bytes = static_cast<std::size_t>(TIFFTileRowSize(file_->get()));
+    tile_.resize(static_cast<std::size_t>(tile_bytes));
+    const std::size_t rows = band_.size() / row_bytes_;
+    std::size_t begin = 0;
+    for (std::uint32_t x = 0; x < page_.width; x += tile_width_, begin += tile_row_bytes) {
+      const std::uint32_t tile = TIFFComputeTile(file_->get(), x, next_row_, 0, plane);
+      if (TIFFReadEncodedTile(file_->get(), tile, tile_.data(), tile_bytes) != tile_bytes) {
+        file_->fail("is cut short or damaged");
+      }
+      if (begin >= row_bytes_) file_->fail("has tiles of another width than it says");
+      const std::size_t bytes = std::min(tile_row_bytes, row_bytes_ - begin);
+      for (std::size_t row = 0; row < rows; ++row) {
+        std::memcpy(band_.data() + row * row_bytes_ + begin, tile_.data() + row * tile_row_bytes,
+                    bytes);
+      }
+    }
+  }
+
+  /// Extracts the selected numbers of a row, byte after byte.
+  void unpack_row(const char* packed) {
+    const auto size = static_cast<std::size_t>(page_.type.bytes);
+    voxels_.resize(size * page_.width);
+    if (page_.bits < 8) {
+      const auto bits = static_cast<unsigned>(page_.bits);
+      for (std::size_t x = 0; x < page_.width; ++x) {
+        const auto byte = static_cast<unsigned char>(packed[x * bits / 8]);
+        const auto shift = static_cast<unsigned>(8 - bits - x * bits % 8);
+        voxels_[x] = static_cast<char>(byte >> shift & ((1U << bits) - 1U));
+      }
+    } else if (page_.samples == 1 || page_.is_planar) {
+      std::memcpy(voxels_.data(), packed, voxels_.size());
+    } else {
+      const std::size_t step = size * static_cast<std::size_t>(page_.samples);
+      for (std::size_t x = 0; x < page_.width; ++x) {
+        std::memcpy(voxels_.data() + x * size, packed + x * step + sample_ * size, size);
+      }
+    }
+  }
+
+  Page page_;
+  std::uint16_t sample_;
+  std::vector<std::string> files_;
+  std::vector<SlicePage> slices_;
+  std::unique_ptr<TiffFile> file_;
+  std::size_t file_at_ = 0;
+  std::uint32_t page_at_ = 0;
+  std::size_t next_slice_ = 0;
+  std::uint32_t next_row_;
+  // A band is the part that the file unpacks at once: the rows of a strip, or of tiles side by
+  // side.
+  std::uint32_t band_rows_ = 1;
+  std::uint32_t tile_width_ = 0;  // 0: strips
+  std::size_t row_bytes_ = 0;     // of a band
+  std::vector<char> band_;
+  std::vector<char> tile_;
+  std::vector<char> voxels_;
+  std::vector<Label> row_;
+};
+
+/// Returns the size of a voxel along x and y from the resolution of a page, in centimetres if the
+/// page has a unit; nothing without a resolution.
+std::optional<Vector3> voxel_of_resolution(const TiffFile& file) {
+  float across = 0.0F;
+  float down = 0.0F;
+  std::uint16_t unit = RESUNIT_INCH;
+  if (TIFFGetField(file.get(), TIFFTAG_XRESOLUTION, &across) == 0 ||
+      TIFFGetField(file.get(), TIFFTAG_YRESOLUTION, &down) == 0 || !(across > 0.0F) ||
+      !(down > 0.0F)) {
+    return std::nullopt;
+  }
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
+  // Stored as fractions, which libtiff returns as float; ImageJ's have six digits.
+  Vector3 size(1.0 / static_cast<double>(across), 1.0 / static_cast<double>(down), 0.0);
+  if (unit == RESUNIT_INCH) size *= 2.54;
+  return size;
+}
+
+/// Sets the lattice from the text of ImageJ or OME, or from the page's resolution.
+void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, TiffLayout& layout,
+                         const VolumeChoice& choice) {
+  const std::optional<Vector3> resolution = voxel_of_resolution(file);
+  Vector3 size = layout.voxel_size;
+  std::uint16_t unit = RESUNIT_INCH;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
+  if (layout.writer == "ImageJ" && size.z() > 0.0 && resolution) {
+    // In ImageJ's unit, not the page's.
+    size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
+    size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();
+  } else if (layout.writer.empty() && resolution && unit != RESUNIT_NONE) {
+    // Screens and printers have up to 1200 dots per inch, 0.021 mm; a finer one is an instrument's.
+    constexpr double finest_dot_cm = 2.54 / 1200.0;
+    if (resolution->x() < 0.999 * finest_dot_cm && resolution->y() < 0.999 * finest_dot_cm) {
+      size = 10.0 * Vector3(resolution->x(), resolution->y(), resolution->x());
+      layout.unit = "mm";
+      layout.notes.push_back("Voxel size from the TIFF's resolution, along z as along x: " +
+                             format_number(size.x()) + " mm. Give another by --voxel-size X,Y,Z.");
+    }
+  } else if (layout.writer == "ImageJ") {
+    size = Vector3::Zero();
+  }
+  geometry.has_size = size.minCoeff() > 0.0;
+  if (!geometry.has_size) {
+    size = Vector3::Ones();
+  } else {
+    geometry.unit = layout.unit;
+  }
+  set_lattice(geometry, size.asDiagonal(), 0.5 * size, choice, file.path());
+}
+
+/// Returns the positions of the selected slices in a file of pages.
+std::vector<SlicePage> slices_of(const TiffLayout& layout,
+                                 const std::vector<std::int64_t>& places) {
+  std::vector<SlicePage> slices;
+  std::int64_t count = 1;
+  for (const VolumeAxis& axis : layout.axes) {
+    if (axis.kind == AxisKind::Space) count = axis.count;
+  }
+  for (std::int64_t z = 0; z < count; ++z) {
+    std::int64_t plane = 0;
+    std::int64_t step = 1;
+    for (std::size_t k = 0; k < layout.axes.size(); ++k) {
+      plane += step * (layout.axes[k].kind == AxisKind::Space ? z : places[k]);
+      step *= layout.axes[k].count;
+    }
+    const std::int64_t page =
+        layout.pages.empty() ? plane : layout.pages[static_cast<std::size_t>(plane)];
+    slices.push_back({0, static_cast<std::uint32_t>(page)});
+  }
+  return slices;
+}
+
+/// Returns the channels in a file's dimensions or in its voxels; refuses a file with both.
+VolumeAxis channels_of(const TiffLayout& layout, const std::string& path) {
+  VolumeAxis channels = {AxisKind::Channel, layout.samples};
+  for (const VolumeAxis& axis : layout.axes) {
+    if (axis.kind != AxisKind::Channel || axis.count == 1) continue;
+    if (channels.count > 1) {
+      refuse_volume(path, "has " + std::to_string(axis.count) + " channels of " +
+                              std::to_string(channels.count) +
+                              " numbers per voxel. Save only one channel.");
+    }
+    channels.count = axis.count;
+  }
+  return channels;
+}
+
+std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& page,
+                                             const VolumeChoice& choice) {
+  const std::string& path = file.path();
+  TiffLayout layout = tiff_layout(file.description(), file.pages(), page.samples, path);
+  // Each kind of dimension is selected once.
+  const std::int64_t channel = chosen_place(channels_of(layout, path), choice, path);
+  VolumeAxis frames = {AxisKind::Frame, 1};
+  std::vector<std::int64_t> places;
+  std::int64_t slices = 1;
+  for (const VolumeAxis& axis : layout.axes) {
+    if (axis.kind == AxisKind::Space) slices *= axis.count;
+    if (axis.kind == AxisKind::Frame && axis.count > 1) {
+      if (frames.count > 1) {
+        refuse_volume(path, "has two dimensions besides space, of " + std::to_string(frames.count) +
+                                " and " + std::to_string(axis.count) +
+                                " places. Save only one volume.");
+      }
+      frames.count = axis.count;
+    }
+  }
+  const std::int64_t frame = chosen_place(frames, choice, path);
+  for (const VolumeAxis& axis : layout.axes) {
+    const bool has_more = axis.count > 1;
+    places.push_back(!has_more                        ? 0
+                     : axis.kind == AxisKind::Channel ? channel
+                     : axis.kind == AxisKind::Frame   ? frame
+                                                      : 0);
+  }
+  VolumeGeometry geometry;
+  geometry.counts = voxel_counts({page.width, page.height, slices}, path);
+  set_lattice_of_tiff(geometry, file, layout, choice);
+  std::unique_ptr<LabelVolume> volume;
+  if (layout.may_be_one_block) {
+    // Above 4 GiB, ImageJ writes one page, then all voxels uncompressed.
+    std::uint16_t compression = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(file.get(), TIFFTAG_COMPRESSION, &compression);
+    std::uint64_t* offsets = nullptr;
+    if (compression != COMPRESSION_NONE || TIFFIsTiled(file.get()) != 0 || page.bits < 8 ||
+        page.samples > 1 || TIFFGetField(file.get(), TIFFTAG_STRIPOFFSETS, &offsets) == 0) {
+      std::int64_t images = 1;
+      for (const VolumeAxis& axis : layout.axes) images *= axis.count;
+      file.fail("has one page of the " + std::to_string(images) + " that " + layout.writer +
+                " noted");
+    }
+    VoxelType type = page.type;
+    type.big_endian = TIFFIsBigEndian(file.get()) != 0;
+    std::vector<VolumeAxis> axes = {{AxisKind::Space, page.width}, {AxisKind::Space, page.height}};
+    axes.insert(axes.end(), layout.axes.begin(), layout.axes.end());
+    VoxelData data;
+    data.paths = {path};
+    data.offset = offsets[0];
+    data.picks = picks_of(axes, choice, path);
+    volume = volume_of_files(geometry, type, data);
+  } else {
+    const int sample = page.samples > 1 ? static_cast<int>(channel) : 0;
+    volume = std::make_unique<TiffStack>(geometry, page, sample, std::vector<std::string>{path},
+                                         slices_of(layout, places));
+  }
+  for (const std::string& note : layout.notes) {
+    if (!choice.voxel_size) volume->add_note(note);
+  }
+  return volume;
+}
+
+std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, const TiffFile& first,
+                                                  const Page& page, const VolumeChoice& choice) {
+  std::vector<SlicePage> pages;
+  for (std::size_t k = 0; k < slices.paths.size(); ++k) {
+    const TiffFile file(slices.paths[k]);
+    const std::int64_t count = file.pages();
+    if (count > 1) {
+      refuse_volume(slices.paths[k], "has " + std::to_string(count) +
+                                         " pages, but a slice in a folder is a file with one page. "
+                                         "Give this file instead of the folder.");
+    }
+    const Page here = page_of(file);
+    if (!(here == page)) {
+      refuse_volume(slices.paths[k], "is a slice of " + here.text() +
+                                         ", but the slices before it have " + page.text() +
+                                         ". Save all slices alike.");
+    }
+    pages.push_back({k, 0});
+  }
+  const std::int64_t channel =
+      chosen_place({AxisKind::Channel, page.samples}, choice, slices.folder);
+  chosen_place({AxisKind::Frame, 1}, choice, slices.folder);
+  VolumeGeometry geometry;
+  geometry.counts = voxel_counts({page.width, page.height, static_cast<std::int64_t>(pages.size())},
+                                 slices.folder);
+  // The text of a single slice describes no stack, but its resolution is valid.
+  TiffLayout layout;
+  set_lattice_of_tiff(geometry, first, layout, choice);
+  std::unique_ptr<LabelVolume> volume = std::make_unique<TiffStack>(
+      geometry, page, static_cast<int>(channel), slices.paths, std::move(pages));
+  for (const std::string& note : layout.notes) {
+    if (!choice.voxel_size) volume->add_note(note);
+  }
+  return volume;
+}
+
+}  // namespace
+
+std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
+                                              const VolumeChoice& choice) {
+  refuse_array_choice(choice, slices.folder);
+  const TiffFile first(slices.paths.front());
+  const Page page = page_of(first);
+  std::unique_ptr<LabelVolume> volume = slices.paths.size() == 1
+                                            ? volume_of_pages(first, page, choice)
+                                            : volume_of_page_files(slices, first, page, choice);
+  if (page.shows_0_as_white) {
+    volume->add_note(
+        "The TIFF shows 0 as white. Its numbers were used unchanged. This is correct if the space "
+        "between the grains is white. Otherwise give --background.");
+  }
+  return volume;
+}
+
+#else
+
+std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices, const VolumeChoice&) {
+  refuse_volume(slices.folder,
+                "cannot be read: this program was built without libtiff. Install libtiff-dev "
+                "and build it again, or save the volume as .nrrd.");
+}
+
+#endif
+
+}  // namespace wscvt

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/volume_choice.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "toolbox/volume/voxel_rows.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Returns all names of each unit in lower case, the displayed name first.
+const std::vector<std::vector<std::string>>& unit_names() {
+  static const std::vector<std::vector<std::string>> rows = {
+      {"um", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "\\u00b5m", "micron", "microns", "micrometer",
+       "micrometers", "micrometre", "micrometres"},
+      {"nm", "nanometer", "nanometers", "nanometre", "nanometres"},
+      {"mm", "millimeter", "millimeters", "millimetre", "millimetres"},
+      {"cm", "centimeter", "centimeters", "centimetre", "centimetres"},
+      {"m", "meter", "meters", "metre", "metres"},
+      {"inch", "in", "inches"},
+      {"", "pixel", "pixels", "px", "voxel", "voxels"},
+  };
+  return rows;
+}
+
+/// Returns the row of a unit; null if it is unknown.
+const std::vector<std::string>* unit_row_of(const std::string& text) {
+  const std::string lower = lower_case(text);
+  for (const std::vector<std::string>& row : unit_names()) {
+    if (std::find(row.begin(), row.end(), lower) != row.end()) return &row;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
+                          const std::string& path) {
+  const bool is_channel = axis.kind == AxisKind::Channel;
+  const std::string name = is_channel ? "channel" : "frame";
+  const std::optional<std::int64_t>& chosen = is_channel ? choice.channel : choice.frame;
+  const std::string has = "has " + std::to_string(axis.count) + " " + name;
+  if (!chosen) {
+    if (axis.count == 1) return 0;
+    refuse_volume(path, has + "s, but a volume of labels is one of them. Choose one by --" + name +
+                            ", from 1 to " + std::to_string(axis.count) + ".");
+  }
+  if (*chosen < 1 || *chosen > axis.count) {
+    refuse_volume(path, has + (axis.count == 1 ? "" : "s") + ", not a " + name + " " +
+                            std::to_string(*chosen) + ". Correct --" + name + ".");
+  }
+  return *chosen - 1;
+}
+
+std::size_t chosen_array(const std::vector<std::string>& names, const VolumeChoice& choice,
+                         const std::string& path) {
+  constexpr std::size_t most_shown = 12;
+  std::string all;
+  for (std::size_t k = 0; k < std::min(names.size(), most_shown); ++k) {
+    all += (k == 0 ? "" : ", ") + in_quotes(names[k]);
+  }
+  if (names.size() > most_shown) all += ", ...";
+  if (choice.array.empty()) {
+    if (names.size() == 1) return 0;
+    refuse_volume(path, "has " + std::to_string(names.size()) + " arrays: " + all +
+                            ". Choose the array of labels by --array NAME.");
+  }
+  const auto found = std::find(names.begin(), names.end(), choice.array);
+  if (found == names.end()) {
+    refuse_volume(
+        path, "has no array " + in_quotes(choice.array) + ". It has " + all + ". Correct --array.");
+  }
+  if (std::find(found + 1, names.end(), choice.array) != names.end()) {
+    refuse_volume(path, "has two arrays " + in_quotes(choice.array) +
+                            ". Save the array of labels under another name.");
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<BlockPick> picks_of(const std::vector<VolumeAxis>& axes, const VolumeChoice& choice,
+                                const std::string& path) {
+  std::vector<BlockPick> picks;
+  std::int64_t block = 1;
+  for (const VolumeAxis& axis : axes) {
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 16;
+    if (axis.count < 1 || axis.count > most / block) {
+      refuse_volume(path, "has a dimension of " + std::to_string(axis.count) +
+                              ", which is impossible. Export it again.");
+    }
+    if (axis.kind == AxisKind::Space) {
+      block *= axis.count;
+      continue;
+    }
+    const std::int64_t place = chosen_place(axis, choice, path);
+    if (axis.count > 1) picks.push_back({block, axis.count, place});
+  }
+  // The selection must exist: a file without channels has only the first.
+  for (const AxisKind kind : {AxisKind::Channel, AxisKind::Frame}) {
+    const bool has_axis = std::any_of(axes.begin(), axes.end(),
+                                      [&](const VolumeAxis& axis) { return axis.kind == kind; });
+    if (!has_axis) chosen_place({kind, 1}, choice, path);
+  }
+  return picks;
+}
+
+std::string unit_of(const std::string& text) {
+  const std::vector<std::string>* const row = unit_row_of(text);
+  return row == nullptr ? text : row->front();
+}
+
+bool is_known_unit(const std::string& text) {
+  const std::vector<std::string>* const row = unit_row_of(text);
+  return row != nullptr && !row->front().empty();
+}
+
+}  // namespace wscvt

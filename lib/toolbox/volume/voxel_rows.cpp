@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/voxel_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/endian/conversion.hpp>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/byte_reader.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+/// All names of a type.
+struct TypeNames {
+  VoxelType type;
+  std::vector<std::string_view> names;
+};
+
+const std::vector<TypeNames>& type_names() {
+  static const std::vector<TypeNames> rows = {
+      {{1, false, false}, {"uchar", "unsigned char", "uint8", "uint8_t", "met_uchar"}},
+      {{1, true, false}, {"signed char", "int8", "int8_t", "met_char"}},
+      {{2, false, false},
+       {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t", "met_ushort"}},
+      {{2, true, false},
+       {"short", "short int", "signed short", "signed short int", "int16", "int16_t", "met_short"}},
+      // MetaIO's long has four bytes on every machine.
+      {{4, false, false}, {"uint", "unsigned int", "uint32", "uint32_t", "met_uint", "met_ulong"}},
+      {{4, true, false}, {"int", "signed int", "int32", "int32_t", "met_int", "met_long"}},
+      {{8, false, false},
+       {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t",
+        "met_ulong_long"}},
+      {{8, true, false},
+       {"longlong", "long long", "long long int", "signed long long", "signed long long int",
+        "int64", "int64_t", "met_long_long"}},
+      {{4, true, true}, {"float", "float32", "met_float"}},
+      {{8, true, true}, {"double", "float64", "met_double"}},
+  };
+  return rows;
+}
+
+[[noreturn]] void refuse_voxel(double value, std::size_t x, const RowPlace& place) {
+  refuse_volume(place.path,
+                "holds " + format_number(value, 10) + " at the voxel (" + std::to_string(x) + ", " +
+                    std::to_string(place.y) + ", " + std::to_string(place.z) +
+                    "), counted from 0. Labels are whole numbers from 0 to 4294967295. Make "
+                    "labels of the image by wscvt segment.");
+}
+
+template <class Value, boost::endian::order Order>
+void load_grey_row(const char* bytes, std::vector<Label>& row) {
+  constexpr double most = std::numeric_limits<float>::max();
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const auto value = static_cast<double>(load<Value, Order>(bytes + i * sizeof(Value)));
+    row[i] = grey_code(static_cast<float>(std::clamp(value, -most, most)));
+  }
+}
+
+template <class Value, boost::endian::order Order>
+void load_row(const char* bytes, std::vector<Label>& row, const RowPlace& place) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const Value value = load<Value, Order>(bytes + i * sizeof(Value));
+    if constexpr (std::is_floating_point_v<Value>) {
+      constexpr Value end = 4294967296.0;
+      if (!(value >= Value{0} && value < end) || value != std::floor(value)) {
+        refuse_voxel(static_cast<double>(value), i, place);
+      }
+      row[i] = static_cast<Label>(value);
+    } else {
+      if constexpr (std::numeric_limits<Value>::is_signed || sizeof(Value) > sizeof(Label)) {
+        const bool below = std::numeric_limits<Value>::is_signed && value < Value{0};
+        if (below || static_cast<std::uint64_t>(value) > std::numeric_limits<Label>::max()) {
+          refuse_voxel(static_cast<double>(value), i, place);
+        }
+      }
+      row[i] = static_cast<Label>(static_cast<std::make_unsigned_t<Value>>(value));
+    }
+  }
+}
+
+template <boost::endian::order Order>
+void load_row(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
+              const RowPlace& place) {
+  const auto load_one = [&](auto number) {
+    if (as_grey) return load_grey_row<decltype(number), Order>(bytes, row);
+    load_row<decltype(number), Order>(bytes, row, place);
+  };
+  const auto load_as = [&](auto with_sign, auto without_sign) {
+    if (type.has_sign) return load_one(with_sign);
+    load_one(without_sign);
+  };
+  if (type.is_float) return type.bytes == 4 ? load_one(float{}) : load_one(double{});
+  if (type.bytes == 1) return load_as(std::int8_t{}, std::uint8_t{});
+  if (type.bytes == 2) return load_as(std::int16_t{}, std::uint16_t{});
+  if (type.bytes == 4) return load_as(std::int32_t{}, std::uint32_t{});
+  load_as(std::int64_t{}, std::uint64_t{});
+}
+
+class VolumeOfBytes : public LabelVolume {
+ public:
+  VolumeOfBytes(const VolumeGeometry& geometry, const VoxelType& type,
+                std::unique_ptr<ByteSource> bytes, std::string path)
+      : LabelVolume(geometry), type_(type), bytes_(std::move(bytes)), path_(std::move(path)) {}
+
+  const std::vector<Label>& next_row() override {
+    // Allocated here, after the checks that detect a false count in a packed file.
+    const auto count = static_cast<std::size_t>(geometry().counts[0]);
+    row_.resize(count);
+    packed_.resize(count * static_cast<std::size_t>(type_.bytes));
+    if (bytes_->read(packed_.data(), packed_.size()) < packed_.size()) {
+      refuse_volume(path_,
+                    "ends before its last voxel. Copy it again, or export "
+                    "it again.");
+    }
+    const std::int64_t rows = geometry().counts[1];
+    labels_of(packed_.data(), type_, is_grey(), row_, {path_, next_ % rows, next_ / rows});
+    ++next_;
+    return row_;
+  }
+
+  void rewind() override {
+    bytes_->rewind();
+    next_ = 0;
+  }
+
+ private:
+  VoxelType type_;
+  std::unique_ptr<ByteSource> bytes_;
+  std::string path_;
+  std::vector<char> packed_;
+  std::vector<Label> row_;
+  std::int64_t next_ = 0;  ///< row
+};
+
+/// Whether bytes begin as gzip or zlib streams do.
+bool begins_packed(const std::string& path, std::uint64_t offset) {
+  std::array<unsigned char, 2> head{};
+  if (file_bytes(path, offset)->read(reinterpret_cast<char*>(head.data()), 2) < 2) return false;
+  const bool is_gzip = head[0] == 0x1f && head[1] == 0x8b;
+  return is_gzip || (head[0] == 0x78 && (head[0] * 256 + head[1]) % 31 == 0);
+}
+
+}  // namespace
+
+void refuse_volume(const std::string& path, const std::string& what) {
+  throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
+}
+
+std::optional<VoxelType> known_voxel_type(std::string_view name) {
+  const std::string lower = lower_case(name);
+  for (const TypeNames& row : type_names()) {
+    for (const std::string_view known : row.names) {
+      if (lower == known) return row.type;
+    }
+  }
+  return std::nullopt;
+}
+
+VoxelType voxel_type_of(std::string_view name, const std::string& path) {
+  const std::optional<VoxelType> type = known_voxel_type(name);
+  if (type) return *type;
+  refuse_volume(path, "holds voxels of type " + in_quotes(name) +
+                          ", but labels are whole numbers. Save it as 8, 16 or 32 bits without a "
+                          "sign.");
+}
+
+void labels_of(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
+               const RowPlace& place) {
+  if (type.big_endian) {
+    load_row<boost::endian::order::big>(bytes, type, as_grey, row, place);
+  } else {
+    load_row<boost::endian::order::little>(bytes, type, as_grey, row, place);
+  }
+}
+
+VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::string& path) {
+  constexpr std::int64_t most = 1000000;
+  VoxelCounts result{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (counts[axis] < 1 || counts[axis] > most) {
+      refuse_volume(path,
+                    "gives " + std::to_string(counts[axis]) +
+                        " voxels along an axis, but 1 to 1000000 are possible. Export it again.");
+    }
+    result[axis] = static_cast<std::int32_t>(counts[axis]);
+  }
+  return result;
+}
+
+std::uint64_t voxel_bytes(const VoxelCounts& counts, const VoxelType& type) {
+  auto bytes = static_cast<std::uint64_t>(type.bytes);
+  for (const std::int32_t count : counts) bytes *= static_cast<std::uint64_t>(count);
+  return bytes;
+}
+
+void check_voxel_bytes(std::uint64_t wanted, std::uint64_t left, Packing packing,
+                       const std::string& path) {
+  std::uint64_t least = wanted;
+  if (packing == Packing::Deflate) least = wanted / 1100;   // at best one byte for 1032
+  if (packing == Packing::Bzip2) least = wanted / 1000000;  // 900 kB of equal bytes take 40
+  if (packing == Packing::Text) least = wanted / sizeof(double) * 2 - 1;  // a digit and a blank
+  if (least <= left) return;
+  refuse_volume(path, "holds " + std::to_string(left) + " bytes of voxels, but its size needs " +
+                          std::to_string(wanted) + ". Copy it again, or export it again.");
+}
+
+std::unique_ptr<LabelVolume> volume_of_bytes(const VolumeGeometry& geometry, const VoxelType& type,
+                                             std::unique_ptr<ByteSource> bytes,
+                                             const std::string& path) {
+  return std::make_unique<VolumeOfBytes>(geometry, type, std::move(bytes), path);
+}
+
+std::unique_ptr<ByteSource> picked_voxels(std::unique_ptr<ByteSource> bytes,
+                                          const std::vector<BlockPick>& picks,
+                                          std::uint64_t voxel) {
+  for (const BlockPick& pick : picks) {
+    bytes = picked_bytes(std::move(bytes), static_cast<std::uint64_t>(pick.block) * voxel,
+                         static_cast<std::uint64_t>(pick.count),
+                         static_cast<std::uint64_t>(pick.place));
+  }
+  return bytes;
+}
+
+std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, VoxelType type,
+                                             const VoxelData& data) {
+  Packing packing = data.packing;
+  if (packing == Packing::Text) type = {sizeof(double), true, true, false};
+  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
+  for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
+  const std::uint64_t part = wanted / data.paths.size();
+  if (part * data.paths.size() != wanted) {
+    refuse_volume(
+        data.paths.front(),
+        "is one of " + std::to_string(data.paths.size()) +
+            " files, but the slices cannot be divided evenly among them. Correct the list.");
+  }
+  std::string note;
+  std::vector<std::uint64_t> offsets;
+  for (const std::string& path : data.paths) {
+    const std::uint64_t size = file_size(path);
+    const std::uint64_t offset = data.at_end ? size - std::min(size, part) : data.offset;
+    const std::uint64_t left = size - std::min(size, offset);
+    // ITK and others have written packed voxels without declaring it.
+    if (packing == Packing::None && left < part && begins_packed(path, offset)) {
+      packing = Packing::Deflate;
+    }
+    check_voxel_bytes(part, left, packing, path);
+    if (packing == Packing::None && left > part && !data.has_more) {
+      const std::string more = "holds " + std::to_string(left) +
+                               " bytes of voxels, but its size needs " + std::to_string(part);
+      if (left / 2 >= part) {
+        refuse_volume(path, more + ". Correct its size or the type of its voxels.");
+      }
+      if (note.empty()) note = "\"" + path + "\" " + more + ". The rest was left out.";
+    }
+    offsets.push_back(offset);
+  }
+  const std::string first = data.paths.front();
+  const auto open = [packing](const std::string& path, std::uint64_t offset) {
+    std::unique_ptr<ByteSource> bytes = file_bytes(path, offset);
+    if (packing == Packing::Deflate) return inflated_bytes(std::move(bytes), path);
+    if (packing == Packing::Bzip2) return bunzipped_bytes(std::move(bytes), path);
+    if (packing == Packing::Text) return bytes_of_numbers(std::move(bytes), path);
+    return bytes;
+  };
+  std::unique_ptr<ByteSource> bytes;
+  if (data.paths.size() == 1) {
+    bytes = open(first, offsets.front());
+  } else {
+    bytes = joined_bytes(
+        data.paths, part,
+        [open, offset = offsets.front()](const std::string& path) { return open(path, offset); });
+  }
+  bytes = picked_voxels(std::move(bytes), data.picks, static_cast<std::uint64_t>(type.bytes));
+  std::unique_ptr<LabelVolume> volume = volume_of_bytes(geometry, type, std::move(bytes), first);
+  if (!note.empty()) volume->add_note(note);
+  return volume;
+}
+
+std::string voxel_file_beside(const std::string& header, const std::string& name) {
+  // A NUL would cut the name, which would be another file.
+  if (std::any_of(name.begin(), name.end(),
+                  [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; })) {
+    refuse_volume(header, "names the file " + in_quotes(name) +
+                              " for its voxels, which contains control characters. Correct it.");
+  }
+  if (name.empty()) {
+    refuse_volume(header, "names no file of voxels. Export it again.");
+  }
+  const std::filesystem::path path(name);
+  return path.is_absolute()
+             ? name
+             : (std::filesystem::path(header).parent_path() / path).lexically_normal().string();
+}
+
+std::vector<std::string> voxel_files_beside(const std::string& header, const std::string& pattern,
+                                            std::int64_t first, std::int64_t last,
+                                            std::int64_t step) {
+  const auto refuse_pattern = [&](const std::string& why) {
+    refuse_volume(header, "names its files by the pattern " + in_quotes(pattern) + ", " + why +
+                              ". Write it as name_%03d.raw FIRST LAST STEP.");
+  };
+  const std::size_t percent = pattern.find('%');
+  std::size_t end = percent + 1;
+  while (end < pattern.size() && pattern[end] >= '0' && pattern[end] <= '9') ++end;
+  const std::string digits = pattern.substr(percent + 1, end - percent - 1);
+  const bool is_whole = end < pattern.size() &&
+                        (pattern[end] == 'd' || pattern[end] == 'i' || pattern[end] == 'u') &&
+                        digits.size() <= 2 && pattern.find('%', end) == std::string::npos;
+  if (!is_whole) refuse_pattern("which has not one whole number");
+  constexpr std::int64_t most = 1000000;  // as voxel_counts
+  if (first < 0 || last < 0 || step == 0 || (last - first) / step < 0 ||
+      (last - first) / step >= most) {
+    refuse_pattern("whose numbers make no list");
+  }
+  const bool has_zeros = !digits.empty() && digits.front() == '0';
+  const std::size_t width = digits.empty() ? 0 : std::stoul(digits);
+  std::vector<std::string> files;
+  for (std::int64_t k = 0; k <= (last - first) / step; ++k) {
+    std::string number = std::to_string(first + k * step);
+    if (number.size() < width) number.insert(0, width - number.size(), has_zeros ? '0' : ' ');
+    files.push_back(
+        voxel_file_beside(header, pattern.substr(0, percent) + number + pattern.substr(end + 1)));
+  }
+  return files;
+}
+
+void LabelVolume::add_note(const std::string& sentence) { notes_.push_back(sentence); }
+
+LabelVolume::LabelVolume(VolumeGeometry geometry) : geometry_(std::move(geometry)) {}
+
+Label grey_code(float value) {
+  if (std::isnan(value)) return 0;
+  Label bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  constexpr Label sign = 0x80000000U;
+  return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+float grey_value(Label code) {
+  constexpr Label sign = 0x80000000U;
+  const Label bits = (code & sign) != 0 ? code & ~sign : ~code;
+  float value = 0.0F;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+double VolumeGeometry::voxel_volume() const { return std::abs(axes.determinant()); }
+
+}  // namespace wscvt

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "toolbox/volume/byte_source.h"
+#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/volume_choice.h"
+
+namespace wscvt {
+
+/// Type of the numbers in a file.
+struct VoxelType {
+  int bytes = 1;  ///< 1, 2, 4 or 8; 4 or 8 for floats
+  bool has_sign = false;
+  bool is_float = false;
+  bool big_endian = false;
+};
+
+/// Returns the type for a name in NRRD, MetaImage, VTK or NumPy ("unsigned short", "MET_USHORT",
+/// "UInt16", "uint16", "float", ...), in either case; its byte order is little-endian. Empty for
+/// other names.
+std::optional<VoxelType> known_voxel_type(std::string_view name);
+
+/// Returns this type. Throws Error(InputOutput), naming the file `path`, for other names.
+VoxelType voxel_type_of(std::string_view name, const std::string& path);
+
+/// Position of a row of voxels, for messages.
+struct RowPlace {
+  const std::string& path;
+  std::int64_t y = 0;
+  std::int64_t z = 0;
+};
+
+/// Converts a row of voxels to labels, or to codes of grey values. Floats are labels if they are
+/// whole numbers. Throws Error(InputOutput), naming the file and the voxel, for numbers that are no
+/// labels.
+void labels_of(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
+               const RowPlace& place);
+
+/// Checks the counts of voxels in a file. Throws Error(InputOutput), naming the file `path`, if one
+/// is below 1 or above a million.
+VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::string& path);
+
+/// Returns the number of bytes of all voxels of a volume.
+std::uint64_t voxel_bytes(const VoxelCounts& counts, const VoxelType& type);
+
+/// Compression or encoding of voxels.
+enum class Packing {
+  None,
+  Deflate,  ///< gzip or zlib
+  Bzip2,
+  Text  ///< printed numbers; they become doubles
+};
+
+/// Position of the voxels of a volume, in their order, x fastest.
+struct VoxelData {
+  std::vector<std::string> paths;  ///< one after the other, all with equally many bytes
+  std::uint64_t offset = 0;        ///< of each
+  Packing packing = Packing::None;
+  /// They are the end of the file, whatever precedes them; replaces `offset`; not packed.
+  bool at_end = false;
+  std::vector<BlockPick> picks = {};  ///< selection, in voxels
+  bool has_more = false;              ///< other data follow them
+};
+
+/// Opens files that contain only labels in their order. If a file has more bytes than it says, this
+/// is noted; with twice as many it is refused. Throws Error(InputOutput) if a file cannot be opened
+/// or is too short.
+std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, VoxelType type,
+                                             const VoxelData& data);
+
+/// Throws Error(InputOutput) if `left`, the bytes left in the file `path`, are fewer than `wanted`.
+/// For packed voxels, only if no packing could make them so small.
+void check_voxel_bytes(std::uint64_t wanted, std::uint64_t left, Packing packing,
+                       const std::string& path);
+
+/// Opens a format that is a header and voxels in their order. `path` is for messages.
+std::unique_ptr<LabelVolume> volume_of_bytes(const VolumeGeometry& geometry, const VoxelType& type,
+                                             std::unique_ptr<ByteSource> bytes,
+                                             const std::string& path);
+
+/// Returns the selection from `bytes`, with `voxel` bytes per voxel.
+std::unique_ptr<ByteSource> picked_voxels(std::unique_ptr<ByteSource> bytes,
+                                          const std::vector<BlockPick>& picks, std::uint64_t voxel);
+
+/// Throws Error(InputOutput) for a file that is no such volume: "path" + what, and what to do.
+[[noreturn]] void refuse_volume(const std::string& path, const std::string& what);
+
+/// Returns the file beside a header that the header names for its voxels. Throws Error(InputOutput)
+/// for an empty name.
+std::string voxel_file_beside(const std::string& header, const std::string& name);
+
+/// Returns the files beside a header for a pattern of C, "s_%03d.raw", with its first number, last
+/// number and step. Throws Error(InputOutput) for a pattern without exactly one whole number, and
+/// for more files than a volume has slices.
+std::vector<std::string> voxel_files_beside(const std::string& header, const std::string& pattern,
+                                            std::int64_t first, std::int64_t last,
+                                            std::int64_t step);
+
+}  // namespace wscvt

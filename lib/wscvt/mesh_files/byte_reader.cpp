@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/mesh_files/byte_reader.h"
+
+#include <algorithm>
+#include <cstring>
+#include <istream>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
+
+}  // namespace
+
+ByteReader::ByteReader(std::istream& stream, std::uintmax_t size, std::string path,
+                       Execution execution)
+    : stream_(stream),
+      path_(std::move(path)),
+      buffer_(bytes_at_once),
+      size_(size),
+      unread_(size),
+      execution_(std::move(execution)) {}
+
+bool ByteReader::fill(std::size_t count) {
+  if (count > remaining()) return false;
+  execution_.report(1.0 - static_cast<double>(unread_) / static_cast<double>(size_), "Reading");
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  if (buffer_.size() < count) buffer_.resize(count);
+  const std::size_t wanted =
+      static_cast<std::size_t>(std::min<std::uintmax_t>(buffer_.size() - end_, unread_));
+  stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(wanted));
+  const auto got = static_cast<std::size_t>(stream_.gcount());
+  end_ += got;
+  if (stream_.bad()) refuse_to_read(path_);
+  // The file ends here if it became shorter after its size was read.
+  unread_ = got < wanted ? 0 : unread_ - got;
+  return end_ >= count;
+}
+
+bool ByteReader::skip(std::uintmax_t count) {
+  if (count > remaining()) return false;
+  while (count > 0) {
+    const auto part = static_cast<std::size_t>(std::min<std::uintmax_t>(count, bytes_at_once));
+    if (next(part) == nullptr) return false;
+    count -= part;
+  }
+  return true;
+}
+
+std::string_view ByteReader::peek(std::size_t count) {
+  const auto wanted = static_cast<std::size_t>(std::min<std::uintmax_t>(count, remaining()));
+  if (end_ - begin_ < wanted) fill(wanted);
+  return {buffer_.data() + begin_, std::min(wanted, end_ - begin_)};
+}
+
+std::optional<std::string_view> ByteReader::line() {
+  if (line_number_ == 0) {
+    if (peek(3) == "\xEF\xBB\xBF") skip(3);
+    const std::string_view start = peek(bytes_at_once);
+    const std::size_t first = start.find_first_of("\r\n");
+    if (first != std::string_view::npos && start[first] == '\r' &&
+        start.substr(first + 1, 1) != "\n") {
+      line_end_ = '\r';
+    }
+  }
+  if (remaining() == 0) return {};
+  std::size_t searched = 0;
+  for (;;) {
+    const std::size_t held = end_ - begin_;
+    const char* const bytes = buffer_.data() + begin_;
+    if (held > searched) {
+      if (const void* const found = std::memchr(bytes + searched, line_end_, held - searched)) {
+        auto length = static_cast<std::size_t>(static_cast<const char*>(found) - bytes);
+        begin_ += length + 1;
+        if (length > 0 && bytes[length - 1] == '\r') --length;
+        ++line_number_;
+        return std::string_view(bytes, length);
+      }
+    }
+    if (unread_ == 0) {  // the last line, without a line break
+      begin_ = end_;
+      ++line_number_;
+      return std::string_view(bytes, held);
+    }
+    searched = held;
+    // Doubles each time, so that a file of one line does not take longer than others.
+    peek(std::max(bytes_at_once, 2 * held));
+  }
+}
+
+std::optional<std::string_view> ByteReader::filled_line() {
+  while (const std::optional<std::string_view> text = line()) {
+    if (!TextFields(*text).next().empty()) return text;
+  }
+  return {};
+}
+
+void ByteReader::fail(const std::string& what) const {
+  throw Error(ErrorCode::InputOutput, "\"" + path_ + "\" " + what);
+}
+
+void ByteReader::fail_line(const std::string& what) const {
+  throw Error(ErrorCode::InputOutput,
+              "\"" + path_ + "\" line " + std::to_string(line_number_) + " " + what);
+}
+
+}  // namespace wscvt

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// https://docs.vtk.org/en/latest/vtk_file_formats/. VTK itself is not used, because its library is
+// 100 MB.
+#include "wscvt/mesh_files/legacy_vtk_reader.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "wscvt/mesh_files/text_fields.h"
+#include "wscvt/mesh_files/vtk_polygons.h"
+
+namespace wscvt {
+
+namespace {
+
+/// VTK's names of number types, and their form in a binary file: the most significant byte first.
+enum class VtkType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Int64, Uint64, Float, Double };
+
+struct NamedType {
+  std::string_view name;
+  VtkType type;
+  std::size_t size;
+};
+
+constexpr NamedType vtk_types[] = {{"char", VtkType::Int8, 1},
+                                   {"signed_char", VtkType::Int8, 1},
+                                   {"unsigned_char", VtkType::Uint8, 1},
+                                   {"short", VtkType::Int16, 2},
+                                   {"unsigned_short", VtkType::Uint16, 2},
+                                   {"int", VtkType::Int32, 4},
+                                   {"unsigned_int", VtkType::Uint32, 4},
+                                   {"long", VtkType::Int64, 8},
+                                   {"unsigned_long", VtkType::Uint64, 8},
+                                   {"vtktypeint64", VtkType::Int64, 8},
+                                   {"vtktypeuint64", VtkType::Uint64, 8},
+                                   {"vtkidtype", VtkType::Int32, 4},
+                                   {"float", VtkType::Float, 4},
+                                   {"double", VtkType::Double, 8}};
+
+template <class Number>
+Number number_at(VtkType type, const char* bytes) {
+  constexpr auto big = boost::endian::order::big;
+  switch (type) {
+    case VtkType::Int8:
+      return static_cast<Number>(load<std::int8_t, big>(bytes));
+    case VtkType::Uint8:
+      return static_cast<Number>(load<std::uint8_t, big>(bytes));
+    case VtkType::Int16:
+      return static_cast<Number>(load<std::int16_t, big>(bytes));
+    case VtkType::Uint16:
+      return static_cast<Number>(load<std::uint16_t, big>(bytes));
+    case VtkType::Int32:
+      return static_cast<Number>(load<std::int32_t, big>(bytes));
+    case VtkType::Uint32:
+      return static_cast<Number>(load<std::uint32_t, big>(bytes));
+    case VtkType::Int64:
+      return static_cast<Number>(load<std::int64_t, big>(bytes));
+    case VtkType::Uint64:
+      return static_cast<Number>(load<std::uint64_t, big>(bytes));
+    case VtkType::Float:
+      return static_cast<Number>(load<float, big>(bytes));
+    case VtkType::Double:
+      break;
+  }
+  return static_cast<Number>(load<double, big>(bytes));
+}
+
+class LegacyVtkReader {
+ public:
+  explicit LegacyVtkReader(ByteReader& reader) : reader_(reader) {}
+
+  IndexedMesh read() {
+    if (lower_case(reader_.line().value_or("")).rfind("# vtk datafile version", 0) != 0) {
+      reader_.fail("does not begin with \"# vtk DataFile Version\" and is not a VTK file" +
+                   std::string(export_again));
+    }
+    reader_.line();  // a title
+    const std::string form = lower_case(TextFields(reader_.line().value_or("")).next());
+    if (form != "ascii" && form != "binary") {
+      reader_.fail_line("is neither ASCII nor BINARY" + std::string(export_again));
+    }
+    is_text_ = form == "ascii";
+    bool goes_on = true;
+    while (goes_on) {
+      const std::optional<std::string_view> line = reader_.filled_line();
+      goes_on = line && read_section(std::string(*line));
+    }
+    keep_surface_cells();
+    for (const bool strips : {false, true}) {
+      add_polygons(strips ? strips_ : polygons_, strips, 0, mesh_.points.size(), reader_,
+                   mesh_.triangles);
+    }
+    if (mesh_.points.empty()) reader_.fail("holds no points" + std::string(export_again));
+    return std::move(mesh_);
+  }
+
+ private:
+  /// Returns false if the data of points and faces begins; it follows the mesh.
+  bool read_section(const std::string& line) {
+    TextFields fields(line);
+    const std::string key = lower_case(fields.next());
+    if (key == "point_data" || key == "cell_data") return false;
+    if (key == "metadata") {
+      while (!TextFields(reader_.line().value_or("")).next().empty()) {
+      }
+    } else if (key == "dataset") {
+      const std::string kind = lower_case(fields.next());
+      if (kind != "polydata" && kind != "unstructured_grid") {
+        reader_.fail("holds " + in_quotes(kind) +
+                     ", not the polygons of a mesh. Save a surface as POLYDATA.");
+      }
+    } else if (key == "field") {
+      fields.next();
+      const std::size_t arrays = count_in(fields);
+      for (std::size_t k = 0; k < arrays; ++k) skip_array();
+    } else if (key == "points") {
+      read_points(fields);
+    } else if (key == "polygons" || key == "cells") {
+      polygons_ = polygons_of(fields);
+    } else if (key == "triangle_strips") {
+      strips_ = polygons_of(fields);
+    } else if (key == "vertices" || key == "lines") {
+      polygons_of(fields);
+    } else if (key == "cell_types") {
+      cell_types_ = numbers<std::int64_t>(VtkType::Int32, 4, count_in(fields));
+    } else {
+      reader_.fail_line("has " + in_quotes(key) + " instead of a part of a mesh" + export_again);
+    }
+    return true;
+  }
+
+  void read_points(TextFields& fields) {
+    const std::size_t count = count_in(fields);
+    const NamedType& type = type_in(fields);
+    if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+      reader_.fail("declares more points than can be numbered. Reduce the scan first.");
+    }
+    const auto coordinates = numbers<double>(type.type, type.size, 3 * count);
+    mesh_.points.clear();
+    mesh_.points.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      mesh_.points.emplace_back(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
+    }
+  }
+
+  /// Before version 5: the number of lists, the total of numbers, then each list with its length
+  /// first. From version 5: the number of ends (the first is 0), the number of corners, then both
+  /// arrays.
+  VtkPolygons polygons_of(TextFields& fields) {
+    const std::size_t count = count_in(fields);
+    const std::size_t size = count_in(fields);
+    VtkPolygons result;
+    if (lower_case(reader_.peek(7)) == "offsets") {
+      result.ends = named_numbers(count);
+      if (!result.ends.empty()) result.ends.erase(result.ends.begin());
+      result.corners = named_numbers(size);
+      return result;
+    }
+    const auto all = numbers<std::int64_t>(VtkType::Int32, 4, size);
+    for (std::size_t at = 0, k = 0; k < count; ++k) {
+      const std::int64_t length = at < all.size() ? all[at] : -1;
+      if (length < 0 || static_cast<std::uint64_t>(length) > all.size() - at - 1) {
+        reader_.fail("has a face of " + std::to_string(length) +
+                     " corners, which the file does not hold" + export_again);
+      }
+      const auto from = all.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+      result.corners.insert(result.corners.end(), from, from + length);
+      result.ends.push_back(static_cast<std::int64_t>(result.corners.size()));
+      at += static_cast<std::size_t>(length) + 1;
+    }
+    return result;
+  }
+
+  /// Reads "OFFSETS vtktypeint64" and the numbers.
+  std::vector<std::int64_t> named_numbers(std::size_t count) {
+    TextFields fields(reader_.filled_line().value_or(""));
+    fields.next();
+    const std::string line(fields.rest());
+    TextFields rest(line);
+    const NamedType& type = type_in(rest);
+    if (type.type == VtkType::Float || type.type == VtkType::Double) {
+      reader_.fail_line("announces corners that are not whole numbers" + std::string(export_again));
+    }
+    return numbers<std::int64_t>(type.type, type.size, count);
+  }
+
+  void skip_array() {
+    const std::string line(reader_.filled_line().value_or(""));
+    TextFields fields(line);
+    fields.next();
+    const std::size_t components = count_in(fields);
+    const std::size_t tuples = count_in(fields);
+    if (lower_case(TextFields(fields.rest()).next()) == "string") {
+      reader_.fail_line("is an array of texts, which is not supported. Save only the mesh.");
+    }
+    const NamedType& type = type_in(fields);
+    if (tuples > 0 && components > std::numeric_limits<std::size_t>::max() / tuples) fail_cut();
+    numbers<double>(type.type, type.size, components * tuples);
+  }
+
+  std::size_t count_in(TextFields& fields) {
+    const std::string_view field = fields.next();
+    const std::optional<std::int64_t> value = whole_number_in(field);
+    if (!value || *value < 0) {
+      reader_.fail_line("has " + in_quotes(field) + " instead of a number of things" +
+                        export_again);
+    }
+    return static_cast<std::size_t>(*value);
+  }
+
+  const NamedType& type_in(TextFields& fields) {
+    const std::string name = lower_case(fields.next());
+    const auto* const found =
+        std::find_if(std::begin(vtk_types), std::end(vtk_types),
+                     [&](const NamedType& type) { return type.name == name; });
+    if (found == std::end(vtk_types)) {
+      reader_.fail_line("has " + in_quotes(name) + " instead of a type of numbers" + export_again);
+    }
+    return *found;
+  }
+
+  template <class Number>
+  std::vector<Number> numbers(VtkType type, std::size_t size, std::size_t count) {
+    // A number in text needs a digit and a blank.
+    const std::size_t least = is_text_ ? 2 : size;
+    if (count > (reader_.remaining() + 1) / least) fail_cut();
+    std::vector<Number> result;
+    result.reserve(count);
+    if (is_text_) {
+      while (result.size() < count) add_line(result, count);
+      return result;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const char* const bytes = reader_.next(size);
+      if (bytes == nullptr) fail_cut();
+      result.push_back(number_at<Number>(type, bytes));
+    }
+    return result;
+  }
+
+  /// Ignores the rest of a line that has more numbers.
+  template <class Number>
+  void add_line(std::vector<Number>& result, std::size_t count) {
+    const std::optional<std::string_view> line = reader_.line();
+    if (!line) fail_cut();
+    TextFields fields(*line);
+    for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
+      const std::optional<Number> value = number_of_type<Number>(field);
+      if (!value || result.size() == count) {
+        reader_.fail_line("has " + in_quotes(field) +
+                          (value ? " behind the last of " + std::to_string(count) + " numbers"
+                                 : " instead of a number") +
+                          export_again);
+      }
+      result.push_back(*value);
+    }
+  }
+
+  /// Keeps only the surface cells of an unstructured grid.
+  void keep_surface_cells() {
+    if (cell_types_.empty()) return;
+    if (cell_types_.size() != polygons_.ends.size()) {
+      reader_.fail("has different numbers of cells and cell types" + std::string(export_again));
+    }
+    VtkPolygons kept;
+    std::int64_t begin = 0;
+    for (std::size_t k = 0; k < cell_types_.size(); ++k) {
+      const std::int64_t end = polygons_.ends[k];
+      // VTK's numbers for a triangle, a strip, a polygon and a quad; numbers below 5 are vertices
+      // and lines.
+      constexpr std::int64_t triangle = 5;
+      constexpr std::int64_t strip = 6;
+      constexpr std::int64_t polygon = 7;
+      constexpr std::int64_t quad = 9;
+      const std::int64_t type = cell_types_[k];
+      const bool is_face = type == triangle || type == polygon || type == quad;
+      if (end < begin || static_cast<std::uint64_t>(end) > polygons_.corners.size() ||
+          (type >= triangle && !is_face && type != strip)) {
+        reader_.fail("holds cells of type " + std::to_string(type) +
+                     ", which are not faces. Save a surface as POLYDATA.");
+      }
+      if (is_face || type == strip) {
+        VtkPolygons& to = is_face ? kept : strips_;
+        to.corners.insert(to.corners.end(), polygons_.corners.begin() + begin,
+                          polygons_.corners.begin() + end);
+        to.ends.push_back(static_cast<std::int64_t>(to.corners.size()));
+      }
+      begin = end;
+    }
+    polygons_ = std::move(kept);
+  }
+
+  [[noreturn]] void fail_cut() const {
+    reader_.fail("has fewer numbers than it announces. It was cut off" + std::string(export_again));
+  }
+
+  ByteReader& reader_;
+  bool is_text_ = false;
+  IndexedMesh mesh_;
+  VtkPolygons polygons_;
+  VtkPolygons strips_;
+  std::vector<std::int64_t> cell_types_;
+};
+
+}  // namespace
+
+IndexedMesh read_legacy_vtk(ByteReader& reader) { return LegacyVtkReader(reader).read(); }
+
+}  // namespace wscvt

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/mesh_files/obj_reader.h"
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "wscvt/mesh_files/polygon_fan.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Returns the next statement: a line without its comment, and its continuation lines.
+std::optional<std::string_view> next_statement(ByteReader& reader, std::string& joined) {
+  const auto without_comment = [](std::string_view line) { return line.substr(0, line.find('#')); };
+  const auto is_continued = [](std::string_view line) {
+    return !line.empty() && line.back() == '\\';
+  };
+  std::optional<std::string_view> line = reader.line();
+  if (!line) return {};
+  std::string_view text = without_comment(*line);
+  if (!is_continued(text)) return text;
+  joined.clear();
+  while (is_continued(text)) {
+    text.remove_suffix(1);
+    joined.append(text).append(" ");
+    line = reader.line();
+    text = line ? without_comment(*line) : std::string_view();
+  }
+  joined.append(text);
+  return joined;
+}
+
+constexpr std::int32_t no_number = -1;
+
+class ObjReader {
+ public:
+  /// Without `libraries`, skips colours and texture.
+  ObjReader(ByteReader& reader, MeshAttributes& attributes, std::vector<std::string>* libraries)
+      : reader_(reader), attributes_(attributes), libraries_(libraries) {}
+
+  IndexedMesh read() {
+    std::string joined;
+    while (const std::optional<std::string_view> statement = next_statement(reader_, joined)) {
+      TextFields fields(*statement);
+      const std::string_view keyword = fields.next();
+      if (keyword == "v") {
+        add_vertex(fields);
+      } else if (keyword == "f") {
+        add_face(fields);
+      } else if (libraries_ != nullptr) {
+        add_to_texture(keyword, fields);
+      }
+    }
+    if (mesh_.points.empty()) {
+      reader_.fail("holds no vertex (a line that begins with \"v\")" + std::string(export_again));
+    }
+    if (largest_index_ >= static_cast<std::int64_t>(mesh_.points.size())) {
+      reader_.fail("line " + std::to_string(largest_index_line_) + " names vertex " +
+                   std::to_string(largest_index_ + 1) + ", but the file holds " +
+                   std::to_string(mesh_.points.size()) + export_again);
+    }
+    if (has_faces_ && mesh_.triangles.empty()) {
+      reader_.fail("has faces, but none of them has three corners" + std::string(export_again));
+    }
+    if (libraries_ != nullptr) finish_attributes();
+    return std::move(mesh_);
+  }
+
+ private:
+  void add_vertex(TextFields fields) {
+    if (mesh_.points.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+      reader_.fail("has more vertices than can be numbered. Reduce the scan first.");
+    }
+    Vector3 point;
+    for (double& coordinate : point) {
+      const std::string_view field = fields.next();
+      const std::optional<double> value = number_in(field);
+      if (!value) {
+        reader_.fail_line(
+            field.empty()
+                ? "gives a vertex fewer than three coordinates" + std::string(export_again)
+                : "has " + in_quotes(field) + " instead of a coordinate" + export_again);
+      }
+      coordinate = *value;
+    }
+    // A weight or a colour may follow.
+    mesh_.points.push_back(point);
+    if (libraries_ != nullptr) add_colour(fields);
+  }
+
+  void add_colour(TextFields fields) {
+    Vector3 colour = Vector3::Zero();
+    for (double& part : colour) {
+      const std::optional<double> value = number_in(fields.next());
+      if (!value || !(*value >= 0.0 && *value <= 1.0)) return;
+      part = *value;
+    }
+    colours_.push_back(colour);
+  }
+
+  void add_to_texture(std::string_view keyword, TextFields fields) {
+    if (keyword == "vt") {
+      MeshTexture::Place place = MeshTexture::no_place();
+      for (float& coordinate : place) {
+        const std::optional<double> value = number_in(fields.next());
+        if (value) coordinate = static_cast<float>(*value);
+      }
+      places_.push_back(place);
+    } else if (keyword == "usemtl") {
+      const auto [known, is_new] =
+          materials_.emplace(trimmed(fields.rest()), static_cast<std::int32_t>(materials_.size()));
+      material_ = known->second;
+      if (is_new) attributes_.texture.names.push_back(known->first);
+    } else if (keyword == "mtllib") {
+      libraries_->emplace_back(trimmed(fields.rest()));
+    }
+  }
+
+  /// Returns the number of a corner's texture coordinates, such as 7 of "5/7/2"; no_number if there
+  /// is none.
+  std::int32_t place_number(std::string_view corner) const {
+    const std::size_t slash = corner.find('/');
+    if (slash == std::string_view::npos) return no_number;
+    const std::string_view rest = corner.substr(slash + 1);
+    const std::optional<std::int64_t> number = whole_number_in(rest.substr(0, rest.find('/')));
+    if (!number) return no_number;
+    const std::int64_t index =
+        *number > 0 ? *number - 1 : static_cast<std::int64_t>(places_.size()) + *number;
+    const bool fits = index >= 0 && index < std::numeric_limits<std::int32_t>::max();
+    return fits ? static_cast<std::int32_t>(index) : no_number;
+  }
+
+  void finish_attributes() {
+    constexpr std::array<const char*, 3> parts{"red", "green", "blue"};
+    const bool has_colours = colours_.size() == mesh_.points.size();  // all vertices or none
+    for (std::size_t k = 0; has_colours && k < parts.size(); ++k) {
+      MeshAttribute part{parts[k], ScalarType::Uint8, {}};
+      for (const Vector3& colour : colours_) {
+        part.values.push_back(255.0 * colour[static_cast<Eigen::Index>(k)]);
+      }
+      attributes_.of_vertices.push_back(std::move(part));
+    }
+    if (places_.empty() || libraries_->empty() || attributes_.texture.names.empty()) {
+      attributes_.texture = MeshTexture();
+      return;
+    }
+    MeshTexture& texture = attributes_.texture;
+    texture.picture_of_face = std::move(material_of_face_);
+    texture.corners.reserve(place_numbers_.size());
+    for (const Triangle& numbers : place_numbers_) {
+      std::array<MeshTexture::Place, 3> corners;
+      corners.fill(MeshTexture::no_place());
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto number = static_cast<std::size_t>(numbers[k]);
+        if (numbers[k] != no_number && number < places_.size()) corners[k] = places_[number];
+      }
+      texture.corners.push_back(corners);
+    }
+  }
+
+  void add_face(TextFields fields) {
+    has_faces_ = true;
+    corners_.clear();
+    corner_places_.clear();
+    for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
+      // Vertex, vertex/texture, vertex//normal or vertex/texture/normal.
+      const std::string_view vertex = field.substr(0, field.find('/'));
+      const std::optional<std::int64_t> number = whole_number_in(vertex);
+      if (!number || *number == 0) {
+        reader_.fail_line("has " + in_quotes(field) +
+                          " instead of a face's vertex, numbered from 1" + export_again);
+      }
+      const auto known = static_cast<std::int64_t>(mesh_.points.size());
+      const std::int64_t index = *number > 0 ? *number - 1 : known + *number;
+      if (index < 0 || index >= std::numeric_limits<std::int32_t>::max()) {
+        reader_.fail_line("names vertex " + std::to_string(*number) + ", but there are " +
+                          std::to_string(known) + " up to it" + export_again);
+      }
+      // A vertex may follow the faces that use it.
+      if (index > largest_index_) {
+        largest_index_ = index;
+        largest_index_line_ = reader_.line_number();
+      }
+      corners_.push_back(static_cast<std::int32_t>(index));
+      if (libraries_ != nullptr) corner_places_.push_back(place_number(field));
+    }
+    add_fan(corners_.data(), corners_.size(), mesh_.triangles);
+    if (libraries_ == nullptr) return;
+    add_fan(corner_places_.data(), corner_places_.size(), place_numbers_);
+    material_of_face_.resize(mesh_.triangles.size(), material_);
+  }
+
+  ByteReader& reader_;
+  MeshAttributes& attributes_;
+  std::vector<std::string>* libraries_;
+  IndexedMesh mesh_;
+  std::vector<std::int32_t> corners_;
+  std::vector<std::int32_t> corner_places_;
+  std::vector<Vector3> colours_;
+  std::vector<MeshTexture::Place> places_;
+  std::vector<Triangle> place_numbers_;  ///< of the corners of each face
+  std::vector<std::int32_t> material_of_face_;
+  std::map<std::string, std::int32_t, std::less<>> materials_;
+  std::int32_t material_ = no_number;
+  bool has_faces_ = false;
+  std::int64_t largest_index_ = -1;
+  std::size_t largest_index_line_ = 0;
+};
+
+}  // namespace
+
+IndexedMesh read_obj(ByteReader& reader) {
+  MeshAttributes none;
+  return ObjReader(reader, none, nullptr).read();
+}
+
+IndexedMesh read_obj_attributes(ByteReader& reader, MeshAttributes& attributes,
+                                std::vector<std::string>& libraries) {
+  return ObjReader(reader, attributes, &libraries).read();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/mesh_files/point_text_reader.h"
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Splits a line into fields. If it has commas or semicolons, a field between them may be empty.
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  const char separator = line.find(',') != std::string_view::npos   ? ','
+                         : line.find(';') != std::string_view::npos ? ';'
+                                                                    : ' ';
+  if (separator == ' ') {
+    TextFields words(line);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+      fields.push_back(word);
+    }
+    return;
+  }
+  for (bool is_last = false; !is_last;) {
+    const std::size_t end = line.find(separator);
+    is_last = end == std::string_view::npos;
+    std::string_view field = line.substr(0, end);
+    const std::size_t first = field.find_first_not_of(" \t\"");
+    const std::size_t last = field.find_last_not_of(" \t\"");
+    field = first == std::string_view::npos ? "" : field.substr(first, last + 1 - first);
+    fields.push_back(field);
+    line.remove_prefix(is_last ? line.size() : end + 1);
+  }
+}
+
+/// Returns the axis of a column, or nothing for other columns.
+std::optional<std::size_t> axis_of(std::string_view name) {
+  const std::string lower = lower_case(name);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (lower == std::string(1, "xyz"[axis]) || lower == "points:" + std::to_string(axis) ||
+        lower == "points_" + std::to_string(axis)) {
+      return axis;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+IndexedMesh read_point_text(ByteReader& reader) {
+  std::array<std::size_t, 3> columns{0, 1, 2};
+  std::vector<std::string_view> fields;
+  IndexedMesh mesh;
+  bool is_first = true;
+  while (const std::optional<std::string_view> line = reader.filled_line()) {
+    if (TextFields(*line).next().front() == '#') continue;
+    split(*line, fields);
+    if (is_first && !number_in(fields[0]) && !fields[0].empty()) {
+      is_first = false;
+      std::array<int, 3> found{};
+      for (std::size_t column = 0; column < fields.size(); ++column) {
+        if (const std::optional<std::size_t> axis = axis_of(fields[column])) {
+          columns[*axis] = column;
+          ++found[*axis];
+        }
+      }
+      if (found != std::array<int, 3>{1, 1, 1}) {
+        reader.fail_line(
+            "is not a point and does not name the columns x, y and z, each once. Name them, or "
+            "give a file with numbers only.");
+      }
+      continue;
+    }
+    is_first = false;
+    if (mesh.points.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+      reader.fail("holds more points than can be numbered. Reduce the scan first.");
+    }
+    Vector3 point;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string_view field = columns[axis] < fields.size() ? fields[columns[axis]] : "";
+      const std::optional<double> value = number_in(field);
+      if (!value) {
+        reader.fail_line((field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
+                         std::string(" the coordinate ") + "xyz"[axis] + " of a point" +
+                         export_again);
+      }
+      point[static_cast<Eigen::Index>(axis)] = *value;
+    }
+    mesh.points.push_back(point);
+  }
+  if (mesh.points.empty()) reader.fail("holds no points" + std::string(export_again));
+  return mesh;
+}
+
+}  // namespace wscvt

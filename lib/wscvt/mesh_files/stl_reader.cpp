@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/mesh_files/stl_reader.h"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t header_size = 84;
+constexpr std::size_t record_size = 50;
+constexpr auto most_triangles =
+    static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
+
+std::int32_t next_index(ByteReader& reader, const IndexedMesh& mesh) {
+  if (mesh.triangles.size() >= most_triangles) {
+    reader.fail("has more triangles than can be numbered. Reduce the scan first.");
+  }
+  return static_cast<std::int32_t>(mesh.points.size());
+}
+
+IndexedMesh read_binary(ByteReader& reader) {
+  using boost::endian::order;
+  const std::string_view header = reader.peek(header_size);
+  if (header.size() < header_size) {
+    reader.fail("is too short for an STL file" + std::string(export_again));
+  }
+  const std::size_t triangles = load<std::uint32_t, order::little>(header.data() + 80);
+  const std::uintmax_t expected = header_size + std::uintmax_t{record_size} * triangles;
+  const std::uintmax_t held = (reader.remaining() - header_size) / record_size;
+  if (expected > reader.remaining()) {
+    reader.fail("is not text and announces " + std::to_string(triangles) +
+                " triangles, but holds " + std::to_string(held) +
+                ". It is not an STL file or was cut off" + export_again);
+  }
+  // Some programs leave bytes after the last triangle, a line break or zeros. If there is room for
+  // a triangle, the count is wrong.
+  if (held > triangles) {
+    reader.fail("is not text and announces " + std::to_string(triangles) +
+                " triangles, but holds " + std::to_string(held) + ". It is not an STL file" +
+                export_again);
+  }
+  if (triangles == 0) reader.fail("holds no triangles" + std::string(export_again));
+  if (reader.remaining() > expected) {
+    const std::uintmax_t more = reader.remaining() - expected;
+    reader.warn("has " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
+                " behind its last triangle. They were left out. If triangles are missing, export "
+                "it again from the program it came from.");
+  }
+  reader.skip(header_size);
+  IndexedMesh mesh;
+  mesh.points.reserve(3 * triangles);
+  mesh.triangles.reserve(triangles);
+  for (std::size_t f = 0; f < triangles; ++f) {
+    const char* bytes = reader.next(record_size);
+    if (bytes == nullptr) {
+      reader.fail("ends within triangle " + std::to_string(f) + " of " + std::to_string(triangles) +
+                  export_again);
+    }
+    const std::int32_t first = next_index(reader, mesh);
+    for (std::size_t i = 1; i <= 3; ++i) {  // 0 is the normal
+      const char* const corner = bytes + 12 * i;
+      mesh.points.emplace_back(load<float, order::little>(corner),
+                               load<float, order::little>(corner + 4),
+                               load<float, order::little>(corner + 8));
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+/// Reads the words of a text STL file; line breaks separate words as blanks do.
+class TextReader {
+ public:
+  explicit TextReader(ByteReader& reader) : reader_(reader) {}
+
+  IndexedMesh read() {
+    IndexedMesh mesh;
+    do {  // a file may have several solids
+      expect("solid");
+      fields_ = TextFields("");  // skips the name, which may have any words
+      for (std::string word = next_word(); word != "endsolid"; word = next_word()) {
+        if (word != "facet") fail(word, "\"facet\" or \"endsolid\"");
+        read_facet(mesh);
+      }
+      fields_ = TextFields("");
+    } while (has_more());
+    if (mesh.triangles.empty()) reader_.fail("holds no triangles" + std::string(export_again));
+    return mesh;
+  }
+
+ private:
+  void read_facet(IndexedMesh& mesh) {
+    // Ignores the file's normal, because the normal follows from the corners.
+    std::string word = next_word();
+    for (int k = 0; word != "outer"; ++k) {
+      if (k > 4) fail(word, "\"outer loop\"");
+      word = next_word();
+    }
+    expect("loop");
+    const std::int32_t first = next_index(reader_, mesh);
+    for (int i = 0; i < 3; ++i) {
+      expect("vertex");
+      Vector3 point;
+      for (double& coordinate : point) {
+        word = next_word();
+        const std::optional<double> value = number_in(word);
+        if (!value) fail(word, "a coordinate");
+        coordinate = *value;
+      }
+      mesh.points.push_back(point);
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    expect("endloop");
+    expect("endfacet");
+  }
+
+  void expect(const std::string& due) {
+    const std::string word = next_word();
+    if (word != due) fail(word, in_quotes(due));
+  }
+
+  /// Returns the next word in lower case; empty at the end of the file.
+  std::string next_word() {
+    if (!has_more()) return "";
+    return lower_case(std::exchange(word_, std::string_view()));
+  }
+
+  bool has_more() {
+    while (word_.empty()) {
+      word_ = fields_.next();
+      if (!word_.empty()) break;
+      const std::optional<std::string_view> line = reader_.line();
+      if (!line) return false;
+      fields_ = TextFields(*line);
+    }
+    return true;
+  }
+
+  [[noreturn]] void fail(const std::string& word, const std::string& due) {
+    if (word.empty()) {
+      reader_.fail("ends before " + due + ". It was cut off" + export_again);
+    }
+    reader_.fail_line("has " + in_quotes(word) + " instead of " + due + export_again);
+  }
+
+  ByteReader& reader_;
+  TextFields fields_{""};
+  std::string_view word_;
+};
+
+/// Checks the size, or bytes that no text has, because a binary header may also begin with "solid".
+bool is_binary(ByteReader& reader) {
+  const std::string_view header = reader.peek(header_size);
+  if (header.size() == header_size) {
+    const auto triangles = load<std::uint32_t, boost::endian::order::little>(header.data() + 80);
+    if (reader.remaining() == header_size + std::uintmax_t{record_size} * triangles) return true;
+  }
+  return lower_case(TextFields(header).next()) != "solid" ||
+         header.find('\0') != std::string_view::npos;
+}
+
+}  // namespace
+
+IndexedMesh read_stl(ByteReader& reader) {
+  return is_binary(reader) ? read_binary(reader) : TextReader(reader).read();
+}
+
+}  // namespace wscvt

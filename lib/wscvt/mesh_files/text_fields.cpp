@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/mesh_files/text_fields.h"
+
+#include <charconv>
+#include <system_error>
+
+namespace wscvt {
+
+namespace {
+
+template <class Number>
+std::optional<Number> parse(std::string_view field) {
+  // std::from_chars accepts no plus sign. "+-1" must not become valid.
+  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);
+  Number value{};
+  const char* const end = field.data() + field.size();
+  const auto [parsed_to, error] = std::from_chars(field.data(), end, value);
+  if (field.empty() || error != std::errc() || parsed_to != end) return {};
+  return value;
+}
+
+}  // namespace
+
+std::optional<double> number_in(std::string_view field) { return parse<double>(field); }
+
+std::optional<std::int64_t> whole_number_in(std::string_view field) {
+  return parse<std::int64_t>(field);
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* white_space = " \t\r\n\v\f";
+  const std::size_t begin = text.find_first_not_of(white_space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
+}
+
+std::string shown(std::string_view field) {
+  constexpr std::size_t longest = 40;
+  std::string text;
+  for (const char c : field.substr(0, longest)) {
+    text += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return text + (field.size() > longest ? "..." : "");
+}
+
+std::string in_quotes(std::string_view field) { return "\"" + shown(field) + "\""; }
+
+}  // namespace wscvt

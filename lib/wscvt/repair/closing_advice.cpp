@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/repair/closing_advice.h"
+
+#include "wscvt/base/text_format.h"
+#include "wscvt/repair/scan_options.h"
+
+namespace wscvt {
+
+std::string tried_wrap_advice(double opening_percent) {
+  return "A shrink-wrap with an opening of " + format_number(opening_percent) +
+         " % was tried and can be remeshed: use --" + std::string(envelope_option.key) + " " +
+         format_number(opening_percent) + " and check the result against the scan.";
+}
+
+std::string where_meshlab_closes() {
+  return "in MeshLab Filters > Remeshing, Simplification and Reconstruction > Uniform Mesh "
+         "Resampling with Absolute Distance checked and an Offset above half the width of what is "
+         "to be closed";
+}
+
+std::string surface_of_points_advice() {
+  // Four photogrammetric clouds with stray points inside had no surface here. This way their rms
+  // distance was 0.6 to 0.9 % at 1000 nodes. Their volume equals that of the authors' meshes, if
+  // there is one, to 1e-5.
+  return "Make a surface of them first, in MeshLab by Filters > Normals, Curvatures and "
+         "Orientation > Compute normals for point sets and then Filters > Remeshing, "
+         "Simplification and Reconstruction > Surface Reconstruction: Screened Poisson.";
+}
+
+}  // namespace wscvt

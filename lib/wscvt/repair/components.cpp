@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/repair/components.h"
+
+#include <boost/pending/disjoint_sets.hpp>
+#include <numeric>
+#include <utility>
+
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/triangle_geometry.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t component_block = 8192;
+
+/// Whether every edge has two faces, with consistent orientation.
+bool is_closed_and_oriented(const std::vector<Triangle>& triangles,
+                            const std::vector<std::int32_t>& rings, const Execution& execution) {
+  const std::size_t others = execution.parallel_sum(
+      triangles.size(), component_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
+          const auto half_edge = static_cast<std::int32_t>(h);
+          const std::int32_t other = rings[h];
+          // As in the walk below.
+          if (other == half_edge || rings[index(other)] != half_edge ||
+              triangles[h / 3][h % 3] == triangles[face_of(other)][corner_of(other)]) {
+            return std::size_t{1};
+          }
+        }
+        return std::size_t{0};
+      });
+  return others == 0;
+}
+
+/// Finds the parts of a mesh with only such edges, as scanners write it. No face needs turning, so
+/// faces are joined in the order of the file. A walk waits for memory at every step: for a million
+/// vertices, this function takes two fifths of its time.
+void join_faces(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& rings,
+                Components& result) {
+  std::vector<std::int32_t> parent(triangles.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<unsigned char> rank(triangles.size(), 0);
+  boost::disjoint_sets<unsigned char*, std::int32_t*> parts(rank.data(), parent.data());
+  for (std::size_t h = 0; h < rings.size(); ++h) {
+    if (static_cast<std::int32_t>(h) < rings[h]) {
+      parts.union_set(static_cast<std::int32_t>(h / 3),
+                      static_cast<std::int32_t>(face_of(rings[h])));
+    }
+  }
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const std::size_t root = index(parts.find_set(static_cast<std::int32_t>(f)));
+    if (result.of_face[root] < 0) {
+      result.of_face[root] = static_cast<std::int32_t>(result.list.size());
+      result.list.emplace_back();
+    }
+    result.of_face[f] = result.of_face[root];
+    ++result.list[index(result.of_face[f])].faces;
+  }
+}
+
+/// Finds the parts of any mesh.
+void walk_faces(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& rings,
+                Components& result) {
+  // One walk finds the part and turns its faces, because both need every edge once. `stack`
+  // contains faces with known part and turn and unvisited neighbours.
+  std::vector<std::int32_t> stack;
+  for (std::size_t start = 0; start < triangles.size(); ++start) {
+    if (result.of_face[start] >= 0) continue;
+    Component component;
+    const auto number = static_cast<std::int32_t>(result.list.size());
+    result.of_face[start] = number;
+    stack.push_back(static_cast<std::int32_t>(start));
+    while (!stack.empty()) {
+      const std::size_t f = index(stack.back());
+      stack.pop_back();
+      ++component.faces;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto h = static_cast<std::int32_t>(3 * f + k);
+        const std::int32_t other = rings[index(h)];
+        if (other == h) {
+          ++component.boundary_edges;
+          continue;
+        }
+        const std::size_t g = face_of(other);
+        const bool manifold = rings[index(other)] == h;
+        // Consistently oriented faces use their edge in opposite directions.
+        const bool same_way = triangles[f][k] == triangles[g][corner_of(other)];
+        // If more faces meet, it is unknown which belong together; they keep their orientation.
+        const bool turn = (manifold && same_way) != (result.turned[f] != 0);
+        if (result.of_face[g] < 0) {
+          result.of_face[g] = number;
+          result.turned[g] = static_cast<char>(turn);
+          stack.push_back(static_cast<std::int32_t>(g));
+        } else if (manifold && turn != (result.turned[g] != 0)) {
+          component.orientable = false;
+        }
+        if (!manifold && other < h) ++component.non_manifold_edges;  // the ring's last
+      }
+    }
+    result.list.push_back(component);
+  }
+}
+
+}  // namespace
+
+Components find_components(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
+                           const Execution& execution) {
+  const std::vector<Triangle>& triangles = mesh.triangles;
+  Components result;
+  result.of_face.assign(triangles.size(), -1);
+  result.turned.assign(triangles.size(), 0);
+  if (is_closed_and_oriented(triangles, rings, execution)) {
+    join_faces(triangles, rings, result);
+  } else {
+    walk_faces(triangles, rings, result);
+  }
+
+  // Each component is measured about its own point, so that a grain far from the origin keeps its
+  // digits. `origin` is this point: the first corner of the component's first face.
+  std::vector<std::int32_t> origin(result.list.size(), -1);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const Triangle& t = triangles[f];
+    const std::size_t c = index(result.of_face[f]);
+    if (origin[c] < 0) origin[c] = t[0];
+    const Vector3& o = mesh.points[index(origin[c])];
+    const Vector3 p = mesh.points[index(t[0])] - o;
+    const Vector3 q = mesh.points[index(t[1])] - o;
+    const Vector3 r = mesh.points[index(t[2])] - o;
+    result.list[c].volume += (result.turned[f] ? -1.0 : 1.0) * six_volumes(p, q, r) / 6.0;
+  }
+  return result;
+}
+
+void keep_faces(IndexedMesh& mesh, const Components& components, std::size_t kept) {
+  std::size_t faces = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (index(components.of_face[f]) == kept) mesh.triangles[faces++] = mesh.triangles[f];
+  }
+  mesh.triangles.resize(faces);
+}
+
+std::size_t keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept) {
+  std::size_t turned = 0;
+  const bool inside_out = components.list[kept].volume < 0.0;
+  // For every vertex its new index; -1 if no remaining face uses it.
+  std::vector<std::int32_t> number(mesh.points.size(), -1);
+  std::size_t faces = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (index(components.of_face[f]) != kept) continue;
+    Triangle t = mesh.triangles[f];
+    if ((components.turned[f] != 0) != inside_out) {
+      std::swap(t[1], t[2]);
+      ++turned;
+    }
+    for (const std::int32_t v : t) number[index(v)] = 0;
+    mesh.triangles[faces++] = t;
+  }
+  mesh.triangles.resize(faces);
+  std::size_t vertices = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<std::int32_t>(vertices);
+    mesh.points[vertices++] = mesh.points[v];
+  }
+  if (vertices == mesh.points.size()) return turned;
+  mesh.points.resize(vertices);
+  for (Triangle& t : mesh.triangles) {
+    for (std::int32_t& v : t) v = number[index(v)];
+  }
+  return turned;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/repair/coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Steps above this fraction of the mean edge are coarse. Rounding moves corners by up to half a
+/// step, which turns the edges of a face by about a degree.
+constexpr double coarse_step = 0.03;
+
+/// Returns the mean edge length over faces spread evenly over the list, enough for two digits.
+double mean_edge(const IndexedMesh& mesh) {
+  constexpr std::size_t most = 10000;
+  const std::size_t stride = 1 + mesh.triangles.size() / most;
+  double sum = 0.0;
+  double edges = 0.0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); f += stride) {
+    const Triangle& t = mesh.triangles[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += (mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm();
+      edges += 1.0;
+    }
+  }
+  return edges > 0.0 ? sum / edges : 0.0;
+}
+
+std::size_t collapsed_faces(const IndexedMesh& mesh) {
+  return static_cast<std::size_t>(
+      std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        const Vector3& a = mesh.points[t[0]];
+        const Vector3& b = mesh.points[t[1]];
+        const Vector3& c = mesh.points[t[2]];
+        return a == b || b == c || c == a;
+      }));
+}
+
+template <class Fits>
+bool all_coordinates(const std::vector<Vector3>& points, const Fits& fits) {
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vector3& p) { return fits(p.x()) && fits(p.y()) && fits(p.z()); });
+}
+
+/// Whether a number has at most this many decimals.
+bool has_decimals(double value, double power_of_ten) {
+  const double scaled = value * power_of_ten;
+  // Reading and the product each have an error of half an ulp.
+  return std::abs(scaled - std::round(scaled)) <=
+         4.0 * std::numeric_limits<double>::epsilon() * std::abs(scaled);
+}
+
+}  // namespace
+
+void check_scan_size(const std::vector<Vector3>& points) {
+  if (points.empty()) return;
+  Vector3 low = points.front();
+  Vector3 high = points.front();
+  for (const Vector3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    if (!p.allFinite()) return;
+  }
+  check_scan_size(high - low);
+}
+
+void check_scan_size(const Vector3& extents) {
+  const double size = extents.maxCoeff();
+  if (size == 0.0 || (size >= smallest_scan_size && size <= largest_scan_size)) return;
+  throw Error(ErrorCode::InvalidInput, "The scan is " + format_number(size) +
+                                           " units across, which is too small or too large for the "
+                                           "computation. Scale it to between " +
+                                           format_number(smallest_scan_size) + " and " +
+                                           format_number(largest_scan_size) + " units.");
+}
+
+namespace {
+
+/// Whether all corners are valid indices, the mean edge is above 0 and all points are finite.
+bool is_measurable(const IndexedMesh& mesh) {
+  const auto count = static_cast<std::int64_t>(mesh.points.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t) {
+      if (v < 0 || v >= count) return false;
+    }
+  }
+  return mean_edge(mesh) > 0.0 && std::all_of(mesh.points.begin(), mesh.points.end(),
+                                              [](const Vector3& p) { return p.allFinite(); });
+}
+
+std::string lost(std::size_t faces) {
+  return faces == 0 ? ""
+                    : ", and " + std::to_string(faces) + " faces have two corners at one point";
+}
+
+}  // namespace
+
+std::string single_precision_warning(const IndexedMesh& mesh) {
+  if (!is_measurable(mesh)) return "";
+  double largest = 0.0;
+  for (const Vector3& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  const double edge = mean_edge(mesh);
+  // The step of floats as large as the largest coordinate; floats have 24 binary digits.
+  const double float_step = std::ldexp(1.0, std::ilogb(largest) - 23);
+  if (float_step > coarse_step * edge && all_coordinates(mesh.points, [](double value) {
+        return static_cast<double>(static_cast<float>(value)) == value;
+      })) {
+    return "The scan is so far from the origin that its coordinates, in single precision, have "
+           "steps of " +
+           format_percent(float_step / edge) + " of the mean edge" + lost(collapsed_faces(mesh)) +
+           ". Move the scan to the origin before it is saved in single precision, or save it in "
+           "double.";
+  }
+  return "";
+}
+
+std::string precision_warning(const IndexedMesh& mesh) {
+  const std::string far = single_precision_warning(mesh);
+  if (!far.empty() || !is_measurable(mesh)) return far;
+  const double edge = mean_edge(mesh);
+  // Scans of voxels also have coarse steps, but lose no faces.
+  const double power_of_ten = std::pow(10.0, std::floor(-std::log10(coarse_step * edge)));
+  if (!std::isfinite(power_of_ten) || !all_coordinates(mesh.points, [&](double value) {
+        return has_decimals(value, power_of_ten);
+      })) {
+    return "";
+  }
+  const std::size_t collapsed = collapsed_faces(mesh);
+  if (collapsed == 0) return "";
+  return "The scan's coordinates have steps of " + format_number(1.0 / power_of_ten) +
+         " or more, but its mean edge is " + format_number(edge, 3) + lost(collapsed) +
+         ". Save it with more digits.";
+}
+
+}  // namespace wscvt

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/repair/steep_area.h"
+
+#include <cmath>
+
+#include "wscvt/base/pi.h"
+#include "wscvt/base/triangle_geometry.h"
+
+namespace wscvt {
+
+double steep_area_fraction(const IndexedMesh& mesh, const Vector3& centre,
+                           const Execution& execution) {
+  constexpr std::size_t block_size = 8192;
+  constexpr double degree = pi / 180.0;
+  const double smallest_cosine = std::cos(steep_angle * degree);
+  struct Areas {
+    double steep = 0.0;
+    double all = 0.0;
+    Areas& operator+=(const Areas& other) {
+      steep += other.steep;
+      all += other.all;
+      return *this;
+    }
+  };
+  const Areas areas = execution.parallel_sum(
+      mesh.triangles.size(), block_size, Areas(), [&](std::size_t begin, std::size_t end) {
+        Areas part;
+        for (std::size_t t = begin; t < end; ++t) {
+          const Vector3 a = mesh.points[mesh.triangles[t][0]] - centre;
+          const Vector3 b = mesh.points[mesh.triangles[t][1]] - centre;
+          const Vector3 c = mesh.points[mesh.triangles[t][2]] - centre;
+          const Vector3 normal = doubled_area_normal(a, b, c);
+          const double area = normal.norm();
+          const Vector3 middle = a + b + c;
+          part.all += area;
+          if (normal.dot(middle) < smallest_cosine * area * middle.norm()) part.steep += area;
+        }
+        return part;
+      });
+  return areas.all > 0.0 ? areas.steep / areas.all : 0.0;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Formats of other programs: VTK's, Gmsh's, Abaqus's, clouds of points, and gzip.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <boost/endian/conversion.hpp>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/file_folder.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/mesh_files/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+using boost::endian::order;
+
+class MeshFormats : public test::FileFolder {
+ protected:
+  std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(path(name), std::ios::binary).rdbuf();
+    return text.str();
+  }
+  /// Expects a file to be refused with a sentence that names it and has `part`.
+  void expect_refusal(const std::string& name, const std::string& text, const std::string& part) {
+    const std::string where = file(name, text);
+    const std::string sentence = test::refusal(ErrorCode::InputOutput, [&] { read_mesh(where); });
+    EXPECT_NE(sentence.find(where), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+  }
+};
+
+template <class Value>
+std::string bytes_of(Value value, order byte_order = order::little) {
+  std::string bytes(sizeof(Value), '\0');
+  auto* to = reinterpret_cast<unsigned char*>(bytes.data());
+  if (byte_order == order::little) {
+    boost::endian::endian_store<Value, sizeof(Value), order::little>(to, value);
+  } else {
+    boost::endian::endian_store<Value, sizeof(Value), order::big>(to, value);
+  }
+  return bytes;
+}
+
+template <class Value, class Number>
+std::string bytes_of_all(const std::vector<Number>& numbers, order byte_order = order::little) {
+  std::string bytes;
+  for (const Number number : numbers) bytes += bytes_of(static_cast<Value>(number), byte_order);
+  return bytes;
+}
+
+const IndexedMesh& lumpy_body() {
+  static const IndexedMesh mesh = test::transformed(test::lumpy(2), Eigen::Matrix3d::Identity(),
+                                                    Vector3(1e6 + 0.123456789, -3.0e6, 1.0 / 3.0));
+  return mesh;
+}
+
+TEST_F(MeshFormats, OfTextKeepEveryBit) {
+  for (const char* name : {"a.vtp", "a.vtk"}) {
+    write_mesh(lumpy_body(), path(name));
+    const IndexedMesh back = read_mesh(path(name));
+    EXPECT_EQ(back.points, lumpy_body().points) << name;
+    EXPECT_EQ(back.triangles, lumpy_body().triangles) << name;
+  }
+  // Also where single precision would put them on one place.
+  write_mesh(lumpy_body(), path("a.ASCII.stl"));
+  EXPECT_EQ(content("a.ASCII.stl").rfind("solid grain\nfacet normal ", 0), 0U);
+  EXPECT_EQ(read_mesh(path("a.ASCII.stl")).points, test::unwelded(lumpy_body()).points);
+  EXPECT_ERROR(write_mesh(lumpy_body(), path("a.stl")), InputOutput);
+}
+
+/// The numbers of a text between two marks, with commas as blanks.
+std::vector<double> numbers_between(std::string text, const std::string& from,
+                                    const std::string& to) {
+  const std::size_t begin = text.find(from) + from.size();
+  text = text.substr(begin, text.find(to, begin) - begin);
+  for (char& c : text) {
+    if (c == ',') c = ' ';
+  }
+  std::istringstream stream(text);
+  std::vector<double> numbers;
+  for (double number = 0.0; stream >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+TEST_F(MeshFormats, OfGmshAbaqusAndVtuHoldTheMesh) {
+  const std::size_t n = lumpy_body().points.size();
+  const std::size_t m = lumpy_body().triangles.size();
+  write_mesh(lumpy_body(), path("a.msh"));
+  write_mesh(lumpy_body(), path("a.inp"));
+  write_mesh(lumpy_body(), path("a.vtu"));
+  const auto nodes = numbers_between(content("a.msh"), "$Nodes\n", "$EndNodes");
+  const auto elements = numbers_between(content("a.msh"), "$Elements\n", "$EndElements");
+  const auto points = numbers_between(content("a.inp"), "*NODE\n", "*ELEMENT");
+  const auto shells = numbers_between(content("a.inp"), "TYPE=S3, ELSET=grain\n", "*");
+  const auto corners = numbers_between(content("a.vtu"), "\"connectivity\" format=\"ascii\">", "<");
+  const auto ends = numbers_between(content("a.vtu"), "\"offsets\" format=\"ascii\">", "<");
+  const auto types = numbers_between(content("a.vtu"), "\"types\" format=\"ascii\">", "<");
+  ASSERT_EQ(nodes.size(), 8 + 4 * n);
+  ASSERT_EQ(elements.size(), 8 + 4 * m);
+  ASSERT_EQ(points.size(), 4 * n);
+  ASSERT_EQ(shells.size(), 4 * m);
+  ASSERT_EQ(corners.size(), 3 * m);
+  EXPECT_EQ(ends.back(), 3.0 * static_cast<double>(m));
+  EXPECT_EQ(types, std::vector<double>(m, 5.0));
+  for (std::size_t i = 0; i < n; ++i) {
+    EXPECT_EQ(nodes[8 + i], static_cast<double>(i + 1));
+    EXPECT_EQ(points[4 * i], static_cast<double>(i + 1));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double coordinate = lumpy_body().points[i][static_cast<Eigen::Index>(k)];
+      EXPECT_EQ(nodes[8 + n + 3 * i + k], coordinate);
+      EXPECT_NEAR(points[4 * i + 1 + k] / coordinate, 1.0, 1e-12);
+    }
+  }
+  for (std::size_t f = 0; f < m; ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(elements[8 + 4 * f + 1 + k], lumpy_body().triangles[f][k] + 1.0);
+      EXPECT_EQ(shells[4 * f + 1 + k], lumpy_body().triangles[f][k] + 1.0);
+      EXPECT_EQ(corners[3 * f + k], lumpy_body().triangles[f][k]);
+    }
+  }
+  // Abaqus cuts a number behind 20 characters.
+  std::istringstream lines(content("a.inp"));
+  for (std::string word; lines >> word;) EXPECT_LE(word.size(), 21U) << word;  // with its comma
+}
+
+// A box's face of four corners, two triangles, and a strip of three, as each version has them.
+const std::vector<double> sheet_corners = {0, 0, 0, 1.5, 0, 0, 1.5, 1, 0, 0, 1, -0.25};
+const std::vector<Triangle> sheet_faces = {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {0, 1, 3}, {3, 1, 2}};
+
+void expect_the_faces(const std::string& where) {
+  const IndexedMesh mesh = read_mesh(where);
+  ASSERT_EQ(mesh.points.size(), 4U);
+  EXPECT_EQ(mesh.points[1], Vector3(1.5, 0, 0));
+  EXPECT_EQ(mesh.points[3], Vector3(0, 1, -0.25));
+  EXPECT_EQ(mesh.triangles, sheet_faces);
+}
+
+const std::string vtk_head = "# vtk DataFile Version 4.2\na title\n";
+
+TEST_F(MeshFormats, ReadsEveryFormOfLegacyVtk) {
+  // 0 1 3 2 as a strip is 0 1 3 and, turned round, 1 3 2.
+  expect_the_faces(file(
+      "a.vtk", vtk_head +
+                   "ASCII\nDATASET POLYDATA\nFIELD FieldData 1\nTIME 1 1 double\n0.5\n"
+                   "POINTS 4 float\n0 0 0 1.5 0\n0 1.5 1 0\n0 1 -0.25\nMETADATA\nINFORMATION 0\n"
+                   "\nVERTICES 1 2\n1 3\nPOLYGONS 2 9\n4 0 1 2 3\n3 3 2 1\n"
+                   "TRIANGLE_STRIPS 1 5\n4 0 1 3 2\nPOINT_DATA 4\nSCALARS s double 1\n"
+                   "LOOKUP_TABLE default\n1 2 3 4\n"));
+  const std::string points = "BINARY\nDATASET POLYDATA\nPOINTS 4 double\n" +
+                             bytes_of_all<double>(sheet_corners, order::big);
+  expect_the_faces(
+      file("b.vtk",
+           vtk_head + points + "\nPOLYGONS 2 9\n" +
+               bytes_of_all<std::int32_t>(std::vector<int>{4, 0, 1, 2, 3, 3, 3, 2, 1}, order::big) +
+               "\nTRIANGLE_STRIPS 1 5\n" +
+               bytes_of_all<std::int32_t>(std::vector<int>{4, 0, 1, 3, 2}, order::big) + "\n"));
+  const auto array = [](const std::string& name, const std::vector<int>& numbers) {
+    return name + " vtktypeint64\n" + bytes_of_all<std::int64_t>(numbers, order::big) + "\n";
+  };
+  expect_the_faces(file("c.vtk", "# vtk DataFile Version 5.1\nt\n" + points + "\nPOLYGONS 3 7\n" +
+                                     array("OFFSETS", {0, 4, 7}) +
+                                     array("CONNECTIVITY", {0, 1, 2, 3, 3, 2, 1}) +
+                                     "TRIANGLE_STRIPS 2 4\n" + array("OFFSETS", {0, 4}) +
+                                     array("CONNECTIVITY", {0, 1, 3, 2})));
+  // A line among the cells, which is none of a surface.
+  expect_the_faces(file("d.vtk", vtk_head +
+                                     "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+                                     "0 0 0 1.5 0 0 1.5 1 0 0 1 -0.25\nCELLS 4 17\n4 0 1 2 3\n"
+                                     "2 0 1\n3 3 2 1\n4 0 1 3 2\nCELL_TYPES 4\n9\n3\n5\n6\n"));
+}
+
+TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
+  expect_refusal("a.vtk", "<html>", "is not a VTK file");
+  expect_refusal("a.vtk", vtk_head + "ASCII\nDATASET STRUCTURED_POINTS\n", "structured_points");
+  expect_refusal("a.vtk", vtk_head + "ASCII\nDATASET POLYDATA\nPOINTS 400000000 float\n1 2 3\n",
+                 "cut off");
+  expect_refusal("a.vtk",
+                 vtk_head +
+                     "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 1 4\n"
+                     "3 0 0 1\n",
+                 "names point 1, but holds 1");
+  expect_refusal("a.vtk",
+                 vtk_head +
+                     "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 1 4\n"
+                     "4 0 0 0\n",
+                 "a face of 4 corners");
+  expect_refusal("a.vtk",
+                 vtk_head +
+                     "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n1 2 3 4 5 6 7 8 "
+                     "9 1 2 3\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n",
+                 "cells of type 10");
+  expect_refusal("a.vtk",
+                 vtk_head +
+                     "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 2 3\n"
+                     "OFFSETS double\n0 3\n",
+                 "not whole numbers");
+  expect_refusal("a.vtp", "<html>", "not the XML of a .vtp");
+  expect_refusal("a.vtp", "<VTKFile type=\"ImageData\"><ImageData>", "ImageData");
+  expect_refusal("a.vtp", "<VTKFile type=\"PolyData\"><PolyData>", "no piece");
+  expect_refusal("a.vtp",
+                 "<VTKFile type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"><Piece "
+                 "NumberOfPoints=\"1\"><Points><DataArray format=\"binary\">AAAA",
+                 "vtkLZ4DataCompressor");
+  expect_refusal("a.xyz", "# nothing\n", "no points");
+  expect_refusal("a.xyz", "1 2 3\n4 5\n", "line 2 lacks the coordinate z");
+  expect_refusal("a.csv", "x,y,w\n1,2,3\n", "does not name the columns x, y and z");
+  expect_refusal("a.csv", "x,y,x\n1,2,3\n", "does not name the columns x, y and z");
+  expect_refusal("a.csv", "x,y,z\n1,,3\n", "line 2 lacks the coordinate y");
+  expect_refusal("a.pcd", "FIELDS x y\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nPOINTS 1\nDATA ascii\n1 2\n",
+                 "no fields x, y and z");
+  expect_refusal("a.pcd",
+                 "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 100000000\nDATA "
+                 "binary\nabc",
+                 "cut off");
+  const std::string packed =
+      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 1\nDATA "
+      "binary_compressed\n";
+  // A copy from before the beginning.
+  expect_refusal("a.pcd",
+                 packed + bytes_of<std::uint32_t>(3) + bytes_of<std::uint32_t>(12) + "\x20\x05z",
+                 "damaged");
+}
+
+std::string base64(const std::string& bytes) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    unsigned value = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      value = value << 8 | (k + i < bytes.size() ? static_cast<unsigned char>(bytes[k + i]) : 0U);
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      text += k + i > bytes.size() ? '=' : digits[value >> (18 - 6 * i) & 63U];
+    }
+  }
+  return text;
+}
+
+/// An array's bytes as VTK packs them, in blocks of 20: their lengths, and what follows.
+std::pair<std::string, std::string> packed(const std::string& bytes) {
+  constexpr std::size_t block = 20;
+  std::string lengths;
+  std::string blocks;
+  std::uint32_t count = 0;
+  for (std::size_t k = 0; k < bytes.size(); k += block, ++count) {
+    const std::string part = bytes.substr(k, block);
+    std::string out(100, '\0');
+    uLongf size = out.size();
+    ::compress(reinterpret_cast<Bytef*>(out.data()), &size,
+               reinterpret_cast<const Bytef*>(part.data()), part.size());
+    blocks += out.substr(0, size);
+    lengths += bytes_of(static_cast<std::uint32_t>(size));
+  }
+  const auto last = static_cast<std::uint32_t>(bytes.size() % block);
+  return {bytes_of(count) + bytes_of(static_cast<std::uint32_t>(block)) + bytes_of(last) + lengths,
+          blocks};
+}
+
+TEST_F(MeshFormats, ReadsEveryFormOfVtp) {
+  struct Numbers {
+    std::string tag;
+    std::string bytes;
+  };
+  const std::vector<Numbers> arrays = {
+      {"Float32\" Name=\"Points\" NumberOfComponents=\"3", bytes_of_all<float>(sheet_corners)},
+      {"Int32\" Name=\"connectivity",
+       bytes_of_all<std::int32_t>(std::vector<int>{0, 1, 2, 3, 3, 2, 1})},
+      {"Int64\" Name=\"offsets", bytes_of_all<std::int64_t>(std::vector<int>{4, 7})},
+      {"UInt8\" Name=\"connectivity", bytes_of_all<std::uint8_t>(std::vector<int>{0, 1, 3, 2})},
+      {"UInt16\" Name=\"offsets", bytes_of_all<std::uint16_t>(std::vector<int>{4})}};
+  for (const bool is_packed : {false, true}) {
+    for (const std::string form : {"binary", "base64", "raw"}) {
+      SCOPED_TRACE(form + (is_packed ? ", packed" : ""));
+      std::string appended;
+      const auto array = [&](std::size_t k) {
+        const std::string& bytes = arrays[k].bytes;
+        const auto [lengths, data] =
+            is_packed ? packed(bytes)
+                      : std::pair(bytes_of(static_cast<std::uint32_t>(bytes.size())) + bytes,
+                                  std::string());
+        const std::string stored = form == "raw" ? lengths + data : base64(lengths) + base64(data);
+        std::string text = "<DataArray type=\"" + arrays[k].tag + "\" format=\"";
+        if (form == "binary") {
+          text += "binary\">\n  " + stored + "\n<InformationKey name=\"k\"/></DataArray>\n";
+        } else {
+          text += "appended\" offset='" + std::to_string(appended.size()) + "'/>\n";
+          appended += stored;
+        }
+        return text;
+      };
+      std::string text =
+          std::string(
+              "<?xml version=\"1.0\"?><!-- a > comment -->\n<VTKFile type=\"PolyData\" "
+              "byte_order=\"LittleEndian\"") +
+          (is_packed ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+          "><PolyData>\n<Piece NumberOfPoints=\"4\" NumberOfPolys=\"2\" "
+          "NumberOfStrips=\"1\"><PointData><DataArray type=\"Float32\" Name=\"connectivity\" "
+          "format=\"ascii\">7 7 7 7</DataArray></PointData><Points>" +
+          array(0) + "</Points><Polys>" + array(1);
+      text += array(2) + "</Polys><Strips>" + array(3);
+      text += array(4) + "</Strips></Piece></PolyData>";
+      if (form != "binary") {
+        text += "<AppendedData encoding=\"" + form + "\">\n _" + appended + "</AppendedData>";
+      }
+      expect_the_faces(file("a.vtp", text + "</VTKFile>"));
+    }
+  }
+}
+
+TEST_F(MeshFormats, ReadsAllPiecesOfVtp) {
+  const std::string piece =
+      "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points><DataArray type=\"Float64\" "
+      "format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray></Points><Polys><DataArray type=\"Int32\" "
+      "Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int32\" "
+      "Name=\"offsets\" format=\"ascii\">3</DataArray></Polys></Piece>";
+  const IndexedMesh mesh = read_mesh(file(
+      "a.vtp", "<VTKFile type=\"PolyData\"><PolyData>" + piece + piece + "</PolyData></VTKFile>"));
+  EXPECT_EQ(mesh.points.size(), 6U);
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
+}
+
+TEST_F(MeshFormats, ReadPointsOfTexts) {
+  const std::vector<Vector3> points = {{1.5, -2, 3}, {4, 5e-1, -6}};
+  EXPECT_EQ(read_mesh(file("a.xyz", "# a cloud\n1.5 -2\t3 255 0 0\n\n  4 5e-1 -6 1 1 1\n")).points,
+            points);
+  EXPECT_EQ(read_mesh(file("a.xyz", "1.5, -2, 3\r\n4,5e-1,-6\r\n")).points, points);
+  EXPECT_EQ(read_mesh(file("a.csv", "1.5;-2;3\n4;.5;-6\n")).points, points);
+  EXPECT_EQ(
+      read_mesh(file("a.csv", "\"name\",\"Z\",\"X\",,\"Y\"\na,3,1.5,,-2\n,-6,4,,0.5\n")).points,
+      points);
+  EXPECT_EQ(read_mesh(file("a.csv", "\"Points:0\",\"Points:1\",\"Points:2\"\n1.5,-2,3\n4,.5,-6\n"))
+                .points,
+            points);
+  EXPECT_TRUE(read_mesh(path("a.csv")).triangles.empty());
+}
+
+TEST_F(MeshFormats, ReadPointsOfTheirLibrary) {
+  const std::vector<Vector3> points = {{1.5, -2, 3}, {4, 0.5, -6}};
+  const std::string header =
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS rgb x y n z\nSIZE 4 4 8 2 4\nTYPE U F F I F\nCOUNT 1 1 1 2 "
+      "1\nWIDTH 3\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\nDATA ";
+  const auto expect_points = [&](const std::string& text) {
+    const MeshFile read = read_mesh_file(file("a.pcd", text));
+    EXPECT_EQ(read.mesh.points, points);
+    ASSERT_EQ(read.warnings.size(), 1U);
+    EXPECT_NE(read.warnings[0].find("has 1 of 3 points without finite coordinates"),
+              std::string::npos);
+  };
+  expect_points(header + "ascii\n9 1.5 -2 7 7 3\n9 nan nan 7 7 nan\n9 4 .5 7 7 -6\n");
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  const auto record = [](float x, double y, float z) {
+    return bytes_of<std::uint32_t>(9) + bytes_of(x) + bytes_of(y) + "nnnn" + bytes_of(z);
+  };
+  expect_points(header + "binary\n" + record(1.5F, -2, 3) + record(none, none, none) +
+                record(4, 0.5, -6));
+  // By column: 12 bytes of colour, as one of zeros and a copy of it; the others as they stand, in
+  // stretches of at most 32.
+  const std::string columns = bytes_of_all<float>(std::vector<float>{1.5F, none, 4}) +
+                              bytes_of_all<double>(std::vector<double>{-2, none, 0.5}) +
+                              std::string(12, 'n') +
+                              bytes_of_all<float>(std::vector<float>{3, none, -6});
+  std::string packed_bytes = std::string("\0\0", 2) + std::string("\xE0\x02\x00", 3);
+  for (std::size_t k = 0; k < columns.size(); k += 32) {
+    const std::string part = columns.substr(k, 32);
+    packed_bytes += static_cast<char>(part.size() - 1) + part;
+  }
+  expect_points(header + "binary_compressed\n" +
+                bytes_of(static_cast<std::uint32_t>(packed_bytes.size())) +
+                bytes_of<std::uint32_t>(72) + packed_bytes);
+}
+
+TEST_F(MeshFormats, ArePackedByGzip) {
+  write_mesh(lumpy_body(), path("a.ply"));
+  const auto pack = [&](const std::string& from, const std::string& to) {
+    const std::string bytes = content(from);
+    gzFile packed = ::gzopen(path(to).c_str(), "wb");
+    ::gzwrite(packed, bytes.data(), static_cast<unsigned>(bytes.size()));
+    ::gzclose(packed);
+  };
+  pack("a.ply", "b.PLY.gz");
+  EXPECT_EQ(read_mesh(path("b.PLY.gz")).points, lumpy_body().points);
+  // Whatever its name says.
+  pack("a.ply", "c.ply");
+  EXPECT_EQ(read_mesh(path("c.ply")).triangles, lumpy_body().triangles);
+  const std::string whole = content("c.ply");
+  expect_refusal("cut.ply.gz", whole.substr(0, whole.size() / 2), "gzip");
+  std::string wrong = whole;
+  wrong[wrong.size() / 2] ^= 0x10;
+  expect_refusal("wrong.ply.gz", wrong, "gzip");
+  EXPECT_ERROR(write_mesh(lumpy_body(), path("d.ply.gz")), InvalidInput);
+}
+
+TEST(MeshFormatNames, SayWhatIsReadAndWhatIsWritten) {
+  EXPECT_TRUE(is_mesh_format("a.VTP", MeshUse::Read) && is_mesh_format("a.vtp", MeshUse::Write));
+  EXPECT_TRUE(!is_mesh_format("a.msh", MeshUse::Read) && is_mesh_format("a.msh", MeshUse::Write));
+  EXPECT_TRUE(is_mesh_format("a.csv", MeshUse::Read) && !is_mesh_format("a.csv", MeshUse::Write));
+  EXPECT_FALSE(is_mesh_format("a.gz", MeshUse::Read));
+  // In a folder of scans a table is none of them.
+  EXPECT_TRUE(is_mesh_file("a.vtk") && is_mesh_file("a.ply.gz") && !is_mesh_file("grains.csv"));
+  EXPECT_EQ(mesh_extensions(MeshUse::Write),
+            ".ply, .stl, .ascii.stl, .obj, .off, .vtp, .vtk, .vtu, .msh or .inp");
+  EXPECT_EQ(mesh_extensions(MeshUse::Read),
+            ".ply, .stl, .obj, .off, .vtp, .vtk, .xyz, .csv or .pcd");
+  EXPECT_ERROR(check_mesh_format("a.step", MeshUse::Read), InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/repair/envelope.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+#include "grains/handled_body.h"
+#include "support/cancelled_runs.h"
+#include "support/expect_error.h"
+#include "support/seeds.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/repair/mesh_check.h"
+
+namespace wscvt {
+namespace {
+
+EnvelopeOptions opening(double percent) {
+  EnvelopeOptions options;
+  options.opening_percent = percent;
+  return options;
+}
+
+/// Closed, oriented outward, nothing to mend.
+MeshCheckReport checked(const IndexedMesh& mesh) {
+  const MeshCheckReport report = check_mesh(mesh, MeshCheckOptions(), Execution(1)).report;
+  EXPECT_EQ(report.vertices, mesh.points.size());
+  EXPECT_EQ(report.faces, mesh.triangles.size());
+  EXPECT_EQ(report.reoriented_faces, 0U);
+  EXPECT_GT(volume_of(mesh, Execution(1)), 0.0);
+  return report;
+}
+
+TEST(Envelope, OfABallLiesOnIt) {
+  const IndexedMesh ball = test::sphere(4);
+  const double diagonal = 2.0 * std::sqrt(3.0);
+  const IndexedMesh envelope = envelope_of(ball, opening(4.0), Execution(1));
+  EXPECT_EQ(checked(envelope).genus, 0);
+  // It stands off by a hundredth of the opening; the ball's own faces lie .0022 inside at most.
+  const double offset = 0.01 * 0.04 * diagonal;
+  for (const Vector3& p : envelope.points) EXPECT_NEAR(p.norm(), 1.0 + offset, 0.0025);
+  // Faces as wide as the opening cut off up to .14^2 / 6 of the radius; a tenth of the opening
+  // farther out, where the wrap is made, the volume would be 4 % larger.
+  EXPECT_NEAR(volume_of(envelope, Execution(1)) / volume_of(ball, Execution(1)), 1.0, 0.01);
+}
+
+TEST(Envelope, OfPointsSeesNothingOfWhatLiesInside) {
+  // Gaps between 2,562 points on a ball are .09 wide, the opening is .28.
+  const IndexedMesh ball = test::sphere(4);
+  IndexedMesh cloud = {ball.points, {}};
+  const std::uint64_t seed = test::announced(20261122);
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> coordinate(-0.5, 0.5);
+  for (int i = 0; i < 50; ++i) {
+    cloud.points.emplace_back(coordinate(engine), coordinate(engine), coordinate(engine));
+  }
+  const IndexedMesh envelope = envelope_of(cloud, opening(8.0), Execution(1));
+  const MeshCheckReport report = checked(envelope);
+  EXPECT_EQ(report.genus, 0);
+  EXPECT_EQ(report.components, 1U);
+  // Faces as wide as the opening cut off up to .28^2 / 6 of the radius, of the volume three times
+  // as much.
+  EXPECT_NEAR(report.volume / volume_of(ball, Execution(1)), 1.0, 0.04);
+  std::shuffle(cloud.points.begin(), cloud.points.end(), engine);
+  EXPECT_EQ(envelope_of(cloud, opening(8.0), Execution(2)).points, envelope.points);
+}
+
+TEST(Envelope, LeavesOutFacesWithoutAPlaceOrAnArea) {
+  const IndexedMesh ball = test::sphere(3);
+  IndexedMesh damaged = ball;
+  damaged.points.emplace_back(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
+  damaged.points.emplace_back(0.0, std::numeric_limits<double>::infinity(), 0.0);
+  const auto lost = static_cast<std::int32_t>(ball.points.size());
+  damaged.triangles.push_back({0, 1, lost});
+  damaged.triangles.push_back({0, lost + 1, 1});
+  damaged.triangles.push_back({2, 3, 3});
+  const IndexedMesh envelope = envelope_of(damaged, opening(10.0), Execution(1));
+  EXPECT_EQ(envelope.points, envelope_of(ball, opening(10.0), Execution(1)).points);
+}
+
+TEST(Envelope, ClosesTunnelsThatAreNarrowerAndKeepsWiderOnes) {
+  // Drilled 0.4 wide, with a diagonal of about 3.46.
+  const IndexedMesh drilled = test::ball_with_a_tunnel();
+  EXPECT_EQ(checked(envelope_of(drilled, opening(20.0), Execution(1))).genus, 0);
+  EXPECT_EQ(checked(envelope_of(drilled, opening(2.0), Execution(1))).genus, 1);
+}
+
+TEST(Envelope, StopsWhenAskedTo) {
+  // Faces in blocks of 131,072, their tree in parts of 8,192, and once a step of the wrapping.
+  const IndexedMesh ball = test::sphere(5);
+  test::expect_to_be_stopped(
+      [&](const Execution& execution) { envelope_of(ball, opening(10.0), execution); },
+      "Wrapping the scan", 200);
+}
+
+TEST(Envelope, HasNoneOfTheFlawsOfTheScan) {
+  // Every seventh face is gone, every fifth turned, one body inside, one half out of it.
+  IndexedMesh flawed = test::joined(
+      test::joined(test::sphere(3), test::scaled(test::sphere(2), Vector3(0.5, 0.5, 0.5))),
+      test::transformed(test::box(1, 1, 1), Eigen::Matrix3d::Identity(), Vector3(0.8, 0.3, 0.0)));
+  IndexedMesh soup;
+  soup.points = flawed.points;
+  for (std::size_t f = 0; f < flawed.triangles.size(); ++f) {
+    if (f % 7 == 3) continue;
+    soup.triangles.push_back(flawed.triangles[f]);
+    if (f % 5 == 0) std::swap(soup.triangles.back()[0], soup.triangles.back()[1]);
+  }
+  EXPECT_ERROR(check_mesh(soup, MeshCheckOptions(), Execution(1)), InvalidInput);
+  const IndexedMesh envelope = envelope_of(soup, opening(15.0), Execution(1));
+  EXPECT_EQ(checked(envelope).genus, 0);
+  EXPECT_EQ(checked(envelope).components, 1U);
+}
+
+TEST(Envelope, IsTheSameWhereverAndHoweverLargeTheScanIs) {
+  const IndexedMesh grain = test::lumpy(3);
+  // Powers of two and whole shifts leave the digits as they are.
+  IndexedMesh moved = grain;
+  for (Vector3& p : moved.points) p = 1024.0 * p;
+  const IndexedMesh here = envelope_of(grain, opening(5.0), Execution(1));
+  const IndexedMesh there = envelope_of(moved, opening(5.0), Execution(3));
+  ASSERT_EQ(here.triangles, there.triangles);
+  for (std::size_t i = 0; i < here.points.size(); ++i) {
+    EXPECT_EQ(Vector3(1024.0 * here.points[i]), there.points[i]);
+  }
+}
+
+TEST(Envelope, RefusesWhatItCannotWrap) {
+  EXPECT_ERROR(envelope_of({}, opening(2.0), Execution(1)), InvalidInput);
+  IndexedMesh wrong = test::sphere(1);
+  wrong.triangles[3][1] = 1000;
+  EXPECT_ERROR(envelope_of(wrong, opening(20.0), Execution(1)), InvalidInput);
+  wrong = test::sphere(1);
+  for (Vector3& p : wrong.points) p *= std::numeric_limits<double>::quiet_NaN();
+  EXPECT_ERROR(envelope_of(wrong, opening(20.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(envelope_of({wrong.points, {}}, opening(20.0), Execution(1)), InvalidInput);
+  // An extent, but no area.
+  const IndexedMesh needle = {{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(2, 0, 0)}, {{0, 1, 2}}};
+  EXPECT_ERROR(envelope_of(needle, opening(20.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(envelope_of(test::sphere(2), opening(0.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(envelope_of(test::sphere(2), opening(0.9), Execution(1)), InvalidInput);
+  EXPECT_ERROR(envelope_of(test::sphere(2), opening(51.0), Execution(1)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt
