@@ -2,26 +2,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts faults into the sources, one at a time, and checks that the tests notice them.
 
-  tests/faults/run.py [--check] [--changed COMMIT] [--untried] [--table] [--build DIRECTORY]
-                      [--jobs NUMBER] [WORD ...]
+  tests/faults/run.py [--check] [--changed COMMIT] [--build DIRECTORY] [--jobs NUMBER] [WORD ...]
 
 faults.txt lists the faults. WORDs keep faults whose folder, title or file contains one of them.
---changed keeps faults in files that differ from a commit, and --untried keeps faults that README.md
-has as not tried. The script puts each fault into a copy of the sources under DIRECTORY (build/faults),
-builds what its tests need, runs the tests of its own subject, and removes the fault. It only reads the
-tree itself, so that an interruption changes nothing there. A fault is killed if a test fails, crashes,
-or takes ten times as long as without it. --check only checks that every fault still finds its place. If
-one does not after a change of the library, correct faults.txt. --table writes the results into README.md.
-There the rows of faults that were not tried now stay as they are.
+--changed keeps faults in files that differ from a commit. The script puts each fault into a copy of
+the sources under DIRECTORY (build/faults), builds what its tests need, runs the tests of the same
+subject, and removes the fault. It only reads the tree itself, so an interruption changes nothing
+there. A fault is killed if a test fails, crashes, or takes ten times as long as without it.
 
-Exit code 0: every fault is killed, or survives for the reason in faults.txt. A run takes as long as a
-build and half a minute per fault. --jobs makes and builds several copies: use it only with ccache, which
-the script uses if it is installed.
+A fault whose text is gone, because the source has changed, is printed as one that no longer applies,
+and is skipped. Correct it or delete it in faults.txt. --check prints these and tries none.
+
+Exit code 0: every fault that applies is killed, or survives for the reason in faults.txt. A run takes
+as long as a build and half a minute per fault: a night. --jobs makes and builds several copies: use it
+only with ccache, which the script uses if it is installed. The results are printed and kept nowhere.
 """
 
 import argparse
 import concurrent.futures
-import datetime
 import filecmp
 import os
 import pathlib
@@ -36,9 +34,6 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 FIELDS = {"file", "find", "replace", "tests", "elsewhere", "survives"}
-TABLE = "| folder | fault | tried | what came of it |\n|---|---|---|---|\n"
-SUMMARY = ("| folder | tried | killed by its own tests | elsewhere | equivalent | surviving |\n"
-           "|---|---|---|---|---|---|\n")
 
 
 class Tests:
@@ -208,51 +203,6 @@ def try_fault(build, fault):
     return verdict, verdict.startswith("SURVIVES") == (fault.survives is not None)
 
 
-def read_rows(table):
-    """The day of a fault and what came of it, by its folder and title."""
-    rows = {}
-    for line in table.splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) == 4:
-            rows[cells[0], cells[1]] = cells[2:]
-    return rows
-
-
-def tried_faults():
-    rows = read_rows((HERE / "README.md").read_text().partition(TABLE)[2])
-    return {fault for fault, (tried, _) in rows.items() if tried != "-"}
-
-
-def write_table(verdicts):
-    """Puts (fault, verdict) into the table of README.md, in the order of faults.txt, and counts."""
-    path = HERE / "README.md"
-    head, mark, old = path.read_text().partition(TABLE)
-    text = head.partition(SUMMARY)[0]
-    rows = read_rows(old)
-    today = datetime.date.today().isoformat()
-    rows.update({(fault.room, fault.title): [today, verdict] for fault, verdict in verdicts})
-    faults = read_faults(HERE / "faults.txt")
-    counts = {}
-    lines = ""
-    for fault in faults:
-        tried, verdict = rows.get((fault.room, fault.title), ["-", "not tried"])
-        kind = ("tried" if tried == "-" else
-                "elsewhere" if verdict.startswith("killed elsewhere") else
-                "own" if verdict.startswith("killed") else
-                "equivalent" if fault.survives is not None else "surviving")
-        for folder in (fault.room, "all"):
-            count = counts.setdefault(
-                folder, dict.fromkeys(("tried", "own", "elsewhere", "equivalent", "surviving"), 0))
-            if tried != "-":
-                count["tried"] += 1
-                count[kind] += 1
-        lines += "| %s | %s | %s | %s |\n" % (fault.room, fault.title, tried, verdict)
-    total = counts.pop("all")
-    summary = "".join("| %s | %s |\n" % (folder, " | ".join(str(n) for n in count.values()))
-                      for folder, count in sorted(counts.items()) + [("all", total)])
-    path.write_text(text + SUMMARY + summary + "\n" + TABLE + lines)
-
-
 def changed_since(commit):
     """Files that differ from a commit, also those that are not committed."""
     listed = subprocess.run(["git", "diff", "--name-only", commit], cwd=ROOT, check=True,
@@ -265,8 +215,6 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--changed", metavar="COMMIT")
-    parser.add_argument("--untried", action="store_true")
-    parser.add_argument("--table", action="store_true")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "faults")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("words", nargs="*")
@@ -275,9 +223,6 @@ def main():
     faults = [fault for fault in read_faults(HERE / "faults.txt")
               if not arguments.words or any(word in " ".join((fault.room, fault.title, fault.file))
                                             for word in arguments.words)]
-    if arguments.untried:
-        tried = tried_faults()
-        faults = [fault for fault in faults if (fault.room, fault.title) not in tried]
     changed = changed_since(arguments.changed) if arguments.changed else None
     lost = 0
     kept = []
@@ -285,12 +230,13 @@ def main():
         path, why = fault.place(ROOT)
         if path is None:
             lost += 1
-            print("faults.txt:%d: [%s] %s: %s" % (fault.line, fault.room, fault.title, why))
+            print("no longer applies: faults.txt:%d: [%s] %s: %s"
+                  % (fault.line, fault.room, fault.title, why))
         elif changed is None or str(path.relative_to(ROOT)) in changed:
             kept.append(fault)
-    if arguments.check or lost:
-        print("%d of %d faults find their place" % (len(faults) - lost, len(faults)))
-        return 1 if lost else 0
+    print("%d of %d faults apply" % (len(faults) - lost, len(faults)), flush=True)
+    if arguments.check:
+        return 0
 
     faults = kept
     # Test program by test program, so that each is built by one worker only.
@@ -314,8 +260,6 @@ def main():
                 verdict, good = try_fault(build, fault)
                 with one_at_a_time:
                     verdicts.append((fault, verdict, good))
-                    if arguments.table:  # at once: a run may be ended before its end
-                        write_table([(each, what) for each, what, _ in verdicts])
                 print("%s %-12s %-72s %s" % (" " if good else "!", fault.room, fault.title, verdict),
                       flush=True)
 
@@ -326,7 +270,7 @@ def main():
     surviving = sum(verdict.startswith("SURVIVES") for _, verdict, _ in verdicts)
     wrong = sum(not good for _, _, good in verdicts)
     print("%d faults: %d killed, %d surviving, %d not as they should be"
-          % (len(faults), killed, surviving, wrong))
+          % (len(verdicts), killed, surviving, wrong))
     return 1 if wrong else 0
 
 

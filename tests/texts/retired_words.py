@@ -38,7 +38,6 @@ EXCEPTIONS = {
     "lib/wscvt/remesh/option_advice.cpp": "names what version 2 had",
     "tests/study": "the paper's own words, and programs of the study",
     "tests/benchmarks": "other programs' words",
-    "tests/faults/README.md": "titles of faults, about the code",
 }
 
 # Where such a word is allowed: in file names, code, and other senses.
