@@ -14,13 +14,13 @@
 #include "signals.h"
 #include "toolbox/clump/clump.h"
 #include "toolbox/exchange/clump_files.h"
+#include "toolbox/report/clump_json.h"
 #include "toolbox/report/clump_report.h"
 #include "toolbox/report/sample_table.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/report/json.h"
 
 namespace wscvt::program {
 

@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include "toolbox/report/clump_json.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/csv_table.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
-#include "wscvt/report/json.h"
 #include "wscvt/report/mass_table.h"
 #include "wscvt/report/page_figures.h"
 
@@ -171,13 +171,13 @@ std::vector<std::vector<std::string>> single_mass_rows(const ClumpResult& clump)
   return rows;
 }
 
+}  // namespace
+
 Json json_of(const ClumpOptions& options) {
   OptionMembers members;
   for_each_clump_option(options, members);
   return std::move(members.members);
 }
-
-}  // namespace
 
 std::vector<std::string> clump_lines(const ClumpResult& clump) {
   std::vector<std::string> lines = {
