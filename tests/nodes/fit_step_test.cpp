@@ -128,13 +128,15 @@ TEST(FitStep, PricesSharpTriangles) {
   nodes.points[v] = (0.25 * nodes.points[v] + 0.75 * nodes.points[w]).normalized();
   FitState state = test::fit_state(ball, nodes);
   state.round.evenness = 1e-6;
+  // A tenth of the step, because what is linear in it is only true near.
   const auto angle_after = [&](double price) {
     FitState priced = state;
     priced.round.price = price;
-    after_step(priced);
+    const std::vector<Vector3> step = fit_step(priced, Execution(1));
+    for (std::size_t i = 0; i < step.size(); ++i) priced.mesh.points[i] += 0.1 * step[i];
     return test::smallest_angle(priced.mesh);
   };
-  EXPECT_GT(angle_after(0.1), angle_after(0.0) + 3.0);
+  EXPECT_GT(angle_after(10.0), angle_after(0.0) + 0.5);
 }
 
 TEST(FitStep, IsTheSameOnAnyNumberOfThreads) {

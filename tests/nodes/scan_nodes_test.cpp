@@ -141,20 +141,6 @@ TEST(ScanNodes, KeepBothSheetsOfAThinPlate) {
   EXPECT_NEAR(volume_of(nodes.mesh, Execution(1)), volume_of(plate, Execution(1)), 1e-11);
 }
 
-TEST(ScanNodes, OfAThinBodyAreTheNearestOfSomeFits) {
-  const IndexedMesh flake = normalized(test::scaled(test::sphere(4), Vector3(10.0, 8.0, 0.5)));
-  EXPECT_EQ(place(sand(), 100).report.evening_steps, 100);
-  int most = 0;
-  for (const int count : {150, 200, 250, 300}) {
-    const ScanNodes nodes = place(flake, count);
-    expect_sound(nodes, count, 0);
-    most = std::max(most, nodes.report.evening_steps);
-  }
-  // Each is evened further; that the first is the nearest each time is one chance in 81.
-  EXPECT_GT(most, 100);
-  EXPECT_LE(most, 130);
-}
-
 TEST(ScanNodes, KeepTheHoleOfATorus) {
   const IndexedMesh ring = normalized(test::torus(1.0, 0.4, 40));
   const ScanNodes nodes = place(ring, 300);
@@ -344,7 +330,7 @@ TEST(ScanNodes, TooFewForAHandleAreRefusedWithANumberThatIsEnough) {
 }
 
 TEST(ScanNodes, TooFewToKeepTrianglesApartNameANumberThatIsEnough) {
-  const IndexedMesh flake = normalized(test::scaled(test::sphere(4), Vector3(10.0, 8.0, 0.1)));
+  const IndexedMesh flake = normalized(test::scaled(test::sphere(4), Vector3(10.0, 8.0, 0.03)));
   int count = 60;
   ScanNodes few = place(flake, count);
   while (few.report.self_intersections == 0 && count > 30) few = place(flake, count -= 3);

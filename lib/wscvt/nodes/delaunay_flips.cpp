@@ -11,10 +11,6 @@ namespace {
 constexpr double sharp_bend = 0.3;
 /// A flip of a sharp edge must flatten it by this much; other flips may sharpen by as much.
 constexpr double bend_margin = 0.1;
-/// Faces of less agreement are walls.
-constexpr double wall_agreement = 0.5;
-/// Smallest angle of a face that closes a notch: 15 degrees.
-constexpr double wall_sharpness = 0.966;
 
 /// Two triangles abc and bad about the edge ab, with unit normals, before and after a flip.
 struct FlipShape {
@@ -49,8 +45,7 @@ bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t 
   const double s2 = m2.norm();
   // The sine of the sum of the angles at c and d, times the edges' lengths.
   const double sine = ca.dot(cb) * s2 + da.dot(db) * s1;
-  const bool delaunay = sine > -1e-6 * (s1 * s2 + 1e-300);
-  if (delaunay && m1.dot(m2) > sharp_bend * s1 * s2) return false;
+  if (sine > -1e-6 * (s1 * s2 + 1e-300)) return false;  // Delaunay already
   if (mesh.degrees[a] <= 3 || mesh.degrees[b] <= 3 || c == d) return false;
   Vector3 n1 = ca.cross(pd - pc);
   Vector3 n2 = (pd - pc).cross(cb);
@@ -66,19 +61,7 @@ bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t 
   const FlipShape shape = {std::min(cosine_to(m1, ab + outward[c]), cosine_to(m2, ab + outward[d])),
                            std::min(cosine_to(n1, cd + outward[a]), cosine_to(n2, cd + outward[b])),
                            m1.dot(m2), n1.dot(n2)};
-  if (delaunay) {
-    const Vector3 all = ab + cd;
-    const Vector3 rise = ca + da + cb + db;  // from the new edge to the old one, four times
-    const bool closes = shape.agreement_before <= wall_agreement && shape.agreement_after >= 0.5 &&
-                        -0.5 * rise.dot(all) >= 0.2 * all.norm() * 0.5 * rise.norm();
-    if (!closes) return false;
-    if (std::max(largest_corner_cosine(pc, mesh.points[a], pd),
-                 largest_corner_cosine(pc, pd, mesh.points[b])) > wall_sharpness) {
-      return false;
-    }
-  } else if (!keeps_shape(shape)) {
-    return false;
-  }
+  if (!keeps_shape(shape)) return false;
   if (mesh.joined(c, d)) return false;
   mesh.flip(h);
   return true;

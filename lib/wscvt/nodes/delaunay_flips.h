@@ -8,8 +8,7 @@
 namespace wscvt {
 
 /// Flips edges towards the Delaunay triangulation of a surface, once over all of them, and keeps
-/// the shape: no edge becomes sharp, and no face turns against its surface. If two faces are walls
-/// of a notch in a sharp rim, the edge that closes the notch is flipped in, Delaunay or not.
+/// the shape: no edge becomes sharp, and no face turns against its surface.
 /// `outward` has a vector per vertex that points out of the surface, with the length of its area,
 /// or all with one length. Returns the number of flips.
 int flip_to_delaunay(EditMesh& mesh, const std::vector<Vector3>& outward);

@@ -18,20 +18,8 @@ constexpr double error_worth = 3.0;
 constexpr double angle_price = 0.5;
 constexpr double angle_margin = 5.0;
 constexpr double angle_unit = 20.0;
-/// If two triangles have this many mean errors of one, angles down to the spike angle are allowed.
-constexpr double spike_errors = 7.0;
-constexpr double spike_angle = 3.0;
-/// Walls: triangles below this cosine to the scan; and their smallest angle once closed.
-constexpr double wall_cosine = 0.5;
-constexpr double wall_least_angle = 20.0;
 /// A new edge is sharp below this cosine.
 constexpr double sharp_new_edge = -0.2;
-
-double cosine_of(double degrees) { return std::cos(degrees * pi / 180.0); }
-
-double cosine_between(const Vector3& a, const Vector3& b) {
-  return a.dot(b) / (a.norm() * b.norm() + 1e-300);
-}
 
 double square(double x) { return x * x; }
 
@@ -47,21 +35,12 @@ struct FlipCandidate {
   double sharpness_t, sharpness_u;  ///< of the triangles cad and cdb
   Vector3 normal_t, normal_u;       ///< unit, of the new triangles
   Vector3 old_normal_t, old_normal_u;
-  bool closes_notch = false;
-  bool risky = false;
   bool sharp = false;
 };
 
 class FitFlips {
  public:
-  explicit FitFlips(FitState& state)
-      : state_(state),
-        mesh_(state.mesh),
-        about_(state.node_normals()),
-        mean_face_error_(state.mean_square * static_cast<double>(state.samples.size()) /
-                         static_cast<double>(state.mesh.triangles.size())),
-        spike_cosine_(cosine_of(spike_angle)),
-        wall_sharpness_(cosine_of(wall_least_angle)) {}
+  explicit FitFlips(FitState& state) : state_(state), mesh_(state.mesh) {}
 
   int run() {
     int flipped = 0;
@@ -81,20 +60,12 @@ class FitFlips {
   bool try_flip(std::int32_t h) {
     FlipCandidate f;
     if (!look_at(h, f)) return false;
-    double cost = cost_of(f);
-    if (f.closes_notch) cost = std::min(cost, 0.0);
+    const double cost = cost_of(f);
     const double before = squares(f.t) + squares(f.u);
-    if (f.risky && before < spike_errors * mean_face_error_) return false;
     const double worth = error_worth * state_.share();
-    if (!f.closes_notch && worth * before - cost <= 0.0) return false;
-    if (mesh_.joined(f.c, f.d)) return false;
-    if (!deal_samples(f, f.closes_notch ? 1e300 : (worth * before - cost) / worth)) return false;
-    if (f.closes_notch ? after_ > before
-                       : worth * (before - after_) <= cost + 1e-9 * state_.edge * state_.edge) {
-      return false;
-    }
-    if (f.risky && before - after_ < spike_errors * mean_face_error_) return false;
-    if (!keeps_shape(f)) return false;
+    const double most = before - (cost + 1e-9 * state_.edge * state_.edge) / worth;
+    if (most <= 0.0 || mesh_.joined(f.c, f.d)) return false;
+    if (!deal_samples(f, most) || !keeps_shape(f)) return false;
     const std::vector<std::int32_t> both = {static_cast<std::int32_t>(f.t),
                                             static_cast<std::int32_t>(f.u)};
     if (state_.hash.meets(mesh_, {f.c, f.a, f.d}, {f.pc, f.pa, f.pd}, both) ||
@@ -124,12 +95,9 @@ class FitFlips {
     f.sharpness_before_u = largest_corner_cosine(f.pd, f.pb, f.pa);
     f.sharpness_t = largest_corner_cosine(f.pc, f.pa, f.pd);
     f.sharpness_u = largest_corner_cosine(f.pc, f.pd, f.pb);
-    f.closes_notch = closes_notch(f);
-    const double sharpest = std::max(f.sharpness_t, f.sharpness_u);
-    if (!f.closes_notch && sharpest > std::max({state_.round.sharpness_limit, f.sharpness_before_t,
-                                                f.sharpness_before_u})) {
-      if (state_.round.late || sharpest > spike_cosine_) return false;
-      f.risky = true;
+    if (std::max(f.sharpness_t, f.sharpness_u) >
+        std::max({state_.round.sharpness_limit, f.sharpness_before_t, f.sharpness_before_u})) {
+      return false;
     }
     f.normal_t = doubled_area_normal(f.pc, f.pa, f.pd);
     f.normal_u = doubled_area_normal(f.pc, f.pd, f.pb);
@@ -145,23 +113,6 @@ class FitFlips {
     f.sharp = f.normal_t.dot(mean) <= 0.0 || f.normal_u.dot(mean) <= 0.0 ||
               (bend < sharp_new_edge && bend < f.old_normal_t.dot(f.old_normal_u));
     return true;
-  }
-
-  /// Whether the triangles are walls of a notch that the new edge would close outwards.
-  bool closes_notch(const FlipCandidate& f) const {
-    const Vector3 ab = about_[f.a] + about_[f.b];
-    const Vector3 cd = about_[f.c] + about_[f.d];
-    const Vector3 rise = f.pc + f.pd - f.pa - f.pb;
-    const Vector3 all = ab + cd;
-    if (rise.dot(all) <= 0.2 * rise.norm() * all.norm()) return false;
-    if (std::max(f.sharpness_t, f.sharpness_u) >= wall_sharpness_) return false;
-    if (std::min(cosine_between(mesh_.normal(f.t), ab + about_[f.c]),
-                 cosine_between(mesh_.normal(f.u), ab + about_[f.d])) >= wall_cosine) {
-      return false;
-    }
-    return std::min(cosine_between(doubled_area_normal(f.pc, f.pa, f.pd), cd + about_[f.a]),
-                    cosine_between(doubled_area_normal(f.pc, f.pd, f.pb), cd + about_[f.b])) >=
-           wall_cosine;
   }
 
   double rest_length(const FlipCandidate& f) const {
@@ -196,11 +147,9 @@ class FitFlips {
               (square(state_.excess(f.pc, f.pa, f.pd)) + square(state_.excess(f.pc, f.pd, f.pb)) -
                square(state_.excess(f.pc, f.pa, f.pb)) - square(state_.excess(f.pd, f.pb, f.pa)));
     }
-    if (!f.closes_notch && !f.risky) {
-      cost += angle_price * state_.spring() * squared_edge *
-              (small_angle(f.sharpness_t) + small_angle(f.sharpness_u) -
-               small_angle(f.sharpness_before_t) - small_angle(f.sharpness_before_u));
-    }
+    cost += angle_price * state_.spring() * squared_edge *
+            (small_angle(f.sharpness_t) + small_angle(f.sharpness_u) -
+             small_angle(f.sharpness_before_t) - small_angle(f.sharpness_before_u));
     return cost;
   }
 
@@ -210,9 +159,9 @@ class FitFlips {
     return sum;
   }
 
-  /// Assigns the samples to the new triangles; false once their errors exceed `most`.
+  /// Assigns the samples to the new triangles; false once their errors reach `most`.
   bool deal_samples(const FlipCandidate& f, double most) {
-    after_ = 0.0;
+    double after = 0.0;
     of_t_.clear();
     of_u_.clear();
     normals_t_.setZero();
@@ -222,8 +171,8 @@ class FitFlips {
         const FitSample& sample = state_.samples[s];
         const double to_t = nearest_in_triangle(sample.point, f.pc, f.pa, f.pd).squared_distance;
         const double to_u = nearest_in_triangle(sample.point, f.pc, f.pd, f.pb).squared_distance;
-        after_ += std::min(to_t, to_u);
-        if (after_ >= most) return false;
+        after += std::min(to_t, to_u);
+        if (after >= most) return false;
         if (to_t <= to_u) {
           of_t_.push_back(s);
           normals_t_ += sample.normal;
@@ -242,7 +191,7 @@ class FitFlips {
                        normals_t_.dot(f.normal_t) >= face_agreement * normals_t_.norm() &&
                        normals_u_.dot(f.normal_u) >= face_agreement * normals_u_.norm();
     if (agree) return true;
-    if (f.sharp && !f.closes_notch) return false;
+    if (f.sharp) return false;
     const auto beyond = [&](std::int32_t h) {
       return state_.unit_normal(face_of(mesh_.opposite[h]));
     };
@@ -275,11 +224,6 @@ class FitFlips {
 
   FitState& state_;
   EditMesh& mesh_;
-  std::vector<Vector3> about_;
-  double mean_face_error_;
-  double spike_cosine_;
-  double wall_sharpness_;
-  double after_ = 0.0;
   std::vector<std::int32_t> of_t_;
   std::vector<std::int32_t> of_u_;
   Vector3 normals_t_ = Vector3::Zero();

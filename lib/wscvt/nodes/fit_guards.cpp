@@ -14,8 +14,6 @@ namespace {
 constexpr double longest_fit_step = 0.35;
 /// Smallest cosine of a triangle's turn by one step: 72 degrees.
 constexpr double most_step_turn = 0.3;
-/// Cosine that triangles facing against the scan may still lose.
-constexpr double loose_margin = 0.1;
 /// Triangles with fewer samples are judged by the samples about their corners.
 constexpr std::size_t enough_samples = 4;
 constexpr std::size_t enough_to_agree = 3;
@@ -34,16 +32,13 @@ class GuardedMove {
         old_normals_(mesh_.triangles.size()),
         normals_(mesh_.triangles.size()),
         outward_(mesh_.triangles.size()),
-        old_sharpness_(mesh_.triangles.size()),
-        loose_(mesh_.triangles.size(), 0) {
+        old_sharpness_(mesh_.triangles.size()) {
     const std::vector<Vector3> about = state_.node_normals();
     const auto look = [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         old_sharpness_[t] = mesh_.sharpness(t);
         old_normals_[t] = state_.unit_normal(t);
         outward_[t] = outward_of(t, about);
-        loose_[t] =
-            !state_.round.late && old_normals_[t].dot(outward_[t]) < least_agreement ? 1 : 0;
       }
     };
     execution_.parallel_for(mesh_.triangles.size(), guarded_block, look);
@@ -116,7 +111,6 @@ class GuardedMove {
     const Vector3& normal = normals_[t];
     const double after = normal.dot(outward_[t]);
     const double before = old_normals_[t].dot(outward_[t]);
-    if (loose_[t] != 0) return after < before - loose_margin;
     return normal.dot(old_normals_[t]) < most_step_turn ||
            mesh_.sharpness(t) > std::max(state_.round.sharpness_limit, old_sharpness_[t]) + 1e-9 ||
            (after < least_agreement && after < before);
@@ -207,8 +201,7 @@ class GuardedMove {
   std::vector<Vector3> normals_;  ///< at the nodes' current positions; unit
   std::vector<Vector3> outward_;  ///< the scan's direction at each triangle; unit or zero
   std::vector<double> old_sharpness_;
-  std::vector<char> loose_;  ///< triangles that face against the scan
-  bool none_meet_ = false;   ///< at the last check, if no node has moved since
+  bool none_meet_ = false;  ///< at the last check, if no node has moved since
 };
 
 }  // namespace

@@ -7,34 +7,19 @@
 #include <cmath>
 #include <cstdint>
 
-#include "wscvt/nodes/smooth_step.h"
-
 namespace wscvt {
 
 namespace {
 
 using Matrix3 = Eigen::Matrix3d;
 
-/// Weight along the triangle of samples beyond its edge at a rim.
-constexpr double rim_pull = 2.0;
-/// Second eigenvalue of the mean of a cell's normals times themselves: the cell lies on a ridge
-/// from the first value on, completely from the second on.
-constexpr double ridge_begins = 0.15;
-constexpr double ridge_full = 0.3;
-/// Length of the sum of a star's area vectors over its area: a rim begins below the first value and
-/// is complete at the second.
-constexpr double star_bends = 0.95;
-constexpr double star_is_rim = 0.65;
 /// A sample belongs to a node if its corner has at least this weight.
 constexpr double own_weight = 0.2;
-/// Weight of the distance of a node from the plane of its nearest sample.
+/// Weight of the distance of a node from the plane of its nearest sample. Without it and the leash,
+/// the largest distance grows by a tenth.
 constexpr double own_plane = 0.05;
 /// A node farther than this from all its samples, in mean edges, is pulled to the nearest sample.
 constexpr double leash = 0.2;
-/// Weight that keeps a node at a rim from rising above its highest sample, and the allowed height
-/// above it, in mean edges.
-constexpr double support = 0.3;
-constexpr double support_room = 0.03;
 /// Added to a triangle's longest / shortest edge less one, so that springs stay finite.
 constexpr double softest_triangle = 0.1;
 constexpr int gradient_steps = 15;
@@ -84,18 +69,10 @@ struct FaceSystem {
   }
 };
 
-/// Shape of a node's star, computed before the equations.
-struct NodeShape {
-  Vector3 normal = Vector3::Zero();
-  double rim = 0.0;                 ///< how far the star bends over a rim, 0 to 1
-  Vector3 along = Vector3::Zero();  ///< the rim's direction, if there is a rim
-
-  /// Returns the part of a vector for the ring term: along the surface, and at a rim along the rim.
-  Vector3 tangential(const Vector3& v) const {
-    const Vector3 flat = v - normal.dot(v) * normal;
-    if (rim == 0.0) return flat;
-    return (1.0 - rim) * flat + rim * along.dot(v) * along;
-  }
+/// The nearest of a triangle's samples to one of its corners.
+struct NearestSample {
+  double squared_distance = 1e300;
+  std::int32_t sample = -1;
 };
 
 class FitEquations {
@@ -105,9 +82,10 @@ class FitEquations {
         mesh_(state.mesh),
         execution_(execution),
         count_(state.mesh.points.size()),
-        shapes_(count_),
+        normals_(count_),
         centres_(count_),
         faces_(mesh_.triangles.size()),
+        nearest_(3 * mesh_.triangles.size()),
         diagonal_(count_),
         right_(count_),
         inverse_(count_) {
@@ -191,38 +169,24 @@ class FitEquations {
     }
   }
 
-  /// Computes the shape of a node's star, the middle of its ring and its mean edge.
+  /// Computes the normal of a node's star, the middle of its ring and its mean edge.
   void look_at(std::size_t i) {
     Vector3 sum = Vector3::Zero();
-    Matrix3 tensor = Matrix3::Zero();
-    double area = 0.0;
     Vector3 centre = Vector3::Zero();
     double edges = 0.0;
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
-      const Vector3 normal = mesh_.normal(face_of(half_edges_[at]));
-      const double length = normal.norm();
-      sum += normal;
-      area += length;
-      if (length > 0.0) tensor += normal * normal.transpose() / length;
+      sum += mesh_.normal(face_of(half_edges_[at]));
       centre += state_.ring_weight(static_cast<std::int32_t>(i), neighbours_[at]) *
                 mesh_.points[neighbours_[at]];
       edges += (mesh_.points[neighbours_[at]] - mesh_.points[i]).norm();
     }
     centres_[i] = centre / ring_sums_[i];
     state_.ring_edges[i] = edges / static_cast<double>(mesh_.degrees[i]);
-    NodeShape& shape = shapes_[i];
     const double length = sum.norm();
-    shape.normal = length > 0.0 ? Vector3(sum / length) : Vector3::UnitZ();
-    shape.rim = smooth_step((star_bends - length / (area + 1e-300)) / (star_bends - star_is_rim));
-    if (shape.rim > 0.0) {
-      Eigen::SelfAdjointEigenSolver<Matrix3> solver;
-      solver.computeDirect(tensor);
-      shape.along = solver.eigenvectors().col(0);
-    }
+    normals_[i] = length > 0.0 ? Vector3(sum / length) : Vector3::UnitZ();
   }
 
-  /// Adds a triangle's samples: their distance along the mean of both normals and, at the
-  /// triangle's edge, along the triangle.
+  /// Adds a triangle's samples: their distance along the mean of both normals.
   void add_samples(std::size_t t) {
     if (state_.of[t].empty()) return;
     const auto& [a, b, c] = mesh_.triangles[t];
@@ -244,17 +208,10 @@ class FitEquations {
       const double off = u.dot(r);
       Symmetric metric = Symmetric::Zero();
       add_square(metric, weight, u);
-      Vector3 pull = weight * off * u;
-      if (place.region != 0) {
-        const Vector3 beyond = r - off * u;
-        const double squared = beyond.squaredNorm();
-        if (squared > 1e-20) {
-          add_square(metric, weight * rim_pull / squared, beyond);
-          pull += weight * rim_pull * beyond;
-        }
-      }
+      const Vector3 pull = weight * off * u;
       const Vector3& w = place.weights;
       for (int k = 0; k < 3; ++k) {
+        look_at_nearest(t, k, s);
         sums.col(k) += w[k] * w[k] * metric;
         sums.col(3 + k) += w[k] * w[(k + 1) % 3] * metric;
         face.pull[k] -= w[k] * pull;
@@ -264,6 +221,15 @@ class FitEquations {
       face.own[k] = whole(sums.col(k));
       face.pair[k] = whole(sums.col(3 + k));
     }
+  }
+
+  void look_at_nearest(std::size_t t, int k, std::int32_t s) {
+    const FitSample& sample = state_.samples[s];
+    if (sample.place.weights[k] <= own_weight) return;
+    const std::size_t corner = 3 * t + static_cast<std::size_t>(k);
+    const Vector3& x = mesh_.points[mesh_.triangles[t][static_cast<std::size_t>(k)]];
+    const double squared = (x - sample.point).squaredNorm();
+    if (squared < nearest_[corner].squared_distance) nearest_[corner] = {squared, s};
   }
 
   /// Adds the price of a sharp triangle.
@@ -317,10 +283,9 @@ class FitEquations {
       blocks_[at] = face.pair[corner_of(h)] + faces_[face_of(g)].pair[corner_of(g)].transpose();
       add_spring(i, at);
     }
-    add_cell(i);
-    const NodeShape& shape = shapes_[i];
+    add_nearest(i);
     inverse_[i] = (own + ring_diagonal * state_.ring() *
-                             (Matrix3::Identity() - shape.normal * shape.normal.transpose()))
+                             (Matrix3::Identity() - normals_[i] * normals_[i].transpose()))
                       .inverse();
   }
 
@@ -343,66 +308,22 @@ class FitEquations {
     right_[i] -= weight * (length - rest) * u;
   }
 
-  /// Adds the terms of the samples in a node's cell.
-  void add_cell(std::size_t i) {
-    const NodeShape& shape = shapes_[i];
-    const Vector3& x = mesh_.points[i];
-    Symmetric quadric = Symmetric::Zero();
-    Vector3 moment = Vector3::Zero();
-    int in_cell = 0;
-    const FitSample* nearest = nullptr;
-    double nearest_square = 1e300;
-    double height = -1e300;
+  /// Adds the distance of a node from the plane of its nearest sample, and from the sample itself
+  /// if that is far.
+  void add_nearest(std::size_t i) {
+    NearestSample nearest;
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
-      const auto k = static_cast<Eigen::Index>(corner_of(half_edges_[at]));
-      for (const std::int32_t s : state_.of[face_of(half_edges_[at])]) {
-        const FitSample& sample = state_.samples[s];
-        const double w = sample.place.weights[k];
-        if (w <= own_weight) continue;
-        if (w >= sample.place.weights.maxCoeff()) {
-          add_square(quadric, 1.0, sample.normal);
-          moment += sample.normal.dot(x - sample.point) * sample.normal;
-          ++in_cell;
-        }
-        const double square = (x - sample.point).squaredNorm();
-        if (square < nearest_square) {
-          nearest_square = square;
-          nearest = &sample;
-        }
-        height = std::max(height, shape.normal.dot(sample.point));
-      }
+      const NearestSample& one = nearest_[half_edges_[at]];
+      if (one.squared_distance < nearest.squared_distance) nearest = one;
     }
-    add_ridge(i, whole(quadric), moment, in_cell);
-    if (nearest == nullptr) return;
-    add_nearest(i, *nearest, std::sqrt(nearest_square));
-    const double above = shape.normal.dot(x) - height - support_room * state_.edge;
-    if (shape.rim > 0.0 && above > 0.0) {
-      diagonal_[i] += support * shape.rim * shape.normal * shape.normal.transpose();
-      right_[i] -= support * shape.rim * above * shape.normal;
-    }
-  }
-
-  void add_ridge(std::size_t i, const Matrix3& quadric, const Vector3& moment, int samples) {
-    constexpr int least_samples = 3;
-    if (samples < least_samples) return;
-    // The three eigenvalues sum to the number of samples. The largest is at least any Rayleigh
-    // quotient, and the second at most the rest, so most cells are found flat without a solver.
-    const Vector3& n = shapes_[i].normal;
-    if (samples - n.dot(quadric * n) <= ridge_begins * samples) return;
-    Eigen::SelfAdjointEigenSolver<Matrix3> solver;
-    solver.computeDirect(quadric / samples, Eigen::EigenvaluesOnly);
-    const double ridge =
-        smooth_step((solver.eigenvalues()[1] - ridge_begins) / (ridge_full - ridge_begins));
-    diagonal_[i] += state_.share() * ridge * quadric;
-    right_[i] -= state_.share() * ridge * moment;
-  }
-
-  void add_nearest(std::size_t i, const FitSample& nearest, double distance) {
-    const Vector3 from = mesh_.points[i] - nearest.point;
-    const double off = nearest.normal.dot(from);
+    if (nearest.sample < 0) return;
+    const FitSample& sample = state_.samples[nearest.sample];
+    const Vector3 from = mesh_.points[i] - sample.point;
+    const double off = sample.normal.dot(from);
     const double weight = own_plane * state_.weight(off * off);
-    diagonal_[i] += weight * nearest.normal * nearest.normal.transpose();
-    right_[i] -= weight * off * nearest.normal;
+    diagonal_[i] += weight * sample.normal * sample.normal.transpose();
+    right_[i] -= weight * off * sample.normal;
+    const double distance = std::sqrt(nearest.squared_distance);
     if (distance <= leash * state_.edge) return;
     const Vector3 u = from / distance;
     diagonal_[i] += u * u.transpose();
@@ -411,9 +332,13 @@ class FitEquations {
 
   void add_ring_forces() {
     std::vector<Vector3> bent(count_);
-    for_nodes(
-        [&](std::size_t i) { bent[i] = shapes_[i].tangential(mesh_.points[i] - centres_[i]); });
+    for_nodes([&](std::size_t i) { bent[i] = tangential(i, mesh_.points[i] - centres_[i]); });
     for_nodes([&](std::size_t i) { right_[i] -= state_.ring() * ring_transposed(i, bent); });
+  }
+
+  /// Returns the part of a vector along the surface.
+  Vector3 tangential(std::size_t i, const Vector3& v) const {
+    return v - normals_[i].dot(v) * normals_[i];
   }
 
   /// Returns the transpose of "a node less the mean of its ring".
@@ -436,17 +361,18 @@ class FitEquations {
       ring += state_.ring_weight(static_cast<std::int32_t>(i), neighbours_[at]) * other;
     }
     q[i] = product;
-    bent[i] = shapes_[i].tangential(p[i] - ring / ring_sums_[i]);
+    bent[i] = tangential(i, p[i] - ring / ring_sums_[i]);
   }
 
   FitState& state_;
   const EditMesh& mesh_;
   const Execution& execution_;
   std::size_t count_;
-  std::vector<NodeShape> shapes_;
+  std::vector<Vector3> normals_;   ///< of each node's star, unit
   std::vector<Vector3> centres_;   ///< of each ring
   std::vector<double> ring_sums_;  ///< of the ring's weights
   std::vector<FaceSystem> faces_;
+  std::vector<NearestSample> nearest_;  ///< to half-edge h's origin in its triangle
   std::vector<std::int32_t> starts_;
   std::vector<std::int32_t> half_edges_;
   std::vector<std::int32_t> neighbours_;

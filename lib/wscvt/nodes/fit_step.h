@@ -10,13 +10,10 @@ namespace wscvt {
 
 /// Computes a step of all nodes at once from a linear least-squares problem. The planes of the
 /// triangles move to their samples, as in the mesh optimization of Hoppe et al. 1993 (SIGGRAPH,
-/// 19), but along the mean of the scan's and the triangle's normals. If the planes of the scan in a
-/// node's cell turn about a ridge (as the normals in the Voronoi energy of Xu et al. 2024, ACM
-/// Trans. Graph. 43, "CWF"), the node moves to their intersection, by the quadrics of Garland and
-/// Heckbert 1997 (SIGGRAPH, 209). Edges keep their rest lengths, and nodes the middles of their
-/// rings. Solved by 15 steps of conjugate gradients over blocks of 3 by 3; full accuracy is not
-/// needed, because the next round solves again. A sparse factorization would take ten times as
-/// long.
+/// 19), but along the mean of the scan's and the triangle's normals. Edges keep their rest lengths,
+/// and nodes the middles of their rings. Solved by 15 steps of conjugate gradients over blocks of 3
+/// by 3; full accuracy is not needed, because the next round solves again. A sparse factorization
+/// would take ten times as long.
 ///
 /// Also sets `state.ring_edges`. The result does not depend on the number of threads.
 std::vector<Vector3> fit_step(FitState& state, const Execution& execution);

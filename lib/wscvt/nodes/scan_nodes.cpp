@@ -54,12 +54,6 @@ struct Steepness {
 };
 constexpr Steepness curvature_steepness = {0.7, 0.82, std::numeric_limits<double>::infinity()};
 constexpr Steepness adaptive_steepness = {1.3, 1.45, 3.0};
-/// The result at a rim depends on last bits, by tens of per cent of the distance. For bodies
-/// thinner than a sphericity of a half, the nearest of several fits is used, each from further
-/// equalized nodes.
-constexpr double thin_area = 2.0 * 4.0 * pi;
-constexpr int thin_starts = 3;
-constexpr int further_steps = 15;
 /// Smallest number of samples, for few nodes, whose cells are so large that a fixed number per node
 /// would scatter: four nodes on a ball are a tetrahedron within 3 % only with 120.
 constexpr std::size_t fewest_samples = 4000;
@@ -294,10 +288,10 @@ std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& pla
 }
 
 /// Fits the nodes to the scan and gives them its volume. Then separates intersecting triangles and
-/// gives the volume again. `mean_square`: of the samples' distances.
+/// gives the volume again.
 template <class Parts>
 EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing& placing,
-             ScanNodesReport& report, double& mean_square, const Execution& execution) {
+             ScanNodesReport& report, const Execution& execution) {
   const FitDial dial = fit_dial(options.edge_ratio);
   std::vector<std::int32_t> near;
   std::vector<FitSample> samples = samples_near_nodes(parts, placing, dial, near);
@@ -307,7 +301,6 @@ EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing&
   report.fit_flips = fitted.flips;
   report.relocations = fitted.relocations;
   report.polished = fitted.polished;
-  mean_square = state.mean_square;
   EditMesh nodes = std::move(state.mesh);
   report.volume_offset = offset_to_volume(nodes.points, nodes.triangles, parts.volume);
   constexpr int most_partings = 3;
@@ -361,32 +354,15 @@ std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
 
   std::vector<std::int32_t> places =
       places_on(placing.surface.mesh, placing.nodes, placing.clusters);
-  EditMesh nodes;
-  double nearest = std::numeric_limits<double>::infinity();
-  int evened = 0;
-  const bool is_thin = parts.area > thin_area;
-  const int starts = options_.fitted && is_thin ? thin_starts : 1;
-  for (int start = 0; start < starts; ++start) {
-    const Execution part =
-        execution.part(0.2 + 0.75 * start / starts, 0.2 + 0.75 * (start + 1) / starts);
-    const int steps = start == 0 ? evening_steps : further_steps;
-    const EveningReport evening =
-        even_nodes(placing.nodes, places, placing.surface, steps, part.part(0.0, 0.25));
-    ScanNodesReport tried = report;
-    tried.evening_steps = evened += evening.steps;
-    tried.evening_flips = evening.flips;
-    const PartingReport parted = part_triangles(placing.nodes, part.part(0.25, 0.28));
-    tried.mended_intersections = parted.before - parted.after;
-    EditMesh candidate = placing.nodes;
-    double mean_square = 0.0;
-    if (options_.fitted) {
-      candidate = fit(parts, options_, placing, tried, mean_square, part.part(0.28, 1.0));
-    }
-    if (mean_square >= nearest) continue;
-    nearest = mean_square;
-    nodes = std::move(candidate);
-    report = tried;
-  }
+  const EveningReport evening =
+      even_nodes(placing.nodes, places, placing.surface, evening_steps, execution.part(0.2, 0.4));
+  report.evening_steps = evening.steps;
+  report.evening_flips = evening.flips;
+  const PartingReport parted = part_triangles(placing.nodes, execution.part(0.4, 0.42));
+  report.mended_intersections = parted.before - parted.after;
+  EditMesh nodes = options_.fitted
+                       ? fit(parts, options_, placing, report, execution.part(0.42, 0.95))
+                       : std::move(placing.nodes);
   report.mean_edge_ratio = mean_edge_ratio(nodes);
   result.cell_areas = voronoi_areas(nodes);
   result.mesh = {std::move(nodes.points), std::move(nodes.triangles)};

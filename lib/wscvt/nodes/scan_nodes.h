@@ -26,7 +26,7 @@ struct ScanNodes {
 /// Any genus: handles stay. Cut the small handles of scanner noise, with loops of less than about
 /// three edges of the result, before (cut_handles of scan/handles.h): otherwise they cost angles
 /// and may intersect. Thin bodies keep both sheets, because no step moves from one sheet to the
-/// other. For thin bodies the nearest of three fits is used, because the result at rims varies.
+/// other.
 class ScanRemesher {
  public:
   /// `normalized_scan`: closed, connected, oriented outward, a 2-manifold (check_mesh), of

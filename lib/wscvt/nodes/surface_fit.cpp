@@ -29,9 +29,6 @@ constexpr double stiffest_evenness = 8.0;
 constexpr double steering = 0.5;
 /// Degrees: smallest angle of the result.
 constexpr double smallest_angle = 30.0;
-/// Larger angles, down to the least angle of the late rounds, are repaired only if the mean square
-/// distance grows by no more than this factor: rims of thin bodies have no room for them.
-constexpr double most_mending_cost = 1.02;
 /// Margin above the least angle below which angles have a price, early and late.
 constexpr double early_margin = 1.0;
 constexpr double late_margin = 0.5;
@@ -60,7 +57,7 @@ class SurfaceFit {
       play_round(round);
       ++report_.rounds;
     }
-    mend();
+    mend_below(smallest_angle);
     return report_;
   }
 
@@ -125,15 +122,6 @@ class SurfaceFit {
       if (state_.mesh.sharpness(t) > limit) return true;
     }
     return false;
-  }
-
-  void mend() {
-    if (dial_.least_angle > smallest_angle && has_angles_below(dial_.least_angle)) {
-      FitState kept = state_;
-      mend_below(dial_.least_angle);
-      if (state_.mean_square > most_mending_cost * kept.mean_square) state_ = std::move(kept);
-    }
-    mend_below(smallest_angle);
   }
 
   /// Repairs remaining small angles at a rising price, and from the third pass on at any price.
