@@ -7,7 +7,7 @@
 OUTPUT_FOLDER gets the Debian packages, the Python wheel, the Blender add-on, an archive that runs on any
 Linux x86-64 of glibc 2.36 or later (program, plugins, wheel, add-on), a Containerfile, and SHA256SUMS.
 BUILD is a build folder on Debian 12, build/release for example. The archive has a plugin for each MeshLab whose
-sources BUILD knows: tests/run_all.sh hosts adds those of 2022.02 and 2025.07.
+sources BUILD knows: tests/run_all.sh release adds those of 2022.02 and 2025.07.
 """
 import hashlib
 import pathlib

@@ -14,7 +14,7 @@ packages="
   pybind11-dev python3-dev python3-numpy python3-pytest
   meshlab qtbase5-dev libqt5xmlpatterns5-dev libqt5opengl5-dev
   libglew-dev libglu1-mesa-dev
-  xvfb xauth xdotool imagemagick"
+  xvfb xauth xdotool imagemagick fonts-dejavu-core"
 
 [ $# -eq 0 ] || packages=$*
 

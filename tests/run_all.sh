@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and runs every test.
-#   tests/run_all.sh [install] [release] [extras] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [hosts] [windows] [debian12] [debian13] [sid]
-# Without arguments: install, release and hosts. tests/README.md explains each step. The sanitized
+#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [windows] [debian12] [debian13] [sid]
+# Without arguments: install and release. tests/README.md explains each step. The sanitized
 # build has no assertions of CGAL (CGAL_NDEBUG), because they make some tests a hundred times slower. It has
 # those of Eigen and OpenMesh.
 set -eu
@@ -10,6 +10,7 @@ cd "$(dirname "$0")/.."
 jobs=$(nproc)
 meshlab_source=$PWD/build/meshlab-source
 newer_source=$PWD/build/meshlab-source-trixie
+newest_source=$PWD/build/meshlab-source-sid
 
 sources() { find "$@" \( -name '*.h' -o -name '*.cpp' \) | sort; }
 
@@ -32,22 +33,36 @@ commands_file_by_file() {  # more options
   cmake --build build/files --target filter_wscvt_autogen
 }
 
-[ $# -gt 0 ] || set -- install release hosts
+[ $# -gt 0 ] || set -- install release
 for step in "$@"; do
   echo "== $step"
   case $step in
     install)
       tests/install_packages.sh
-      filter_wscvt/get_meshlab_source.sh "$meshlab_source" ;;
+      filter_wscvt/get_meshlab_source.sh "$meshlab_source"
+      # For the plugin of versions that are not installed: those of Debian 13 and of Debian unstable.
+      filter_wscvt/get_meshlab_source.sh "$newer_source" trixie
+      filter_wscvt/get_meshlab_source.sh "$newest_source" sid ;;
     release)
-      configure_and_build release -DWSCVT_BUILD_BENCHMARKS=OFF -DWSCVT_BUILD_STUDY=OFF
+      others=$newer_source
+      # Unstable may move on to a version that the plugin does not know.
+      if [ "$(cat "$newest_source/ML_VERSION")" = 2025.07 ]; then
+        others="$others;$newest_source"
+      else
+        echo "Debian unstable has MeshLab $(cat "$newest_source/ML_VERSION") now, so 2025.07 is not tested." >&2
+      fi
+      configure_and_build release -DWSCVT_BUILD_BENCHMARKS=OFF -DWSCVT_BUILD_STUDY=OFF \
+        "-DMESHLAB_OTHER_SOURCE_DIRS=$others"
       ctest --preset release -j "$jobs" ;;
     extras)
       # Benchmarks and study are built, so that they do not rot, but not run. Their files are compiled
       # alone there already.
       configure_and_build release -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
       commands_file_by_file
-      /usr/bin/python3 tests/each_alone.py build/files lib filter_wscvt tests meshes ;;
+      /usr/bin/python3 tests/each_alone.py build/files lib filter_wscvt ;;
+    nightly)
+      # After release: other random bodies every night, and more of them.
+      WSCVT_PROPERTY_SEED=$(date +%Y%m%d) WSCVT_PROPERTY_COUNT=4000 build/release/tests/property_tests ;;
     sanitizers)
       configure_and_build asan-ubsan
       ctest --preset asan-ubsan -j "$jobs" ;;
@@ -64,11 +79,12 @@ for step in "$@"; do
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
       # With a newer host, whose own file would be read without its commands otherwise.
-      filter_wscvt/get_meshlab_source.sh "$newer_source" trixie
       commands_file_by_file "-DMESHLAB_OTHER_SOURCE_DIRS=$newer_source"
       # The engines' headers are not among what this step installs.
       sources lib filter_wscvt | grep '\.cpp$' | grep -v '^lib/examples/engines/' |
-        xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/files ;;
+        xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/files
+      # What extras does for the library.
+      /usr/bin/python3 tests/each_alone.py build/files tests meshes ;;
     docs)
       # Pages of the C++ interface; a warning is an error.
       tests/install_packages.sh doxygen
@@ -109,30 +125,15 @@ for step in "$@"; do
       tests/install_packages.sh debootstrap
       tests/blender_debian13.sh build/blender/wscvt-*-blender.zip build/blender13 ;;
     release-files)
-      # After hosts; as root, for debootstrap.
+      # After release; as root, for debootstrap.
       tests/install_packages.sh debootstrap patchelf binutils xz-utils xvfb
       tests/release_files.sh build/release build/release-files build/release-test ;;
     slurm)
       # After release; as root.
       tests/install_packages.sh slurm-wlm parallel
       tests/slurm.sh build/release/lib/wscvt build/slurm ;;
-    hosts)
-      # The plugin for versions of MeshLab that are not installed, with the tests that need no
-      # program of theirs: those of Debian 13 and of Debian unstable, which may move on to one that
-      # the plugin does not know.
-      others=$newer_source
-      filter_wscvt/get_meshlab_source.sh "$newer_source" trixie
-      newest=$PWD/build/meshlab-source-sid
-      filter_wscvt/get_meshlab_source.sh "$newest" sid
-      if [ "$(cat "$newest/ML_VERSION")" = 2025.07 ]; then
-        others="$others;$newest"
-      else
-        echo "Debian unstable has MeshLab $(cat "$newest/ML_VERSION") now, so 2025.07 is not tested." >&2
-      fi
-      configure_and_build release "-DMESHLAB_OTHER_SOURCE_DIRS=$others"
-      ctest --preset release -j "$jobs" -R '^host_20' ;;
     windows)
-      # After hosts; as root.
+      # After release; as root.
       tests/install_packages.sh debootstrap
       tests/windows.sh build/release trixie
       tests/windows.sh build/release sid ;;

@@ -49,6 +49,18 @@ QProcessEnvironment environment_on(const VirtualDisplay& display, const QString&
   environment.insert("HOME", home);
   environment.insert("XDG_CONFIG_HOME", home + "/config");
   environment.insert("XDG_RUNTIME_DIR", runtime);
+  // The same letters on every machine, whatever fonts it has.
+  const QString fonts = home + "/fonts.conf";
+  QFile file(fonts);
+  if (!file.open(QIODevice::WriteOnly)) throw std::runtime_error("The fonts' file is not writable");
+  file.write(
+      ("<fontconfig><dir>/usr/share/fonts/truetype/dejavu</dir><cachedir>" + home +
+       "/fonts</cachedir>"
+       "<alias><family>sans-serif</family><prefer><family>DejaVu Sans</family></prefer></alias>"
+       "<alias><family>monospace</family><prefer><family>DejaVu Sans Mono</family></prefer></alias>"
+       "</fontconfig>\n")
+          .toUtf8());
+  environment.insert("FONTCONFIG_FILE", fonts);
   environment.insert("LIBGL_ALWAYS_SOFTWARE", "1");
   // Debian unstable's meshlab does not find its library without help.
   environment.insert("LD_LIBRARY_PATH", QStringLiteral(WSCVT_MESHLAB_LIBRARY_DIR));
