@@ -119,9 +119,16 @@ TEST(FitGuards, FoldNoEdge) {
   }
   move_nodes(state, step, Execution(1));
   const EditMesh& mesh = state.mesh;
+  // At the box's corners an edge may be as sharp as the scan.
+  const auto agrees = [&](std::size_t t) {
+    return state.of[t].size() >= 3 && state.unit_normal(t).dot(state.sample_normals[t]) >
+                                          face_agreement * state.sample_normals[t].norm();
+  };
   for (std::size_t h = 0; h < mesh.opposite.size(); ++h) {
-    EXPECT_GE(state.unit_normal(h / 3).dot(state.unit_normal(face_of(mesh.opposite[h]))),
-              folded - 1e-9);
+    const std::size_t t = h / 3;
+    const std::size_t u = face_of(mesh.opposite[h]);
+    if (agrees(t) && agrees(u)) continue;
+    EXPECT_GE(state.unit_normal(t).dot(state.unit_normal(u)), folded - 1e-9);
   }
 }
 

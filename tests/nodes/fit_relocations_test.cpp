@@ -50,13 +50,16 @@ TEST(FitRelocations, BringNodesFromWhereTheyGainLittleToWhereTheyGainMuch) {
 
 TEST(FitRelocations, GainMoreThanTheyCostEachTime) {
   FitState state = wavy_state();
-  double last = test::mean_square(state);
+  const double first = test::mean_square(state);
+  double last = first;
   int moved = 1;
   for (int round = 0; round < 12 && moved > 0; ++round) {
     moved = relocate_nodes(state, Execution(1));
-    EXPECT_LE(test::mean_square(state), last + 1e-15);
+    // What they gain and cost has springs too: once little is left, these may decide.
+    EXPECT_LE(test::mean_square(state), 1.01 * last);
     last = test::mean_square(state);
   }
+  EXPECT_LT(last, 0.9 * first);
   EXPECT_LE(moved, 1);  // nearly at rest
 }
 

@@ -201,7 +201,7 @@ int Coarsening::sweep(int least) {
   for (std::int32_t v = 0; v < count && alive_ > least; ++v) {
     if (into_[v] < 0) merge_cheapest_of(v, limit);
   }
-  compact(Execution(1));
+  compact();
   flip_to_delaunay(mesh_, vectors_);
   return before - alive_;
 }
@@ -213,14 +213,21 @@ class Coarsening::Queue {
     for (std::size_t v = 0; v < times_.size(); ++v) push(static_cast<std::int32_t>(v));
   }
 
-  /// Enters the cheapest possible merge at a vertex, and replaces its earlier one.
+  /// Enters the cheapest merge at a vertex, and replaces its earlier one. Whether it is possible is
+  /// only asked when its turn comes, because most are replaced before.
   void push(std::int32_t v) {
     ++times_[v];
+    push_after(v, -1.0, -1);
+  }
+
+  /// Enters the cheapest merge at a vertex after the one of this cost with `last`.
+  void push_after(std::int32_t v, double cost, std::int32_t last) {
     Merge best = {1e300, v, -1, times_[v]};
     owner_.mesh_.around(v, [&](std::int32_t h) {
       const std::int32_t w = owner_.mesh_.target(h);
       const double price = owner_.cost(v, w);
-      if (price >= best.cost || !owner_.possible(v, w)) return;
+      if (price < cost || (price == cost && w <= last)) return;
+      if (price > best.cost || (price == best.cost && w >= best.w)) return;
       best.cost = price;
       best.w = w;
     });
@@ -233,15 +240,17 @@ class Coarsening::Queue {
       const Merge next = queue_.top();
       queue_.pop();
       if (owner_.into_[next.v] >= 0 || next.time != times_[next.v]) continue;
-      if (owner_.into_[next.w] >= 0 || !owner_.possible(next.v, next.w)) {
+      if (owner_.into_[next.w] >= 0) {
         push(next.v);
+        continue;
+      }
+      if (!owner_.possible(next.v, next.w)) {
+        push_after(next.v, next.cost, next.w);
         continue;
       }
       owner_.merge(next.v, next.w);
       push(next.w);
-      std::vector<std::int32_t> ring;
-      owner_.mesh_.around(next.w, [&](std::int32_t h) { ring.push_back(owner_.mesh_.target(h)); });
-      for (const std::int32_t y : ring) push(y);
+      owner_.mesh_.around(next.w, [&](std::int32_t h) { push(owner_.mesh_.target(h)); });
       return true;
     }
     return false;
@@ -267,13 +276,13 @@ bool Coarsening::reduce(int count, const Execution& execution) {
     Queue queue(*this);
     while (alive_ > stop && queue.merge_one()) {
     }
-    compact(execution);
+    compact();
     flip_to_delaunay(mesh_, vectors_);
   }
   return alive_ <= count;
 }
 
-void Coarsening::compact(const Execution& execution) {
+void Coarsening::compact() {
   const std::size_t count = mesh_.points.size();
   std::vector<std::int32_t> map(count, -1);
   std::int32_t next = 0;
@@ -294,11 +303,32 @@ void Coarsening::compact(const Execution& execution) {
     }
   }
   std::size_t kept = 0;
+  std::vector<std::int32_t> faces(mesh_.triangles.size(), -1);
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     if (free_[t] != 0) continue;
+    faces[t] = static_cast<std::int32_t>(kept);
     const Triangle& old = mesh_.triangles[t];
     mesh_.triangles[kept++] = {map[old[0]], map[old[1]], map[old[2]]};
   }
+  // The links are renumbered, which is faster than to find them again.
+  const auto half_edge = [&](std::int32_t h) {
+    return 3 * faces[face_of(h)] + static_cast<std::int32_t>(corner_of(h));
+  };
+  for (std::size_t t = 0; t < faces.size(); ++t) {
+    if (faces[t] < 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      mesh_.opposite[3 * static_cast<std::size_t>(faces[t]) + k] =
+          half_edge(mesh_.opposite[3 * t + k]);
+    }
+  }
+  for (std::size_t v = 0; v < count; ++v) {
+    if (into_[v] >= 0) continue;
+    mesh_.first[map[v]] = half_edge(mesh_.first[v]);
+    mesh_.degrees[map[v]] = mesh_.degrees[v];
+  }
+  mesh_.opposite.resize(3 * kept);
+  mesh_.first.resize(next);
+  mesh_.degrees.resize(next);
   mesh_.points.resize(next);
   areas_.resize(next);
   masses_.resize(next);
@@ -308,7 +338,6 @@ void Coarsening::compact(const Execution& execution) {
   free_.assign(kept, 0);
   marks_.assign(next, 0);
   mark_ = 0;
-  mesh_.link(execution);
   maps_.push_back(std::move(map));
 }
 

@@ -67,7 +67,7 @@ class Coarsening {
   FanShape shape_merged(std::int32_t v, std::int32_t w, double large) const;
   void merge(std::int32_t v, std::int32_t w);
   void merge_cheapest_of(std::int32_t v, double limit);
-  void compact(const Execution& execution);
+  void compact();
 
   EditMesh mesh_;
   int alive_ = 0;

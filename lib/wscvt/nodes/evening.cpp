@@ -32,6 +32,9 @@ constexpr double most_turn = 0.3;
 constexpr double sharpest_corner = 0.985;
 constexpr std::size_t evened_block = 512;
 constexpr std::size_t cell_block = 1024;
+/// Edges are flipped before each of the first steps, then before every fourth: steps get short.
+constexpr int first_flips = 8;
+constexpr int steps_a_flip = 4;
 /// Number of smoothings of the surface's normals, against which faces are checked.
 constexpr int normal_rounds = 3;
 
@@ -87,6 +90,24 @@ std::array<CellPart, 3> cell_parts(const std::array<Vector3, 3>& x,
     add_part(parts[k], x[k], density[k], centre, q, normal);
   }
   return parts;
+}
+
+/// cell_parts for a density of 1. The triangle of an edge and the circumcentre has the triangle's
+/// area times the circumcentre's opposite weight, half of it for each end.
+void even_cell_parts(const std::array<const Vector3*, 3>& x, double doubled_area, CellPart* parts) {
+  const Vector3 w = circumcentre_weights(*x[0], *x[1], *x[2]);
+  const Vector3 centre = w[0] * *x[0] + w[1] * *x[1] + w[2] * *x[2];
+  const double quarter = 0.25 * doubled_area;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = following(k);
+    const std::size_t j = preceding(k);
+    const double area_j = quarter * w[static_cast<Eigen::Index>(i)];  // of the edge from k to j
+    const double area_i = quarter * w[static_cast<Eigen::Index>(j)];
+    const Vector3 to_centre = centre - *x[k];
+    parts[k].area = parts[k].mass = area_i + area_j;
+    parts[k].moment = (parts[k].area / 3.0) * to_centre + (area_i / 6.0) * (*x[i] - *x[k]) +
+                      (area_j / 6.0) * (*x[j] - *x[k]);
+  }
 }
 
 /// Outward vectors at the surface's vertices: mean normals, smoothed over their rings, so that a
@@ -147,11 +168,12 @@ class Evening {
     EveningReport report;
     for (int step = 0; step < steps; ++step) {
       execution_.report(static_cast<double>(step) / steps, "Equalizing edge lengths");
-      report.flips += flip_to_delaunay(nodes_, outward_);
+      const bool flips = step < first_flips || step % steps_a_flip == 0;
+      if (flips) report.flips += flip_to_delaunay(nodes_, outward_);
       plan(step > 0 ? momentum : 0.0);
       move();
       read_surface();
-      edge_ = mean_edge_length(nodes_);
+      if (flips) edge_ = mean_edge_length(nodes_);
       ++report.steps;
     }
     constexpr int last_flips = 5;
@@ -196,6 +218,11 @@ class Evening {
         const Vector3 normal = nodes_.normal(t);
         normals_[t] = normal;
         const auto& [a, b, c] = nodes_.triangles[t];
+        if (surface_.density.empty()) {
+          even_cell_parts({&nodes_.points[a], &nodes_.points[b], &nodes_.points[c]}, normal.norm(),
+                          &parts_[3 * t]);
+          continue;
+        }
         const std::array<CellPart, 3> parts =
             cell_parts({nodes_.points[a], nodes_.points[b], nodes_.points[c]},
                        {mass_density_[a], mass_density_[b], mass_density_[c]},
@@ -239,10 +266,27 @@ class Evening {
     shares_[i] = 1.0;
   }
 
+  /// Whether a face is far from every limit of `spoils`, which most are, judged without roots.
+  bool is_fine_by_far(std::size_t t, const Vector3& normal, const Vector3& outward) const {
+    constexpr double blunt = 1.0 - sharpest_corner * sharpest_corner;
+    const auto& [a, b, c] = nodes_.triangles[t];
+    const double squared = normal.squaredNorm();
+    const double up = normal.dot(outward);
+    const double with = normal.dot(normals_[t]);
+    const double l0 = (nodes_.points[b] - nodes_.points[c]).squaredNorm();
+    const double l1 = (nodes_.points[c] - nodes_.points[a]).squaredNorm();
+    const double l2 = (nodes_.points[a] - nodes_.points[b]).squaredNorm();
+    return up > 0.0 && with > 0.0 &&
+           up * up > least_agreement * least_agreement * squared * outward.squaredNorm() &&
+           with * with > most_turn * most_turn * squared * normals_[t].squaredNorm() &&
+           squared * std::min({l0, l1, l2}) > blunt * l0 * l1 * l2;
+  }
+
   bool spoils(std::size_t t, const std::vector<Vector3>& old) const {
     const auto& [a, b, c] = nodes_.triangles[t];
     const Vector3 outward = outward_[a] + outward_[b] + outward_[c];
     Vector3 normal = nodes_.normal(t);
+    if (is_fine_by_far(t, normal, outward)) return false;
     normal /= normal.norm() + 1e-300;
     const Vector3 old_normal = normals_[t] / (normals_[t].norm() + 1e-300);
     const double before = cosine_to(old_normal, outward);

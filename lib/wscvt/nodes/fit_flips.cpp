@@ -40,7 +40,10 @@ struct FlipCandidate {
 
 class FitFlips {
  public:
-  explicit FitFlips(FitState& state) : state_(state), mesh_(state.mesh) {}
+  explicit FitFlips(FitState& state)
+      : state_(state),
+        mesh_(state.mesh),
+        fine_sharpness_(std::cos((state.round.least_angle + angle_margin) * pi / 180.0)) {}
 
   int run() {
     int flipped = 0;
@@ -127,6 +130,7 @@ class FitFlips {
   }
 
   double small_angle(double sharpness) const {
+    if (sharpness <= fine_sharpness_) return 0.0;
     const double angle = std::acos(std::clamp(sharpness, -1.0, 1.0)) * 180.0 / pi;
     return square(std::max(0.0, state_.round.least_angle + angle_margin - angle) / angle_unit);
   }
@@ -143,9 +147,12 @@ class FitFlips {
     cost += state_.round.valence * squared_edge *
             (off(f.a, -1) + off(f.b, -1) + off(f.c, 1) + off(f.d, 1));
     if (state_.round.price > 0.0) {
-      cost += state_.round.price *
-              (square(state_.excess(f.pc, f.pa, f.pd)) + square(state_.excess(f.pc, f.pd, f.pb)) -
-               square(state_.excess(f.pc, f.pa, f.pb)) - square(state_.excess(f.pd, f.pb, f.pa)));
+      const auto excess = [&](double sharpness) {
+        return square(std::max(0.0, sharpness - state_.round.goal_cosine) /
+                      (1.0 - state_.round.goal_cosine));
+      };
+      cost += state_.round.price * (excess(f.sharpness_t) + excess(f.sharpness_u) -
+                                    excess(f.sharpness_before_t) - excess(f.sharpness_before_u));
     }
     cost += angle_price * state_.spring() * squared_edge *
             (small_angle(f.sharpness_t) + small_angle(f.sharpness_u) -
@@ -224,6 +231,7 @@ class FitFlips {
 
   FitState& state_;
   EditMesh& mesh_;
+  double fine_sharpness_;  ///< sharper triangles have a price
   std::vector<std::int32_t> of_t_;
   std::vector<std::int32_t> of_u_;
   Vector3 normals_t_ = Vector3::Zero();

@@ -33,7 +33,7 @@ class GuardedMove {
         normals_(mesh_.triangles.size()),
         outward_(mesh_.triangles.size()),
         old_sharpness_(mesh_.triangles.size()) {
-    const std::vector<Vector3> about = state_.node_normals();
+    const std::vector<Vector3>& about = state_.about;
     const auto look = [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         old_sharpness_[t] = mesh_.sharpness(t);
@@ -65,6 +65,10 @@ class GuardedMove {
         continue;
       }
       if (attempt >= tries_of_pairs) break;
+      if (!state_.round.checks_pairs) {
+        state_.build_hash();
+        return;
+      }
       if (!mark_meeting()) {
         if (none_meet_) return;
         break;
@@ -159,6 +163,7 @@ class GuardedMove {
     none_meet_ = true;
     for (const auto& [t, u] : state_.hash.pairs(mesh_, execution_)) {
       none_meet_ = false;
+      state_.had_pairs = true;
       const auto at = [&](std::int32_t f) {
         const auto& [a, b, c] = mesh_.triangles[f];
         return std::array<Vector3, 3>{old_[a], old_[b], old_[c]};

@@ -190,7 +190,7 @@ void look_for_mending(const FitState& state, std::int32_t v, double limit, Mendi
 }  // namespace
 
 int polish_nodes(FitState& state, int passes) {
-  const std::vector<Vector3> about = state.node_normals();
+  const std::vector<Vector3>& about = state.about;
   int done = 0;
   for (int pass = 0; pass < passes; ++pass) {
     const std::vector<Polish> nodes = nodes_to_polish(state);

@@ -20,6 +20,8 @@ constexpr double relocation_gain = 1.1;
 constexpr double relocation_springs = 0.3;
 /// Candidates tried for each node that may move.
 constexpr std::size_t candidates_a_move = 6;
+/// Number of removals looked at first, to know how much a new node must gain at least.
+constexpr std::size_t first_removals = 16;
 /// Spokes about a new node, in mean edges about it; shorter, because there is one more node.
 constexpr double crowded_rest = 0.75;
 constexpr int most_relocated_degree = 9;
@@ -69,7 +71,7 @@ class Relocations {
             1,
             static_cast<std::size_t>(relocated_share * static_cast<double>(mesh_.points.size())))),
         spring_(relocation_springs * state.spring()),
-        about_(state.node_normals()),
+        about_(state.about),
         face_errors_(mesh_.triangles.size()),
         locked_(mesh_.points.size(), 0) {
     for (std::size_t t = 0; t < face_errors_.size(); ++t) {
@@ -83,9 +85,16 @@ class Relocations {
   }
 
   int run() {
-    const std::vector<Insertion> insertions = find_insertions();
+    const std::vector<std::int32_t> candidates = removal_candidates();
+    const std::vector<Removal> first_ones =
+        cheapest_removals(candidates, std::min(candidates.size(), first_removals), 1e300);
+    if (first_ones.empty()) return 0;
+    const std::vector<Insertion> insertions =
+        find_insertions(relocation_gain * std::max(0.0, first_ones.front().cost));
     if (insertions.empty()) return 0;
-    removals_ = find_removals(insertions.front().gain / relocation_gain);
+    removals_ = cheapest_removals(
+        candidates, std::min(candidates.size(), candidates_a_move * insertions.size() + 20),
+        insertions.front().gain / relocation_gain);
     if (removals_.empty()) return 0;
     int done = 0;
     std::size_t first = 0;
@@ -142,8 +151,8 @@ class Relocations {
     return off * off;
   }
 
-  /// Returns the cheapest removals that cost less than `most`.
-  std::vector<Removal> find_removals(double most) const {
+  /// Returns the nodes that may be cheapest to remove, the cheapest first.
+  std::vector<std::int32_t> removal_candidates() const {
     std::vector<std::pair<double, std::int32_t>> candidates;
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
       const auto v = static_cast<std::int32_t>(i);
@@ -156,11 +165,19 @@ class Relocations {
     const std::size_t kept = std::min(candidates.size(), candidates_a_move * most_ + 20);
     std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(kept),
                       candidates.end());
-    candidates.resize(kept);
+    std::vector<std::int32_t> nodes;
+    nodes.reserve(kept);
+    for (std::size_t i = 0; i < kept; ++i) nodes.push_back(candidates[i].second);
+    return nodes;
+  }
+
+  /// Returns the removals of the first `kept` candidates that cost less than `most`, ascending.
+  std::vector<Removal> cheapest_removals(const std::vector<std::int32_t>& candidates,
+                                         std::size_t kept, double most) const {
     std::vector<Removal> removals(kept);
     execution_.parallel_for(kept, candidate_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        removals[i] = cheapest_removal(candidates[i].second, most);
+        removals[i] = cheapest_removal(candidates[i], most);
       }
     });
     removals.erase(std::remove_if(removals.begin(), removals.end(),
@@ -255,7 +272,8 @@ class Relocations {
     return cost;
   }
 
-  std::vector<Insertion> find_insertions() const {
+  /// Returns new nodes that gain more than `least`, the best first.
+  std::vector<Insertion> find_insertions(double least) const {
     std::vector<Insertion> insertions;
     for (std::size_t h = 0; h < mesh_.opposite.size(); ++h) {
       const std::size_t t = h / 3;
@@ -270,7 +288,7 @@ class Relocations {
                       insertions.end());
     insertions.resize(kept);
     execution_.parallel_for(kept, candidate_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) try_insertion(insertions[i]);
+      for (std::size_t i = begin; i < end; ++i) try_insertion(insertions[i], least);
     });
     std::sort(insertions.begin(), insertions.end());
     while (!insertions.empty() && insertions.back().gain <= 0.0) insertions.pop_back();
@@ -278,9 +296,13 @@ class Relocations {
   }
 
   /// Finds the position of a new node and its gain.
-  void try_insertion(Insertion& insertion) const {
+  void try_insertion(Insertion& insertion, double least) const {
     constexpr int steps = 3;
     const Quad quad = quad_of(insertion.t, insertion.c);
+    const double before =
+        face_errors_[quad.t] + face_errors_[quad.u] + spring_ * spring_energy(quad.a, quad.b);
+    insertion.gain = -1.0;
+    if (before <= least) return;
     FitFan fan;
     fan.nodes = {quad.c, quad.a, quad.d, quad.b};
     double edges = 0.0;
@@ -292,8 +314,6 @@ class Relocations {
     fan.places.assign(fan.samples.size(), -1);
     fan.rest = crowded_rest * edges;
     fan.spring = spring_;
-    const double before =
-        face_errors_[quad.t] + face_errors_[quad.u] + spring_ * spring_energy(quad.a, quad.b);
     Vector3 at = 0.5 * (mesh_.points[quad.a] + mesh_.points[quad.b]);
     double best = 1e300;
     double last = 1e300;
@@ -412,6 +432,7 @@ class Relocations {
     state_.deal(samples, {quad.t, free[0], quad.u, free[1]});
     for (const std::int32_t t : kept) state_.hash.enter(mesh_, t);
     for (const std::int32_t t : {quad.t, free[0], quad.u, free[1]}) state_.hash.enter(mesh_, t);
+    state_.about[removal.v] = 0.5 * (state_.about[quad.a] + state_.about[quad.b]);
     if (!state_.ring_edges.empty()) {
       state_.ring_edges[removal.v] = crowded_rest * rest_between(quad.a, quad.b);
     }
@@ -425,7 +446,7 @@ class Relocations {
   EditMesh& mesh_;
   std::size_t most_;
   double spring_;
-  std::vector<Vector3> about_;
+  const std::vector<Vector3>& about_;
   std::vector<double> face_errors_;
   std::vector<char> locked_;
   std::vector<Removal> removals_;

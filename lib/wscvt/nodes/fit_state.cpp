@@ -54,12 +54,16 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
   edge = mean_edge_length(mesh);
   std::vector<Vector3> normals(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = unit_normal(t);
-  execution.parallel_for(samples.size(), placed_samples_block,
-                         [&](std::size_t begin, std::size_t end) {
-                           for (std::size_t s = begin; s < end; ++s) {
-                             samples[s].face = first_face(mesh, normals, samples[s], near[s], edge);
-                           }
-                         });
+  execution.parallel_for(
+      samples.size(), placed_samples_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s) {
+          std::int32_t face = static_cast<std::int32_t>(face_of(mesh.first[near[s]]));
+          walk_to_nearest(samples[s].point, mesh, face);
+          samples[s].face = normals[face].dot(samples[s].normal) >= face_agreement
+                                ? face
+                                : first_face(mesh, normals, samples[s], near[s], edge);
+        }
+      });
   place_samples(execution);
   // Neighbours in space become neighbours in memory.
   std::stable_sort(samples.begin(), samples.end(),
@@ -126,6 +130,7 @@ void FitState::list_samples() {
     of[samples[s].face].push_back(static_cast<std::int32_t>(s));
     sample_normals[samples[s].face] += samples[s].normal;
   }
+  about = node_normals();
 }
 
 void FitState::deal(const std::vector<std::int32_t>& pool,

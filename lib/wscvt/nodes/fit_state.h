@@ -40,6 +40,7 @@ struct FitRound {
   double early_sharpness = 1.0;  ///< the same limit in the rounds before the last
   double least_angle = 0.0;      ///< degrees, the limit in the last rounds
   bool late = false;             ///< one of the last rounds, which repair sharp triangles
+  bool checks_pairs = true;      ///< whether the move of all nodes looks for intersections
 };
 
 /// A mesh that is fitted to samples of a scan. Functions that change the mesh also update `of`,
@@ -53,9 +54,11 @@ struct FitState {
   std::vector<Vector3> sample_normals;        ///< sum of their normals
   std::vector<double> spacing;                ///< wanted at each node; empty: 1
   std::vector<double> ring_edges;             ///< mean edge about each node, at the last step
+  std::vector<Vector3> about;                 ///< node_normals at the last list_samples
   double edge = 0.0;                          ///< mean edge
   double mean_square = 0.0;                   ///< of the samples' distances
   TriangleHash hash;
+  bool had_pairs = false;  ///< whether any triangles intersected at the last look
 
   /// `near`: a node near each sample, on its sheet of the surface. From there, each sample is
   /// placed on the nearest triangle that faces about as it does, because a thin body has another
@@ -90,7 +93,7 @@ struct FitState {
 
   /// Walks every sample to the nearest triangle and updates the mean square.
   void place_samples(const Execution& execution);
-  /// Rebuilds `of` and `sample_normals`.
+  /// Rebuilds `of`, `sample_normals` and `about`.
   void list_samples();
   /// Assigns samples to the nearest of some triangles; they must not lie in others.
   void deal(const std::vector<std::int32_t>& pool, const std::vector<std::int32_t>& triangles);

@@ -22,6 +22,7 @@
 #include "wscvt/nodes/self_intersections.h"
 #include "wscvt/nodes/space_order.h"
 #include "wscvt/nodes/surface_fit.h"
+#include "wscvt/nodes/triangle_hash.h"
 #include "wscvt/nodes/volume_offset.h"
 
 namespace wscvt {
@@ -307,10 +308,18 @@ EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing&
   for (int round = 0; round < most_partings; ++round) {
     const PartingReport parted = part_triangles(nodes, execution);
     report.mended_intersections += parted.before - parted.after;
-    if (parted.before == parted.after) break;
+    report.self_intersections = parted.after;
+    if (parted.before == parted.after) return nodes;
     report.volume_offset += offset_to_volume(nodes.points, nodes.triangles, parts.volume);
   }
+  report.self_intersections = self_intersections({nodes.points, nodes.triangles}, execution).size();
   return nodes;
+}
+
+bool may_intersect(const EditMesh& mesh, const Execution& execution) {
+  TriangleHash hash;
+  hash.build(mesh, mean_edge_length(mesh));
+  return !hash.pairs(mesh, execution).empty();
 }
 
 }  // namespace
@@ -358,15 +367,18 @@ std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
       even_nodes(placing.nodes, places, placing.surface, evening_steps, execution.part(0.2, 0.4));
   report.evening_steps = evening.steps;
   report.evening_flips = evening.flips;
-  const PartingReport parted = part_triangles(placing.nodes, execution.part(0.4, 0.42));
-  report.mended_intersections = parted.before - parted.after;
+  // The fit separates what it can by itself; rounded numbers tell whether there is anything.
+  if (!options_.fitted || may_intersect(placing.nodes, execution)) {
+    const PartingReport parted = part_triangles(placing.nodes, execution.part(0.4, 0.42));
+    report.mended_intersections = parted.before - parted.after;
+    report.self_intersections = parted.after;
+  }
   EditMesh nodes = options_.fitted
-                       ? fit(parts, options_, placing, report, execution.part(0.42, 0.95))
+                       ? fit(parts, options_, placing, report, execution.part(0.42, 1.0))
                        : std::move(placing.nodes);
   report.mean_edge_ratio = mean_edge_ratio(nodes);
   result.cell_areas = voronoi_areas(nodes);
   result.mesh = {std::move(nodes.points), std::move(nodes.triangles)};
-  report.self_intersections = self_intersections(result.mesh, execution.part(0.95, 1.0)).size();
   return result;
 }
 

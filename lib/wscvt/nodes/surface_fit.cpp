@@ -43,6 +43,10 @@ constexpr double valence_price = 0.01;
 constexpr int first_relocation = 2;
 constexpr int rounds_without_relocation = 8;
 
+/// Intersections are looked for in every fourth round, in the last two, and after a round that had
+/// any. What a round leaves, the next look mends.
+constexpr int rounds_a_look = 4;
+
 double cosine_of_degrees(double degrees) { return std::cos(degrees * pi / 180.0); }
 
 class SurfaceFit {
@@ -87,6 +91,8 @@ class SurfaceFit {
     FitRound& now = state_.round;
     const int first_late = dial_.rounds - dial_.late_rounds;
     now.late = round >= first_late;
+    now.checks_pairs = state_.had_pairs || round % rounds_a_look == 0 || round >= dial_.rounds - 2;
+    if (now.checks_pairs) state_.had_pairs = false;
     now.evenness = lead(round);
     now.valence = valence_price * std::min(1.0, now.evenness);
     now.least_angle = dial_.least_angle;
@@ -131,6 +137,7 @@ class SurfaceFit {
     constexpr int first_forced = 2;
     constexpr double growth = 4.0;
     state_.round.late = true;
+    state_.round.checks_pairs = true;
     for (int pass = 0; pass < most_passes && has_angles_below(degrees); ++pass) {
       execution_.report(1.0, "Fitting the nodes");
       state_.list_samples();
