@@ -6,6 +6,7 @@
 #include "report_file.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt::filter {
 
@@ -76,6 +77,23 @@ ParameterList remesh_parameters() {
   };
 }
 
+namespace {
+
+/// Coefficients of grains with overhangs need a map to the sphere, which the plugin has not.
+SeriesCoefficients series_of_radius(const IndexedMesh& scan, int degree,
+                                    const Execution& execution) {
+  SeriesCoefficients series = radial_coefficients(scan, degree, execution);
+  if (series.radius.empty()) {
+    throw Error(ErrorCode::NotStarShaped,
+                "Rays from the centroid do not see all of the scan, so its SH series is not one of "
+                "the radius. Leave the parameter CoefficientsFile empty, or write the coefficients "
+                "of x, y and z by the program: wscvt remesh --coefficients.");
+  }
+  return series;
+}
+
+}  // namespace
+
 RemeshSettings read_remesh_settings(const ParameterValues& values) {
   const CheckedValues checked(remesh_parameters(), values);
   RemeshSettings settings;
@@ -105,7 +123,7 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   check_remesh_report_file(settings.result.report_file);
   settings.keep_attributes = checked.flag("KeepColors");
   settings.coefficients_file = checked.text("CoefficientsFile");
-  options.measures.coefficients = !settings.coefficients_file.empty();
+  if (!settings.coefficients_file.empty()) options.measures.series = series_of_radius;
   check_output_file(settings.coefficients_file, {".json", ".sh"}, "CoefficientsFile");
   check_different_files(settings.result.report_file, "ReportFile", settings.coefficients_file,
                         "CoefficientsFile");

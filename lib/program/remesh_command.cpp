@@ -10,6 +10,7 @@
 #include "exit_code.h"
 #include "output_paths.h"
 #include "remesh_arguments.h"
+#include "toolbox/map/scan_harmonics.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/file_name.h"
@@ -81,7 +82,7 @@ int run(const RemeshArguments& arguments) {
     for (const std::string& report : common.reports) check_remesh_report(report);
   });
   RemeshOptions options = arguments.options;
-  options.measures.coefficients = !arguments.coefficients.empty();
+  if (!arguments.coefficients.empty()) options.measures.series = scan_harmonics;
 
   // For pages and signed distances.
   options.measures.repaired_scan =

@@ -15,6 +15,7 @@
 #include "dense_grain.h"
 #include "support/test_shapes.h"
 #include "toolbox/exchange/distance_grid.h"
+#include "toolbox/map/scan_harmonics.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -142,7 +143,7 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
     o.points = true;
     o.envelope.opening_percent = 5.0;
   });
-  add("remesh with coefficients", [](RemeshOptions& o) { o.measures.coefficients = true; });
+  add("remesh with coefficients", [](RemeshOptions& o) { o.measures.series = scan_harmonics; });
   for (const std::string ending : {".ply", ".obj", ".off", ".stl"}) {
     const std::string path =
         (std::filesystem::temp_directory_path() / ("wscvt_progress_gaps" + ending)).string();

@@ -1465,7 +1465,7 @@ TEST(FilterParameters, EachReachesItsOwnOption) {
   EXPECT_EQ(all.options.degree, 7);
   EXPECT_EQ(all.options.max_repaired_area_percent, 12.5);
   EXPECT_TRUE(all.options.points && all.options.measures.distances);
-  EXPECT_TRUE(all.options.measures.node_curvatures && all.options.measures.coefficients);
+  EXPECT_TRUE(all.options.measures.node_curvatures && all.options.measures.series);
   EXPECT_FALSE(all.new_layer || all.keep_attributes);
   EXPECT_EQ(all.result.quality, filter::VertexQuality::Curvature);
   EXPECT_TRUE(all.result.colour_by_quality);

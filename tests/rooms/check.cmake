@@ -5,7 +5,7 @@
 # What stands in no room, remesh.h, conducts them and comes last. Only a new room needs a line here.
 cmake_minimum_required(VERSION 3.22)
 set(order wscvt/base wscvt/sphere wscvt/mesh_files wscvt/repair wscvt/surface wscvt/measures
-  wscvt/tessellation wscvt/nodes wscvt/remesh wscvt/report toolbox/clump toolbox/convex toolbox/sample
+  wscvt/tessellation wscvt/nodes wscvt/remesh wscvt/report toolbox/map toolbox/clump toolbox/convex toolbox/sample
   toolbox/report toolbox/exchange toolbox/volume)
 
 file(GLOB_RECURSE files RELATIVE ${library_dir} ${library_dir}/wscvt/*.h ${library_dir}/wscvt/*.cpp

@@ -14,9 +14,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/mapped_surface.h"
 #include "wscvt/surface/quadric_surface.h"
-#include "wscvt/surface/sphere_map.h"
 
 namespace wscvt {
 namespace {
@@ -84,41 +82,6 @@ TEST(SphereSurface, DerivativesAreThoseOfThePosition) {
   const HarmonicSurface series = lumpy_series();
   expect_derivatives(series, 1e-5, 1e-7);
   expect_derivatives(bent_map(), 1e-5, 1e-7);
-}
-
-TEST(SphereSurface, DerivativesOfAMappedScanAreThoseWithinAFace) {
-  // So few faces that hardly a step leaves one; where it does nothing can be said.
-  const IndexedMesh mesh = test::box(1, 2, 3);
-  const MappedSurface surface(mesh, map_to_sphere(mesh, Execution(1)).directions, Execution(1));
-  const double step = 1e-5;
-  int compared = 0;
-  for (const Vector3& u : random_directions(200, test::announced(10))) {
-    SurfaceJet jet;
-    surface.evaluate_jets(&u, 1, Derivatives::Second, &jet);
-    if (surface.locate(u).weights.minCoeff() < 1e-3) continue;
-    ++compared;
-    for (int a = 0; a < 3; ++a) {
-      const std::vector<Vector3> around{(u + step * Vector3::Unit(a)).normalized(),
-                                        (u - step * Vector3::Unit(a)).normalized()};
-      const auto jets = surface.surface_jets(around, Derivatives::First, Execution(1));
-      const Vector3 slope = (jets[0].position - jets[1].position) / (2.0 * step);
-      EXPECT_LT((jet.jacobian.col(a) - slope).norm(), 1e-7 * (1.0 + slope.norm()));
-      const double length = std::sqrt(1.0 + step * step);
-      for (int k = 0; k < 3; ++k) {
-        const Vector3 bend =
-            (jets[0].jacobian.row(k) - jets[1].jacobian.row(k)).transpose() / (2.0 * step * length);
-        // The length differs by u's own part of the step, to first order.
-        const Vector3 scaled = bend - u[a] * jet.jacobian.row(k).transpose();
-        EXPECT_LT((jet.hessians[static_cast<std::size_t>(k)].col(a) - scaled).norm(),
-                  1e-5 * (1.0 + scaled.norm()));
-      }
-    }
-    // Flat.
-    const PrincipalCurvatures curvatures = principal_curvatures(jet, u);
-    EXPECT_NEAR(curvatures.maximum, 0.0, 1e-9);
-    EXPECT_NEAR(curvatures.minimum, 0.0, 1e-9);
-  }
-  EXPECT_GT(compared, 100);
 }
 
 TEST(SphereSurface, AgreesWithTheRadialFormulas) {

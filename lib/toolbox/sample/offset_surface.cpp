@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "toolbox/map/sphere_map.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/sphere/sphere_triangulation.h"
-#include "wscvt/surface/sphere_map.h"
 
 namespace wscvt {
 

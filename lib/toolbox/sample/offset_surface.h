@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
+#include "toolbox/map/mapped_surface.h"
 #include "toolbox/sample/harmonic_grid.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/volume/byte_source.h"
 
+#ifdef WSCVT_HAS_PACKERS
 #include <bzlib.h>
+#endif
 #include <zlib.h>
 
 #include <algorithm>
@@ -118,6 +120,7 @@ class InflatedBytes : public ByteSource {
   z_stream stream_{};
 };
 
+#ifdef WSCVT_HAS_PACKERS
 class BunzippedBytes : public ByteSource {
  public:
   BunzippedBytes(std::unique_ptr<ByteSource> packed, std::string path)
@@ -176,6 +179,7 @@ class BunzippedBytes : public ByteSource {
   std::vector<char> buffer_;
   bz_stream stream_{};
 };
+#endif
 
 /// Six-bit values of the characters; -1 for other characters.
 constexpr std::array<signed char, 256> base64_values() {
@@ -450,7 +454,14 @@ std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, s
 }
 
 std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
+#ifdef WSCVT_HAS_PACKERS
   return std::make_unique<BunzippedBytes>(std::move(packed), std::move(path));
+#else
+  (void)packed;
+  throw Error(ErrorCode::InputOutput,
+              "\"" + path +
+                  "\" is packed by bzip2, which this program was built without. Unpack it first.");
+#endif
 }
 
 std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text) {

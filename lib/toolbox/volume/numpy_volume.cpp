@@ -2,7 +2,9 @@
 // NumPy's arrays (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html), single
 // or in the zip file of savez. The header is a line of Python, for which Debian has no library
 // except Python itself; minizip reads the zip file.
+#ifdef WSCVT_HAS_PACKERS
 #include <unzip.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -123,6 +125,7 @@ VoxelType numpy_type_of(const std::string& text, const std::string& path) {
                           ", but labels are whole numbers. Save it as uint16 or uint32.");
 }
 
+#ifdef WSCVT_HAS_PACKERS
 /// A member of a zip file.
 class ZipBytes : public ByteSource {
  public:
@@ -195,6 +198,7 @@ std::vector<std::pair<std::string, std::uint64_t>> members_of(const std::string&
   unzClose(zip);
   return members;
 }
+#endif
 
 ShapedVolume shaped(const NumpyHeader& header, const VolumeChoice& choice,
                     const std::string& path) {
@@ -225,6 +229,7 @@ std::unique_ptr<LabelVolume> open_npy(const std::string& path, const VolumeChoic
   return volume_of_files(volume.geometry, numpy_type_of(header.type, path), data);
 }
 
+#ifdef WSCVT_HAS_PACKERS
 std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoice& choice) {
   const auto members = members_of(path);
   std::vector<std::string> names;
@@ -248,5 +253,11 @@ std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoic
                                        static_cast<std::uint64_t>(type.bytes)),
                          path);
 }
+#else
+std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoice&) {
+  refuse_volume(path,
+                "cannot be read: this program was built without minizip. Save the array as .npy.");
+}
+#endif
 
 }  // namespace wscvt

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#ifdef WSCVT_HAS_PACKERS
 #include <png.h>
+#endif
 
 #include <csetjmp>
 #include <cstdio>
@@ -13,6 +15,8 @@
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
+
+#ifdef WSCVT_HAS_PACKERS
 
 namespace {
 
@@ -207,5 +211,15 @@ std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const Vol
   set_lattice(geometry, Eigen::Matrix3d::Identity(), Vector3::Constant(0.5), choice, slices.folder);
   return std::make_unique<PngStack>(geometry, image, static_cast<int>(channel), slices.paths);
 }
+
+#else
+
+std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const VolumeChoice&) {
+  refuse_volume(slices.folder,
+                "cannot be read: this program was built without libpng. Install libpng-dev and "
+                "build it again, or save the volume as .nrrd.");
+}
+
+#endif
 
 }  // namespace wscvt

@@ -16,7 +16,6 @@
 #include "wscvt/remesh/as_published.h"
 #include "wscvt/remesh/on_scan.h"
 #include "wscvt/remesh/remesh_units.h"
-#include "wscvt/remesh/scan_harmonics.h"
 
 namespace wscvt {
 
@@ -86,9 +85,9 @@ void choose_method(const RemeshOptions& options, const ScanMethod* before,
                        ? before->with(*on_scan, with_curvatures)
                        : std::make_unique<ScanMethod>(grain.scan, *on_scan, most_nodes(options),
                                                       with_curvatures, execution.part(0.0, 0.8));
-    if (options.measures.coefficients) {
+    if (options.measures.series) {
       grain.coefficients =
-          scan_harmonics(grain.scan.mesh, options.degree, execution.part(0.8, 0.9));
+          options.measures.series(grain.scan.mesh, options.degree, execution.part(0.8, 0.9));
     }
   } else {
     const auto& published = std::get<AsPublishedOptions>(options.method);

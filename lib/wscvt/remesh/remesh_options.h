@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
 #include "wscvt/nodes/nodes_options.h"
@@ -145,9 +146,14 @@ inline constexpr NumberOption<double> max_overhang_option = {
 struct MeasureOptions {
   bool distances = false;        ///< fill RemeshResult::distances and vertex_distances
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
-  bool coefficients = false;     ///< fill RemeshResult::coefficients, also on the scan
   bool repaired_scan = false;    ///< fill RemeshResult::repaired_scan
   bool suggestions = true;       ///< fill RemeshResult::suggestions if the remesh is not accurate
+  /// Fits RemeshResult::coefficients to a scan that is remeshed on the scan, to the degree of the
+  /// options. It is called with the repaired scan, its handles cut, centred and of equivalent
+  /// radius
+  /// 1. `scan_harmonics` of toolbox/map fits any grain without handles, `radial_coefficients` of
+  /// harmonic_surface.h one without overhangs. Empty: no coefficients on the scan.
+  std::function<SeriesCoefficients(const IndexedMesh&, int degree, const Execution&)> series;
   /// Returns the mesh to be written, if coordinates are rounded or rotated before writing.
   /// Self-intersections are counted on this mesh. Empty: the result's own mesh.
   std::function<IndexedMesh(const RemeshResult&)> written;
@@ -164,8 +170,8 @@ struct RemeshOptions {
   EnvelopeOptions envelope;
   /// Max. fraction of the scan's area that repairs may change, in %, 0 to 100.
   double max_repaired_area_percent = MeshCheckOptions().mended_area_limit_percent;
-  /// Degree of the SH series. AsPublished uses it for the surface, OnScan only for the coefficients
-  /// that `measures.coefficients` asks for.
+  /// Degree of the SH series. AsPublished uses it for the surface, OnScan only for
+  /// `measures.series`.
   int degree = usual_harmonic_degree;
   MeasureOptions measures;
 };

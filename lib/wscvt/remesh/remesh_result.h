@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -40,13 +39,6 @@ struct AsPublishedReport {
   RelaxationReport relaxation;
 };
 
-/// Coefficients of an SH series about the result's centre, length. The series is of the radius if
-/// rays from the centroid see the whole grain, else of x, y and z (see HarmonicMap).
-struct SeriesCoefficients {
-  std::vector<double> radius;
-  std::array<std::vector<double>, 3> map;
-};
-
 /// A remesh and the reports of its stages, all in the input's units and coordinates.
 struct RemeshResult {
   IndexedMesh mesh;                      ///< exactly N points, closed, outward (to_mesh: OpenMesh)
@@ -66,7 +58,8 @@ struct RemeshResult {
   /// else 0.
   double steep_area_fraction = 0.0;
   std::variant<OnScanReport, AsPublishedReport> method;
-  SeriesCoefficients coefficients;  ///< as published of a scan, on the scan if asked for
+  /// As published of a scan; on the scan what `measures.series` returned.
+  SeriesCoefficients coefficients;
   /// Rms distance from the scan to the remesh; length. Measured at the samples of `distances`, or
   /// at 5,000 points of the scan without `distances`.
   double rms_distance = 0.0;
@@ -94,7 +87,7 @@ inline const AsPublishedReport* as_published_report(const RemeshResult& result) 
 double error_percent(const RemeshResult& result, ErrorMeasure measure);
 
 /// Writes the coefficients of a result by write_harmonics or write_harmonic_map. On the scan,
-/// `measures.coefficients` must have been set. Throws Error: InvalidInput for a result without
+/// `measures.series` must have been set. Throws Error: InvalidInput for a result without
 /// coefficients, and the errors of both functions.
 void write_coefficients(const std::string& path, const RemeshResult& result);
 

@@ -13,8 +13,10 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/plastic_sequence.h"
+#include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
+#include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
 
@@ -289,6 +291,17 @@ HarmonicFit fit_harmonics(const RadialSurface& surface, int degree, const Execut
 void scale(HarmonicFitReport& report, double unit) {
   report.residual *= unit;
   report.smallest_radius *= unit;
+}
+
+SeriesCoefficients radial_coefficients(const IndexedMesh& scan, int degree,
+                                       const Execution& execution) {
+  SeriesCoefficients coefficients;
+  const double overhang = folded_solid_angle(scan, Vector3::Zero(), execution);
+  if (overhang == 0.0) {
+    const MeshSurface rays(scan, Vector3::Zero(), 1.0, overhang, execution);
+    coefficients.radius = fit_harmonics(rays, degree, execution).surface.coefficients();
+  }
+  return coefficients;
 }
 
 }  // namespace wscvt

@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
 
@@ -114,6 +117,13 @@ class HarmonicMap : public SphereSurface {
   std::array<std::vector<double>, 3> coefficients_;
   std::array<HarmonicSeries, 3> series_;
 };
+
+/// Returns the series of the radius of a closed scan about the origin, in its units (see
+/// fit_harmonics); without coefficients if rays from the origin do not see all of the scan (see
+/// folded_solid_angle). Throws Error: InvalidInput for a degree out of range, NumericalFailure,
+/// Cancelled.
+SeriesCoefficients radial_coefficients(const IndexedMesh& scan, int degree,
+                                       const Execution& execution);
 
 // Files of such surfaces. All functions below throw Error(InputOutput) if the file cannot be
 // opened, read or written. They throw Error(InvalidInput), naming the file and the line, if the

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "wscvt/base/option.h"
 
@@ -58,23 +60,11 @@ struct HarmonicFitReport {
   double smallest_radius = 0.0;  ///< of the series on a fine grid, length, > 0
 };
 
-/// Report of a map to the sphere. Distortions are of the triangles with an area above zero.
-struct SphereMapReport {
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  int levels = 0;
-  int sweeps = 0;                   ///< over all levels
-  std::size_t clipped_kernels = 0;  ///< vertices moved to the centroid of their ring's kernel
-  std::size_t mended_kernels = 0;   ///< vertices whose ring had to be widened first
-  /// (s1 / s2 + s2 / s1) / 2 of the stretches s1, s2 of a triangle; 1: angles are kept. The mean is
-  /// over the area.
-  double mean_angle_distortion = 1.0;
-  double largest_angle_distortion = 1.0;
-  /// (Area on the sphere / 4 pi) / (area on the surface / its total): 1: areas are kept.
-  double smallest_area_ratio = 1.0;
-  double largest_area_ratio = 1.0;
-  /// Symmetric Dirichlet energy / energy of an isometry, mean over the area; >= 1.
-  double energy = 1.0;
+/// Coefficients of an SH series about the origin or about a result's centre, length. The series is
+/// of the radius if rays from there see the whole grain, else of x, y and z (see HarmonicMap).
+struct SeriesCoefficients {
+  std::vector<double> radius;
+  std::array<std::vector<double>, 3> map;
 };
 
 }  // namespace wscvt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/kernel_insertion.h"
+#include "toolbox/map/kernel_insertion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/harmonic_map.h"
+#include "toolbox/map/harmonic_map.h"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
+#include "toolbox/map/mapped_surface.h"
+#include "toolbox/map/sphere_map.h"
 #include "wscvt/base/error.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/surface/mapped_surface.h"
-#include "wscvt/surface/sphere_map.h"
 
 namespace wscvt {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/remesh/remesh_result.h"
+#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
 

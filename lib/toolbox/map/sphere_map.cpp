@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/sphere_map.h"
+#include "toolbox/map/sphere_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,15 +7,15 @@
 #include <string>
 #include <utility>
 
+#include "toolbox/map/kernel_insertion.h"
+#include "toolbox/map/map_energy.h"
+#include "toolbox/map/mesh_collapse.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/solid_angle.h"
-#include "wscvt/surface/kernel_insertion.h"
-#include "wscvt/surface/map_energy.h"
-#include "wscvt/surface/mesh_collapse.h"
 
 namespace wscvt {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/map_energy.h"
+#include "toolbox/map/map_energy.h"
 
 #include <algorithm>
 #include <cmath>

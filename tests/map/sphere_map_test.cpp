@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/sphere_map.h"
+#include "toolbox/map/sphere_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/harmonic_equations.h"
+#include "toolbox/map/harmonic_equations.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/mesh_collapse.h"
+#include "toolbox/map/mesh_collapse.h"
 
 #include <algorithm>
 #include <array>

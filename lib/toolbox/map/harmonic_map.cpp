@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/harmonic_map.h"
+#include "toolbox/map/harmonic_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "toolbox/map/harmonic_equations.h"
+#include "toolbox/map/mapped_surface.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/harmonic_equations.h"
-#include "wscvt/surface/mapped_surface.h"
 
 namespace wscvt {
 

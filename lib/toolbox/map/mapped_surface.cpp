@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/mapped_surface.h"
+#include "toolbox/map/mapped_surface.h"
 
 #include <algorithm>
 #include <array>
