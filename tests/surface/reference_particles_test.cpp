@@ -45,7 +45,7 @@ TEST(ReferenceParticles, VolumeAndAreaOfReferenceParticle) {
       const HarmonicSurface surface =
           read_complex_harmonics((fs::path(folder) / fields[0]).string(), std::stoi(fields[12]));
       const SurfaceIntegrals integrals = integrate(surface, 200, Execution(1));
-      // tests/study measured at most 4e-6 %, the tables' four decimals, and 0.002 %.
+      // tests/figures/study measured at most 4e-6 %, the tables' four decimals, and 0.002 %.
       EXPECT_LT(std::abs(relative_error_percent(integrals.volume, std::stod(fields[7]))), 1e-5);
       EXPECT_LT(std::abs(relative_error_percent(integrals.area, std::stod(fields[8]))), 0.003);
     }

@@ -36,8 +36,8 @@ EXCEPTIONS = {
     "GLOSSARY.md": "lists them",
     "CHANGELOG.md": "names what version 2 had",
     "lib/wscvt/remesh/option_advice.cpp": "names what version 2 had",
-    "tests/study": "the paper's own words, and programs of the study",
-    "tests/benchmarks": "other programs' words",
+    "tests/figures/study": "the paper's own words, and programs of the study",
+    "tests/figures/benchmarks": "other programs' words",
 }
 
 # Where such a word is allowed: in file names, code, and other senses.

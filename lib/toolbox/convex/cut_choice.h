@@ -13,7 +13,7 @@ namespace wscvt {
 
 /// Cost of a convex hull that represents pieces of a grain: its volume less the volume of the
 /// pieces, times the square root of its largest distance from the grain. Volume alone would leave
-/// deep narrow dents, distance alone shallow wide ones (tests/study/convex.md).
+/// deep narrow dents, distance alone shallow wide ones (tests/figures/study/convex.md).
 class HullCost {
  public:
   /// `grid` covers the whole grain and must outlive this. Distances below `tolerance` (length) are
