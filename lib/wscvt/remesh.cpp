@@ -9,6 +9,7 @@
 
 #include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
+#include "wscvt/measures/carried_attributes.h"
 #include "wscvt/remesh/prepared_grain.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
@@ -83,6 +84,18 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
     throw Error(refused.code(), std::string(refused.what()) + " " + tried_wrap_advice(*opening));
   }
 }
+
+RemeshResult remesh(const Mesh& scan, const RemeshOptions& options, const Execution& execution) {
+  const IndexedMesh flat = to_indexed(scan);
+  const MeshAttributes attributes = attributes_of(scan);
+  RemeshResult result = remesh(flat, options, execution);
+  if (!attributes.empty()) {
+    result.attributes = carried_attributes(flat, attributes, result.mesh, execution);
+  }
+  return result;
+}
+
+Mesh to_mesh(const RemeshResult& result) { return to_mesh(result.mesh, result.attributes); }
 
 std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
                                         const std::vector<int>& node_counts,

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh.h"
 #include "wscvt/remesh/remesh_options.h"
 #include "wscvt/remesh/remesh_result.h"
 
@@ -28,6 +29,14 @@ struct GrainSurface;
 /// throw its errors. `original` then describes this surface, and the result contains a warning.
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options,
                     const Execution& execution = Execution());
+
+/// Remeshes a half-edge mesh and carries its colours and its properties of double, float and int to
+/// the result (see attributes_of and carried_attributes). Throws Error as for a flat mesh.
+RemeshResult remesh(const Mesh& scan, const RemeshOptions& options,
+                    const Execution& execution = Execution());
+
+/// Returns the remesh as a half-edge mesh with what was carried as its properties (see to_mesh).
+Mesh to_mesh(const RemeshResult& result);
 
 /// Remeshes a scan to several numbers of nodes and prepares the scan once. Each result equals the
 /// result of remesh for this number, in the order of `node_counts`; only the first contains the

@@ -32,6 +32,44 @@ TEST(Mesh, OfNothingIsEmpty) {
   EXPECT_TRUE(to_indexed(Mesh()).points.empty());
 }
 
+TEST(Mesh, AttributesAreProperties) {
+  const IndexedMesh flat = test::tetrahedron(1);
+  MeshAttributes attributes;
+  attributes.of_vertices = {{"red", ScalarType::Uint8, {1, 2, 3, 4}},
+                            {"green", ScalarType::Uint8, {5, 6, 7, 8}},
+                            {"blue", ScalarType::Uint8, {9, 10, 11, 255}},
+                            {"quality", ScalarType::Float64, {0.25, 1e9, -3, 4}},
+                            {"single", ScalarType::Float32, {0.5, 1, 2, 3}}};
+  attributes.of_faces = {{"label", ScalarType::Int32, {-4, 3, 2, 1}}};
+  Mesh mesh = to_mesh(flat, attributes);
+  EXPECT_EQ(mesh.color(Mesh::VertexHandle(3)), Mesh::Color(4, 8, 255));
+  const auto expect_same = [](const std::vector<MeshAttribute>& one,
+                              const std::vector<MeshAttribute>& two) {
+    ASSERT_EQ(one.size(), two.size());
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      EXPECT_EQ(one[k].name, two[k].name);
+      EXPECT_EQ(one[k].type, two[k].type);
+      EXPECT_EQ(one[k].values, two[k].values);
+    }
+  };
+  expect_same(attributes_of(mesh).of_vertices, attributes.of_vertices);
+  expect_same(attributes_of(mesh).of_faces, attributes.of_faces);
+  attributes.of_faces[0].values.pop_back();
+  EXPECT_ERROR(to_mesh(flat, attributes), InvalidInput);
+
+  // Without a deleted vertex, which all faces but one have, the others get new numbers.
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_face_status();
+  mesh.delete_vertex(Mesh::VertexHandle(0), false);
+  const IndexedMesh left = to_indexed(mesh);
+  ASSERT_EQ(left.points.size(), 3U);
+  ASSERT_EQ(left.triangles.size(), 1U);
+  for (const std::int32_t v : left.triangles[0]) EXPECT_LT(v, 3);
+  EXPECT_EQ(attributes_of(mesh).of_vertices[3].values, (std::vector<double>{1e9, -3, 4}));
+  EXPECT_EQ(attributes_of(mesh).of_faces[0].values.size(), 1U);
+}
+
 TEST(Mesh, RefusesFacesThatDoNotFit) {
   IndexedMesh out_of_range = test::tetrahedron(1);
   out_of_range.triangles[2][0] = 4;

@@ -107,6 +107,12 @@ if(NOT output MATCHES "two-sided rms 0\\.00[0-9]+, largest .*vertex [0-9]+ at")
   message(FATAL_ERROR "The distances are not told:\n${output}")
 endif()
 
+run(${work_dir}/build/half_edges ${source_dir}/meshes/sand_5658.ply)
+# A closed mesh of genus 0 has 3 n - 6 edges.
+if(NOT output MATCHES "500 nodes with 2988 neighbours; the sharpest edge, [0-3]\\.[0-9]+ rad, is at height")
+  message(FATAL_ERROR "The half-edges are not told:\n${output}")
+endif()
+
 file(READ ${source_dir}/lib/examples/one_grain.cpp program)
 string(REGEX REPLACE "^//[^\n]*\n" "" program "${program}")
 file(READ ${source_dir}/lib/README.md readme)

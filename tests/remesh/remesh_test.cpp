@@ -850,10 +850,45 @@ TEST(Remesh, WarnsOfCoordinatesThatTheFileHasSpoilt) {
 
 TEST(Remesh, HalfEdgeMeshesGoInAndOut) {
   const RemeshResult flat = remesh(sand(), options_of(200, Weighting::Area), Execution(1));
-  const RemeshResult half_edges =
-      remesh(to_indexed(to_mesh(sand())), options_of(200, Weighting::Area), Execution(1));
-  EXPECT_EQ(flat.mesh.points, half_edges.mesh.points);
-  EXPECT_EQ(to_mesh(half_edges.mesh).n_vertices(), 200U);
+  // Colours and numbers that say where a vertex and a face are.
+  const IndexedMesh scan = sand();
+  Mesh mesh = to_mesh(scan);
+  mesh.request_vertex_colors();
+  OpenMesh::VPropHandleT<double> height;
+  OpenMesh::FPropHandleT<int> label;
+  mesh.add_property(height, "height");
+  mesh.add_property(label, "label");
+  const auto is_above = [](const Mesh::Point& p) { return p[2] > 0.0; };
+  for (const auto v : mesh.vertices()) {
+    mesh.property(height, v) = mesh.point(v)[2];
+    mesh.set_color(v, Mesh::Color(200, is_above(mesh.point(v)) ? 100 : 0, 50));
+  }
+  for (const auto f : mesh.faces()) {
+    mesh.property(label, f) = is_above(mesh.calc_face_centroid(f)) ? 7 : 3;
+  }
+  const RemeshResult result = remesh(mesh, options_of(200, Weighting::Area), Execution(1));
+  EXPECT_EQ(flat.mesh.points, result.mesh.points);
+  const Mesh half_edges = to_mesh(result);
+  ASSERT_EQ(half_edges.n_vertices(), 200U);
+  ASSERT_TRUE(half_edges.has_vertex_colors());
+  ASSERT_TRUE(half_edges.get_property_handle(height, "height"));
+  ASSERT_TRUE(half_edges.get_property_handle(label, "label"));
+  // Nodes lie off the scan by some per cent of its radius.
+  const double near = 0.1 * result.input.equivalent_radius;
+  for (const auto v : half_edges.vertices()) {
+    const Mesh::Point p = half_edges.point(v);
+    EXPECT_NEAR(half_edges.property(height, v), p[2], near);
+    EXPECT_EQ(half_edges.color(v)[0], 200);
+    if (std::abs(p[2]) > near) {
+      EXPECT_EQ(half_edges.color(v)[1], is_above(p) ? 100 : 0);
+    }
+  }
+  for (const auto f : half_edges.faces()) {
+    const Mesh::Point p = half_edges.calc_face_centroid(f);
+    if (std::abs(p[2]) > near) {
+      EXPECT_EQ(half_edges.property(label, f), is_above(p) ? 7 : 3);
+    }
+  }
 }
 
 /// Fitted nodes, with their distances.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
@@ -41,7 +42,10 @@ struct AsPublishedReport {
 
 /// A remesh and the reports of its stages, all in the input's units and coordinates.
 struct RemeshResult {
-  IndexedMesh mesh;                      ///< exactly N points, closed, outward (to_mesh: OpenMesh)
+  IndexedMesh mesh;  ///< exactly N points, closed, outward (to_mesh: OpenMesh)
+  /// Colours and numbers of the scan, carried to the mesh (see carried_attributes); of a half-edge
+  /// mesh.
+  MeshAttributes attributes;
   std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
