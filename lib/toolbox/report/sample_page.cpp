@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "toolbox/report/sample_page_script.h"
 #include "toolbox/report/sample_report.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
@@ -19,6 +18,9 @@
 #include "wscvt/report/report.h"
 
 namespace wscvt {
+
+/// sample_page.js, which CMake makes a text.
+extern const char* const sample_page_script;
 
 namespace {
 

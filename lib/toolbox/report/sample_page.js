@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/report/sample_page_script.h"
-
-namespace wscvt {
-
-// The parts form one text. Compilers limit the length of a single literal.
-const char* const sample_page_script = R"JS(
+// Draws the figures of a sample's HTML report from the JSON in its element "data". Loads no other files.
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
 const colours = ["#0a58b4", "#c2570c"];
@@ -82,8 +77,7 @@ function names(drawnSamples) {
   return drawnSamples.map((sample, k) => text(left + 8, top_ + 14 + 15 * k, sample.name,
       `fill="${colours[k]}"`)).join("");
 }
-)JS"
-                                       R"JS(
+
 // Axes: numbers at 1, 2 and 5 times powers of ten.
 function ticks(low, high, logarithmic) {
   const list = [];
@@ -171,8 +165,7 @@ function sizeCurve() {
   });
   return {svg: svgOf(body + names(data.samples)), rows: rows};
 }
-)JS"
-                                       R"JS(
+
 // Weights in the cells of a grid as colours, the fullest cell darkest.
 function shade(share) {
   const part = Math.sqrt(share);
@@ -270,8 +263,7 @@ function sneedFolk(sample, weighting) {
                'text-anchor="middle"');
   return {svg: svgOf(body), rows: rows};
 }
-)JS"
-                                       R"JS(
+
 function histogram(name, weighting) {
   const lists = data.samples.map(sample => values(sample, name) || []);
   const [low, high] = range(lists);
@@ -355,8 +347,7 @@ function errors(name) {
   levels.nodes.forEach((n, k) => rows.push([n, row.median[k], row.percent_90[k]]));
   return {svg: svgOf(body), rows: rows};
 }
-)JS"
-                                       R"JS(
+
 // Controls.
 function choice(place, label, options, chosen, changed) {
   const box = document.createElement("label");
@@ -480,6 +471,3 @@ if (thumbs.length > 0) {
   });
   show();
 }
-)JS";
-
-}  // namespace wscvt
