@@ -17,8 +17,8 @@
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/harmonic_surface.h"
+#include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt::program {
 
@@ -56,8 +56,8 @@ bool hold_all(const std::vector<DescriptorValue>& rows, const std::vector<std::s
 /// Returns whether all descriptors are quick. Throws for an unknown descriptor, before grains are
 /// read.
 bool are_quick(const std::vector<std::string>& keys) {
-  const IndexedMesh sphere = subdivided_sphere(2);
   const Execution one_thread(1);
+  const IndexedMesh sphere = mesh_of_surface(Ellipsoid(Vector3::Ones()), 2, one_thread);
   if (hold_all(quick_descriptors(sphere, one_thread), keys)) return true;
   const std::vector<DescriptorValue> rows =
       list_descriptors(describe_shape_in_detail(sphere, DetailedOptions(), one_thread));

@@ -40,27 +40,14 @@ list(SORT installed)
 if(NOT named STREQUAL installed)
   message(FATAL_ERROR "lib/README.md's table of rooms names\n${named}\nInstalled are\n${installed}")
 endif()
-# The shells of the library build on these as well: how they write texts and files, tables of samples and
-# volumes, contacts of a batch, and virtual grains, which the program and Python offer, but no C++ interface yet.
-set(of_the_project wscvt/base/convex_hull.h wscvt/base/lower_case.h toolbox/clump/scan_contacts.h
-  toolbox/sample/quick_shape.h wscvt/repair/folded_solid_angle.h wscvt/base/file_name.h wscvt/base/machine_refused.h
-  wscvt/base/option_words.h wscvt/base/output_file.h wscvt/base/pi.h wscvt/base/readable_text.h
-  wscvt/base/text_format.h toolbox/exchange/distance_grid.h toolbox/exchange/node_table.h
-  toolbox/exchange/template_files.h wscvt/measures/form_axes.h wscvt/remesh/option_advice.h wscvt/remesh/remesh_warnings.h
-  wscvt/report/descriptor_report.h wscvt/report/json.h wscvt/report/mass_table.h
-  toolbox/report/sample_summary.h toolbox/report/sample_table.h
-  toolbox/report/shape_table.h toolbox/sample/given_sizes.h toolbox/sample/grain_grower.h
-  toolbox/sample/grow_options.h
-  toolbox/sample/grown_mesh.h toolbox/sample/nearest_grain.h toolbox/sample/sample_grain.h
-  wscvt/repair/bodies.h wscvt/repair/mesh_check.h
-  wscvt/sphere/sphere_triangulation.h wscvt/surface/shtools_io.h)
+# The shells of the library include what is installed, and nothing else of the library.
 file(GLOB_RECURSE shells ${source_dir}/lib/program/*.h ${source_dir}/lib/program/*.cpp
-  ${source_dir}/lib/python/*.cpp ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp)
+  ${source_dir}/lib/python/*.h ${source_dir}/lib/python/*.cpp ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp)
 foreach(shell ${shells})
   file(STRINGS ${shell} lines REGEX "^ *# *include *[<\"](wscvt|toolbox)/")
   foreach(line ${lines})
     string(REGEX REPLACE ".*[<\"]((wscvt|toolbox)/[^>\"]+)[>\"].*" "\\1" included ${line})
-    if(NOT included IN_LIST headers AND NOT included IN_LIST of_the_project)
+    if(NOT included IN_LIST headers)
       message(FATAL_ERROR "${shell} includes ${included}, which is not installed.")
     endif()
   endforeach()

@@ -7,6 +7,7 @@
 #include "support/random_harmonics.h"
 #include "support/random_sample.h"
 #include "support/test_shapes.h"
+#include "toolbox/map/mapped_surface.h"
 
 namespace wscvt {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "toolbox/map/mapped_surface.h"
 #include "toolbox/map/sphere_map.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"

@@ -4,11 +4,14 @@
 #include <array>
 #include <vector>
 
-#include "toolbox/map/mapped_surface.h"
 #include "toolbox/sample/harmonic_grid.h"
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
+
+class MappedSurface;
 
 // Grains with overhangs, over the sphere of directions u: x(u) = r(u) u + o(u). A star-shaped grain
 // has only a radius r and no offset o.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "toolbox/map/mapped_surface.h"
 #include "toolbox/sample/grow_options.h"
 #include "toolbox/sample/quick_shape.h"
 #include "wscvt/base/equivalent_radius.h"
