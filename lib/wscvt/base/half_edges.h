@@ -12,8 +12,8 @@ namespace wscvt {
 
 // Half-edges of a triangle mesh without a stored array: half-edge 3 t + k runs from corner k of
 // triangle t to corner (k + 1) % 3. Its number also identifies the corner where it starts. Scans
-// are therefore checked in flat arrays. Beside link_half_edges OpenMesh takes three to four times as
-// long to build (0.4 s and 0.13 s for 1 million vertices, 2.3 s and 0.8 s for 5 million), CGAL's
+// are therefore checked in flat arrays. Beside link_half_edges OpenMesh takes three to four times
+// as long to build (0.4 s and 0.13 s for 1 million vertices, 2.3 s and 0.8 s for 5 million), CGAL's
 // half-edge structure twelve times; to walk them costs the same.
 
 /// Converts an index >= 0 for access to a mesh's arrays.
