@@ -19,7 +19,7 @@
 #include "grain_run.h"
 #include "remesh_arguments.h"
 #include "signals.h"
-#include "toolbox/clump/scan_contacts.h"
+#include "toolbox/clump/first_contact.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
 #include "volume_arguments.h"

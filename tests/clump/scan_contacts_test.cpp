@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/clump/scan_contacts.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
 #include "support/test_shapes.h"
+#include "toolbox/clump/first_contact.h"
 
 namespace wscvt {
 namespace {

@@ -8,7 +8,6 @@
 #include "wscvt/measures/feret_diameters.h"
 #include "wscvt/measures/form_axes.h"
 #include "wscvt/measures/inscribed_sphere.h"
-#include "wscvt/measures/orientation_tensor.h"
 #include "wscvt/measures/printed_sdq.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"

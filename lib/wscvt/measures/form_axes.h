@@ -25,4 +25,7 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points,
 /// Computes the ratios of dimensions > 0. Throws nothing.
 FormRatios form_ratios(const FormAxes& axes);
 
+/// Computes the tensor. Throws Error(InvalidInput) if the mesh has no area.
+OrientationTensor orientation_tensor(const IndexedMesh& mesh, const Execution& execution);
+
 }  // namespace wscvt

@@ -196,4 +196,11 @@ void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre) {
   descriptors.inertia_tensor *= std::pow(unit, 5);
 }
 
+MassProperties mass_properties(const ShapeDescriptors& descriptors) {
+  const Eigen::Matrix3d turn = descriptors.principal_axes.toRotationMatrix();
+  return {descriptors.volume, descriptors.centroid, descriptors.inertia_tensor,
+          (turn.transpose() * descriptors.inertia_tensor * turn).diagonal(),
+          descriptors.principal_axes};
+}
+
 }  // namespace wscvt

@@ -4,6 +4,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/version.h"
 #include "wscvt/report/csv_table.h"
 #include "wscvt/report/report.h"
 
@@ -73,6 +74,13 @@ void write_report(const std::string& path, const GrainMeasures& measures,
     case ReportFormat::Row:
       return append_to_table(path, descriptor_csv(measures, origin));
   }
+}
+
+std::string made_by() { return std::string("wscvt ") + version(); }
+
+std::string origin_sentence(const ReportOrigin& origin) {
+  return "Made " + (origin.source.empty() ? "" : "from " + origin.source + " ") + "by " +
+         made_by() + (origin.date.empty() ? "" : " on " + origin.date) + ".";
 }
 
 }  // namespace wscvt

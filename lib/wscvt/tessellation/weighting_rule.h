@@ -11,9 +11,9 @@
 
 namespace wscvt {
 
-// The rule by which a weighting gives weights to the seed model. Each weighting is one function in
-// its own file. To add one, add such a file, a value with its row in tessellation_options.h, and an
-// entry in weighting_rule.cpp.
+// The rule by which a weighting gives weights to the seed model. Each weighting is one function.
+// To add one, add a function and its entry in weighting_rule.cpp, and a value with its row in
+// tessellation_options.h.
 
 /// Largest alpha x of eq. 11. Its weight is 3.6 / N, and 3.118 times this is 0.89 of the mean cell,
 /// so that no wanted cell is negative. Beyond it seeds lose their cells (measured above alpha
@@ -42,23 +42,6 @@ struct WeightingRule {
   std::function<double(double value, double count, const FieldDeviation& over_seeds)> weight;
   bool reads_deviation = false;  ///< whether `weight` reads `over_seeds`
 };
-
-/// Rule of Weighting::Constant: equal solid angles.
-WeightingRule constant_weighting(const TabulatedSurface& table, const WeightingOptions& options,
-                                 const Execution& execution);
-
-/// Rule of Weighting::RadialDistance: WSCVT-D, the paper's eq. 10.
-WeightingRule radial_distance_weighting(const TabulatedSurface& table,
-                                        const WeightingOptions& options,
-                                        const Execution& execution);
-
-/// Rule of Weighting::Curvature: WSCVT-C, the paper's eqs. 11 to 14.
-WeightingRule curvature_weighting(const TabulatedSurface& table, const WeightingOptions& options,
-                                  const Execution& execution);
-
-/// Rule of Weighting::Area: equal surface areas.
-WeightingRule area_weighting(const TabulatedSurface& table, const WeightingOptions& options,
-                             const Execution& execution);
 
 /// Returns the rule of options.kind for a surface.
 WeightingRule weighting_rule(const TabulatedSurface& table, const WeightingOptions& options,
