@@ -57,6 +57,11 @@ TEST(Mesh, AttributesAreProperties) {
   attributes.of_faces[0].values.pop_back();
   EXPECT_ERROR(to_mesh(flat, attributes), InvalidInput);
 
+  attributes.of_faces[0].values = {6.9999, 1, 2, 3};
+  attributes.of_vertices[0].values[1] = 199.9999;
+  EXPECT_EQ(to_mesh(flat, attributes).color(Mesh::VertexHandle(1))[0], 200);
+  EXPECT_EQ(attributes_of(to_mesh(flat, attributes)).of_faces[0].values[0], 7.0);
+
   // Without a deleted vertex, which all faces but one have, the others get new numbers.
   mesh.request_vertex_status();
   mesh.request_edge_status();

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/error.h"
@@ -43,7 +46,9 @@ void add_property(const MeshAttribute& attribute, Mesh& mesh) {
   mesh.add_property(property, attribute.name);
   int k = 0;
   for (const double value : attribute.values) {
-    mesh.property(property, typename Element::Handle(k++)) = static_cast<Number>(value);
+    // Colours are interpolated, so 200 may be 199.99999.
+    mesh.property(property, typename Element::Handle(k++)) =
+        static_cast<Number>(std::is_integral_v<Number> ? std::round(value) : value);
   }
 }
 
@@ -69,7 +74,7 @@ void add_attributes(const std::vector<MeshAttribute>& attributes, std::size_t co
         const typename Element::Handle element(k++);
         Mesh::Color sum = mesh.color(element);
         sum[static_cast<std::size_t>(colour - colour_names.begin())] =
-            static_cast<unsigned char>(std::clamp(value, 0.0, 255.0));
+            static_cast<unsigned char>(std::clamp(std::round(value), 0.0, 255.0));
         mesh.set_color(element, sum);
       }
     } else if (attribute.type == ScalarType::Float64) {
