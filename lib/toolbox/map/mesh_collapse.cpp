@@ -30,6 +30,27 @@ constexpr std::size_t choice_block = 4096;
 constexpr std::size_t fewest_for_rounds = 100000;
 constexpr const char* collapse_stage = "Collapsing the scan";
 
+/// Returns the number of faces that are reached from the first.
+std::size_t faces_reached(const HalfEdges& links) {
+  std::vector<char> met(links.opposite.size() / 3, 0);
+  std::vector<std::int32_t> stack{0};
+  met[0] = 1;
+  std::size_t reached = 0;
+  while (!stack.empty()) {
+    const std::int32_t t = stack.back();
+    stack.pop_back();
+    ++reached;
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t beyond = links.opposite[3 * t + k] / 3;
+      if (met[beyond] == 0) {
+        met[beyond] = 1;
+        stack.push_back(beyond);
+      }
+    }
+  }
+  return reached;
+}
+
 /// Checks that a mesh is one sphere. Returns its half-edges.
 HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
   const std::size_t vertices = mesh.points.size();
@@ -85,22 +106,7 @@ HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
     refuse("The mesh touches itself in a vertex." + advice);
   }
   execution.report(0.0, collapse_stage);
-  std::vector<char> met(mesh.triangles.size(), 0);
-  std::vector<std::int32_t> stack{0};
-  met[0] = 1;
-  std::size_t reached = 0;
-  while (!stack.empty()) {
-    const std::int32_t t = stack.back();
-    stack.pop_back();
-    ++reached;
-    for (std::int32_t k = 0; k < 3; ++k) {
-      const std::int32_t beyond = links.opposite[3 * t + k] / 3;
-      if (met[beyond] == 0) {
-        met[beyond] = 1;
-        stack.push_back(beyond);
-      }
-    }
-  }
+  const std::size_t reached = faces_reached(links);
   if (reached != mesh.triangles.size()) {
     refuse("The mesh has several parts. The first has " + std::to_string(reached) + " of " +
            std::to_string(mesh.triangles.size()) + " faces." + advice);

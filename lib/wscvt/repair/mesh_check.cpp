@@ -174,43 +174,33 @@ void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshChe
   report.equivalent_radius = equivalent_radius(report.volume);
 }
 
-CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
-                       const Execution& execution) {
-  require_in_range(options.weld_tolerance, weld_tolerance_option);
-  require_in_range(options.mended_area_limit_percent, mended_area_limit_option);
-  require_in_range(options.dropped_volume_limit, dropped_volume_limit_option);
-  const std::string stage = "Checking the mesh";
-  // Each repair needs the repairs before it. Points are welded before faces are compared, because a
-  // copy of a face may have its own corners. Copies are dropped before edges are counted, because
-  // they would give their edges four faces. Sheets are separated before faces are turned, because a
-  // non-manifold edge has no outside. Holes are filled after faces are turned, because the rim's
-  // direction gives the filling's outside. Touching vertices are split last, because
-  // separate_sheets and fill_holes may leave some.
-  CheckedMesh result;
-  MeshCheckReport& report = result.report;
-  report.input_vertices = mesh.points.size();
-  report.input_faces = mesh.triangles.size();
-  execution.report(0.0, stage);
-  report.lost_faces = keep_usable_faces(mesh, execution);
-  double diagonal = 0.0;
-  {
-    const Box box = box_of_faces(mesh, execution);
-    check_scan_size(box.high - box.low);
-    diagonal = (box.high - box.low).norm();
-    report.weld_tolerance = options.weld_tolerance * diagonal;
-    const Weld weld = find_equal_points(mesh.points, box, report.weld_tolerance, execution);
-    const DegenerateFaces degenerate = drop_degenerate_faces(mesh, weld.first);
-    report.welded_vertices = weld.welded;
-    report.degenerate_faces = degenerate.faces;
-    report.unreferenced_vertices = mesh.points.size() - weld.welded - degenerate.used_vertices;
-  }
+namespace {
+
+/// Welds equal points, and drops the faces that then have two corners in one. Returns the diagonal
+/// of the mesh's box.
+double weld(double tolerance, const Execution& execution, IndexedMesh& mesh,
+            MeshCheckReport& report) {
+  const Box box = box_of_faces(mesh, execution);
+  check_scan_size(box.high - box.low);
+  const double diagonal = (box.high - box.low).norm();
+  report.weld_tolerance = tolerance * diagonal;
+  const Weld welded = find_equal_points(mesh.points, box, report.weld_tolerance, execution);
+  const DegenerateFaces degenerate = drop_degenerate_faces(mesh, welded.first);
+  report.welded_vertices = welded.welded;
+  report.degenerate_faces = degenerate.faces;
+  report.unreferenced_vertices = mesh.points.size() - welded.welded - degenerate.used_vertices;
   if (mesh.triangles.empty()) {
     refuse("All " + std::to_string(report.input_faces) +
            " faces of the mesh have two corners in one place, so it encloses no volume. Load the "
            "closed surface of a grain.");
   }
-  execution.report(0.25, stage);
-  std::vector<std::int32_t> rings = edge_rings(mesh, execution);
+  return diagonal;
+}
+
+/// Drops copies of faces, and faces that lie on each other in pairs. Returns what was dropped.
+DuplicateFaces drop_copies(const Execution& execution, IndexedMesh& mesh,
+                           std::vector<std::int32_t>& rings, MeshCheckReport& report) {
+  rings = edge_rings(mesh, execution);
   const DuplicateFaces duplicates = drop_duplicate_faces(mesh, rings);
   report.duplicate_faces = duplicates.copies;
   report.folded_faces = duplicates.folded;
@@ -220,6 +210,33 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
         "closed surface of a grain.");
   }
   if (duplicates.copies + duplicates.folded > 0) rings = edge_rings(mesh, execution);
+  return duplicates;
+}
+
+}  // namespace
+
+// Each repair needs the repairs before it. Points are welded before faces are compared, because a
+// copy of a face may have its own corners. Copies are dropped before edges are counted, because
+// they would give their edges four faces. Sheets are separated before faces are turned, because a
+// non-manifold edge has no outside. Holes are filled after faces are turned, because the rim's
+// direction gives the filling's outside. Touching vertices are split last, because
+// separate_sheets and fill_holes may leave some.
+CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
+                       const Execution& execution) {
+  require_in_range(options.weld_tolerance, weld_tolerance_option);
+  require_in_range(options.mended_area_limit_percent, mended_area_limit_option);
+  require_in_range(options.dropped_volume_limit, dropped_volume_limit_option);
+  const std::string stage = "Checking the mesh";
+  CheckedMesh result;
+  MeshCheckReport& report = result.report;
+  report.input_vertices = mesh.points.size();
+  report.input_faces = mesh.triangles.size();
+  execution.report(0.0, stage);
+  report.lost_faces = keep_usable_faces(mesh, execution);
+  const double diagonal = weld(options.weld_tolerance, execution, mesh, report);
+  execution.report(0.25, stage);
+  std::vector<std::int32_t> rings;
+  const DuplicateFaces duplicates = drop_copies(execution, mesh, rings, report);
   execution.report(0.5, stage);
 
   std::vector<OtherComponent> others;

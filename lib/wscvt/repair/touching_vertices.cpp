@@ -13,6 +13,24 @@ namespace {
 /// Large enough that the start of a block costs little.
 constexpr std::size_t fan_block = 16384;
 
+/// Returns the corners of a component's faces at each of the vertices, which are ascending.
+std::vector<std::vector<std::int32_t>> corners_at(const std::vector<std::int32_t>& touching,
+                                                  const std::vector<Triangle>& triangles,
+                                                  const std::vector<std::int32_t>& of_face,
+                                                  std::int32_t component) {
+  std::vector<std::vector<std::int32_t>> corners(touching.size());
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (of_face[f] != component) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = std::lower_bound(touching.begin(), touching.end(), triangles[f][k]);
+      if (at == touching.end() || *at != triangles[f][k]) continue;
+      corners[index(static_cast<std::int32_t>(at - touching.begin()))].push_back(
+          static_cast<std::int32_t>(3 * f + k));
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
@@ -63,17 +81,8 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
   for (const auto& part : found) touching.insert(touching.end(), part.begin(), part.end());
   if (touching.empty()) return 0;
   std::size_t added = 0;
-  // The corners at each of the touching vertices.
-  std::vector<std::vector<std::int32_t>> corners(touching.size());
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    if (of_face[f] != component) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = std::lower_bound(touching.begin(), touching.end(), triangles[f][k]);
-      if (at == touching.end() || *at != triangles[f][k]) continue;
-      corners[index(static_cast<std::int32_t>(at - touching.begin()))].push_back(
-          static_cast<std::int32_t>(3 * f + k));
-    }
-  }
+  const std::vector<std::vector<std::int32_t>> corners =
+      corners_at(touching, triangles, of_face, component);
   for (std::size_t i = 0; i < touching.size(); ++i) {
     std::vector<char> visited(corners[i].size(), 0);
     std::vector<std::pair<std::int32_t, std::int32_t>> renamed;  // corner, new vertex

@@ -7,21 +7,31 @@
 
 namespace wscvt {
 
+namespace {
+
+/// Returns the nonzero columns of each row.
+std::vector<std::vector<std::ptrdiff_t>> filled_columns(const GridField& field) {
+  std::vector<std::vector<std::ptrdiff_t>> filled(static_cast<std::size_t>(field.rows));
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    if (field.values[i] != 0.0) {
+      filled[i / field.columns()].push_back(static_cast<std::ptrdiff_t>(i % field.columns()));
+    }
+  }
+  return filled;
+}
+
+}  // namespace
+
 CapSums sum_over_caps(const GridField& field, double radius, const Execution& execution) {
   const int rows = field.rows;
   const auto columns = static_cast<std::ptrdiff_t>(field.columns());
   const double spacing = pi / rows;
   const int reach = static_cast<int>(radius / spacing);
   const std::vector<double> cosines = SphereGrid::row_cosines(rows);
-  // The nonzero columns of each row. If they are few, each value is spread over its caps; if they
+  // If the nonzero columns of a row are few, each value is spread over its caps; if they
   // are many, each cap is gathered, which reads memory in order. A scan of a dozen points fills a
   // dozen of 32,768 nodes, and its caps must grow to the whole sphere.
-  std::vector<std::vector<std::ptrdiff_t>> filled(static_cast<std::size_t>(rows));
-  for (std::size_t i = 0; i < field.values.size(); ++i) {
-    if (field.values[i] != 0.0) {
-      filled[i / field.columns()].push_back(static_cast<std::ptrdiff_t>(i % field.columns()));
-    }
-  }
+  const std::vector<std::vector<std::ptrdiff_t>> filled = filled_columns(field);
   CapSums result;
   std::vector<std::size_t> terms(static_cast<std::size_t>(rows), 0);  // of every row
   result.sums.assign(field.values.size(), 0.0);
