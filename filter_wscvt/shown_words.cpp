@@ -10,7 +10,7 @@
 #include "filters.h"
 #include "remesh_filter.h"
 #include "wscvt/base/option_words.h"
-#include "wscvt/nodes/nodes_options.h"
+#include "wscvt/remesh/error_target.h"
 #include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::filter {

@@ -33,8 +33,8 @@
 #include "remesh_report.h"
 #include "sample_meshes.h"
 #include "shown_words.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt::host_test {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "support/cancelled_runs.h"
 #include "support/test_shapes.h"
-#include "wscvt/nodes/delaunay_flips.h"
+#include "wscvt/surface/delaunay_flips.h"
 
 namespace wscvt {
 namespace {

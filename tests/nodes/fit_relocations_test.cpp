@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "nodes/fit_bodies.h"
-#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

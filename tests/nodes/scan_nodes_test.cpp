@@ -16,9 +16,9 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/face_boxes.h"
-#include "wscvt/nodes/edit_mesh.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/surface/curvature.h"
+#include "wscvt/surface/edit_mesh.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

@@ -20,8 +20,8 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/report/report.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

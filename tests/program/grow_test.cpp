@@ -9,7 +9,7 @@
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

@@ -15,11 +15,11 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
 #include "wscvt/repair/envelope.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/report/report.h"
+#include "wscvt/surface/self_intersections.h"
 
 /// What the library promises for every input, as checks that name what is broken; an empty sentence
 /// means that all is kept. The property tests and the fuzz targets share them.

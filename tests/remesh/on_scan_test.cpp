@@ -15,13 +15,13 @@
 #include "support/voxel_body.h"
 #include "wscvt/base/error.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/report/report.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

@@ -12,8 +12,8 @@
 #include "toolbox/sample/grown_mesh.h"
 #include "toolbox/sample/quick_shape.h"
 #include "toolbox/sample/sample_comparison.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

@@ -8,9 +8,9 @@
 #include "support/expect_error.h"
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/surface/quadric_surface.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

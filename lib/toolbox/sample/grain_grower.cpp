@@ -13,8 +13,8 @@
 #include "toolbox/sample/quick_shape.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

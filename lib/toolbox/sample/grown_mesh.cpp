@@ -9,9 +9,9 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

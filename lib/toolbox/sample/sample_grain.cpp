@@ -15,11 +15,11 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/repair/handles.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_surface.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

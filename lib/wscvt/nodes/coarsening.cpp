@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-#include "wscvt/nodes/delaunay_flips.h"
+#include "wscvt/surface/delaunay_flips.h"
 
 namespace wscvt {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "wscvt/nodes/delaunay_flips.h"
-#include "wscvt/nodes/smooth_step.h"
-#include "wscvt/nodes/triangle_place.h"
+#include "wscvt/base/smooth_step.h"
+#include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/triangle_place.h"
 
 namespace wscvt {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/nodes/edit_mesh.h"
+#include "wscvt/surface/edit_mesh.h"
 
 namespace wscvt {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "wscvt/nodes/delaunay_flips.h"
+#include "wscvt/surface/delaunay_flips.h"
 
 namespace wscvt {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/smooth_step.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/nodes/smooth_step.h"
 
 namespace wscvt {
 

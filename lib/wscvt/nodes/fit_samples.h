@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/nodes/edit_mesh.h"
-#include "wscvt/nodes/triangle_place.h"
+#include "wscvt/surface/edit_mesh.h"
+#include "wscvt/surface/triangle_place.h"
 
 namespace wscvt {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/nodes/edit_mesh.h"
 #include "wscvt/nodes/fit_dial.h"
 #include "wscvt/nodes/fit_samples.h"
-#include "wscvt/nodes/triangle_hash.h"
+#include "wscvt/surface/edit_mesh.h"
+#include "wscvt/surface/triangle_hash.h"
 
 namespace wscvt {
 

@@ -17,13 +17,13 @@
 #include "wscvt/nodes/face_splitting.h"
 #include "wscvt/nodes/fit_samples.h"
 #include "wscvt/nodes/fit_state.h"
-#include "wscvt/nodes/intersection_mending.h"
 #include "wscvt/nodes/node_density.h"
-#include "wscvt/nodes/self_intersections.h"
-#include "wscvt/nodes/space_order.h"
 #include "wscvt/nodes/surface_fit.h"
-#include "wscvt/nodes/triangle_hash.h"
-#include "wscvt/nodes/volume_offset.h"
+#include "wscvt/surface/intersection_mending.h"
+#include "wscvt/surface/self_intersections.h"
+#include "wscvt/surface/space_order.h"
+#include "wscvt/surface/triangle_hash.h"
+#include "wscvt/surface/volume_offset.h"
 
 namespace wscvt {
 

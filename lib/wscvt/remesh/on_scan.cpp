@@ -6,10 +6,10 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/nodes/contact_fit.h"
-#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/remesh/contact_fit.h"
 #include "wscvt/repair/handles.h"
 #include "wscvt/surface/curvature.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

@@ -12,10 +12,10 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/remesh/as_published.h"
 #include "wscvt/remesh/on_scan.h"
 #include "wscvt/remesh/remesh_units.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

@@ -3,7 +3,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
-#include "wscvt/nodes/error_measure.h"
+#include "wscvt/remesh/error_measure.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/shtools_io.h"
 

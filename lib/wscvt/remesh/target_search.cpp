@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/nodes/node_count_search.h"
+#include "wscvt/remesh/node_count_search.h"
 
 namespace wscvt {
 

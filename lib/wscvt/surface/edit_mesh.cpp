@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/edit_mesh.h"
+#include "wscvt/surface/edit_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/delaunay_flips.h"
+#include "wscvt/surface/delaunay_flips.h"
 
 #include <algorithm>
 

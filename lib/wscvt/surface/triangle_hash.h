@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/nodes/edit_mesh.h"
-#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/surface/edit_mesh.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

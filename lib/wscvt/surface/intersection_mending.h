@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/nodes/edit_mesh.h"
+#include "wscvt/surface/edit_mesh.h"
 
 namespace wscvt {
 

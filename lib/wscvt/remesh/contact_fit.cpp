@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/contact_fit.h"
+#include "wscvt/remesh/contact_fit.h"
 
 // CGAL 6 renamed some of these headers; CGAL 5 has only these names.
 #define CGAL_NO_DEPRECATION_WARNINGS

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/triangle_place.h"
+#include "wscvt/surface/triangle_place.h"
 
 namespace wscvt {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/triangle_hash.h"
+#include "wscvt/surface/triangle_hash.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "support/test_shapes.h"
-#include "wscvt/nodes/intersection_mending.h"
-#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/surface/intersection_mending.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

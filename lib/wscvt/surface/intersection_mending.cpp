@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/intersection_mending.h"
+#include "wscvt/surface/intersection_mending.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "wscvt/nodes/self_intersections.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

@@ -5,7 +5,7 @@
 
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/nodes/nodes_options.h"
+#include "wscvt/remesh/error_target.h"
 
 namespace wscvt {
 

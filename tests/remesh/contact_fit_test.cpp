@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/contact_fit.h"
+#include "wscvt/remesh/contact_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/nodes/self_intersections.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {

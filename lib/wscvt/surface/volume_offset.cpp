@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/volume_offset.h"
+#include "wscvt/surface/volume_offset.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/error_measure.h"
+#include "wscvt/remesh/error_measure.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/nodes/edit_mesh.h"
+#include "wscvt/surface/edit_mesh.h"
 
 namespace wscvt {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/space_order.h"
+#include "wscvt/surface/space_order.h"
 
 #include <algorithm>
 #include <cstddef>

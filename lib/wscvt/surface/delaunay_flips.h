@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "wscvt/nodes/edit_mesh.h"
+#include "wscvt/surface/edit_mesh.h"
 
 namespace wscvt {
 

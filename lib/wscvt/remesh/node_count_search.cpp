@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/node_count_search.h"
+#include "wscvt/remesh/node_count_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "wscvt/nodes/nodes_options.h"
+#include "wscvt/remesh/error_target.h"
 
 namespace wscvt {
 
