@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/fit_relocations.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "nodes/fit_bodies.h"
+#include "wscvt/nodes/fit_steps.h"
 #include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {

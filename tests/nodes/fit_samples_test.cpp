@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/fit_samples.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "nodes/fit_bodies.h"
 #include "wscvt/measures/face_boxes.h"
+#include "wscvt/nodes/fit_state.h"
 
 namespace wscvt {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -82,5 +83,13 @@ class Coarsening {
   std::int32_t mark_ = 0;
   std::vector<std::vector<std::int32_t>> maps_;  ///< of each compaction: old vertex to new
 };
+
+/// Splits edges longer than `length` > 0 at their midpoints, the longest first, until there are
+/// none: the same surface with smaller faces, for a scan with fewer vertices than wanted nodes.
+/// Halving the longest edge of a triangle bounds its angles from below (Rivara 1984, Int. J. Numer.
+/// Methods Eng. 20, 745). Returns the ends of each new vertex's edge, in order; they may be new
+/// vertices themselves.
+std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double length,
+                                                          const Execution& execution);
 
 }  // namespace wscvt

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/fit_flips.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/nodes/fit_steps.h"
 
 namespace wscvt {
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/fit_polish.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "wscvt/base/pi.h"
-#include "wscvt/nodes/fit_fan.h"
+#include "wscvt/nodes/fit_steps.h"
 
 namespace wscvt {
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/fit_relocations.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "wscvt/nodes/fit_fan.h"
+#include "wscvt/nodes/fit_steps.h"
 
 namespace wscvt {
 

@@ -1,18 +1,64 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/nodes/fit_dial.h"
-#include "wscvt/nodes/fit_samples.h"
+#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/surface/edit_mesh.h"
 #include "wscvt/surface/triangle_hash.h"
+#include "wscvt/surface/triangle_place.h"
 
 namespace wscvt {
+
+/// All settings of the fit that depend on the wanted mean edge ratio, from even triangles to a
+/// close surface. Found by measuring six grains at 1000 nodes.
+struct FitDial {
+  double ratio = 0.0;  ///< wanted mean ratio of longest to shortest edge
+  int samples_a_node = 0;
+  int rounds = 0;
+  int late_rounds = 0;            ///< the last rounds, which keep the least angle
+  double least_angle = 0.0;       ///< degrees, kept by the late rounds
+  double early_angle = 0.0;       ///< kept by the earlier rounds
+  double start_evenness = 0.0;    ///< evenness that the first rounds lead to
+  double lead_rounds = 0.0;       ///< number of rounds that lead there
+  int heats = 1;                  ///< number of such leads, one after the other
+  double first_steering = 0.0;    ///< round from which the ratio controls the evenness
+  double ratio_slope = 0.0;       ///< fall of the ratio as the evenness grows by a factor e
+  double plain_springs = 1.0;     ///< fraction of the springs that pull edges to their rest lengths
+  double triangle_springs = 0.0;  ///< of springs between a triangle's edges
+  double damping = 0.0;           ///< of steps
+  bool polishes = false;          ///< whether single nodes are moved after a round
+};
+
+/// `ratio` in [least_edge_ratio, most_edge_ratio], which is not checked.
+FitDial fit_dial(double ratio);
+
+/// A point of the scan to which a mesh is fitted, and its nearest point on the mesh.
+struct FitSample {
+  Vector3 point;
+  Vector3 normal;         ///< the scan's, outward, unit
+  double spacing = 1.0;   ///< wanted distance of nodes here / distance of even nodes
+  std::int32_t face = 0;  ///< the triangle with the nearest point
+  TrianglePlace place;    ///< of that point
+};
+
+/// A scan from which samples are drawn.
+struct SampledScan {
+  IndexedMesh mesh;
+  std::vector<Vector3> normals;  ///< at the vertices, outward, unit
+};
+
+/// Returns `count` points of the scan, evenly distributed: one in each of `count` equal areas, in
+/// the order of its faces. Normals are interpolated between the vertices, which smooths the noise
+/// of a scan. If a face is as large as the cell of a node, its own normal is used instead; `cell`
+/// is the area per node. The sample's `face` is the nearest vertex of its face; the caller replaces
+/// it. Deterministic.
+std::vector<FitSample> draw_fit_samples(const SampledScan& scan, std::size_t count, double cell);
 
 /// Stiffness of an edge as a spring at full evenness, in weights of a node's samples.
 inline constexpr double spring_stiffness = 0.04;
@@ -131,5 +177,44 @@ double sharpest_turn(const FitState& state, const Vector3& centre, const std::ve
 /// Edges with a larger angle between their normals, 120 degrees, are folded: allowed only if the
 /// scan is as sharp.
 inline constexpr double folded = -0.5;
+
+/// The triangles about one node, in the mesh or wanted there, with the samples they would have.
+/// Used to compute the node's cost at a position, and to find a better position.
+struct FitFan {
+  std::int32_t node = -1;  ///< of the mesh; -1 if the mesh does not have it yet
+  Vector3 centre = Vector3::Zero();
+  std::vector<Vector3> ring;          ///< corners around the node, counter-clockwise
+  std::vector<std::int32_t> nodes;    ///< their nodes in the mesh
+  std::vector<std::int32_t> samples;  ///< in the triangles of the fan
+  std::vector<std::int32_t> places;   ///< triangle of each sample at the last look-up, or -1
+  double rest = 0.0;                  ///< length of the spokes
+  double spring = 0.0;                ///< their stiffness
+  double pull = 0.0;                  ///< of the node towards the middle of the ring
+};
+
+/// The equations for a fan's step, before they are solved.
+struct FanEquations {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Vector3 right = Vector3::Zero();
+  /// Returns the damped step, at most `most` long.
+  Vector3 step(double most) const;
+};
+
+/// Returns the fan's cost with its node at `at`: errors of samples, small angles, springs;
+/// optionally with the equations of a step from there.
+double fan_energy(const FitState& state, FitFan& fan, const Vector3& at,
+                  FanEquations* equations = nullptr);
+
+/// Returns whether every triangle of the fan faces as its samples do and keeps the angle of the
+/// round, and the node has a sample near. A triangle with few samples is compared with the samples
+/// about its corners (`about`, of FitState::node_normals).
+bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at,
+                 const std::vector<Vector3>& about);
+
+/// Returns the cosine of the fan's smallest angle with its node at `at`.
+double fan_sharpness(const FitFan& fan, const Vector3& at);
+
+/// Returns the fan of a node in the mesh.
+FitFan fan_of(const FitState& state, std::int32_t v, const NodeRing& ring);
 
 }  // namespace wscvt

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/surface_fit.h"
+#include "wscvt/nodes/fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "wscvt/base/pi.h"
-#include "wscvt/nodes/fit_flips.h"
-#include "wscvt/nodes/fit_guards.h"
-#include "wscvt/nodes/fit_polish.h"
-#include "wscvt/nodes/fit_relocations.h"
-#include "wscvt/nodes/fit_step.h"
+#include "wscvt/nodes/fit_steps.h"
 
 namespace wscvt {
 
