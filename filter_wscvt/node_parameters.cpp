@@ -11,7 +11,7 @@ namespace wscvt::filter {
 namespace {
 
 /// The weightings of both methods. Saved scripts store their indices, so the order never changes.
-enum class AnyWeighting { Constant, RadialDistance, Curvature, Area, ErrorAdaptive };
+enum class AnyWeighting { Constant, RadialDistance, Curvature, Area };
 
 /// The placements of both methods, in a fixed order too, and the default of the method.
 enum class AnyPlacement { Series, Surface, Fitted, Contact, Default };
@@ -39,8 +39,6 @@ struct wscvt::EnumerationTable<wscvt::filter::AnyWeighting> {
        "cells of equal area; as published smaller solid angles far from the centroid"},
       {Any::Curvature, "wscvt-c", "WSCVT-C (curvature)", "smaller cells where the surface bends"},
       {Any::Area, "area", "area (as published)", "equal surface areas"},
-      {Any::ErrorAdaptive, "error-adaptive", "error-adaptive (on the scan)",
-       "smaller cells where flat triangles miss the surface most"},
   };
 };
 
@@ -77,9 +75,6 @@ OnScanOptions on_scan_options(const CheckedValues& values, bool on_surface) {
     case AnyWeighting::Curvature:
       options.weighting = CellWeighting::Curvature;
       break;
-    case AnyWeighting::ErrorAdaptive:
-      options.weighting = CellWeighting::ErrorAdaptive;
-      break;
     case AnyWeighting::RadialDistance:
       break;
   }
@@ -114,8 +109,6 @@ AsPublishedOptions as_published_options(const CheckedValues& values) {
     case AnyWeighting::Curvature:
       options.weighting = Weighting::Curvature;
       break;
-    case AnyWeighting::ErrorAdaptive:
-      refuse_value("Weighting", "error-adaptive", Method::OnScan);
     case AnyWeighting::RadialDistance:
       break;
   }

@@ -26,7 +26,7 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
       program, {"remesh",
                 "Remesh a dense scan of a grain to exactly N nodes",
                 {"scan.ply remesh.ply -n 1000 --report remesh.html",
-                 "scan.ply remesh.ply -w error-adaptive --edge-ratio 1.4 --report table.csv",
+                 "scan.ply remesh.ply --edge-ratio 1.4 --report table.csv",
                  "scan.ply remesh.ply --max-error 0.5",
                  "scan.ply remesh.ply --frame principal --node-table nodes.csv --sdf grid.npy"},
                 "The same scan, options and version give the same bytes on any number of threads.\n"

@@ -168,11 +168,11 @@ def test_what_cannot_be_remeshed_is_an_error_with_its_reason():
 def test_parameters_reach_the_library():
     scanned = add_scan("sand_7228.ply")
     settings = bpy.context.scene.wscvt
-    settings.weighting, settings.placement = "error-adaptive", "on-surface"
+    settings.weighting, settings.placement = "wscvt-c", "on-surface"
     settings.edge_ratio, settings.distances = 1.3, True
     vertices, faces = world(scanned)
     made = remeshed()
-    expected = wscvt.remesh(vertices, faces, 200, weighting="error-adaptive", placement="on-surface",
+    expected = wscvt.remesh(vertices, faces, 200, weighting="wscvt-c", placement="on-surface",
                             edge_ratio=1.3, distances=True)
     np.testing.assert_allclose(world(made)[0], expected.vertices, atol=1e-6)
     found = [one.value for one in made.data.attributes["wscvt_distance"].data]

@@ -320,7 +320,7 @@ TEST(EverydayFilter, GivesWhatTheRemesherGives) {
     document.setCurrentMesh(scan.id());
     RichParameterList parameters = loaded.parameters(document);
     parameters.setValue("NodeCount", IntValue(150));
-    parameters.setValue("Weighting", EnumValue(4));
+    parameters.setValue("Weighting", EnumValue(2));
     ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
     results.push_back(state_of(*document.mm()));
     results.back().label.clear();
@@ -384,9 +384,8 @@ TEST(Filter, ChoicesAreFrozen) {
   const auto choices = [&](const char* name) {
     return dynamic_cast<const RichEnum&>(list.getParameterByName(name)).enumvalues;
   };
-  EXPECT_EQ(choices("Weighting"),
-            QStringList({"Constant (as published)", "WSCVT-D", "WSCVT-C (curvature)",
-                         "Area (as published)", "Error-adaptive (on the scan)"}));
+  EXPECT_EQ(choices("Weighting"), QStringList({"Constant (as published)", "WSCVT-D",
+                                               "WSCVT-C (curvature)", "Area (as published)"}));
   EXPECT_EQ(choices("Method"), QStringList({"On the scan", "As published"}));
   EXPECT_EQ(choices("Placement"),
             QStringList({"SH surface (as published)", "On the surface",
@@ -467,7 +466,6 @@ INSTANTIATE_TEST_SUITE_P(
         Script{"wscvt_d.mlx", filter_menu_text, {{"Weighting", "1"}}},
         Script{"wscvt_c.mlx", filter_menu_text, {{"Weighting", "2"}}},
         Script{"area.mlx", filter_menu_text, {{"Method", "1"}, {"Weighting", "3"}}},
-        Script{"error_adaptive.mlx", filter_menu_text, {{"Weighting", "4"}, {"EdgeRatio", "1.4"}}},
         Script{"create_superellipsoid.mlx",
                creation_menu_text,
                {{"Surface", "1"},
@@ -547,7 +545,7 @@ TEST(Filter, GivesWhatTheLibraryGives) {
   RemeshOptions options;
   options.node_count = 200;
   OnScanOptions on_scan;
-  on_scan.weighting = CellWeighting::ErrorAdaptive;
+  on_scan.weighting = CellWeighting::Curvature;
   options.method = on_scan;
   options.measures.node_curvatures = true;
   options.measures.distances = true;
@@ -557,7 +555,7 @@ TEST(Filter, GivesWhatTheLibraryGives) {
     document.setCurrentMesh(scan.id());
     RichParameterList parameters = loaded.parameters(document);
     parameters.setValue("NodeCount", IntValue(200));
-    parameters.setValue("Weighting", EnumValue(4));
+    parameters.setValue("Weighting", EnumValue(2));
     parameters.setValue("Quality", EnumValue(quality));
     ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
     const CMeshO& actual = document.mm()->cm;
@@ -1113,7 +1111,7 @@ TEST(Filter, RemeshesTheScanAgainWhenTheResultIsCurrent) {
   MeshModel& scan = add_layer(document, grain());
   RichParameterList parameters = loaded.parameters(document);
   parameters.setValue("NodeCount", IntValue(120));
-  parameters.setValue("Weighting", EnumValue(4));
+  parameters.setValue("Weighting", EnumValue(2));
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   const LayerState wanted = state_of(*document.mm());
   parameters.setValue("NodeCount", IntValue(200));
@@ -1126,15 +1124,14 @@ TEST(Filter, RemeshesTheScanAgainWhenTheResultIsCurrent) {
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   MeshModel& third = *document.mm();
   LayerState actual = state_of(third);
-  EXPECT_TRUE(actual.label.startsWith("scan Error-adaptive 120")) << actual.label.toStdString();
+  EXPECT_TRUE(actual.label.startsWith("scan WSCVT-C 120")) << actual.label.toStdString();
   actual.label = wanted.label;
   EXPECT_TRUE(actual == wanted) << "not a remesh of the scan";
   EXPECT_TRUE(is_shown(third));
   EXPECT_FALSE(is_shown(second));
   EXPECT_FALSE(is_shown(scan));
   const std::string log = loaded.log().join("\n").toStdString();
-  EXPECT_NE(log.find("'scan Error-adaptive 200' is a remesh of 'scan.ply'"), std::string::npos)
-      << log;
+  EXPECT_NE(log.find("'scan WSCVT-C 200' is a remesh of 'scan.ply'"), std::string::npos) << log;
 
   // In place, the earlier remesh is what is replaced.
   parameters.setValue("NodeCount", IntValue(90));
@@ -1143,7 +1140,7 @@ TEST(Filter, RemeshesTheScanAgainWhenTheResultIsCurrent) {
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   EXPECT_EQ(document.mm(), &third);
   EXPECT_EQ(third.cm.vn, 90);
-  EXPECT_EQ(third.label().toStdString(), "scan Error-adaptive 90");
+  EXPECT_EQ(third.label().toStdString(), "scan WSCVT-C 90");
   EXPECT_TRUE(state_of(scan) == scan_before);
 }
 
@@ -1516,7 +1513,6 @@ TEST(FilterParameters, ChoicesAreThoseOfTheirNames) {
   };
   EXPECT_EQ(on_scan({{"Weighting", 1.0}}).weighting, CellWeighting::Area);
   EXPECT_EQ(on_scan({{"Weighting", 2.0}}).weighting, CellWeighting::Curvature);
-  EXPECT_EQ(on_scan({{"Weighting", 4.0}}).weighting, CellWeighting::ErrorAdaptive);
   EXPECT_EQ(on_scan({{"Placement", 1.0}}).placement, ScanPlacement::OnSurface);
   EXPECT_EQ(on_scan({{"Placement", 2.0}}).placement, ScanPlacement::Fitted);
   EXPECT_EQ(on_scan({{"Placement", 3.0}}).placement, ScanPlacement::ContactFit);

@@ -223,8 +223,6 @@ TEST(ScanNodes, AreMoreWhereTheSurfaceBendsByTheLawOfTheWeighting) {
   EXPECT_GT(curved, 1.3 * static_cast<double>(even));
   options.curvature_alpha = -1.0;
   EXPECT_LT(near_tips(place(body, 300, options)), even);
-  options.weighting = CellWeighting::ErrorAdaptive;
-  EXPECT_GT(near_tips(place(body, 300, options)), 1.1 * static_cast<double>(even));
 }
 
 /// ln of the largest curvature at every vertex of a smooth surface.
@@ -286,11 +284,9 @@ TEST(ScanNodes, KeepTheLawBetweenDensityAndCurvature) {
   // Eqs. 11 to 14: a cell is 1 + (3.118 / pi) x of the mean one, x three deviations to 1.
   const double of_paper = 3.118 / pi / (3.0 * deviation);
   EXPECT_NEAR(slope(CellWeighting::Curvature, false), of_paper, 0.12 * of_paper);
-  EXPECT_NEAR(slope(CellWeighting::ErrorAdaptive, false), 2.0 / 3.0, 0.1);
   EXPECT_NEAR(slope(CellWeighting::Area, false), 0.0, 0.05);
   // The fit draws nodes to ridges, also those of equal cells: by .25 here.
   EXPECT_NEAR(slope(CellWeighting::Curvature, true), of_paper + 0.15, 0.1 * of_paper);
-  EXPECT_NEAR(slope(CellWeighting::ErrorAdaptive, true), 2.0 / 3.0 + 0.15, 0.1);
 }
 
 TEST(ScanNodes, AreRefusedOutOfRange) {

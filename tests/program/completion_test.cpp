@@ -52,8 +52,8 @@ TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
   for (const auto& row : enumerators<ScanPlacement>()) placements.emplace(row.key);
   for (const auto& row : enumerators<PublishedPlacement>()) placements.emplace(row.key);
   EXPECT_EQ(completed("wscvt remesh --placement ''"), placements);
-  EXPECT_EQ(completed("wscvt a.ply b.ply -w er"), Words{"error-adaptive"});
-  EXPECT_EQ(completed("wscvt remesh --weighting = er"), Words{"error-adaptive"});
+  EXPECT_EQ(completed("wscvt a.ply b.ply -w wscvt-c"), Words{"wscvt-c"});
+  EXPECT_EQ(completed("wscvt remesh --weighting = wscvt-c"), Words{"wscvt-c"});
   EXPECT_EQ(completed("wscvt remesh scan"), Words()) << "files are bash's own";
   EXPECT_EQ(completed("wscvt remesh --js"), Words()) << "that name is of old scripts";
 }

@@ -38,7 +38,7 @@ const std::vector<OptionCase>& option_cases() {
       {"error-measure", "area", "4", "inertia"},
       {"max-nodes", 500, "3", "from 4 to"},
       {"sampling", "fibonacci", "fibonaci", "equal-angle", published},
-      {"weighting", "error-adaptive", "1", "wscvt-d, wscvt-c or error-adaptive"},
+      {"weighting", "wscvt-c", "error-adaptive", "wscvt-d with --edge-ratio 1.4"},
       {"alpha", -0.5, "3.5", "from -3 to 3"},
       {"degree", 5, "61", "from 0 to 60"},
       {"max-overhang", 1.5, "100", "from 0 to 99", published},
@@ -129,7 +129,6 @@ TEST_F(ProgramOptions, OfTheOtherMethodAreRefusedWithItsName) {
       {"--max-overhang 10", "method as-published"},
       {"--weighting area", "method as-published"},
       {"--placement sh-surface", "method as-published"},
-      {"--method as-published -w error-adaptive", "method on-scan"},
       {"-p contact-fit --method as-published", "method on-scan"}};
   for (const auto& [arguments, words] : cases) {
     SCOPED_TRACE(arguments);

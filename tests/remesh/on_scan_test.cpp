@@ -152,7 +152,6 @@ TEST(OnScan, CurvatureWeightingsGatherNodesWhereItBends) {
   };
   const auto even = at_the_ends(CellWeighting::Area);
   EXPECT_GT(at_the_ends(CellWeighting::Curvature), 1.1 * static_cast<double>(even));
-  EXPECT_GT(at_the_ends(CellWeighting::ErrorAdaptive), 1.1 * static_cast<double>(even));
 }
 
 TEST(OnScan, SameBytesOnAnyNumberOfThreads) {
@@ -252,10 +251,9 @@ TEST(OnScan, WhatIsNotAccurateIsSaidWithSettingsThatHelp) {
   // One setting with as many nodes was tried to its end; followed, it gives what it promises.
   ASSERT_EQ(few.suggestions.size(), 1U);
   const SuggestedSetting& found = few.suggestions.front();
-  EXPECT_EQ(found.setting, "error-adaptive weighting and a mean edge ratio of 1.4");
+  EXPECT_EQ(found.setting, "a mean edge ratio of 1.4");
   RemeshOptions adaptive = options;
   OnScanOptions changed;
-  changed.weighting = CellWeighting::ErrorAdaptive;
   changed.edge_ratio = 1.4;
   adaptive.method = changed;
   const RemeshResult followed = remesh(mushroom, adaptive);

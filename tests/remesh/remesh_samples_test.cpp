@@ -58,7 +58,6 @@ TEST_P(RemeshSamples, DefaultsReachWhatRealScansAreToReach) {
 
 TEST_P(RemeshSamples, ALargeEdgeRatioIsCloserAndKeepsItsAngles) {
   OnScanOptions close;
-  close.weighting = CellWeighting::ErrorAdaptive;
   close.edge_ratio = 1.5;
   RemeshOptions options;
   options.method = close;

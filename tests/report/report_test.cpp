@@ -653,12 +653,12 @@ struct TypedOptions {
 TEST(Report, NamesOptionsAsOneTypesThem) {
   RemeshResult result = example();
   OnScanOptions on_scan;
-  on_scan.weighting = CellWeighting::ErrorAdaptive;
+  on_scan.weighting = CellWeighting::Curvature;
   on_scan.edge_ratio = 1.3;
   result.options.method = on_scan;
   TypedOptions typed;
   for_each_option(result.options, typed);
-  EXPECT_EQ(typed.values.at("weighting"), "error-adaptive");
+  EXPECT_EQ(typed.values.at("weighting"), "wscvt-c");
   const auto options = nlohmann::json::parse(report_json(result)).at("options");
   // Those of the other method are there, and null.
   EXPECT_TRUE(options.at("sampling").is_null());

@@ -8,7 +8,6 @@ import numpy as np
 WEIGHTINGS = (
     ("wscvt-d", "WSCVT-D", "Cells of equal area"),
     ("wscvt-c", "WSCVT-C", "Smaller cells where the surface bends"),
-    ("error-adaptive", "Error-adaptive", "Smaller cells where the remesh is far from the scan"),
 )
 PLACEMENTS = (
     ("fitted", "Fitted", "Triangles closest to the scan, exactly its volume. Nodes are off the scan"),

@@ -16,7 +16,7 @@
 #include "wscvt/nodes/evening.h"
 #include "wscvt/nodes/fit.h"
 #include "wscvt/nodes/fit_state.h"
-#include "wscvt/nodes/node_density.h"
+#include "wscvt/surface/curvature_density.h"
 #include "wscvt/surface/intersection_mending.h"
 #include "wscvt/surface/self_intersections.h"
 #include "wscvt/surface/space_order.h"
@@ -41,18 +41,8 @@ constexpr int evening_steps = 100;
 /// then has a slope of .32 to .37 against the logarithm of the largest curvature (of the scan's
 /// series of degree 20 at each node). On smooth bodies, equalized nodes have the slope of the
 /// weighting's own law.
-///
-/// Error-adaptive densities end at three times the mean. Sharp rims would want unlimited density,
-/// but edges along a rim leave no error there, however long. Without this bound the rim of a
-/// knapped stone of 25,000 vertices is crowded: 1000 nodes are 6.3 % of its radius off, 2.8 % with
-/// it. Densities of WSCVT-C are bounded by the paper's law.
-struct Steepness {
-  double evened;
-  double fitted;
-  double most;
-};
-constexpr Steepness curvature_steepness = {0.7, 0.82, std::numeric_limits<double>::infinity()};
-constexpr Steepness adaptive_steepness = {1.3, 1.45, 3.0};
+constexpr double evened_steepness = 0.7;
+constexpr double fitted_steepness = 0.82;
 /// Smallest number of samples, for few nodes, whose cells are so large that a fixed number per node
 /// would scatter: four nodes on a ball are a tetrahedron within 3 % only with 120.
 constexpr std::size_t fewest_samples = 4000;
@@ -249,11 +239,11 @@ Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, in
   coarsening.forget();
   placing.surface.mesh = coarsening.mesh();
   const IndexedMesh surface = {placing.surface.mesh.points, placing.surface.mesh.triangles};
-  const Steepness& steepness =
-      options.weighting == CellWeighting::Curvature ? curvature_steepness : adaptive_steepness;
-  placing.surface.density = steepened(
-      node_densities(surface, options.weighting, options.curvature_alpha, node_count, execution),
-      surface, options.fitted ? steepness.fitted : steepness.evened, steepness.most);
+  if (options.weighting == CellWeighting::Curvature) {
+    placing.surface.density =
+        steepened(curvature_density(surface, options.curvature_alpha, node_count, execution),
+                  surface, options.fitted ? fitted_steepness : evened_steepness);
+  }
   if (!placing.surface.density.empty()) {
     coarsening = Coarsening(placing.surface.mesh, placing.surface.density);
   }

@@ -7,9 +7,8 @@ namespace wscvt {
 
 /// Weighting: the wanted size of the cell of a node on the scan.
 enum class CellWeighting {
-  Area,           ///< WSCVT-D: equal areas of the surface
-  Curvature,      ///< WSCVT-C: smaller cells where the surface bends
-  ErrorAdaptive,  ///< cells with the same error of flat triangles everywhere
+  Area,       ///< WSCVT-D: equal areas of the surface
+  Curvature,  ///< WSCVT-C: smaller cells where the surface bends
 };
 
 /// Range and default of the wanted mean edge ratio.

@@ -48,10 +48,15 @@ struct EnumerationTable<CellWeighting> {
        "cells of equal area, for triangles of even size"},
       {CellWeighting::Curvature, "wscvt-c", "WSCVT-C (curvature)",
        "smaller cells where the surface bends"},
-      {CellWeighting::ErrorAdaptive, "error-adaptive", "error-adaptive",
-       "smaller cells where flat triangles miss the surface most"},
   };
 };
+
+template <>
+inline std::string instead_of<CellWeighting>(std::string_view key) {
+  if (key != "error-adaptive") return {};
+  return " error-adaptive of version 3.0 is gone: wscvt-d with --edge-ratio 1.4 is closer to the "
+         "scan.";
+}
 
 /// Placement of the nodes relative to the scan.
 enum class ScanPlacement {

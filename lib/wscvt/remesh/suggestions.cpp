@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/remesh/suggestions.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -20,8 +21,7 @@ struct Trial {
   std::uint64_t least_work = 0;
 };
 
-/// Work per node of equalization and fit: 1,900 elements at the default edge ratio, 5,000 at 1.4
-/// with error-adaptive weights.
+/// Work per node of equalization and fit: 1,900 elements at the default edge ratio, 5,000 at 1.4.
 constexpr std::uint64_t fitted_work = 1900;
 constexpr std::uint64_t closer_work = 5000;
 
@@ -29,7 +29,7 @@ constexpr std::uint64_t closer_work = 5000;
 /// reading and checking the scan.
 constexpr std::uint64_t cost_of_placing = 2;
 
-/// A large edge ratio, at which the triangles of error-adaptive nodes are close and still even.
+/// A large edge ratio, at which triangles are close and still even.
 constexpr double closer_edge_ratio = 1.4;
 
 /// Returns the setting with as many nodes that helps most. Only one is tried, because all together
@@ -48,17 +48,15 @@ std::optional<Trial> best_trial(const RemeshOptions& options) {
   if (on_scan->placement == ScanPlacement::OnSurface) {
     trial.name = "fitted nodes";
     changed.placement = ScanPlacement::Fitted;
-  } else if (on_scan->weighting == CellWeighting::ErrorAdaptive &&
+  } else if (on_scan->weighting == CellWeighting::Area &&
              on_scan->edge_ratio >= closer_edge_ratio) {
     return {};  // the run itself
   } else {
-    trial.name = "error-adaptive weighting";
+    trial.name = "a mean edge ratio of " + format_number(closer_edge_ratio);
     trial.least_work = closer_work * nodes;
-    changed.weighting = CellWeighting::ErrorAdaptive;
-    if (on_scan->edge_ratio < closer_edge_ratio) {
-      changed.edge_ratio = closer_edge_ratio;
-      trial.name += " and a mean edge ratio of " + format_number(closer_edge_ratio);
-    }
+    if (on_scan->weighting != CellWeighting::Area) trial.name = "wscvt-d and " + trial.name;
+    changed.weighting = CellWeighting::Area;
+    changed.edge_ratio = std::max(on_scan->edge_ratio, closer_edge_ratio);
   }
   trial.options.method = changed;
   return trial;

@@ -65,7 +65,7 @@ std::string voxel_steps_advice(const std::string& name) {
   return name +
          " is made of the faces of voxels. Their steps make its area up to half as large again as "
          "the grain's. Its volume is correct. A smoother remesh is closer to the grain, so do not "
-         "follow the steps with more nodes or error-adaptive weighting. Make the mesh from the "
+         "follow the steps with more nodes or a larger edge ratio. Make the mesh from the "
          "volume (wscvt extract), which smooths the steps and keeps the volume. Or smooth it "
          "first, e.g. by Taubin's filter in MeshLab.";
 }

@@ -123,8 +123,8 @@ std::vector<Method> methods() {
   return {
       {"WSCVT-D, as published", published},
       on_scan("WSCVT-D", CellWeighting::Area, default_edge_ratio),
-      on_scan("error-adaptive", CellWeighting::ErrorAdaptive, default_edge_ratio),
-      on_scan("error-adaptive, edge ratio 1.6", CellWeighting::ErrorAdaptive, 1.6),
+      on_scan("WSCVT-D, edge ratio 1.4", CellWeighting::Area, 1.4),
+      on_scan("WSCVT-D, edge ratio 1.6", CellWeighting::Area, 1.6),
       {"Lindstrom-Turk collapse", lindstrom_turk},
       {"Garland-Heckbert collapse", garland_heckbert},
   };

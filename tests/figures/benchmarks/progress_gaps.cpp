@@ -122,10 +122,7 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
   on_scan("remesh by the scan's curvature",
           [](OnScanOptions& o) { o.weighting = CellWeighting::Curvature; });
   on_scan("remesh for contacts", [](OnScanOptions& o) { o.placement = ScanPlacement::ContactFit; });
-  on_scan("remesh closely", [](OnScanOptions& o) {
-    o.weighting = CellWeighting::ErrorAdaptive;
-    o.edge_ratio = 1.6;
-  });
+  on_scan("remesh closely", [](OnScanOptions& o) { o.edge_ratio = 1.6; });
   add("remesh of points", [](RemeshOptions& o) { o.points = true; });
   add("remesh with distances", [](RemeshOptions& o) { o.measures.distances = true; });
   add("remesh to an error", [](RemeshOptions& o) {

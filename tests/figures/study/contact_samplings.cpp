@@ -32,7 +32,7 @@ RemeshOptions on_scan(CellWeighting weighting, ScanPlacement placement,
 
 std::vector<ContactSampling> contact_samplings() {
   const auto contact = [](double ball_radius) {
-    RemeshOptions options = on_scan(CellWeighting::ErrorAdaptive, ScanPlacement::ContactFit);
+    RemeshOptions options = on_scan(CellWeighting::Area, ScanPlacement::ContactFit, 1.4);
     std::get<OnScanOptions>(options.method).contact_radius = ball_radius;
     return options;
   };
@@ -42,7 +42,7 @@ std::vector<ContactSampling> contact_samplings() {
           {"Fibonacci", published(Weighting::Constant, Sampling::Fibonacci)},
           {"on the scan", on_scan(CellWeighting::Area, ScanPlacement::OnSurface)},
           {"fitted", on_scan(CellWeighting::Area, ScanPlacement::Fitted)},
-          {"fitted, close", on_scan(CellWeighting::ErrorAdaptive, ScanPlacement::Fitted, 1.4)},
+          {"fitted, close", on_scan(CellWeighting::Area, ScanPlacement::Fitted, 1.4)},
           {"contact 0.4", contact(0.4)},
           {"contact 1.3", contact(1.3)},
           {"contact 5", contact(5.0)}};

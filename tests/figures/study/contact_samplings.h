@@ -15,7 +15,7 @@ struct ContactSampling {
 };
 
 /// As published, with nodes on the scan: WSCVT-D, WSCVT-C, constant, Fibonacci. By the method on
-/// the scan: nodes on it, fitted, fitted closely, and contact fits of error-adaptive weights, with
+/// the scan: nodes on it, fitted, fitted closely, and contact fits of an edge ratio of 1.4, with
 /// their radius, for nodes against another grain's surface, nodes of both, and flat walls.
 std::vector<ContactSampling> contact_samplings();
 

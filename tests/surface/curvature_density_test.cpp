@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/node_density.h"
+#include "wscvt/surface/curvature_density.h"
 
 #include <gtest/gtest.h>
 
@@ -38,35 +38,12 @@ double at(const IndexedMesh& mesh, const std::vector<double>& values, const Vect
   return values[farthest];
 }
 
-TEST(NodeDensity, IsNoneForEqualAreas) {
-  EXPECT_TRUE(node_densities(spheroid(), CellWeighting::Area, 1.0, 100, Execution(1)).empty());
-}
-
-TEST(NodeDensity, OfErrorsIsTheCurvatureToTwoThirds) {
-  const IndexedMesh body = spheroid();
-  const std::vector<double> density =
-      node_densities(body, CellWeighting::ErrorAdaptive, 1.0, many_nodes, Execution(1));
-  EXPECT_NEAR(mean_over(body, density), 1.0, 1e-12);
-  // Root mean squares: sqrt((2^2 + 2^2) / 2) at a tip, sqrt((1 + 1/16) / 2) about the middle.
-  const double wanted = std::pow(2.0 / std::sqrt(0.53125), 2.0 / 3.0);
-  EXPECT_NEAR(at(body, density, Vector3(0.01, 0.02, 1)) / at(body, density, Vector3(1, 0.3, 0.01)),
-              wanted, 0.04 * wanted);
-}
-
-TEST(NodeDensity, OfErrorsHasAFloorWhereTheBodyIsFlat) {
-  const IndexedMesh box = test::subdivided(test::box(1.0, 1.1, 1.2), 4);
-  const std::vector<double> density =
-      node_densities(box, CellWeighting::ErrorAdaptive, 1.0, 500, Execution(1));
-  EXPECT_GT(*std::min_element(density.begin(), density.end()), 0.02);
-}
-
-TEST(NodeDensity, OfCurvatureGivesCellsByTheLawOfThePaper) {
+TEST(CurvatureDensity, GivesCellsByTheLawOfThePaper) {
   const IndexedMesh body = spheroid();
   const std::vector<double> areas = vertex_areas(body);
   for (const double alpha : {1.0, 0.5, -1.0}) {
     SCOPED_TRACE(alpha);
-    const std::vector<double> density =
-        node_densities(body, CellWeighting::Curvature, alpha, many_nodes, Execution(1));
+    const std::vector<double> density = curvature_density(body, alpha, many_nodes, Execution(1));
     EXPECT_NEAR(mean_over(body, density), 1.0, 1e-12);
     // The largest curvature of the spheroid, by its formula: x = sin t, z = 2 cos t has
     // 2 / g^3 along it and 2 / g across, g^2 = cos^2 t + 4 sin^2 t.
@@ -92,50 +69,35 @@ TEST(NodeDensity, OfCurvatureGivesCellsByTheLawOfThePaper) {
         at(body, density, Vector3(0.01, 0.02, 1)) / at(body, density, Vector3(1, 0.3, 0.01)),
         wanted, 0.05 * wanted);
   }
-  const std::vector<double> none =
-      node_densities(body, CellWeighting::Curvature, 0.0, many_nodes, Execution(1));
+  const std::vector<double> none = curvature_density(body, 0.0, many_nodes, Execution(1));
   for (const double value : none) EXPECT_NEAR(value, 1.0, 1e-12);
 }
 
-TEST(NodeDensity, OfABallIsEvenWhateverTheWeighting) {
-  const IndexedMesh ball = test::sphere(4);
-  for (const CellWeighting weighting : {CellWeighting::Curvature, CellWeighting::ErrorAdaptive}) {
-    const std::vector<double> density = node_densities(ball, weighting, 1.0, 300, Execution(1));
-    // Quadrics over two rings of an icosahedron's parts tell curvature to some per cent.
-    for (const double value : density) EXPECT_NEAR(value, 1.0, 0.1);
-  }
+TEST(CurvatureDensity, OfABallIsEven) {
+  const std::vector<double> density = curvature_density(test::sphere(4), 1.0, 300, Execution(1));
+  // Quadrics over two rings of an icosahedron's parts tell curvature to some per cent.
+  for (const double value : density) EXPECT_NEAR(value, 1.0, 0.1);
 }
 
-TEST(NodeDensity, IsMeantOverLargerDiscsForFewerNodes) {
+TEST(CurvatureDensity, IsMeantOverLargerDiscsForFewerNodes) {
   const IndexedMesh body = spheroid();
   const auto contrast = [&](int count) {
-    const std::vector<double> density =
-        node_densities(body, CellWeighting::ErrorAdaptive, 1.0, count, Execution(1));
+    const std::vector<double> density = curvature_density(body, 1.0, count, Execution(1));
     return at(body, density, Vector3::UnitZ());
   };
   EXPECT_GT(contrast(many_nodes), 1.05 * contrast(50));
 }
 
-TEST(NodeDensity, IsSteepenedAboutItsMean) {
+TEST(CurvatureDensity, IsSteepenedAboutItsMean) {
   const IndexedMesh body = test::lumpy(3);
   std::vector<double> density;
   for (const Vector3& p : body.points) density.push_back(std::exp(p.z()));
-  const std::vector<double> steep = steepened(density, body, 1.3, 100.0);
+  const std::vector<double> steep = steepened(density, body, 1.3);
   EXPECT_NEAR(mean_over(body, steep), 1.0, 1e-12);
   for (std::size_t i = 1; i < steep.size(); ++i) {
     EXPECT_NEAR(std::log(steep[i] / steep[0]), 1.3 * std::log(density[i] / density[0]), 1e-10);
   }
-  EXPECT_TRUE(steepened({}, body, 2.0, 3.0).empty());
-}
-
-TEST(NodeDensity, IsAsLargeAsItMayBeAtMost) {
-  // A rim so sharp that nodes would jam on it.
-  const IndexedMesh body = test::lumpy(3);
-  std::vector<double> density;
-  for (const Vector3& p : body.points) density.push_back(std::exp(8.0 * p.z()));
-  const std::vector<double> steep = steepened(density, body, 1.0, 3.0);
-  EXPECT_EQ(*std::max_element(steep.begin(), steep.end()), 3.0);
-  EXPECT_LT(*std::min_element(steep.begin(), steep.end()), 0.01);
+  EXPECT_TRUE(steepened({}, body, 2.0).empty());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/node_density.h"
+#include "wscvt/surface/curvature_density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,6 @@ namespace {
 /// Curvatures below this, in 1 / radius of the sphere of equal area, are raised to it, because a
 /// flat face has no scale.
 constexpr double flat_curvature_in_space = 0.01;
-/// For the error-adaptive weighting, curvatures below this fraction of the median are raised to it.
-/// A flat face has a small error at any size, but without nodes it would not be detected as flat.
-constexpr double flat_share = 0.3;
-/// The density of the error-adaptive weighting is the curvature to this power.
-constexpr double adaptive_power = 2.0 / 3.0;
 /// Largest alpha x of eq. 11, so that no wanted cell is negative.
 constexpr double most_weight = 0.9;
 /// The paper's law: cell area = 3.118 w + C.
@@ -80,15 +75,6 @@ double weighted_mean(const std::vector<double>& areas, const std::vector<double>
   return sum / area;
 }
 
-/// k^(2/3), for curvatures k in 1 / radius.
-void adapt_to_errors(std::vector<double>& field) {
-  std::vector<double> order = field;
-  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
-  std::nth_element(order.begin(), middle, order.end());
-  const double floor = std::max(flat_share * *middle, flat_curvature_in_space);
-  for (double& k : field) k = std::pow(std::max(k, floor), adaptive_power);
-}
-
 /// Eqs. 11 to 14; false on a sphere, whose deviation is zero.
 bool weigh_curvature(std::vector<double>& field, const std::vector<double>& areas, double alpha) {
   for (double& k : field) k = -std::log(std::max(k, flat_curvature_in_space));
@@ -109,10 +95,8 @@ bool weigh_curvature(std::vector<double>& field, const std::vector<double>& area
 
 }  // namespace
 
-std::vector<double> node_densities(const IndexedMesh& surface, CellWeighting weighting,
-                                   double curvature_alpha, int node_count,
-                                   const Execution& execution) {
-  if (weighting == CellWeighting::Area) return {};
+std::vector<double> curvature_density(const IndexedMesh& surface, double alpha, int node_count,
+                                      const Execution& execution) {
   constexpr int rings = 2;  // the paper fits over one, which scans leave under-determined
   const std::vector<PrincipalCurvatures> curvatures =
       quadric_fit_curvatures(surface, rings, execution);
@@ -122,30 +106,23 @@ std::vector<double> node_densities(const IndexedMesh& surface, CellWeighting wei
   std::vector<double> field;
   field.reserve(curvatures.size());
   for (const PrincipalCurvatures& k : curvatures) {
-    const double most = k.maximum * k.maximum;
-    const double least = k.minimum * k.minimum;
-    field.push_back(weighting == CellWeighting::Curvature ? std::max(most, least)
-                                                          : 0.5 * (most + least));
+    field.push_back(std::max(k.maximum * k.maximum, k.minimum * k.minimum));
   }
   spread(surface, areas, disc_radius * std::sqrt(area / node_count), field, execution);
   const double radius = std::sqrt(area / (4.0 * pi));
   for (double& square : field) square = std::sqrt(square) * radius;
-  if (weighting == CellWeighting::ErrorAdaptive) {
-    adapt_to_errors(field);
-  } else if (!weigh_curvature(field, areas, curvature_alpha)) {
-    return {};
-  }
+  if (!weigh_curvature(field, areas, alpha)) return {};
   const double mean = weighted_mean(areas, field);
   for (double& density : field) density /= mean;
   return field;
 }
 
-std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface, double power,
-                              double most) {
+std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface,
+                              double power) {
   if (density.empty()) return density;
   for (double& value : density) value = std::pow(value, power);
   const double mean = weighted_mean(vertex_areas(surface), density);
-  for (double& value : density) value = std::min(value / mean, most);
+  for (double& value : density) value /= mean;
   return density;
 }
 
