@@ -102,13 +102,6 @@ std::string label_of(Enumeration value) {
   return std::string(row_of(value).label);
 }
 
-/// Returns a sentence, after a blank, that says what to use instead of a value of an earlier
-/// version; empty for any other text. Specialized beside the table of such a value.
-template <class Enumeration>
-std::string instead_of(std::string_view /*key*/) {
-  return {};
-}
-
 /// Returns the value of a key. Throws Error(InvalidInput), naming the choices, for any other text.
 template <class Enumeration>
 Enumeration from_key(std::string_view key) {
@@ -118,8 +111,7 @@ Enumeration from_key(std::string_view key) {
   }
   throw Error(ErrorCode::InvalidInput,
               "Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": \"" +
-                  std::string(key) + "\". Give " + keys_of<Enumeration>() + "." +
-                  instead_of<Enumeration>(key));
+                  std::string(key) + "\". Give " + keys_of<Enumeration>() + ".");
 }
 
 // The name and range of an option that is a number or a flag are in one constant beside its struct.

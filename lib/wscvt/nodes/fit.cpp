@@ -53,10 +53,15 @@ class SurfaceFit {
   SurfaceFitReport run() {
     for (int round = 0; round < dial_.rounds; ++round) {
       execution_.report(static_cast<double>(round) / dial_.rounds, "Fitting the nodes");
+      state_.place_samples(execution_);
       begin_round(round);
-      play_round(round);
+      if (relocates(round)) report_.relocations += relocate_nodes(state_, execution_);
+      if (flips(round)) report_.flips += flip_for_fit(state_);
+      move_nodes(state_, fit_step(state_, execution_), execution_);
+      if (dial_.polishes) polish(1);
       ++report_.rounds;
     }
+    state_.place_samples(execution_);
     mend_below(smallest_angle);
     return report_;
   }
@@ -103,19 +108,14 @@ class SurfaceFit {
                 static_cast<double>(state_.mesh.triangles.size());
   }
 
-  void play_round(int round) {
-    state_.list_samples();
-    state_.read_spacing();
-    if (round >= first_relocation && round < dial_.rounds - rounds_without_relocation) {
-      report_.relocations += relocate_nodes(state_, execution_);
-    }
-    if (round > 0 && round < dial_.rounds - 1) report_.flips += flip_for_fit(state_);
-    move_nodes(state_, fit_step(state_, execution_), execution_);
+  bool relocates(int round) const {
+    return round >= first_relocation && round < dial_.rounds - rounds_without_relocation;
+  }
+  bool flips(int round) const { return round > 0 && round < dial_.rounds - 1; }
+
+  void polish(int passes) {
     state_.place_samples(execution_);
-    if (!dial_.polishes) return;
-    state_.list_samples();
-    report_.polished += polish_nodes(state_, 1);
-    state_.place_samples(execution_);
+    report_.polished += polish_nodes(state_, passes);
   }
 
   bool has_angles_below(double degrees) const {
@@ -136,7 +136,6 @@ class SurfaceFit {
     state_.round.checks_pairs = true;
     for (int pass = 0; pass < most_passes && has_angles_below(degrees); ++pass) {
       execution_.report(1.0, "Fitting the nodes");
-      state_.list_samples();
       state_.edge = mean_edge_length(state_.mesh);
       state_.build_hash();
       state_.round.price = growth * std::max(state_.round.price, state_.mean_square);
@@ -145,7 +144,6 @@ class SurfaceFit {
       if (pass < passes_of_polish) report_.polished += polish_nodes(state_, 3);
       if (pass >= first_forced) {
         state_.place_samples(execution_);
-        state_.list_samples();
         mend_angles(state_, degrees);
       }
       state_.place_samples(execution_);

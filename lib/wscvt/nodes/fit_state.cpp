@@ -173,6 +173,7 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
   // Neighbours in space become neighbours in memory.
   std::stable_sort(samples.begin(), samples.end(),
                    [](const FitSample& a, const FitSample& b) { return a.face < b.face; });
+  list_samples();
 }
 
 double FitState::weight(double squared_distance) const {
@@ -225,6 +226,8 @@ void FitState::place_samples(const Execution& execution) {
         return part;
       });
   mean_square = std::max(sum / static_cast<double>(samples.size()), 1e-300);
+  list_samples();
+  read_spacing();
 }
 
 void FitState::list_samples() {

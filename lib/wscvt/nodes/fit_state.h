@@ -137,7 +137,8 @@ struct FitState {
                 std::array<Vector3, 3>* gradient = nullptr) const;
   double excess(std::size_t t) const;
 
-  /// Walks every sample to the nearest triangle and updates the mean square.
+  /// Walks every sample to the nearest triangle, and updates the mean square, the lists and the
+  /// spacing.
   void place_samples(const Execution& execution);
   /// Rebuilds `of`, `sample_normals` and `about`.
   void list_samples();

@@ -46,6 +46,8 @@ constexpr double fitted_steepness = 0.82;
 /// Smallest number of samples, for few nodes, whose cells are so large that a fixed number per node
 /// would scatter: four nodes on a ball are a tetrahedron within 3 % only with 120.
 constexpr std::size_t fewest_samples = 4000;
+/// Samples per node of a scan with fewer vertices than nodes, which is flat between them.
+constexpr int samples_of_coarse_scan = 16;
 /// If a number of nodes is too few, up to this many times as many are tried.
 constexpr int most_tried_times = 3;
 /// Below this many vertices per node, the cheapest merge of all is made each time.
@@ -262,7 +264,9 @@ std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& pla
                                           const FitDial& dial, std::vector<std::int32_t>& near) {
   const SampledScan& scan = placing.split.mesh.points.empty() ? parts.scan : placing.split;
   const std::size_t nodes = placing.nodes.points.size();
-  const std::size_t wanted = nodes * static_cast<std::size_t>(dial.samples_a_node);
+  const std::size_t wanted = nodes * static_cast<std::size_t>(parts.scan.mesh.points.size() < nodes
+                                                                  ? samples_of_coarse_scan
+                                                                  : dial.samples_a_node);
   std::vector<FitSample> samples = draw_fit_samples(scan, std::max(wanted, fewest_samples),
                                                     parts.area / static_cast<double>(nodes));
   near.reserve(samples.size());

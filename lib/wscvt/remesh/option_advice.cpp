@@ -45,7 +45,7 @@ constexpr Replaced replaced[] = {
     {"curvature-source", "",
      "Leave it out: --method as-published uses the curvature of the SH series, --method on-scan "
      "the curvature of the scan."},
-    {"adaptive-exponent", "", "Leave it out: it is 2/3, which gives the smallest distance."},
+    {"adaptive-exponent", "", "Use --edge-ratio 1.4, which is closer to the scan."},
     {"distance-samples", "", "Leave it out: 400,000 sample points are used."},
     {"weld-tolerance", "", "Leave it out: it is 1e-12 of the scan's size."},
     {"dropped-volume", "", "Leave it out: it is 25 % of the volume."},
@@ -56,6 +56,7 @@ constexpr Replaced replaced[] = {
     {"output-unit", "", "Use --scale with the factor between the two units."},
     {"weighting", "radial-distance", "Use wscvt-d."},
     {"weighting", "curvature", "Use wscvt-c."},
+    {"weighting", "error-adaptive", "Use wscvt-d with --edge-ratio 1.4, which is closer."},
     {"placement", "series", "Use --method as-published, with --placement sh-surface."},
     {"placement", "scan", "Use on-surface."},
     {"placement", "least-squares", "Use fitted, with --method on-scan."},

@@ -51,13 +51,6 @@ struct EnumerationTable<CellWeighting> {
   };
 };
 
-template <>
-inline std::string instead_of<CellWeighting>(std::string_view key) {
-  if (key != "error-adaptive") return {};
-  return " error-adaptive of version 3.0 is gone: wscvt-d with --edge-ratio 1.4 is closer to the "
-         "scan.";
-}
-
 /// Placement of the nodes relative to the scan.
 enum class ScanPlacement {
   Fitted,      ///< off it; the triangles are closest to it and enclose exactly its volume
