@@ -16,22 +16,16 @@ namespace wscvt::program {
 
 namespace {
 
-/// Returns the bodies of a mesh; an empty list if it cannot be read or split.
-std::vector<MeshBody> bodies_of(const std::string& path, bool quiet) {
+/// Returns the bodies of a mesh file.
+MeshBodies bodies_of(const std::string& path, bool quiet) {
   note_signals();
   ProgressLine line(!quiet);
   const Execution execution(1, [&](double fraction, const std::string& stage) {
     line.show(fraction, stage);
     return noted_signal() == 0;
   });
-  try {
-    return split_bodies(read_mesh(path, execution), execution);
-  } catch (const MachineRefused&) {
-    throw;
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::Cancelled) throw;
-    return {};
-  }
+  MeshFile file = read_mesh_file(path, execution);
+  return split_bodies(std::move(file.mesh), std::move(file.named_faces), execution);
 }
 
 }  // namespace
@@ -49,21 +43,35 @@ BatchGrains::BatchGrains(const std::vector<std::string>& files, const VolumeOpti
 
 void BatchGrains::add_mesh(const std::string& path, const VolumeOptions& options,
                            const Shard& shard, bool quiet) {
-  std::vector<MeshBody> bodies;
-  if (options.parts) bodies = bodies_of(path, quiet);
-  if (bodies.size() < 2) {
+  MeshBodies bodies;
+  std::string error;
+  if (options.parts) {
+    try {
+      bodies = bodies_of(path, quiet);
+    } catch (const MachineRefused&) {
+      throw;
+    } catch (const Error& failure) {
+      if (failure.code() == ErrorCode::Cancelled) throw;
+      error = failure.what();
+    }
+  }
+  if (bodies.list.size() < 2) {
     if (!is_of(shard, path)) return;
     names_.push_back(path);
-    places_.push_back({Place::File, 0, 0});
+    places_.push_back({error.empty() ? Place::File : Place::Refused, 0, errors_.size()});
+    if (!error.empty()) errors_.push_back(error);
     return;
   }
-  print({path + ": " + std::to_string(bodies.size()) + " bodies"}, quiet);
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
+  print({path + ": " + std::to_string(bodies.list.size()) + " bodies"}, quiet);
+  print(bodies.warnings, quiet);
+  for (std::size_t k = 0; k < bodies.list.size(); ++k) {
+    MeshBody& body = bodies.list[k];
     const std::string name = path + "/" + std::to_string(k + 1);
+    if (!body.name.empty()) print({"  " + std::to_string(k + 1) + ": " + body.name}, quiet);
     if (!is_of(shard, name)) continue;
     names_.push_back(name);
     places_.push_back({Place::Body, 0, bodies_.size()});
-    bodies_.push_back(std::move(bodies[k].mesh));
+    bodies_.push_back(std::move(body.mesh));
   }
 }
 
@@ -119,6 +127,7 @@ void BatchGrains::begin(std::size_t first) {
 GrainScan BatchGrains::read(std::size_t grain, bool with_pictures, const Execution& execution) {
   const Place& place = places_[grain];
   if (place.kind == Place::Body) return {bodies_[place.grain], {}, {}};
+  if (place.kind == Place::Refused) throw Error(ErrorCode::InvalidInput, errors_[place.grain]);
   if (place.kind == Place::File) {
     MeshFile file = read_mesh_file(names_[grain], execution);
     if (with_pictures) read_pictures(file, names_[grain], execution);

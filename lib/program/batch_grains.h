@@ -52,9 +52,9 @@ class BatchGrains {
  private:
   /// Grain of a name.
   struct Place {
-    enum Kind { File, Label, Body } kind;
+    enum Kind { File, Label, Body, Refused } kind;
     std::size_t volume;  ///< of a label, of volumes_
-    std::size_t grain;   ///< index in LabelGrains::taken, or in bodies_
+    std::size_t grain;   ///< index in LabelGrains::taken, bodies_ or errors_
   };
 
   void add_volume(const std::string& path, const VolumeOptions& options, const Shard& shard,
@@ -67,6 +67,7 @@ class BatchGrains {
   std::vector<std::string> paths_;  ///< of the volumes
   std::vector<std::unique_ptr<LabelGrains>> volumes_;
   std::vector<IndexedMesh> bodies_;
+  std::vector<std::string> errors_;  ///< of meshes that could not be split
 };
 
 }  // namespace wscvt::program

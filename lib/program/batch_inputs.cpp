@@ -51,6 +51,7 @@ void add_input(const std::string& input, std::vector<std::string>& files);
 }
 
 void add_list(const std::string& list, std::vector<std::string>& files) {
+  refuse_device(list);
   std::ifstream lines(list);
   if (!lines.is_open()) {
     throw Error(ErrorCode::InputOutput,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common_arguments.h"
 
+#include <filesystem>
+
 #include "command.h"
+#include "toolbox/volume/label_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
 
@@ -30,6 +33,23 @@ void check_format(const std::string& format) {
   if (is_mesh_format("mesh." + format, MeshUse::Write)) return;
   refuse("The format of the meshes is \"" + format + "\". Give --format one of " +
          mesh_extensions(MeshUse::Write) + ", without the point.");
+}
+
+void check_mesh_input(const std::string& path) {
+  std::error_code error;
+  const bool is_folder = std::filesystem::is_directory(path, error);
+  if (is_volume(path) && (is_folder || std::filesystem::exists(path, error))) {
+    refuse("\"" + path +
+           "\" is a volume, not a mesh. wscvt batch VOLUME -o OUT remeshes its labels, and wscvt "
+           "extract VOLUME OUT writes a mesh of each. Grey values become labels by wscvt segment "
+           "VOLUME LABELS.nrrd first.");
+  }
+  if (is_folder) {
+    refuse("\"" + path +
+           "\" is a folder. wscvt batch FOLDER -o OUT remeshes all meshes in it; other commands "
+           "take one file.");
+  }
+  check_mesh_format(path, MeshUse::Read);
 }
 
 std::string mesh_argument_text(const std::string& what, MeshUse use) {

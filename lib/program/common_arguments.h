@@ -37,6 +37,10 @@ void add_format_argument(CLI::App& app, std::string& format);
 /// Throws wscvt::Error(InvalidInput) for an ending that is no mesh format.
 void check_format(const std::string& format);
 
+/// Throws wscvt::Error(InvalidInput) for an input that is not a mesh, with the command for it: a
+/// volume, a folder, another ending.
+void check_mesh_input(const std::string& path);
+
 /// Returns the help text of a mesh that is read or written: "Scan: .ply, .stl or .obj".
 std::string mesh_argument_text(const std::string& what, MeshUse use);
 

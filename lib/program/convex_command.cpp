@@ -64,7 +64,7 @@ int run(const ConvexArguments& arguments) {
     check_options(arguments.options);
     require_in_range(arguments.density, parts_density_option);
     check_frame_options(arguments.frame);
-    check_mesh_format(arguments.scan, MeshUse::Read);
+    check_mesh_input(arguments.scan);
     for (const std::string& output : arguments.outputs) check_part_file(output);
     check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
     for (const std::string& report : common.reports) check_parts_report(report);
@@ -82,6 +82,8 @@ int run(const ConvexArguments& arguments) {
     work.write(output, [&](const std::string& path, const Execution&) {
       write_parts(path, written, mass, arguments.density);
     });
+    const std::string refused = inertia_warning(output, mass, arguments.density);
+    if (!refused.empty()) result.warnings.push_back(refused);
   }
   for (const std::string& name : common.reports) {
     work.write(name, [&](const std::string& path, const Execution& execution) {

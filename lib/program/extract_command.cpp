@@ -122,6 +122,11 @@ int run(const ExtractArguments& arguments) {
     if (same_file(arguments.volume, arguments.folder)) {
       refuse("\"" + arguments.volume + "\" is the volume itself. Give an output folder.");
     }
+    if (!is_volume(arguments.volume) && is_mesh_file(arguments.volume)) {
+      refuse("\"" + arguments.volume +
+             "\" is a mesh, not a volume. wscvt split MESH FOLDER writes each of its bodies, and "
+             "wscvt batch MESH -o OUT --parts remeshes them.");
+    }
     if (!is_volume(arguments.volume)) open_volume(arguments.volume);  // throws its error
   });
   if (!arguments.quiet) check_writable("/dev/stdout");

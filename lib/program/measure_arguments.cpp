@@ -28,8 +28,8 @@ void add_measure_arguments(CLI::App& app, MeasureArguments& arguments) {
 void measure(const MeasureArguments& arguments, const std::optional<std::string>& reference) {
   const CommonArguments& common = arguments.common;
   checked([&] {
-    if (!is_clump_file(arguments.grain)) check_mesh_format(arguments.grain, MeshUse::Read);
-    if (reference) check_mesh_format(*reference, MeshUse::Read);
+    if (!is_clump_file(arguments.grain)) check_mesh_input(arguments.grain);
+    if (reference) check_mesh_input(*reference);
     check_output_paths({{"the grain", arguments.grain}, {"the reference", reference.value_or("")}},
                        named_reports(common.reports), common.overwrite);
     for (const std::string& report : common.reports) {

@@ -75,7 +75,7 @@ int run(const RemeshArguments& arguments) {
   checked([&] {
     check_options(arguments.options);
     check_simulation_arguments(simulation);
-    check_mesh_format(arguments.scan, MeshUse::Read);
+    check_mesh_input(arguments.scan);
     check_mesh_format(arguments.output, MeshUse::Write);
     check_coefficients_path(arguments.coefficients);
     check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);

@@ -28,20 +28,22 @@ constexpr NumberOption<double> smallest_body_option = {
     0.0,
     100.0,
     Ends::Both,
-    "in % of the largest body's volume. Smaller bodies, and open bodies without a volume, are only "
-    "listed"};
+    "in % of the largest body's volume. Smaller bodies, and open surfaces, are only listed"};
 
 std::string table_header() {
   return csv_record({"body", "state", "volume", "pores", "pore_volume", "boundary_edges", "x_min",
                      "y_min", "z_min", "x_max", "y_max", "z_max", "vertices", "faces", "file"});
 }
 
-/// Returns the row of a body; `file` is empty if the body is too small.
+/// Returns the row of a body; `file` is empty if the body is open or too small.
 std::string table_row(std::size_t number, const MeshBody& body, const std::string& file) {
   std::vector<std::string> fields = {
-      std::to_string(number),         file.empty() ? "too small" : "written",
-      format_exact(body.volume),      std::to_string(body.pores),
-      format_exact(body.pore_volume), std::to_string(body.boundary_edges)};
+      std::to_string(number),
+      !body.is_closed() ? "open" : file.empty() ? "too small" : "written",
+      format_exact(body.volume),
+      std::to_string(body.pores),
+      format_exact(body.pore_volume),
+      std::to_string(body.boundary_edges)};
   Vector3 low = body.mesh.points.front();
   Vector3 high = low;
   for (const Vector3& p : body.mesh.points) {
@@ -54,6 +56,7 @@ std::string table_row(std::size_t number, const MeshBody& body, const std::strin
   fields.push_back(std::to_string(body.mesh.points.size()));
   fields.push_back(std::to_string(body.mesh.triangles.size()));
   fields.push_back(file);
+  fields.push_back(body.name);
   return csv_record(fields);
 }
 
@@ -62,7 +65,7 @@ std::string summary_of(const std::vector<MeshBody>& bodies, std::size_t written)
   std::size_t open = 0;
   for (const MeshBody& body : bodies) {
     pores += body.pores;
-    if (body.boundary_edges > 0) ++open;
+    if (!body.is_closed()) ++open;
   }
   std::string text = std::to_string(bodies.size()) +
                      (bodies.size() == 1 ? " body: " : " bodies: ") + std::to_string(written) +
@@ -70,8 +73,8 @@ std::string summary_of(const std::vector<MeshBody>& bodies, std::size_t written)
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text += ", " + std::to_string(count) + what;
   };
-  add(bodies.size() - written, " too small");
-  add(open, " open");
+  add(bodies.size() - written - open, " too small");
+  add(open, " open and only listed");
   add(pores, pores == 1 ? " pore in them" : " pores in them");
   return text;
 }
@@ -102,7 +105,7 @@ int run(const SplitArguments& arguments) {
   const fs::path folder = arguments.folder;
   const std::string table = (folder / "bodies.csv").string();
   checked([&] {
-    check_mesh_format(arguments.mesh, MeshUse::Read);
+    check_mesh_input(arguments.mesh);
     check_format(arguments.format);
     if (same_file(arguments.mesh, arguments.folder)) {
       refuse("\"" + arguments.mesh + "\" is the mesh itself. Give an output folder.");
@@ -110,13 +113,15 @@ int run(const SplitArguments& arguments) {
   });
   Work work(arguments.common);
   MeshFile file = read_mesh_file(arguments.mesh, work.execution().part(0.0, 0.5));
-  const std::vector<MeshBody> bodies =
-      split_bodies(std::move(file.mesh), work.execution().part(0.5, 0.9));
+  MeshBodies split = split_bodies(std::move(file.mesh), std::move(file.named_faces),
+                                  work.execution().part(0.5, 0.9));
+  const std::vector<MeshBody> bodies = std::move(split.list);
+  file.warnings.insert(file.warnings.end(), split.warnings.begin(), split.warnings.end());
   double largest = 0.0;
   for (const MeshBody& body : bodies) largest = std::max(largest, body.volume);
   std::vector<std::string> files;
   for (const MeshBody& body : bodies) {
-    const bool is_taken = body.volume >= 0.01 * arguments.smallest * largest;
+    const bool is_taken = body.is_closed() && body.volume >= 0.01 * arguments.smallest * largest;
     files.push_back(is_taken ? std::to_string(files.size() + 1) + "." + arguments.format : "");
   }
   std::error_code error;

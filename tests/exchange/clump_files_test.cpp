@@ -220,6 +220,31 @@ TEST_F(ClumpFiles, TemplatesOfLiggghtsDifferByTheirNames) {
   }
 }
 
+TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
+  for (const char* text :
+       {"0,0,0.5,1\n0.5,-1,0,0.9\n", "X,Y,Z,Radius\n0,0,0.5,1\n0.5,-1,0,0.9\n",
+        "x;y;z;r\n0;0;0.5;1\n0.5;-1;0;0.9\n", "x y z r\n0 0 0.5 1\n0.5 -1 0 0.9\n",
+        "\"x\",\"y\",\"z\",\"r\"\r\n0,0,0.5,1\r\n0.5,-1,0,0.9\r\n",
+        "\xEF\xBB\xBFid,r,x,y,z\n1,1,0,0,0.5\n2,0.9,0.5,-1,0\n",
+        "# x\ty\tz\tradius\n0\t0\t0.5\t1\n0.5\t-1\t0\t0.9\n",
+        "x[mm],y[mm],z[mm],r[mm]\n0,0,0.5,1\n0.5,-1,0,0.9\n",
+        "x,y,z,diameter\n0,0,0.5,2\n0.5,-1,0,1.8\n"}) {
+    SCOPED_TRACE(text);
+    const std::string name = file("spheres.csv", text);
+    EXPECT_TRUE(is_clump_file(name));
+    const std::vector<Sphere> spheres = read_clump(name);
+    ASSERT_EQ(spheres.size(), 2U);
+    EXPECT_EQ(spheres[0].centre, Vector3(0, 0, 0.5));
+    EXPECT_EQ(spheres[1].centre, Vector3(0.5, -1, 0));
+    EXPECT_EQ(spheres[0].radius, 1.0);
+    EXPECT_EQ(spheres[1].radius, 0.9);
+  }
+  const std::string sentence = test::refusal(
+      ErrorCode::InvalidInput, [&] { read_clump(file("other.csv", "a,b,c,d\n1,2,3,4\n")); });
+  EXPECT_NE(sentence.find("x, y, z and r"), std::string::npos) << sentence;
+  EXPECT_FALSE(is_clump_file(file("points.xyz", "0 0 0 1\n")));
+}
+
 TEST_F(ClumpFiles, WrongNamesAndContentsAreRefused) {
   EXPECT_ERROR(write_clump(path("clump.stl"), made_clump(), {}), InvalidInput);
   EXPECT_ERROR(write_clump(path("clump.molecule"), made_clump(), {}, 0.0), InvalidInput);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that claim to be meshes. The first byte names the reader: p PLY, s STL, o OBJ, k and v
-// VTK's older files and those in XML, x points as text, c PCD, any other OFF.
+// VTK's older files and those in XML, x points as text, c PCD, g Gmsh, a Abaqus, any other OFF.
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "fuzz/promise.h"
 #include "wscvt/base/error.h"
 #include "wscvt/mesh_files/byte_reader.h"
+#include "wscvt/mesh_files/element_readers.h"
 #include "wscvt/mesh_files/legacy_vtk_reader.h"
 #include "wscvt/mesh_files/obj_reader.h"
 #include "wscvt/mesh_files/off_reader.h"
@@ -28,8 +30,16 @@ IndexedMesh read(char format, ByteReader& reader) {
       return read_ply(reader);
     case 's':
       return read_stl(reader);
-    case 'o':
-      return read_obj(reader);
+    case 'o': {
+      MeshAttributes attributes;
+      std::vector<std::string> libraries;
+      std::vector<NamedFaces> names;
+      return read_obj_attributes(reader, attributes, libraries, names);
+    }
+    case 'g':
+      return read_gmsh(reader);
+    case 'a':
+      return read_abaqus(reader);
     case 'k':
       return read_legacy_vtk(reader);
     case 'v':

@@ -92,6 +92,86 @@ std::vector<double> numbers_between(std::string text, const std::string& from,
   return numbers;
 }
 
+TEST_F(MeshFormats, OfFiniteElementsAreReadBack) {
+  for (const char* name : {"a.msh", "a.inp", "a.vtu"}) {
+    write_mesh(lumpy_body(), path(name));
+    const IndexedMesh back = read_mesh(path(name));
+    EXPECT_EQ(back.points, as_written(lumpy_body(), name).points) << name;
+    EXPECT_EQ(back.triangles, lumpy_body().triangles) << name;
+  }
+}
+
+TEST_F(MeshFormats, OfFiniteElementsOfOthersGiveTheirFaces) {
+  const IndexedMesh expected{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5}},
+                             {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
+  const auto expect = [&](const std::string& name, const std::string& text) {
+    const IndexedMesh mesh = read_mesh(file(name, text));
+    EXPECT_EQ(mesh.points, expected.points) << name;
+    EXPECT_EQ(mesh.triangles, expected.triangles) << name;
+  };
+  // A quadrilateral, a triangle; a point and a line are left out, and numbers have gaps.
+  expect("old.msh",
+         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"skin\"\n"
+         "$EndPhysicalNames\n$Nodes\n4\n10 0 0 0\n20 1 0 0\n30 1 1 0\n40 0 1 0.5\n$EndNodes\n"
+         "$Elements\n4\n1 15 2 0 1 10\n2 1 2 0 1 10 20\n3 3 2 1 1 10 20 30 40\n"
+         "4 2 2 1 1 10 40 20\n$EndElements\n");
+  expect("new.msh",
+         "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 4 10 40\n0 1 0 1\n10\n0 0 0\n"
+         "2 1 0 3\n20\n30\n40\n1 0 0\n1 1 0\n0 1 0.5\n$EndNodes\n$Elements\n3 3 1 3\n"
+         "0 1 15 1\n1 10\n2 1 3 1\n2 10 20 30 40\n2 1 2 1\n3 10 40 20\n$EndElements\n");
+  expect("others.inp",
+         "*Heading\n** made\n*Node, nset=all\n10, 0, 0, 0\n20, 1., 0., 0.\n30, 1, 1, 0\n"
+         "40, 0, 1, 5e-1,\n*Element, type=S4R, elset=a\n1, 10, 20, 30, 40\n"
+         "*Element, type=T3D2\n2, 10, 20\n*Element, TYPE = STRI3\n3, 10, 40, 20\n"
+         "*Nset, nset=b\n10, 20\n");
+  expect("grid.vtu",
+         "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+         "NumberOfCells=\"3\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+         "format=\"ascii\">0 0 0 1 0 0 1 1 0 0 1 0.5</DataArray></Points><Cells><DataArray "
+         "type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 0 1 2 3 0 3 1</DataArray>"
+         "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">2 6 9</DataArray><DataArray "
+         "type=\"UInt8\" Name=\"types\" format=\"ascii\">3 9 5</DataArray></Cells></Piece>"
+         "</UnstructuredGrid></VTKFile>");
+  expect_refusal("binary.msh", "$MeshFormat\n4.1 1 8\n", "Save it as text");
+  expect_refusal("cut.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n",
+                 "cut off");
+  expect_refusal("lost.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=S3\n1,1,2,3\n", "node 2");
+  expect_refusal("volume.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n1,1,1,1,1\n", "surface");
+}
+
+TEST_F(MeshFormats, NameObjectsGroupsAndSolids) {
+  const MeshFile obj =
+      read_mesh_file(file("a.obj",
+                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\no first\ng a\nf 1 3 4\n"
+                          "o second one\ng b\nf 1 2 3 4\no first\nf 2 3 4\n"));
+  ASSERT_EQ(obj.named_faces.size(), 2U);
+  EXPECT_EQ(obj.named_faces[0].names, (std::vector<std::string>{"first", "second one"}));
+  EXPECT_EQ(obj.named_faces[0].of_face, (std::vector<std::int32_t>{-1, 0, 1, 1, 0}));
+  EXPECT_EQ(obj.named_faces[1].of_face, (std::vector<std::int32_t>{-1, 0, 1, 1, 1}));
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      "endfacet\n";
+  const MeshFile stl =
+      read_mesh_file(file("a.stl", "solid grain 7\n" + facet + facet + "endsolid grain 7\nsolid\n" +
+                                       facet + "endsolid\n"));
+  ASSERT_EQ(stl.named_faces.size(), 1U);
+  EXPECT_EQ(stl.named_faces[0].names, (std::vector<std::string>{"grain 7", ""}));
+  EXPECT_EQ(stl.named_faces[0].of_face, (std::vector<std::int32_t>{0, 0, 1}));
+  EXPECT_TRUE(read_mesh_file(file("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nf 1 2 3\n"))
+                  .named_faces.empty());
+}
+
+TEST_F(MeshFormats, ThatWouldFillTheMemoryAreRefused) {
+  gzFile packed = ::gzopen(path("bomb.ply.gz").c_str(), "wb9");
+  const std::string blanks(std::size_t{1} << 20, ' ');
+  for (int k = 0; k < 200; ++k) ::gzwrite(packed, blanks.data(), 1U << 20U);
+  ::gzclose(packed);
+  const std::string sentence =
+      test::refusal(ErrorCode::InputOutput, [&] { read_mesh(path("bomb.ply.gz")); });
+  EXPECT_NE(sentence.find("unpacks to more than"), std::string::npos) << sentence;
+  EXPECT_ERROR(read_mesh("/dev/zero"), InvalidInput);
+}
+
 TEST_F(MeshFormats, OfGmshAbaqusAndVtuHoldTheMesh) {
   const std::size_t n = lumpy_body().points.size();
   const std::size_t m = lumpy_body().triangles.size();
@@ -402,15 +482,16 @@ TEST_F(MeshFormats, ArePackedByGzip) {
 
 TEST(MeshFormatNames, SayWhatIsReadAndWhatIsWritten) {
   EXPECT_TRUE(is_mesh_format("a.VTP", MeshUse::Read) && is_mesh_format("a.vtp", MeshUse::Write));
-  EXPECT_TRUE(!is_mesh_format("a.msh", MeshUse::Read) && is_mesh_format("a.msh", MeshUse::Write));
+  EXPECT_TRUE(is_mesh_format("a.msh", MeshUse::Read) && is_mesh_format("a.msh", MeshUse::Write));
   EXPECT_TRUE(is_mesh_format("a.csv", MeshUse::Read) && !is_mesh_format("a.csv", MeshUse::Write));
   EXPECT_FALSE(is_mesh_format("a.gz", MeshUse::Read));
   // In a folder of scans a table is none of them.
   EXPECT_TRUE(is_mesh_file("a.vtk") && is_mesh_file("a.ply.gz") && !is_mesh_file("grains.csv"));
+  EXPECT_FALSE(is_mesh_file("job.inp"));
   EXPECT_EQ(mesh_extensions(MeshUse::Write),
             ".ply, .stl, .ascii.stl, .obj, .off, .vtp, .vtk, .vtu, .msh or .inp");
   EXPECT_EQ(mesh_extensions(MeshUse::Read),
-            ".ply, .stl, .obj, .off, .vtp, .vtk, .xyz, .csv or .pcd");
+            ".ply, .stl, .obj, .off, .vtp, .vtk, .vtu, .msh, .inp, .xyz, .csv or .pcd");
   EXPECT_ERROR(check_mesh_format("a.step", MeshUse::Read), InvalidInput);
 }
 

@@ -56,6 +56,63 @@ TEST_F(Split, WritesAFileABodyAndATable) {
   EXPECT_EQ(read_mesh(path("out/3.off")).points.size(), test::sphere(3).points.size());
 }
 
+TEST_F(Split, NamesBodiesAndOnlyListsOpenOnes) {
+  IndexedMesh open = test::moved(test::sphere(2), 1.0, {9, 0, 0});
+  open.triangles.pop_back();
+  std::ofstream obj(path("named.obj"));
+  std::size_t first = 1;
+  for (const auto& [name, mesh] :
+       {std::pair<std::string, IndexedMesh>("grain_11", test::box(2, 2, 2)),
+        {"grain \"12\"", test::moved(test::box(2, 2, 2), 1.0, {2, 0, 0})},
+        {"torn", open}}) {
+    obj << "o " << name << "\n";
+    for (const Vector3& p : mesh.points) obj << "v " << p.transpose() << "\n";
+    for (const Triangle& t : mesh.triangles) {
+      obj << "f " << t[0] + first << " " << t[1] + first << " " << t[2] + first << "\n";
+    }
+    first += mesh.points.size();
+  }
+  obj.close();
+  const Outcome outcome = run("split named.obj out");
+  EXPECT_EQ(outcome.output, "3 bodies: 2 written, 1 open and only listed\n") << outcome.errors;
+  const auto rows = test::csv_records(content("out/bodies.csv"));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[0].back(), "name");
+  EXPECT_EQ(rows[1].back(), "grain_11");
+  EXPECT_EQ(rows[2].back(), "grain \"12\"");
+  EXPECT_EQ(rows[3].back(), "torn");
+  EXPECT_EQ(rows[3][1], "open");
+  EXPECT_EQ(rows[3][14], "");
+  EXPECT_FALSE(exists("out/3.ply"));
+  EXPECT_NEAR(volume(path("out/2.ply")), 8.0, 1e-12);
+  // One of two that touch is not taken for a grain, and the advice is followed.
+  write_mesh(test::joined(test::box(2, 2, 2), test::moved(test::box(2, 2, 2), 1.0, {2, 0, 0})),
+             path("touching.stl"));
+  const Outcome whole = run("remesh touching.stl whole.ply -n 60");
+  EXPECT_EQ(whole.exit_code, 1);
+  EXPECT_NE(whole.errors.find("2 bodies with common walls"), std::string::npos) << whole.errors;
+  EXPECT_EQ(run("batch touching.stl -o apart -n 60 --parts").exit_code, 0);
+  EXPECT_NEAR(volume(path("apart/1.ply")), 8.0, 1e-9);
+  EXPECT_NEAR(volume(path("apart/2.ply")), 8.0, 1e-9);
+}
+
+TEST_F(Split, SaysWhichCommandTakesAnotherInput) {
+  write_sample();
+  fs::create_directory(path("scans"));
+  write_mesh(test::sphere(2), path("scans/a.ply"));
+  std::ofstream(path("volume.vtk"))
+      << "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n";
+  expect_refused("remesh",
+                 {{"volume.vtk o.ply", 2, "wscvt batch VOLUME -o OUT"},
+                  {"scans o.ply", 2, "wscvt batch FOLDER -o OUT"},
+                  {"nothere o.ply", 2, "does not exist"}},
+                 {"o.ply"});
+  expect_refused("describe", {{"scans", 2, "wscvt batch FOLDER -o OUT"}}, {});
+  expect_refused("extract", {{"sample.stl out", 2, "wscvt split MESH FOLDER"}}, {"out/labels.csv"});
+  expect_refused("batch", {{"nothere -o out", 2, "does not exist"}}, {"out/grains.csv"});
+  expect_refused("sample", {{"/dev/zero", 1, "is a folder or a device"}}, {});
+}
+
 TEST_F(Split, IsDoneByABatchToo) {
   write_sample();
   write_mesh(test::sphere(3), path("alone.ply"));

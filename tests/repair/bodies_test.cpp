@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "support/expect_error.h"
@@ -42,7 +48,7 @@ TEST(Bodies, AreTheShellsWithTheirPoresInTheOrderOfTheFile) {
   for (const IndexedMesh& shell : shells) mesh = test::joined(mesh, shell);
   for (const bool as_stl : {false, true}) {
     const std::vector<MeshBody> bodies =
-        split_bodies(as_stl ? test::unwelded(mesh) : mesh, Execution(2));
+        split_bodies(as_stl ? test::unwelded(mesh) : mesh, {}, Execution(2)).list;
     ASSERT_EQ(bodies.size(), 4U);
     const std::vector<double> radii = {0.1, 10.0, 3.0, 5.0};
     const std::vector<std::size_t> pores = {0, 2, 1, 0};
@@ -65,7 +71,7 @@ TEST(Bodies, AreFoundInAFileWhoseFacesAreInAnyOrder) {
   IndexedMesh mesh = test::joined(ball(3.0, {0, 0, 0}), ball(1.0, {0.5, -0.25, 0.125}));
   mesh = test::joined(mesh, ball(2.0, {4.9, 0, 0}));
   mesh = test::shuffled(mesh, test::announced(3));
-  const std::vector<MeshBody> bodies = split_bodies(mesh, Execution(1));
+  const std::vector<MeshBody> bodies = split_bodies(mesh, {}, Execution(1)).list;
   ASSERT_EQ(bodies.size(), 2U);
   EXPECT_EQ(bodies[0].pores + bodies[1].pores, 1U);
   EXPECT_EQ(bodies[bodies[0].volume > bodies[1].volume ? 0 : 1].pores, 1U);
@@ -74,11 +80,11 @@ TEST(Bodies, AreFoundInAFileWhoseFacesAreInAnyOrder) {
 TEST(Bodies, ThatCutThroughEachOtherOrAreOpenLieSideBySide) {
   // The smaller one's box is within the larger's.
   const IndexedMesh cutting = test::joined(ball(10.0, {0, 0, 0}), ball(2.0, {6.0, 6.0, 0}));
-  EXPECT_EQ(split_bodies(cutting, Execution(1)).size(), 2U);
+  EXPECT_EQ(split_bodies(cutting, {}, Execution(1)).list.size(), 2U);
   IndexedMesh open = ball(1.0, {0, 0, 0});
   open.triangles.pop_back();
   const std::vector<MeshBody> bodies =
-      split_bodies(test::joined(ball(10.0, {0, 0, 0}), open), Execution(1));
+      split_bodies(test::joined(ball(10.0, {0, 0, 0}), open), {}, Execution(1)).list;
   ASSERT_EQ(bodies.size(), 2U);
   EXPECT_EQ(bodies[0].pores, 0U);
   EXPECT_EQ(bodies[1].boundary_edges, 3U);
@@ -93,14 +99,255 @@ TEST(Bodies, ThatTouchInAVertexAreTwo) {
   }
   const IndexedMesh other = test::transformed(test::box(2.0, 1.0, 1.0), Eigen::Matrix3d::Identity(),
                                               corner - test::box(2.0, 1.0, 1.0).points[0]);
-  EXPECT_EQ(split_bodies(test::joined(box, other), Execution(1)).size(), 2U);
+  EXPECT_EQ(split_bodies(test::joined(box, other), {}, Execution(1)).list.size(), 2U);
+}
+
+// Surfaces of labels on a grid of unit cubes, as programs export them.
+enum class Walls {
+  OwnVertices,     // a closed surface each
+  SharedVertices,  // a closed surface each; common corners are one vertex (VTK's discrete contours)
+  Soup,            // as an STL file
+  Once,            // the common wall once, in the direction of either (Avizo, DREAM.3D)
+};
+
+using Labels = std::map<std::array<int, 3>, int>;
+
+/// Appends the square between two cubes, outward from the first.
+void add_square(const std::array<int, 3>& cube, int axis, int sign,
+                std::map<std::array<int, 3>, std::int32_t>& vertices, IndexedMesh& mesh) {
+  std::array<std::int32_t, 4> corners{};
+  for (int k = 0; k < 4; ++k) {
+    std::array<int, 3> corner = cube;
+    corner[axis] += sign > 0 ? 1 : 0;
+    corner[(axis + 1) % 3] += k == 1 || k == 2 ? 1 : 0;
+    corner[(axis + 2) % 3] += k >= 2 ? 1 : 0;
+    const auto [known, is_new] =
+        vertices.emplace(corner, static_cast<std::int32_t>(mesh.points.size()));
+    if (is_new) mesh.points.emplace_back(corner[0], corner[1], corner[2]);
+    corners[k] = known->second;
+  }
+  if (sign < 0) std::swap(corners[1], corners[3]);
+  // The same diagonal from both sides.
+  mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+  mesh.triangles.push_back({corners[0], corners[2], corners[3]});
+}
+
+struct Exported {
+  IndexedMesh mesh;
+  std::vector<NamedFaces> names;
+};
+
+Exported exported(const Labels& labels, Walls walls, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::map<int, std::map<std::array<int, 3>, std::int32_t>> vertices;
+  Exported result;
+  NamedFaces names;
+  std::set<int> known;
+  for (const auto& [cube, label] : labels) known.insert(label);
+  for (const int label : known) {
+    names.names.push_back("grain_" + std::to_string(label));
+    for (const auto& [cube, own] : labels) {
+      if (own != label) continue;
+      for (int side = 0; side < 6; ++side) {
+        std::array<int, 3> next = cube;
+        next[side / 2] += side % 2 == 0 ? 1 : -1;
+        const auto found = labels.find(next);
+        const int other = found == labels.end() ? 0 : found->second;
+        if (other == label) continue;
+        if (walls == Walls::Once && other > 0 && other < label) continue;
+        auto& own_vertices = vertices[walls == Walls::OwnVertices ? label : 0];
+        const std::size_t before = result.mesh.triangles.size();
+        add_square(cube, side / 2, side % 2 == 0 ? 1 : -1, own_vertices, result.mesh);
+        if (walls == Walls::Once && other > 0 && engine() % 2 == 0) {
+          for (std::size_t f = before; f < before + 2; ++f) {
+            std::swap(result.mesh.triangles[f][1], result.mesh.triangles[f][2]);
+          }
+        }
+        names.of_face.resize(result.mesh.triangles.size(),
+                             static_cast<std::int32_t>(names.names.size()) - 1);
+      }
+    }
+  }
+  if (walls == Walls::Soup) result.mesh = test::unwelded(result.mesh);
+  if (walls == Walls::OwnVertices) result.names = {names};
+  return result;
+}
+
+Labels filled(const std::array<int, 3>& low, const std::array<int, 3>& high, int label,
+              Labels labels = {}) {
+  for (int x = low[0]; x < high[0]; ++x) {
+    for (int y = low[1]; y < high[1]; ++y) {
+      for (int z = low[2]; z < high[2]; ++z) labels[{x, y, z}] = label;
+    }
+  }
+  return labels;
+}
+
+/// Two that touch in a wall; three that meet in a line; one inside another; contact in an edge, and
+/// in a point; four of which one touches itself in an edge.
+std::map<std::string, Labels> touching_labels() {
+  std::map<std::string, Labels> all;
+  all["wall"] = filled({3, 1, 0}, {5, 4, 3}, 2, filled({0, 0, 0}, {3, 4, 5}, 1));
+  all["line"] = filled({0, 2, 0}, {4, 4, 3}, 3,
+                       filled({2, 0, 0}, {5, 2, 3}, 2, filled({0, 0, 0}, {2, 2, 3}, 1)));
+  all["inside"] = filled({1, 1, 1}, {3, 3, 2}, 2, filled({0, 0, 0}, {4, 4, 4}, 1));
+  all["two inside"] = filled({2, 1, 1}, {3, 3, 2}, 3,
+                             filled({1, 1, 1}, {2, 3, 2}, 2, filled({0, 0, 0}, {5, 4, 4}, 1)));
+  all["edge"] = filled({2, 2, 0}, {4, 5, 4}, 2, filled({0, 0, 0}, {2, 2, 3}, 1));
+  all["point"] = filled({2, 2, 3}, {4, 5, 4}, 2, filled({0, 0, 0}, {2, 2, 3}, 1));
+  all["itself"] = filled({1, 1, 0}, {2, 2, 1}, 1, filled({0, 0, 0}, {1, 1, 1}, 1));
+  all["itself"] = filled({0, 0, 1}, {2, 2, 2}, 1, all["itself"]);
+  all["itself"] = filled({2, 0, 0}, {4, 2, 2}, 2, all["itself"]);
+  return all;
+}
+
+std::vector<double> volumes_of(const std::vector<MeshBody>& bodies) {
+  std::vector<double> volumes;
+  for (const MeshBody& body : bodies) volumes.push_back(std::abs(signed_volume(body.mesh)));
+  std::sort(volumes.begin(), volumes.end());
+  return volumes;
+}
+
+std::vector<double> sizes_of(const Labels& labels) {
+  std::map<int, double> sizes;
+  for (const auto& [cube, label] : labels) sizes[label] += 1.0;
+  std::vector<double> volumes;
+  for (const auto& [label, size] : sizes) volumes.push_back(size);
+  std::sort(volumes.begin(), volumes.end());
+  return volumes;
+}
+
+TEST(Bodies, AreTheLabelsOfSurfacesThatTouch) {
+  const std::uint64_t seed = test::announced(11);
+  for (const auto& [kind, labels] : touching_labels()) {
+    for (const Walls walls :
+         {Walls::OwnVertices, Walls::SharedVertices, Walls::Soup, Walls::Once}) {
+      SCOPED_TRACE(kind + ", " + std::to_string(static_cast<int>(walls)));
+      // A wall that is there once about a body inside another is that of a pore.
+      if (walls == Walls::Once && kind == "inside") continue;
+      for (const bool mixed : {false, true}) {
+        Exported file = exported(labels, walls, seed);
+        if (mixed) file = {test::shuffled(file.mesh, seed), {}};
+        const MeshBodies bodies = split_bodies(file.mesh, file.names, Execution(2));
+        const std::vector<double> volumes = volumes_of(bodies.list);
+        const std::vector<double> sizes = sizes_of(labels);
+        ASSERT_EQ(volumes.size(), sizes.size());
+        for (std::size_t k = 0; k < sizes.size(); ++k) EXPECT_NEAR(volumes[k], sizes[k], 1e-12);
+        for (const MeshBody& body : bodies.list) EXPECT_TRUE(body.is_closed());
+        if (mixed || walls != Walls::OwnVertices) continue;
+        for (std::size_t k = 0; k < sizes.size(); ++k) {
+          EXPECT_EQ(bodies.list[k].name, "grain_" + std::to_string(k + 1));
+        }
+      }
+    }
+  }
+}
+
+// Reduced one by one, they share some corners of their wall, and overlap a little.
+TEST(Bodies, ThatOverlapInPartAreTold) {
+  IndexedMesh first = test::box(2, 2, 2);
+  IndexedMesh second = test::moved(test::box(2, 2, 2), 1.0, {2, 0, 0});
+  for (Vector3& p : second.points) {
+    if (p.x() < 1.5 && p.y() > 0.0) p.x() -= 0.25;
+  }
+  const MeshBodies bodies = split_bodies(test::joined(first, second), {}, Execution(1));
+  ASSERT_EQ(bodies.list.size(), 2U);
+  EXPECT_NEAR(bodies.list[0].volume, 8.0, 1e-12);
+  EXPECT_NEAR(bodies.list[1].volume, 8.5, 1e-12);
+}
+
+TEST(Bodies, AreToldThoughTheirSquaresAreCutAlongDifferentDiagonals) {
+  const IndexedMesh first = test::box(2, 2, 2);
+  const IndexedMesh second =
+      test::moved(test::scaled(test::box(2, 2, 2), Vector3(1, -1, 1)), 1.0, {2, 0, 0});
+  const IndexedMesh both = test::unwelded(test::joined(first, second));
+  const std::vector<MeshBody> bodies = split_bodies(both, {}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_NEAR(bodies[0].volume, 8.0, 1e-12);
+  EXPECT_NEAR(bodies[1].volume, 8.0, 1e-12);
+}
+
+TEST(Bodies, AreRefusedWhereTheirFacesLieOnEachOther) {
+  // One copy of the wall has a vertex in its middle, and the faces have no common vertices.
+  const IndexedMesh first = test::box(2, 2, 2);
+  IndexedMesh second = test::moved(test::box(2, 2, 2), 1.0, {2, 0, 0});
+  for (std::size_t f = 0; f < second.triangles.size(); ++f) {
+    const Triangle t = second.triangles[f];
+    const auto is_left = [&](std::int32_t v) {
+      return second.points[static_cast<std::size_t>(v)].x() < 1.5;
+    };
+    if (!is_left(t[0]) || !is_left(t[1]) || !is_left(t[2])) continue;
+    const auto middle = static_cast<std::int32_t>(second.points.size());
+    second.points.emplace_back((second.points[static_cast<std::size_t>(t[0])] +
+                                second.points[static_cast<std::size_t>(t[1])] +
+                                second.points[static_cast<std::size_t>(t[2])]) /
+                               3.0);
+    second.triangles[f] = {t[0], t[1], middle};
+    second.triangles.push_back({t[1], t[2], middle});
+    second.triangles.push_back({t[2], t[0], middle});
+    if (second.points.size() == 10) break;
+  }
+  const IndexedMesh both = test::unwelded(test::joined(first, second));
+  EXPECT_ERROR(split_bodies(both, {}, Execution(1)), InvalidInput);
+}
+
+TEST(Bodies, AreNamedByTheCoarsestNamesThatTellThemApart) {
+  const IndexedMesh one = ball(1.0, {0, 0, 0});
+  const IndexedMesh mesh = test::joined(one, ball(1.0, {5, 0, 0}));
+  const auto faces = static_cast<std::int32_t>(one.triangles.size());
+  NamedFaces objects{{"scan"}, std::vector<std::int32_t>(2 * faces, 0)};
+  NamedFaces groups{{"a", "b"}, std::vector<std::int32_t>(faces, 0)};
+  groups.of_face.resize(2 * faces, 1);
+  const std::vector<MeshBody> bodies = split_bodies(mesh, {objects, groups}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].name + bodies[1].name, "ab");
+  // Groups that are parts of one surface are no bodies.
+  NamedFaces patches{{"top", "bottom"}, std::vector<std::int32_t>(faces / 2, 0)};
+  patches.of_face.resize(faces, 1);
+  const std::vector<MeshBody> whole = split_bodies(one, {patches}, Execution(1)).list;
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_EQ(whole[0].name, "");
+  EXPECT_TRUE(whole[0].is_closed());
+}
+
+TEST(Bodies, AreTakenOnce) {
+  const IndexedMesh one = ball(1.0, {0, 0, 0});
+  const MeshBodies bodies = split_bodies(test::joined(one, one), {}, Execution(1));
+  EXPECT_EQ(bodies.list.size(), 1U);
+  ASSERT_EQ(bodies.warnings.size(), 1U);
+  EXPECT_NE(bodies.warnings[0].find("more than once"), std::string::npos);
+}
+
+TEST(Bodies, LoseFacesThatHangOnThem) {
+  IndexedMesh mesh = ball(1.0, {0, 0, 0});
+  const Triangle t = mesh.triangles[7];
+  mesh.points.push_back(1.1 * mesh.points[static_cast<std::size_t>(t[0])]);
+  mesh.triangles.push_back({t[0], t[1], static_cast<std::int32_t>(mesh.points.size()) - 1});
+  const MeshBodies bodies = split_bodies(mesh, {}, Execution(1));
+  ASSERT_EQ(bodies.list.size(), 1U);
+  EXPECT_TRUE(bodies.list[0].is_closed());
+  ASSERT_EQ(bodies.warnings.size(), 1U);
+  EXPECT_EQ(bodies.warnings[0].rfind("1 face hangs", 0), 0U) << bodies.warnings[0];
+}
+
+TEST(Bodies, AreClosedAlongSeams) {
+  const std::uint64_t seed = test::announced(5);
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> noise(-1e-7, 1e-7);
+  IndexedMesh mesh = test::unwelded(test::joined(ball(1.0, {0, 0, 0}), ball(2.0, {5, 0, 0})));
+  for (Vector3& p : mesh.points) p += Vector3(noise(engine), noise(engine), noise(engine));
+  const MeshBodies bodies = split_bodies(mesh, {}, Execution(1));
+  ASSERT_EQ(bodies.list.size(), 2U);
+  EXPECT_TRUE(bodies.list[0].is_closed() && bodies.list[1].is_closed());
+  EXPECT_NEAR(bodies.list[1].volume / bodies.list[0].volume, 8.0, 1e-5);
+  ASSERT_EQ(bodies.warnings.size(), 1U);
 }
 
 TEST(Bodies, AreNotMadeOfNothing) {
-  EXPECT_ERROR(split_bodies({}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(split_bodies({}, {}, Execution(1)), InvalidInput);
   IndexedMesh flat = test::box(1.0, 2.0, 3.0);
   for (Vector3& p : flat.points) p = Vector3(1, 2, 3);
-  EXPECT_ERROR(split_bodies(flat, Execution(1)), InvalidInput);
+  EXPECT_ERROR(split_bodies(flat, {}, Execution(1)), InvalidInput);
 }
 
 }  // namespace

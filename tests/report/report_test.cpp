@@ -454,6 +454,8 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   set("/input/lost_faces", input.lost_faces);
   set("/input/welded_vertices", input.welded_vertices);
   set("/input/weld_tolerance", input.weld_tolerance);
+  set("/input/merged_corners", input.merged_corners);
+  set("/input/merged_distance", input.merged_distance);
   set("/input/unreferenced_vertices", input.unreferenced_vertices);
   set("/input/degenerate_faces", input.degenerate_faces);
   set("/input/sliver_faces", input.sliver_faces);

@@ -36,7 +36,7 @@ TEST_F(GrainTableTest, ReadsNamesUnitsNumbersAndFiles) {
       "\xEF\xBB\xBFsize [mm],grain,note,ratio,file,void\r\n"
       "1.25,\"b, 1\",5 pores,0.5,b.ply,\r\n"
       " +2e-3 ,a,,NA,a.ply,\n"
-      "inf,\"c\n2\",7,nan,c.ply,\n");
+      "nan,\"c\n2\",7,nan,c.ply,\n");
   EXPECT_EQ(table.grains, (std::vector<std::string>{"b, 1", "a", "c\n2"}));
   EXPECT_EQ(table.files, (std::vector<std::string>{"b.ply", "a.ply", "c.ply"}));
   ASSERT_EQ(table.columns.size(), 3U);  // a note is text, since the first one is
@@ -51,6 +51,44 @@ TEST_F(GrainTableTest, ReadsNamesUnitsNumbersAndFiles) {
   EXPECT_EQ(table.values(0, 1), 0.5);
   EXPECT_TRUE(std::isnan(table.values(1, 1)) && std::isnan(table.values(2, 1)));
   EXPECT_TRUE(table.values.col(2).array().isNaN().all());
+}
+
+TEST_F(GrainTableTest, RefusesMarksBetweenThousandsByRowAndField) {
+  for (const char* field : {"\"1,000.5\"", "\"3,000\"", "\"1,234,567\"", "12 500", "1'000.25",
+                            "1\xE2\x80\xAF"
+                            "000",
+                            "1\xC2\xA0"
+                            "000,5"}) {
+    SCOPED_TRACE(field);
+    for (const std::string& rows :
+         {std::string("a,") + field + "\nb,2\n", std::string("b,2\na,") + field + "\n"}) {
+      if (rows.find("000,5") != std::string::npos) continue;  // needs another separator
+      const std::string sentence = refusal("grain,volume [mm^3]\n" + rows);
+      EXPECT_NE(sentence.find(rows[0] == 'a' ? "line 2" : "line 3"), std::string::npos) << sentence;
+      EXPECT_NE(sentence.find("volume"), std::string::npos) << sentence;
+    }
+  }
+  for (const char* rows :
+       {"a;1.000,5\nb;2,5\n", "a;1.000\nb;2,5\n", "b;2,5\na;1.234.567\n", "b;2,5\na;1 000,5\n"}) {
+    EXPECT_NE(refusal(std::string("grain;volume\n") + rows).find("thousands"), std::string::npos)
+        << rows;
+  }
+  // Followed, it works; points alone are decimal points.
+  EXPECT_EQ(read("grain,volume\na,1000.5\nb,2\n").values(0, 0), 1000.5);
+  EXPECT_EQ(read("grain;volume\na;1.234\nb;2.5\n").values(0, 0), 1.234);
+  EXPECT_EQ(read("grain;volume\na;1,234\nb;2,5\n").values(0, 0), 1.234);
+}
+
+TEST_F(GrainTableTest, RefusesValuesThatNoGrainHas) {
+  for (const char* row : {"-3,1,0.9", "0,1,0.9", "inf,1,0.9", "nan,1,0.9", "1e999,1,0.9",
+                          "3,-1,0.9", "3,1,1.2", "3,1,-0.1", "3,-inf,0.9"}) {
+    const std::string sentence =
+        refusal(std::string("grain,volume,axis_i_box,sphericity\na,1,1,0.9\nb,") + row + "\n");
+    EXPECT_NE(sentence.find("line 3"), std::string::npos) << row << ": " << sentence;
+    EXPECT_NE(sentence.find("the column"), std::string::npos) << sentence;
+  }
+  // Other columns may be negative, and fields may be empty.
+  EXPECT_EQ(read("grain,volume,curl\na,1,-2\nb,,3\n").values(0, 1), -2.0);
 }
 
 TEST_F(GrainTableTest, ReadsWhatSpreadsheetsWrite) {

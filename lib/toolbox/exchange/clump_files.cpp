@@ -3,18 +3,21 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <system_error>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/file_name.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/next_prime.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/version.h"
+#include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
 
@@ -283,13 +286,79 @@ void write_clump(const std::string& path, const ClumpResult& clump, const FrameO
 
 namespace {
 
-constexpr const char* header = "x,y,z,r";
+/// Longest line of a table of spheres that is looked at.
+constexpr std::size_t longest_line = 1000;
 
 /// Reads a line without its end.
 bool next_line(std::istream& stream, std::string& line) {
-  if (!std::getline(stream, line)) return false;
+  line.clear();
+  for (char c = 0; stream.get(c) && c != '\n';) {
+    if (line.size() > longest_line) return false;
+    line += c;
+  }
   if (!line.empty() && line.back() == '\r') line.pop_back();
-  return true;
+  return !line.empty() || !stream.eof();
+}
+
+/// Splits a line at commas, semicolons, tabs and blanks.
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  std::size_t at = 0;
+  while ((at = line.find_first_not_of(" \t,;", at)) != std::string::npos) {
+    const std::size_t end = std::min(line.find_first_of(" \t,;", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+/// Columns of x, y, z and the radius.
+struct SphereColumns {
+  std::array<std::size_t, 4> of{};
+  std::size_t count = 0;      ///< of all columns
+  bool has_diameter = false;  ///< in the place of the radius
+  bool has_heading = true;
+};
+
+/// Returns nothing if the first line is no heading of spheres and not four numbers.
+std::optional<SphereColumns> columns_of(const std::string& first_line) {
+  std::vector<std::string> words = words_of(first_line);
+  // Units and the mark of a comment are words of their own in "# x [mm]".
+  words.erase(std::remove_if(words.begin(), words.end(),
+                             [](const std::string& word) {
+                               return word == "#" || word.front() == '[' || word.front() == '(';
+                             }),
+              words.end());
+  SphereColumns columns;
+  columns.count = words.size();
+  std::size_t numbers = 0;
+  std::array<int, 4> found{};
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    if (number_in(words[k])) ++numbers;
+    std::string name = lower_case(words[k]);
+    name = name.substr(0, name.find_first_of("[(", 1));
+    name.erase(0, name.find_first_not_of("#\"\xEF\xBB\xBF"));
+    if (!name.empty() && name.back() == '"') name.pop_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string letter(1, "xyz"[axis]);
+      if (name == letter || name == "c" + letter || name == "center_" + letter ||
+          name == "centre_" + letter || name == "pos" + letter || name == letter + "c") {
+        columns.of[axis] = k;
+        ++found[axis];
+      }
+    }
+    const bool is_diameter = name == "d" || name == "diameter";
+    if (is_diameter || name == "r" || name == "radius" || name == "rad") {
+      columns.of[3] = k;
+      columns.has_diameter = is_diameter;
+      ++found[3];
+    }
+  }
+  if (found == std::array<int, 4>{1, 1, 1, 1}) return columns;
+  if (numbers != 4 || words.size() != 4) return {};
+  columns.of = {0, 1, 2, 3};
+  columns.has_heading = false;
+  return columns;
 }
 
 }  // namespace
@@ -299,37 +368,47 @@ bool is_clump_file(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) return false;
   std::ifstream stream(path, std::ios::binary);
   std::string line;
-  return next_line(stream, line) && line == header;
+  if (!next_line(stream, line)) return false;
+  const std::optional<SphereColumns> columns = columns_of(line);
+  const std::string ending = ending_of(path);
+  return columns &&
+         (columns->has_heading || ending == ".csv" || ending == ".txt" || ending == ".multisphere");
 }
 
 std::vector<Sphere> read_clump(const std::string& path) {
+  refuse_device(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {
     throw Error(ErrorCode::InputOutput,
                 "\"" + path + "\" cannot be opened. Check that the file exists.");
   }
   std::string line;
-  if (!next_line(stream, line) || line != header) {
-    refuse("\"" + path + "\" is not a table of spheres: its first line is not \"x,y,z,r\".");
+  std::optional<SphereColumns> columns;
+  if (next_line(stream, line)) columns = columns_of(line);
+  if (!columns) {
+    refuse("\"" + path +
+           "\" is not a table of spheres. Its first line must name the columns x, y, z and r (or "
+           "radius, or diameter), or be four numbers: x, y, z and the radius.");
   }
   std::vector<Sphere> spheres;
-  for (std::size_t number = 2; next_line(stream, line); ++number) {
+  bool is_read_already = !columns->has_heading;
+  for (std::size_t number = is_read_already ? 1 : 2; is_read_already || next_line(stream, line);
+       ++number) {
+    is_read_already = false;
     if (line.empty() || line.front() == '#') continue;
+    const std::vector<std::string> words = words_of(line);
     std::array<double, 4> values{};
-    const char* at = line.data();
-    const char* const end = at + line.size();
-    bool is_read = true;
+    bool is_read = words.size() == columns->count;
     for (std::size_t k = 0; k < values.size() && is_read; ++k) {
-      const auto [rest, error] = std::from_chars(at, end, values[k]);
-      const bool is_last = k + 1 == values.size();
-      is_read = error == std::errc() && std::isfinite(values[k]) &&
-                (is_last ? rest == end : rest != end && *rest == ',');
-      at = rest + 1;
+      const std::optional<double> value = number_in(words[columns->of[k]]);
+      is_read = value && std::isfinite(*value);
+      if (is_read) values[k] = *value;
     }
     if (!is_read || !(values[3] > 0.0)) {
       refuse("Line " + std::to_string(number) + " of \"" + path +
              "\" is not x,y,z,r with a radius above 0.");
     }
+    if (columns->has_diameter) values[3] *= 0.5;
     spheres.push_back({Vector3(values[0], values[1], values[2]), values[3]});
   }
   if (spheres.empty()) refuse("\"" + path + "\" contains no sphere.");

@@ -49,11 +49,11 @@ std::vector<std::string> files_of_clump(const std::string& path);
 void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
                  double density = 1.0);
 
-/// Returns whether a file is a table of spheres: its first line is x,y,z,r. False if it cannot be
-/// read.
+/// Returns whether a file is a table of spheres: its first line names x, y, z and r, radius or
+/// diameter, or is four numbers in a .csv, .txt or .multisphere file. False if it cannot be read.
 bool is_clump_file(const std::string& path);
 
-/// Reads a .csv or .chrono.csv file. Throws Error: InvalidInput, with the line, for other content;
+/// Reads the spheres of such a file. Throws Error: InvalidInput, with the line, for other content;
 /// InputOutput.
 std::vector<Sphere> read_clump(const std::string& path);
 

@@ -2,6 +2,7 @@
 #include "toolbox/exchange/part_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "wscvt/base/error.h"
@@ -116,6 +117,21 @@ void write_parts(const std::string& path, const ConvexParts& parts, const MassPr
     write_file((std::filesystem::path(path).parent_path() / part_name(path, k)).string(), text);
   }
   write_file(path, urdf_text(path, parts.size(), mass, density));
+}
+
+std::string inertia_warning(const std::string& path, const MassProperties& mass, double density) {
+  constexpr double least_of_mujoco = 1e-14;  // mjEPS of its compiler
+  const double least = density * mass.principal_moments.minCoeff();
+  if (ending_of(path) != ".xml" || least >= least_of_mujoco) return "";
+  // With the mass in kg as before, moments grow with the square of the unit.
+  double units = 1e3;
+  while (least * units * units < least_of_mujoco) units *= 1e3;
+  return "MuJoCo refuses \"" + path + "\": its least moment of inertia is " +
+         format_number(least, 2) +
+         ", and MuJoCo's limit is 1e-14. Use a smaller unit of length: "
+         "multiply --size or --scale by " +
+         format_number(units) + ", set --density " + format_number(density / std::pow(units, 3)) +
+         ", and multiply gravity by " + format_number(units) + ".";
 }
 
 }  // namespace wscvt

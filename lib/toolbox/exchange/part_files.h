@@ -33,4 +33,8 @@ void check_part_file(const std::string& path);
 void write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,
                  double density);
 
+/// Returns a warning with the unit to use if MuJoCo would refuse the inertia in a file of this
+/// name, else an empty text. `mass` as write_parts takes it, in metres.
+std::string inertia_warning(const std::string& path, const MassProperties& mass, double density);
+
 }  // namespace wscvt

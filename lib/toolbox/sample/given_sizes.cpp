@@ -76,6 +76,7 @@ double GivenSizes::diameter(double fraction) const {
 
 GivenSizes read_given_sizes(const std::string& path) {
   errno = 0;
+  refuse_device(path);
   std::ifstream file(path);
   if (!file) refuse_to_open(path, errno);
   std::vector<double> diameters;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <unordered_set>
 #include <utility>
 
@@ -36,8 +37,38 @@ std::optional<double> field_number(std::string_view field, char decimal) {
   double value = missing;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return {};
-  // A value outside the range of double, or infinite, is missing.
-  return error == std::errc() && std::isfinite(value) ? value : missing;
+  return error == std::errc() ? value : std::numeric_limits<double>::infinity();
+}
+
+/// Whether a field is a number with marks between its thousands, such as 1,000.5 or 12 500.
+bool has_thousands(std::string_view field) {
+  std::string text(trimmed(field));
+  // No-break spaces and the typographic apostrophe, in UTF-8.
+  for (const char* mark : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x99"}) {
+    const std::string_view bytes = mark;
+    for (std::size_t at = text.find(bytes); at != std::string::npos; at = text.find(bytes)) {
+      text.replace(at, bytes.size(), "'");
+    }
+  }
+  static const std::regex grouped(
+      "[+-]?[0-9]{1,3}((,[0-9]{3})+(\\.[0-9]*)?|(\\.[0-9]{3})+(,[0-9]*)?|([ "
+      "'][0-9]{3})+([.,][0-9]*)?)");
+  return std::regex_match(text, grouped);
+}
+
+/// Whether a descriptor is a size, which is above 0.
+bool is_size(std::string_view name) {
+  const std::size_t point = name.rfind("scan.");
+  if (point == 0) name.remove_prefix(5);
+  return name == "volume" || name == "area" || name.rfind("axis_", 0) == 0 ||
+         name.rfind("feret_", 0) == 0 || name == "equivalent_radius" ||
+         name == "equivalent_diameter";
+}
+
+/// Whether a descriptor is a fraction, at most 1 by its definition.
+bool is_fraction(std::string_view name) {
+  if (name.rfind("scan.", 0) == 0) name.remove_prefix(5);
+  return name == "sphericity" || name == "convexity";
 }
 
 GrainColumn column_of(std::string_view heading) {
@@ -60,6 +91,7 @@ class TableReader {
 
   void read_heading(const std::vector<std::string>& fields);
   void read_row(const std::vector<std::string>& fields);
+  void check_field(std::size_t k, const std::string& field, std::optional<double> number);
   GrainTable table();
 
   /// Counts the line breaks of the last record.
@@ -87,6 +119,9 @@ class TableReader {
   std::optional<std::size_t> status_field_;
   std::vector<std::vector<double>> numbers_;  ///< of each field that is not text
   GrainTable table_;
+  bool has_comma_ = false;  ///< a number with a decimal comma
+  std::string doubtful_;    ///< a number with points at thousands
+  std::size_t doubtful_line_ = 0;
 };
 
 void TableReader::read_heading(const std::vector<std::string>& fields) {
@@ -117,6 +152,39 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   numbers_.resize(fields_.size());
 }
 
+/// Throws for a number that no grain has.
+void TableReader::check_field(std::size_t k, const std::string& field,
+                              std::optional<double> number) {
+  const auto fail_field = [&](const std::string& what) {
+    fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(field, "") +
+         "\"" + what);
+  };
+  if (!number) {
+    if (has_thousands(field)) fail_field(". Write numbers without marks between thousands.");
+    return;
+  }
+  // In a table with decimal commas 1.000 may be one or a thousand.
+  if (decimal_ == ',' && field.find(',') != std::string::npos) has_comma_ = true;
+  if (decimal_ == ',' && field.find('.') != std::string::npos && has_thousands(field) &&
+      doubtful_.empty()) {
+    doubtful_ = field;
+    doubtful_line_ = line_;
+  }
+  if (std::isnan(*number)) {
+    if (!is_size(fields_[k].name) || lower_case(trimmed(field)).find("nan") == std::string::npos) {
+      return;  // left empty
+    }
+    fail_field(". Write a number, or leave the field empty.");
+  }
+  if (std::isinf(*number)) fail_field(", which is not finite. Leave the field empty.");
+  if (is_size(fields_[k].name) && !(*number > 0.0)) {
+    fail_field(", but every grain has a value above 0. Correct the row, or leave it out.");
+  }
+  if (is_fraction(fields_[k].name) && !(*number > 0.0 && *number <= 1.0 + 1e-6)) {
+    fail_field(", but the value is above 0 and at most 1. Correct the row, or leave it out.");
+  }
+}
+
 void TableReader::read_row(const std::vector<std::string>& fields) {
   if (fields.size() != fields_.size()) {
     fail("the row has " + std::to_string(fields.size()) + " fields, and the heading has " +
@@ -131,6 +199,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (roles_[k] == Role::Text) continue;
     const std::optional<double> number = field_number(fields[k], decimal_);
+    check_field(k, fields[k], number);
     if (!number && roles_[k] == Role::Number) {
       fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
            "\", and numbers above it. Write a number, or leave the field empty.");
@@ -141,6 +210,12 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
 }
 
 GrainTable TableReader::table() {
+  if (has_comma_ && !doubtful_.empty()) {
+    line_ = doubtful_line_;
+    fail("\"" + readable(doubtful_, "") +
+         "\" may have a point between thousands, because other fields have decimal commas. Write "
+         "numbers without marks between thousands.");
+  }
   if (table_.grains.empty()) fail("no row of the table has a grain.");
   std::vector<std::size_t> taken;
   for (std::size_t k = 0; k < fields_.size(); ++k) {
@@ -201,6 +276,7 @@ std::string heading_of(const GrainColumn& column) {
 }
 
 GrainTable read_grain_table(const std::string& path) {
+  refuse_device(path);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) refuse_to_open(path, errno);

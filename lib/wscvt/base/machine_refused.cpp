@@ -54,4 +54,15 @@ void refuse_to_read(const std::string& path) {
   throw MachineRefused("\"" + path + "\" could not be read to its end. Check the disk.");
 }
 
+void refuse_device(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status) ||
+      std::filesystem::is_fifo(status)) {
+    return;
+  }
+  throw Error(ErrorCode::InputOutput,
+              "\"" + path + "\" is a folder or a device. Give the name of a file.");
+}
+
 }  // namespace wscvt

@@ -60,6 +60,12 @@ struct MeshAttributes {
   bool empty() const { return of_vertices.empty() && of_faces.empty() && texture.empty(); }
 };
 
+/// The names that a file gives to sets of its faces: objects and groups of OBJ, solids of STL.
+struct NamedFaces {
+  std::vector<std::string> names;     ///< several solids may have one name
+  std::vector<std::int32_t> of_face;  ///< index of the name of each triangle; -1: none
+};
+
 /// Returns the attribute with this name, or null.
 inline const MeshAttribute* attribute_named(const std::vector<MeshAttribute>& attributes,
                                             std::string_view name) {

@@ -6,6 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/repair/closing_advice.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/voxel_steps.h"
 
@@ -89,6 +90,12 @@ void append_remarks(const MeasuredGrain& grain, std::vector<std::string>& senten
   }
   const MeshCheckReport& report = grain.checked.report;
   if (report.has_voxel_steps) sentences.push_back(voxel_steps_advice("'" + grain.name + "'"));
+  if (report.stray_distance > 0.0) {
+    sentences.push_back(stray_vertex_sentence(report) + " Check that it belongs to the grain.");
+  }
+  if (report.merged_corners > 0) {
+    sentences.push_back(merged_warning(report.merged_corners, report.merged_distance));
+  }
   const double mended = report.flap_area_share + report.filled_area_share;
   if (mended > 0.0) {
     sentences.push_back("Holes and non-manifold edges of '" + grain.name +

@@ -27,6 +27,7 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/mesh_files/byte_reader.h"
+#include "wscvt/mesh_files/element_readers.h"
 #include "wscvt/mesh_files/gzip_content.h"
 #include "wscvt/mesh_files/legacy_vtk_reader.h"
 #include "wscvt/mesh_files/obj_reader.h"
@@ -202,7 +203,7 @@ struct Format {
   IndexedMesh (*read)(ByteReader& reader);  ///< null: only written
   /// Null: only read.
   bool (*write)(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates);
-  bool has_faces = true;  ///< else only points
+  bool is_scan = true;  ///< else a file in a folder counts only if it is named
 };
 
 /// The extension of text STL also ends in that of binary STL; readers accept both forms.
@@ -216,9 +217,9 @@ constexpr Format formats[] = {
     {".off", read_off, write_off},
     {".vtp", read_vtp, write_by<write_plain_vtp>},
     {".vtk", read_legacy_vtk, write_by<write_legacy_vtk>},
-    {".vtu", nullptr, write_by<write_vtu>},
-    {".msh", nullptr, write_by<write_gmsh>},
-    {".inp", nullptr, write_by<write_abaqus>},
+    {".vtu", read_vtp, write_by<write_vtu>, false},
+    {".msh", read_gmsh, write_by<write_gmsh>, false},
+    {".inp", read_abaqus, write_by<write_abaqus>, false},
     {".xyz", read_point_text, nullptr, false},
     {".csv", read_point_text, nullptr, false},
     {".pcd", read_pcd, nullptr, false},
@@ -248,9 +249,14 @@ const Format* known_format(const std::string& path, MeshUse use) {
 const Format& format_of(const std::string& path, MeshUse use) {
   const Format* const format = known_format(path, use);
   if (format == nullptr) {
-    refuse("\"" + path + "\" does not end in " + mesh_extensions(use) +
-           (use == MeshUse::Read ? ". Convert the mesh to one of these."
-                                 : ". Give a name that does."));
+    std::error_code error;
+    const bool is_lost = use == MeshUse::Read && !std::filesystem::exists(path, error);
+    refuse("\"" + path +
+           (is_lost ? "\" does not exist, and the name does not end in " : "\" does not end in ") +
+           mesh_extensions(use) +
+           (is_lost                ? ". Check the name."
+            : use == MeshUse::Read ? ". Convert the mesh to one of these."
+                                   : ". Give a name that does."));
   }
   return *format;
 }
@@ -260,7 +266,10 @@ MeshFile read_as(ByteReader& reader, const Format& format) {
   if (format.read == read_ply) {
     file.mesh = read_ply_attributes(reader, file.attributes);
   } else if (format.read == read_obj) {
-    file.mesh = read_obj_attributes(reader, file.attributes, file.material_libraries);
+    file.mesh =
+        read_obj_attributes(reader, file.attributes, file.material_libraries, file.named_faces);
+  } else if (format.read == read_stl) {
+    file.mesh = read_stl_solids(reader, file.named_faces);
   } else {
     file.mesh = format.read(reader);
   }
@@ -293,9 +302,7 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   const bool is_pipe = std::filesystem::is_fifo(status);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !is_pipe) {
-    fail(path, "is a folder or a device. Give the name of a file.");
-  }
+  refuse_device(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse_to_open(path, errno);
@@ -341,7 +348,7 @@ std::string mesh_extensions(MeshUse use) {
 
 bool is_mesh_file(const std::string& path) {
   const Format* const format = known_format(path, MeshUse::Read);
-  return format != nullptr && format->has_faces;
+  return format != nullptr && format->is_scan;
 }
 
 IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates coordinates) {

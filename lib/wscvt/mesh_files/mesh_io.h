@@ -11,11 +11,11 @@
 namespace wscvt {
 
 /// Reads a triangle mesh into flat arrays and cuts polygons into fans. The extension, in upper or
-/// lower case, gives the format: PLY, STL, OBJ, OFF, VTP, VTK, and for points without faces XYZ,
-/// CSV and PCD (see their readers for the forms). Each file may be packed by gzip and may then have
-/// .gz after its extension. Coordinates keep the precision of the file. Repairs nothing: each
-/// triangle of an STL file has three points of its own (see check_mesh). A file without faces gives
-/// only points (see mesh_of_points).
+/// lower case, gives the format: PLY, STL, OBJ, OFF, VTP, VTU, VTK, MSH, INP, and for points
+/// without faces XYZ, CSV and PCD (see their readers for the forms). Each file may be packed by
+/// gzip and may then have .gz after its extension. Coordinates keep the precision of the file.
+/// Repairs nothing: each triangle of an STL file has three points of its own (see check_mesh). A
+/// file without faces gives only points (see mesh_of_points).
 ///
 /// Allocates memory for the data that the file has, never for the counts in its header. Throws
 /// Error(InputOutput) with the line of a text or the element of a binary file, if the file cannot
@@ -30,7 +30,10 @@ struct MeshFile {
   /// read_pictures.
   MeshAttributes attributes;
   std::vector<std::string> material_libraries;  ///< .mtl files that an OBJ names
-  std::vector<std::string> warnings;            ///< oddities of the file, one sentence each
+  /// OBJ: its objects, and its groups. STL as text: its solids. A list is there only if it has at
+  /// least two names, the coarser list first.
+  std::vector<NamedFaces> named_faces;
+  std::vector<std::string> warnings;  ///< oddities of the file, one sentence each
 };
 
 /// Reads the texture's pictures of a mesh that was read from `path`, from the same folder. Adds a
@@ -56,8 +59,8 @@ void check_mesh_format(const std::string& path, MeshUse use);
 /// Returns the extensions for a use, as ".ply, .stl or .obj".
 std::string mesh_extensions(MeshUse use);
 
-/// Whether a file in a folder counts as a scan, by its extension. Tables and point clouds do not
-/// count: the user must name them.
+/// Whether a file in a folder counts as a scan, by its extension. Tables, point clouds and
+/// finite-element meshes do not count: the user must name them.
 bool is_mesh_file(const std::string& path);
 
 /// Number of digits that a binary PLY file keeps of each coordinate.

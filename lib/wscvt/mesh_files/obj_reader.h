@@ -18,10 +18,12 @@ namespace wscvt {
 /// line and so returns a part of the scan.
 IndexedMesh read_obj(ByteReader& reader);
 
-/// Reads an OBJ file as read_obj. Also reads red, green and blue of its vertices, if three numbers
-/// from 0 to 1 follow each vertex's coordinates, and its texture, if faces have texture coordinates
-/// (vt) and the file names a material library. Writes the names of the libraries to `libraries`.
+/// Reads an OBJ file as read_obj. Also reads red, green and blue of its vertices, if
+/// three numbers from 0 to 1 follow each vertex's coordinates; its texture, if faces have texture
+/// coordinates (vt) and the file names a material library; the names of the libraries; and the
+/// names of its objects (o) and groups (g).
 IndexedMesh read_obj_attributes(ByteReader& reader, MeshAttributes& attributes,
-                                std::vector<std::string>& libraries);
+                                std::vector<std::string>& libraries,
+                                std::vector<NamedFaces>& names);
 
 }  // namespace wscvt

@@ -50,6 +50,17 @@ TexturePicture read_picture(const std::string& path) {
   if (is_known && static_cast<double>(picture.width) * picture.height > most_pixels) {
     fail(path, "is larger than 400 million pixels. Save it smaller.");
   }
+  // Pictures of one colour shrink to a hundredth of a byte a pixel. Large ones would only fill the
+  // memory.
+  constexpr double always_read = 5e7;
+  constexpr double most_pixels_a_byte = 100.0;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  const double pixels_held = static_cast<double>(picture.width) * picture.height;
+  if (is_known && !error && pixels_held > always_read &&
+      pixels_held > most_pixels_a_byte * static_cast<double>(bytes)) {
+    fail(path, "holds nearly nothing for its " + std::to_string(picture.width) + " x " +
+                   std::to_string(picture.height) + " pixels. Save it smaller.");
+  }
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       is_known ? stbi_load_from_file(file.get(), &picture.width, &picture.height, &parts, 3)
                : nullptr,

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "wscvt/mesh_files/face_names.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -78,13 +79,14 @@ IndexedMesh read_binary(ByteReader& reader) {
 /// Reads the words of a text STL file; line breaks separate words as blanks do.
 class TextReader {
  public:
-  explicit TextReader(ByteReader& reader) : reader_(reader) {}
+  TextReader(ByteReader& reader, FaceNames& solids) : reader_(reader), solids_(solids) {}
 
   IndexedMesh read() {
     IndexedMesh mesh;
     do {  // a file may have several solids
       expect("solid");
-      fields_ = TextFields("");  // skips the name, which may have any words
+      solids_.begin_new(std::string(trimmed(fields_.rest())));  // may have any words
+      fields_ = TextFields("");
       for (std::string word = next_word(); word != "endsolid"; word = next_word()) {
         if (word != "facet") fail(word, "\"facet\" or \"endsolid\"");
         read_facet(mesh);
@@ -117,6 +119,7 @@ class TextReader {
       mesh.points.push_back(point);
     }
     mesh.triangles.push_back({first, first + 1, first + 2});
+    solids_.add_to(mesh.triangles.size());
     expect("endloop");
     expect("endfacet");
   }
@@ -151,6 +154,7 @@ class TextReader {
   }
 
   ByteReader& reader_;
+  FaceNames& solids_;
   TextFields fields_{""};
   std::string_view word_;
 };
@@ -169,7 +173,16 @@ bool is_binary(ByteReader& reader) {
 }  // namespace
 
 IndexedMesh read_stl(ByteReader& reader) {
-  return is_binary(reader) ? read_binary(reader) : TextReader(reader).read();
+  std::vector<NamedFaces> names;
+  return read_stl_solids(reader, names);
+}
+
+IndexedMesh read_stl_solids(ByteReader& reader, std::vector<NamedFaces>& names) {
+  if (is_binary(reader)) return read_binary(reader);
+  FaceNames solids;
+  IndexedMesh mesh = TextReader(reader, solids).read();
+  solids.append_to(names);
+  return mesh;
 }
 
 }  // namespace wscvt

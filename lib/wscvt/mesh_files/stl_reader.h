@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 #include "wscvt/mesh_files/byte_reader.h"
 
 namespace wscvt {
@@ -13,5 +16,8 @@ namespace wscvt {
 /// CGAL, which writes STL here, is not used for reading: it reads a text that breaks off as an
 /// empty file, and does not read capital letters.
 IndexedMesh read_stl(ByteReader& reader);
+
+/// Reads an STL file as read_stl, and appends the names of the solids of a text.
+IndexedMesh read_stl_solids(ByteReader& reader, std::vector<NamedFaces>& names);
 
 }  // namespace wscvt

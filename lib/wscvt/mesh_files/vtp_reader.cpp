@@ -47,8 +47,8 @@ struct Piece {
 
 /// Whether an element contains arrays. Other elements may be inside an array.
 bool is_section(const std::string& name) {
-  constexpr std::string_view sections[] = {"Points", "Verts",     "Lines",    "Strips",
-                                           "Polys",  "PointData", "CellData", "FieldData"};
+  constexpr std::string_view sections[] = {"Points",    "Verts",    "Lines",     "Strips", "Polys",
+                                           "PointData", "CellData", "FieldData", "Cells"};
   return std::find(std::begin(sections), std::end(sections), name) != std::end(sections);
 }
 
@@ -179,7 +179,8 @@ class VtpReader {
         is_vtk = true;
         file_ = tag->attributes;
         const std::string kind = value_of(file_, "type");
-        if (kind != "PolyData") {
+        is_grid_ = kind == "UnstructuredGrid";
+        if (kind != "PolyData" && !is_grid_) {
           reader_.fail("holds " + in_quotes(kind) +
                        ", not the polygons of a mesh. Save a surface as PolyData.");
         }
@@ -225,6 +226,7 @@ class VtpReader {
                                  coordinates[3 * i + 2]);
       }
     }
+    if (is_grid_) return add_cells(piece, first, count, mesh);
     for (const bool strips : {false, true}) {
       const std::string section = strips ? "Strips" : "Polys";
       const std::size_t faces = count_in(piece, "NumberOf" + section);
@@ -237,6 +239,37 @@ class VtpReader {
       }
       add_polygons(polygons, strips, first, count, reader_, mesh.triangles);
     }
+  }
+
+  /// Adds the triangles, quadrilaterals and polygons of an unstructured grid.
+  void add_cells(const Piece& piece, std::size_t first, std::size_t count,
+                 IndexedMesh& mesh) const {
+    if (count_in(piece, "NumberOfCells") == 0) return;
+    const std::vector<std::int64_t> corners = numbers<std::int64_t>(piece, "Cells/connectivity");
+    const std::vector<std::int64_t> ends = numbers<std::int64_t>(piece, "Cells/offsets");
+    const std::vector<std::int64_t> types = numbers<std::int64_t>(piece, "Cells/types");
+    if (types.size() != ends.size()) {
+      reader_.fail("has " + std::to_string(types.size()) + " types of " +
+                   std::to_string(ends.size()) + " cells" + export_again);
+    }
+    VtkPolygons faces;
+    std::int64_t begin = 0;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      if (ends[k] < begin || static_cast<std::uint64_t>(ends[k]) > corners.size()) fail_cut();
+      constexpr std::int64_t triangle = 5;
+      constexpr std::int64_t polygon = 7;
+      constexpr std::int64_t quadrilateral = 9;
+      if (types[k] == triangle || types[k] == polygon || types[k] == quadrilateral) {
+        faces.corners.insert(faces.corners.end(), corners.begin() + begin,
+                             corners.begin() + ends[k]);
+        faces.ends.push_back(static_cast<std::int64_t>(faces.corners.size()));
+      }
+      begin = ends[k];
+    }
+    if (faces.ends.empty()) {
+      reader_.fail("holds no triangles or polygons. Save the surface of the grain too.");
+    }
+    add_polygons(faces, false, first, count, reader_, mesh.triangles);
   }
 
   template <class Number>
@@ -369,6 +402,7 @@ class VtpReader {
 
   ByteReader& reader_;
   std::string_view text_;  ///< all of the file
+  bool is_grid_ = false;   ///< unstructured
   Attributes file_;        ///< of VTKFile
   std::vector<Piece> pieces_;
   std::size_t appendix_ = 0;  ///< the first byte of the appended data; 0: no data

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <string>
 #include <utility>
 
+#include "wscvt/base/error.h"
 #include "wscvt/surface/delaunay_flips.h"
 
 namespace wscvt {
@@ -363,6 +365,7 @@ struct LongEdge {
 }  // namespace
 
 std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double length,
+                                                          std::size_t most,
                                                           const Execution& execution) {
   constexpr std::size_t splits_a_report = 1 << 16;
   std::priority_queue<LongEdge> edges;
@@ -383,6 +386,11 @@ std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double
     // Splits nearby renumber half-edges.
     if (mesh.origin(edge.half_edge) != edge.from || mesh.target(edge.half_edge) != edge.to) {
       continue;
+    }
+    if (ends.size() == most) {
+      refuse("The scan's faces are so long and narrow that more than " + std::to_string(most) +
+             " vertices would be needed to split them. Look for a vertex far from the others, or "
+             "scan the grain again with more vertices.");
     }
     if (ends.size() % splits_a_report == 0) execution.report(0.0, "Splitting the scan's faces");
     const auto v = static_cast<std::int32_t>(mesh.points.size());

@@ -89,7 +89,9 @@ class Coarsening {
 /// Halving the longest edge of a triangle bounds its angles from below (Rivara 1984, Int. J. Numer.
 /// Methods Eng. 20, 745). Returns the ends of each new vertex's edge, in order; they may be new
 /// vertices themselves.
+/// Throws Error(InvalidInput) if more than `most` vertices would be needed.
 std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double length,
+                                                          std::size_t most,
                                                           const Execution& execution);
 
 }  // namespace wscvt

@@ -32,6 +32,9 @@ namespace {
 constexpr double least_vertices_a_node = 8.0;
 /// Edges longer than this many edges of even faces are split.
 constexpr double long_edge = 1.4;
+/// Splitting may give up to this many times the scan's vertices and the wanted ones. Boxes 1000
+/// times as long as wide need 2 times as many.
+constexpr std::size_t most_splits = 20;
 /// Above this many vertices per node the scan is coarsened by complete sweeps, which about halve
 /// it, to the surface for equalization.
 constexpr std::size_t most_proxy_vertices_a_node = 30;
@@ -107,7 +110,9 @@ SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, doubl
   split = scan;
   const double cell = area / (least_vertices_a_node * nodes);
   const double even_edge = std::sqrt(2.0 / std::sqrt(3.0) * cell);
-  for (const auto& [a, b] : split_long_edges(split, long_edge * even_edge, execution)) {
+  const std::size_t most =
+      most_splits * (normals.size() + static_cast<std::size_t>(least_vertices_a_node * nodes));
+  for (const auto& [a, b] : split_long_edges(split, long_edge * even_edge, most, execution)) {
     const Vector3 sum = normals[a] + normals[b];
     const double length = sum.norm();
     normals.push_back(length > 0.0 ? Vector3(sum / length) : sum);

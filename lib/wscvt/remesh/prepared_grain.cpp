@@ -157,12 +157,43 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
   }
 }
 
+namespace {
+
+/// Whether a remesh encloses nothing, or intersects itself although it has few nodes.
+bool is_unusable(const IndexedMesh& mesh, const Execution& execution) {
+  constexpr std::size_t few = 200;
+  if (!(volume_of(mesh, execution) > 0.0)) return true;
+  return mesh.points.size() < few && !self_intersections(mesh, execution).empty();
+}
+
+/// Refuses a number of nodes that is too small for a thin or long body, with one that was tried and
+/// is enough. If none is, refuses only a remesh that encloses nothing.
+void refuse_too_few(const PreparedGrain& grain, const IndexedMesh& mesh,
+                    const Execution& execution) {
+  if (!is_unusable(mesh, execution)) return;
+  const auto count = static_cast<int>(mesh.points.size());
+  const bool is_empty = !(volume_of(mesh, execution) > 0.0);
+  for (const int times : {2, 3, 5, 10}) {
+    if (is_unusable(grain.method->place(times * count, execution).mesh, execution)) continue;
+    refuse(std::to_string(count) + " nodes are too few for so long or thin a body: " +
+           (is_empty ? "their mesh encloses no volume. " : "triangles of their mesh intersect. ") +
+           std::to_string(times * count) + " were tried and are enough. Use that number or more.");
+  }
+  if (!is_empty) return;
+  refuse(std::to_string(count) +
+         " nodes are too few for so long or thin a body: their mesh encloses no volume. Up to " +
+         std::to_string(10 * count) + " were tried and are not enough. Use more.");
+}
+
+}  // namespace
+
 RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& options,
                              int node_count, const Execution& execution) {
   RemeshResult result;
   result.options = options;
   result.options.node_count = node_count;
   Nodes nodes = grain.method->place(node_count, execution.part(0.0, 0.9));
+  if (!searches(options)) refuse_too_few(grain, nodes.mesh, execution);
   result.mesh = std::move(nodes.mesh);
   result.cell_areas = std::move(nodes.cell_areas);
   result.curvatures = std::move(nodes.curvatures);

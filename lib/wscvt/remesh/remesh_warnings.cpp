@@ -240,6 +240,12 @@ void append_repair_warnings(const MeshCheckReport& input, const std::string& don
                        " of its volume. Only the outer one was " + done +
                        ", as a body without pores.");
   }
+  if (input.stray_distance > 0.0) {
+    warnings.push_back(stray_vertex_sentence(input) + " Check that it belongs to the scan.");
+  }
+  if (input.merged_corners > 0) {
+    warnings.push_back(merged_warning(input.merged_corners, input.merged_distance));
+  }
   const double mended = input.flap_area_share + input.filled_area_share;
   if (mended > 0.0) {
     warnings.push_back("Holes and non-manifold edges of the scan were repaired. This changed " +

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
 
 namespace wscvt {
 
@@ -16,13 +18,32 @@ struct MeshBody {
   std::size_t pores = 0;           ///< closed surfaces inside
   double pore_volume = 0.0;        ///< of the pores, length^3
   std::size_t boundary_edges = 0;  ///< of the outer surface; 0 if it is closed
+  std::string name;                ///< that the file gives all its faces; empty: none
+
+  bool is_closed() const { return boundary_edges == 0 && volume > 0.0; }
 };
 
-/// Splits a mesh into parts connected through edges, in the order of their first faces. A closed
-/// part directly inside another part is a pore of that part. A part inside a pore is a body again.
-/// Parts that intersect each other are separate bodies. An open part is also a body, wherever it
-/// lies. Welds equal points and drops faces with two equal corners, as check_mesh does. Repairs
-/// nothing else. Throws as check_mesh for meshes without usable faces.
-std::vector<MeshBody> split_bodies(IndexedMesh mesh, const Execution& execution);
+struct MeshBodies {
+  std::vector<MeshBody> list;         ///< in the order of their first faces
+  std::vector<std::string> warnings;  ///< on faces left out and corners merged, one sentence each
+};
+
+/// Splits a mesh into bodies. `names` as MeshFile has them, the coarsest first.
+///
+/// 1. Faces of one name, and then faces connected through the mesh's own vertices, are a surface of
+///    their own if they are closed. All others are welded together (see weld.h).
+/// 2. Surfaces connected through edges bound regions (see mesh_cells.h). Each region that they
+/// enclose is
+///    a body. A wall has two sides, whether it is there once or twice.
+/// 3. A closed surface directly inside a body is a pore of it. A surface inside a pore is a body
+///    again, also if it fills the pore; so are regions inside a body with a wall between them.
+///    Surfaces that intersect are bodies side by side.
+///
+/// An open surface is a body too, wherever it lies. Faces that hang on a body and enclose nothing
+/// are left out up to 5 % of its area. A second copy of a body is left out. Repairs nothing else.
+/// Throws Error(InvalidInput) if regions cannot be told apart, because faces lie on each other at
+/// an edge of more than two; as check_mesh for meshes without usable faces.
+MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
+                        const Execution& execution);
 
 }  // namespace wscvt

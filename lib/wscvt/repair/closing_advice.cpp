@@ -2,7 +2,6 @@
 #include "wscvt/repair/closing_advice.h"
 
 #include "wscvt/base/text_format.h"
-#include "wscvt/repair/scan_options.h"
 
 namespace wscvt {
 
@@ -25,6 +24,19 @@ std::string surface_of_points_advice() {
   return "Make a surface of them first, in MeshLab by Filters > Normals, Curvatures and "
          "Orientation > Compute normals for point sets and then Filters > Remeshing, "
          "Simplification and Reconstruction > Surface Reconstruction: Screened Poisson.";
+}
+
+std::string merged_warning(std::size_t corners, double distance) {
+  return std::to_string(corners) + (corners == 1 ? " corner" : " corners") +
+         " of faces along open edges lay up to " + format_number(distance, 2) +
+         " from others and were merged with them.";
+}
+
+std::string stray_vertex_sentence(const MeshCheckReport& report) {
+  const Vector3& p = report.stray_place;
+  return "Vertex " + std::to_string(report.stray_vertex) + ", counted from 0, lies at (" +
+         format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) + "), " +
+         format_number(report.stray_distance, 2) + " from its nearest neighbour.";
 }
 
 }  // namespace wscvt

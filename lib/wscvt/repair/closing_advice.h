@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/repair/scan_options.h"
 
 namespace wscvt {
 
@@ -36,5 +38,12 @@ std::string where_meshlab_closes();
 
 /// Returns a sentence for points that do not have exactly one radius in each direction.
 std::string surface_of_points_advice();
+
+/// Returns a sentence on corners of open edges that were merged (see find_seams in weld.h);
+/// `distance` in the mesh's length.
+std::string merged_warning(std::size_t corners, double distance);
+
+/// Returns a sentence on the stray vertex of a scan.
+std::string stray_vertex_sentence(const MeshCheckReport& report);
 
 }  // namespace wscvt

@@ -277,8 +277,7 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
                         "The scan has " + std::to_string(genus) +
                             " handles, more than the limit of " + std::to_string(most_handles_cut) +
                             ": it is porous. Close the pores first (" + where_meshlab_closes() +
-                            "), or keep the handles (--" +
-                            std::string(EnumerationTable<HandleAction>::key) + " keep).",
+                            ").",
                         finest_tried_percent);
   }
   const double volume = volume_of(mesh, Execution(1));

@@ -2,8 +2,10 @@
 #include "wscvt/repair/mesh_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "wscvt/repair/enclosure.h"
 #include "wscvt/repair/holes.h"
 #include "wscvt/repair/manifold_edges.h"
+#include "wscvt/repair/mesh_cells.h"
 #include "wscvt/repair/touching_vertices.h"
 #include "wscvt/repair/usable_scan.h"
 #include "wscvt/repair/voxel_steps.h"
@@ -33,6 +36,11 @@ namespace {
 /// Below this volume / area^1.5 (0.094 for a sphere, a third of the thickness for a plate) the
 /// surface is flat within rounding.
 constexpr double flat_limit = 1e-9;
+
+/// A vertex farther than this from all its neighbours, in medians of the distance of the mesh's
+/// vertices from their middle, is reported. 1 for a ball; 10 for the tip of a cone 5 times as high
+/// as wide whose side has no other vertex.
+constexpr double stray_distance = 5.0;
 
 /// Returns "1 face", "2 faces".
 std::string count_of(std::size_t count, const std::string& noun) {
@@ -146,6 +154,121 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, 
   throw WrappableScan(ErrorCode::InvalidInput, sentence, percent);
 }
 
+/// Refuses a mesh in which a vertex lies so far from all its neighbours that it is a fault of the
+/// scan; reports nearer ones. Before points are welded, because the tolerance grows with the box.
+void find_stray_vertex(const IndexedMesh& mesh, MeshCheckReport& report) {
+  constexpr double farthest = 30.0;  // medians of the distance from the middle
+  constexpr std::size_t most_asked = 3000;
+  const std::size_t stride = 1 + mesh.triangles.size() / most_asked;
+  std::array<std::vector<double>, 3> coordinates;
+  for (std::size_t f = 0; f < mesh.triangles.size(); f += stride) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      coordinates[k].push_back(
+          mesh.points[index(mesh.triangles[f][f % 3])][static_cast<Eigen::Index>(k)]);
+    }
+  }
+  const auto median = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  const Vector3 middle(median(coordinates[0]), median(coordinates[1]), median(coordinates[2]));
+  std::vector<double> distances;
+  for (std::size_t f = 0; f < mesh.triangles.size(); f += stride) {
+    distances.push_back((mesh.points[index(mesh.triangles[f][f % 3])] - middle).norm());
+  }
+  const double usual = median(distances);
+  const auto to = [&](std::int32_t v, std::int32_t w) {
+    return (mesh.points[index(v)] - mesh.points[index(w)]).squaredNorm();
+  };
+  const double least = stray_distance * usual;
+  std::vector<std::int32_t> far;  // vertices of faces on which they lie far from the others
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double nearest = std::min(to(t[k], t[following(k)]), to(t[k], t[preceding(k)]));
+      if (nearest > least * least) far.push_back(t[k]);
+    }
+  }
+  if (far.empty() || !(usual > 0.0)) return;
+  std::sort(far.begin(), far.end());
+  std::vector<double> shortest(far.size(), std::numeric_limits<double>::infinity());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = std::lower_bound(far.begin(), far.end(), t[k]);
+      if (at == far.end() || *at != t[k]) continue;
+      double& known = shortest[static_cast<std::size_t>(at - far.begin())];
+      known = std::min({known, to(t[k], t[following(k)]), to(t[k], t[preceding(k)])});
+    }
+  }
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    const double distance = std::sqrt(shortest[i]);
+    if (std::isinf(distance) || !(distance > std::max(least, report.stray_distance))) continue;
+    report.stray_distance = distance;
+    report.stray_vertex = index(far[i]);
+    report.stray_place = mesh.points[index(far[i])];
+  }
+  if (!(report.stray_distance > farthest * usual)) return;
+  refuse(stray_vertex_sentence(report) + " The rest of the mesh is about " +
+         format_number(2.0 * usual, 2) +
+         " across. Correct this vertex, or remove it and its faces.");
+}
+
+void merge_seams(IndexedMesh& mesh, std::vector<std::int32_t>& rings, double diagonal,
+                 const Execution& execution, MeshCheckReport& report) {
+  const SeamWeld seams = find_seams(mesh, rings, diagonal, execution);
+  if (seams.weld.welded == 0) return;
+  report.degenerate_faces += drop_degenerate_faces(mesh, seams.weld.first).faces;
+  report.merged_corners = seams.weld.welded;
+  report.merged_distance = seams.distance;
+  rings = edge_rings(mesh, execution);
+}
+
+/// Refuses a mesh whose largest part is several bodies with common walls. Without the walls it
+/// would be one body as large as all.
+void refuse_common_walls(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
+                         const Execution& execution) {
+  constexpr double largest_other = 0.05;  // of the volume; flaws of a scan enclose less
+  const Components components = find_components(mesh, rings, execution);
+  const std::size_t main = largest_of(components);
+  if (components.list[main].non_manifold_edges == 0) return;
+  IndexedMesh part = mesh;
+  keep_faces(part, components, main);
+  const MeshCells cells = find_mesh_cells(part, execution);
+  std::vector<char> has_wall(cells.list.size(), 0);
+  for (std::size_t f = 0; f < cells.faces.size(); ++f) {
+    const std::size_t before = index(cells.before(f));
+    const std::size_t behind = index(cells.behind(f));
+    if (before == behind || !cells.list[before].is_solid || !cells.list[behind].is_solid) continue;
+    has_wall[before] = has_wall[behind] = 1;
+  }
+  std::size_t bodies = 0;
+  double all = 0.0;
+  double largest = 0.0;
+  for (std::size_t c = 0; c < cells.list.size(); ++c) {
+    if (has_wall[c] == 0) continue;
+    ++bodies;
+    all += std::max(0.0, cells.list[c].volume);
+    largest = std::max(largest, cells.list[c].volume);
+  }
+  if (bodies < 2 || !(largest < (1.0 - largest_other) * all)) return;
+  refuse("The mesh has " + std::to_string(bodies) +
+         " bodies with common walls, and the largest has only " + format_percent(largest / all) +
+         " of their volume. Split the mesh (wscvt split MESH FOLDER) and remesh each body "
+         "separately, or all of them by wscvt batch MESH -o OUT --parts.");
+}
+
+/// Refuses a mesh whose largest part is flat, because its faces are not connected.
+void refuse_loose_faces(const IndexedMesh& mesh, std::size_t parts, const Execution& execution) {
+  const MeshSums sums =
+      mesh_sums(mesh.points, mesh.triangles, mesh.points[index(mesh.triangles[0][0])], execution);
+  if (sums.volume() > flat_limit * std::pow(sums.area(), 1.5)) return;
+  refuse(
+      "The mesh has " + std::to_string(parts) +
+      " parts without a common edge, and the largest encloses no volume. If its faces are one "
+      "surface, merge the corners that are close to each other (in MeshLab Filters > Cleaning and "
+      "Repairing > Merge Close Vertices), or export it again with more digits.");
+}
+
 }  // namespace
 
 void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshCheckReport& report) {
@@ -180,6 +303,7 @@ namespace {
 /// of the mesh's box.
 double weld(double tolerance, const Execution& execution, IndexedMesh& mesh,
             MeshCheckReport& report) {
+  find_stray_vertex(mesh, report);
   const Box box = box_of_faces(mesh, execution);
   check_scan_size(box.high - box.low);
   const double diagonal = (box.high - box.low).norm();
@@ -197,10 +321,19 @@ double weld(double tolerance, const Execution& execution, IndexedMesh& mesh,
   return diagonal;
 }
 
+/// Merges corners along seams, and refuses bodies with common walls. Returns the rings of edges.
+std::vector<std::int32_t> joined_rings(IndexedMesh& mesh, const MeshCheckOptions& options,
+                                       double diagonal, const Execution& execution,
+                                       MeshCheckReport& report) {
+  std::vector<std::int32_t> rings = edge_rings(mesh, execution);
+  if (options.weld_tolerance > 0.0) merge_seams(mesh, rings, diagonal, execution, report);
+  refuse_common_walls(mesh, rings, execution);
+  return rings;
+}
+
 /// Drops copies of faces, and faces that lie on each other in pairs. Returns what was dropped.
 DuplicateFaces drop_copies(const Execution& execution, IndexedMesh& mesh,
                            std::vector<std::int32_t>& rings, MeshCheckReport& report) {
-  rings = edge_rings(mesh, execution);
   const DuplicateFaces duplicates = drop_duplicate_faces(mesh, rings);
   report.duplicate_faces = duplicates.copies;
   report.folded_faces = duplicates.folded;
@@ -235,7 +368,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.lost_faces = keep_usable_faces(mesh, execution);
   const double diagonal = weld(options.weld_tolerance, execution, mesh, report);
   execution.report(0.25, stage);
-  std::vector<std::int32_t> rings;
+  std::vector<std::int32_t> rings = joined_rings(mesh, options, diagonal, execution, report);
   const DuplicateFaces duplicates = drop_copies(execution, mesh, rings, report);
   execution.report(0.5, stage);
 
@@ -288,6 +421,7 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                                                    static_cast<std::int32_t>(main), execution);
   const std::size_t turned = keep_component(mesh, components, main);
   if (boundary_edges == 0) report.reoriented_faces = turned;
+  if (!others.empty()) refuse_loose_faces(mesh, others.size() + 1, execution);
   measure_closed(mesh, execution, report);
   report.duplicate_area_share = duplicates.copied_area / report.area;
   report.folded_area_share = duplicates.folded_area / report.area;

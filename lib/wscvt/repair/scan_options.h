@@ -16,8 +16,9 @@ namespace wscvt {
 /// Limits of the repair of a scan.
 struct MeshCheckOptions {
   /// Points closer than this fraction of the diagonal of the mesh's box, in each coordinate, are
-  /// welded. 0 to 0.01; 0: only exact copies. The poles of published asteroids are 1e-17 apart. The
-  /// default is far above the rounding of numbers in files, and far below the accuracy of any scan.
+  /// welded. 0 to 0.01; 0: only exact copies, also along open edges (see find_seams in weld.h). The
+  /// poles of published asteroids are 1e-17 apart. The default is far above the rounding of numbers
+  /// in files, and far below the accuracy of any scan.
   double weld_tolerance = 1e-12;
   /// Max. repaired fraction of the area, in %, 0 to 100: faces dropped at non-manifold edges and
   /// faces added in holes. Above it the mesh is refused.
@@ -54,6 +55,11 @@ struct MeshCheckReport {
   std::size_t lost_faces = 0;       ///< faces with a vertex that has no finite position, dropped
   std::size_t welded_vertices = 0;  ///< vertices merged with an equal vertex
   double weld_tolerance = 0.0;      ///< distance within which vertices are equal, length
+  double stray_distance = 0.0;      ///< of a vertex far from all its neighbours, length; 0: none
+  std::size_t stray_vertex = 0;     ///< its index in the input
+  Vector3 stray_place = Vector3::Zero();  ///< in the input's coordinates
+  std::size_t merged_corners = 0;  ///< vertices of open edges merged with a near one (see weld.h)
+  double merged_distance = 0.0;    ///< largest distance of these, length
   std::size_t unreferenced_vertices = 0;  ///< vertices of no face, dropped
   std::size_t degenerate_faces = 0;       ///< faces with two equal corners after welding, dropped
   std::size_t sliver_faces = 0;  ///< faces of zero area with three corners; kept, else a hole opens

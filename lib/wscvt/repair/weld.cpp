@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "wscvt/base/half_edges.h"
+#include "wscvt/repair/edge_rings.h"
 
 namespace wscvt {
 
@@ -163,6 +166,50 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
     ++weld.welded;
   }
   return weld;
+}
+
+SeamWeld find_seams(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings, double size,
+                    const Execution& execution) {
+  constexpr double largest_share = 1e-6;  // of the size; scans are ten times less exact
+  SeamWeld result;
+  std::vector<std::int32_t> ends;
+  double length = 0.0;
+  std::size_t open = 0;
+  for (std::size_t h = 0; h < rings.size(); ++h) {
+    if (index(rings[h]) != h) continue;
+    const auto half_edge = static_cast<std::int32_t>(h);
+    const std::int32_t a = origin_of(mesh.triangles, half_edge);
+    const std::int32_t b = target_of(mesh.triangles, half_edge);
+    ends.insert(ends.end(), {a, b});
+    length += (mesh.points[index(a)] - mesh.points[index(b)]).norm();
+    ++open;
+  }
+  if (open == 0) return result;
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<Vector3> points;
+  for (const std::int32_t v : ends) points.push_back(mesh.points[index(v)]);
+  const double tolerance = std::min(largest_share * size, 0.1 * length / static_cast<double>(open));
+  const Weld near = find_equal_points(points, box_of_faces(mesh, execution), tolerance, execution);
+  if (near.welded == 0) return result;
+  std::vector<std::int32_t> first(mesh.points.size());
+  std::iota(first.begin(), first.end(), 0);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    first[index(ends[k])] = ends[index(near.first[k])];
+    result.distance = std::max(result.distance, (points[index(near.first[k])] - points[k]).norm());
+  }
+  IndexedMesh merged;
+  merged.points.resize(mesh.points.size());
+  for (Triangle t : mesh.triangles) {
+    for (std::int32_t& v : t) v = first[index(v)];
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) merged.triangles.push_back(t);
+  }
+  const std::vector<std::int32_t> joined = edge_rings(merged, execution);
+  std::size_t left = 0;
+  for (std::size_t h = 0; h < joined.size(); ++h) left += index(joined[h]) == h ? 1U : 0U;
+  if (2 * left > open) return {};
+  result.weld = {std::move(first), near.welded};
+  return result;
 }
 
 }  // namespace wscvt

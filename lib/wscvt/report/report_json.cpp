@@ -41,6 +41,8 @@ Json json_of(const MeshCheckReport& input) {
           {"lost_faces", input.lost_faces},
           {"welded_vertices", input.welded_vertices},
           {"weld_tolerance", input.weld_tolerance},
+          {"merged_corners", input.merged_corners},
+          {"merged_distance", input.merged_distance},
           {"unreferenced_vertices", input.unreferenced_vertices},
           {"degenerate_faces", input.degenerate_faces},
           {"sliver_faces", input.sliver_faces},

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/mesh_files/element_readers.h"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "wscvt/mesh_files/polygon_fan.h"
+#include "wscvt/mesh_files/text_fields.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Nodes with numbers of their own, and faces that name them.
+class ElementMesh {
+ public:
+  explicit ElementMesh(ByteReader& reader) : reader_(reader) {}
+
+  void add_node(std::int64_t number, const Vector3& point) {
+    if (points_.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+      reader_.fail("has more nodes than can be numbered. Reduce the scan first.");
+    }
+    if (!known_.emplace(number, static_cast<std::int32_t>(points_.size())).second) {
+      reader_.fail_line("gives node " + std::to_string(number) + " a second time" + export_again);
+    }
+    points_.push_back(point);
+  }
+
+  void add_face(const std::vector<std::int64_t>& nodes) {
+    faces_.insert(faces_.end(), nodes.begin(), nodes.end());
+    ends_.push_back(faces_.size());
+  }
+
+  /// Nodes may follow the elements that use them.
+  IndexedMesh mesh() {
+    if (points_.empty()) reader_.fail("holds no nodes" + std::string(export_again));
+    if (ends_.empty()) {
+      reader_.fail("holds no triangles or quadrilaterals. Save the surface of the grain too.");
+    }
+    IndexedMesh mesh;
+    std::vector<std::int32_t> corners;
+    std::size_t begin = 0;
+    for (const std::size_t end : ends_) {
+      corners.clear();
+      for (; begin < end; ++begin) {
+        const auto found = known_.find(faces_[begin]);
+        if (found == known_.end()) {
+          reader_.fail("names node " + std::to_string(faces_[begin]) + ", which it does not hold" +
+                       export_again);
+        }
+        corners.push_back(found->second);
+      }
+      add_fan(corners.data(), corners.size(), mesh.triangles);
+    }
+    mesh.points = std::move(points_);
+    return mesh;
+  }
+
+ private:
+  ByteReader& reader_;
+  std::vector<Vector3> points_;
+  std::unordered_map<std::int64_t, std::int32_t> known_;
+  std::vector<std::int64_t> faces_;
+  std::vector<std::size_t> ends_;
+};
+
+/// Returns the corners of an element of Gmsh by its type; 0 for others than faces.
+std::size_t corners_of_gmsh(std::int64_t type) {
+  constexpr std::int64_t triangle = 2;
+  constexpr std::int64_t quadrilateral = 3;
+  constexpr std::int64_t triangle_of_6 = 9;
+  constexpr std::int64_t quadrilateral_of_9 = 10;
+  constexpr std::int64_t quadrilateral_of_8 = 16;
+  if (type == triangle || type == triangle_of_6) return 3;
+  if (type == quadrilateral || type == quadrilateral_of_8 || type == quadrilateral_of_9) return 4;
+  return 0;
+}
+
+class GmshReader {
+ public:
+  explicit GmshReader(ByteReader& reader) : reader_(reader), mesh_(reader) {}
+
+  IndexedMesh read() {
+    bool has_format = false;
+    while (const std::optional<std::string_view> line = reader_.filled_line()) {
+      const std::string_view section = trimmed(*line);
+      if (section == "$MeshFormat") {
+        read_format();
+        has_format = true;
+      } else if (!has_format) {
+        reader_.fail("does not begin with \"$MeshFormat\" and is not a mesh of Gmsh" +
+                     std::string(export_again));
+      } else if (section == "$Nodes") {
+        is_old_ ? read_old_nodes() : read_nodes();
+      } else if (section == "$Elements") {
+        is_old_ ? read_old_elements() : read_elements();
+      }
+    }
+    return mesh_.mesh();
+  }
+
+ private:
+  TextFields next_fields() {
+    const std::optional<std::string_view> line = reader_.filled_line();
+    if (!line) reader_.fail("ends within a section. It was cut off" + std::string(export_again));
+    return TextFields(*line);
+  }
+
+  template <class Number>
+  Number number(TextFields& fields) {
+    const std::string_view field = fields.next();
+    const std::optional<Number> value = number_of_type<Number>(field);
+    if (!value) {
+      reader_.fail_line("has " + in_quotes(field) + " instead of a number" + export_again);
+    }
+    return *value;
+  }
+
+  std::int64_t whole(TextFields& fields) { return number<std::int64_t>(fields); }
+
+  Vector3 point(TextFields& fields) {
+    Vector3 place;
+    for (double& coordinate : place) coordinate = number<double>(fields);
+    return place;
+  }
+
+  void read_format() {
+    TextFields fields = next_fields();
+    const std::string version(fields.next());
+    is_old_ = version == "2" || version.rfind("2.", 0) == 0;
+    if (!is_old_ && version != "4.1") {
+      reader_.fail_line("gives the version " + in_quotes(version) +
+                        ". Save the mesh as version 4.1 or 2 of Gmsh.");
+    }
+    if (whole(fields) != 0) reader_.fail("is a binary mesh of Gmsh. Save it as text.");
+  }
+
+  void read_old_nodes() {
+    TextFields counts = next_fields();
+    const std::int64_t count = whole(counts);
+    for (std::int64_t k = 0; k < count; ++k) {
+      TextFields fields = next_fields();
+      const std::int64_t tag = whole(fields);
+      mesh_.add_node(tag, point(fields));
+    }
+  }
+
+  void read_nodes() {
+    TextFields counts = next_fields();
+    const std::int64_t blocks = whole(counts);
+    for (std::int64_t block = 0; block < blocks; ++block) {
+      TextFields heading = next_fields();
+      whole(heading);  // dimension
+      whole(heading);  // entity
+      whole(heading);  // whether parameters follow the coordinates
+      const std::int64_t count = whole(heading);
+      std::vector<std::int64_t> tags;
+      for (std::int64_t k = 0; k < count; ++k) {
+        TextFields fields = next_fields();
+        tags.push_back(whole(fields));
+      }
+      for (const std::int64_t tag : tags) {
+        TextFields fields = next_fields();
+        mesh_.add_node(tag, point(fields));
+      }
+    }
+  }
+
+  void add_element(std::int64_t type, TextFields& fields) {
+    const std::size_t corners = corners_of_gmsh(type);
+    if (corners == 0) return;
+    nodes_.clear();
+    for (std::size_t k = 0; k < corners; ++k) nodes_.push_back(whole(fields));
+    mesh_.add_face(nodes_);
+  }
+
+  void read_old_elements() {
+    TextFields counts = next_fields();
+    const std::int64_t count = whole(counts);
+    for (std::int64_t k = 0; k < count; ++k) {
+      TextFields fields = next_fields();
+      whole(fields);  // its number
+      const std::int64_t type = whole(fields);
+      const std::int64_t tags = whole(fields);
+      for (std::int64_t tag = 0; tag < tags; ++tag) whole(fields);
+      add_element(type, fields);
+    }
+  }
+
+  void read_elements() {
+    TextFields counts = next_fields();
+    const std::int64_t blocks = whole(counts);
+    for (std::int64_t block = 0; block < blocks; ++block) {
+      TextFields heading = next_fields();
+      whole(heading);  // dimension
+      whole(heading);  // entity
+      const std::int64_t type = whole(heading);
+      const std::int64_t count = whole(heading);
+      for (std::int64_t k = 0; k < count; ++k) {
+        TextFields fields = next_fields();
+        whole(fields);  // its number
+        add_element(type, fields);
+      }
+    }
+  }
+
+  ByteReader& reader_;
+  ElementMesh mesh_;
+  bool is_old_ = false;
+  std::vector<std::int64_t> nodes_;
+};
+
+/// Splits a line of Abaqus at its commas.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (bool is_last = false; !is_last;) {
+    const std::size_t end = line.find(',');
+    is_last = end == std::string_view::npos;
+    fields.push_back(trimmed(line.substr(0, end)));
+    line.remove_prefix(is_last ? line.size() : end + 1);
+  }
+  if (fields.back().empty()) fields.pop_back();  // a line may end with a comma
+  return fields;
+}
+
+/// Returns the corners of a shell, membrane, rigid or plane element by its type, such as "S3R",
+/// "STRI65", "M3D4" or "CPS6M"; 0 for others.
+std::size_t corners_of_abaqus(const std::string& type) {
+  for (const char* family : {"stri", "sfm3d", "m3d", "r3d", "ds", "cps", "cpe", "s"}) {
+    if (type.rfind(family, 0) != 0) continue;
+    const std::string rest = type.substr(std::string_view(family).size());
+    if (rest.empty() || rest[0] < '3' || rest[0] > '9') continue;
+    return rest[0] == '3' || rest[0] == '6' ? 3 : 4;
+  }
+  return 0;
+}
+
+}  // namespace
+
+IndexedMesh read_gmsh(ByteReader& reader) { return GmshReader(reader).read(); }
+
+IndexedMesh read_abaqus(ByteReader& reader) {
+  ElementMesh mesh(reader);
+  enum class Block { Other, Nodes, Faces } block = Block::Other;
+  std::size_t corners = 0;
+  std::vector<std::int64_t> nodes;
+  const auto whole = [&](std::string_view field) {
+    const std::optional<std::int64_t> value = whole_number_in(field);
+    if (!value) {
+      reader.fail_line("has " + in_quotes(field) + " instead of a number" + export_again);
+    }
+    return *value;
+  };
+  while (const std::optional<std::string_view> line = reader.filled_line()) {
+    const std::string_view text = trimmed(*line);
+    if (text.substr(0, 2) == "**") continue;
+    const std::vector<std::string_view> fields = fields_of(text);
+    if (fields.empty()) continue;
+    if (text.front() == '*') {
+      const std::string keyword = lower_case(fields[0]);
+      block = keyword == "*node" ? Block::Nodes : Block::Other;
+      if (keyword != "*element") continue;
+      for (const std::string_view field : fields) {
+        const std::string option = lower_case(field);
+        const std::size_t equals = option.find('=');
+        if (equals == std::string::npos || trimmed(option.substr(0, equals)) != "type") continue;
+        corners =
+            corners_of_abaqus(std::string(trimmed(std::string_view(option).substr(equals + 1))));
+        if (corners > 0) block = Block::Faces;
+      }
+    } else if (block == Block::Nodes) {
+      Vector3 point = Vector3::Zero();
+      for (std::size_t k = 1; k < fields.size() && k <= 3; ++k) {
+        const std::optional<double> value = number_in(fields[k]);
+        if (!value) {
+          reader.fail_line("has " + in_quotes(fields[k]) + " instead of a coordinate" +
+                           export_again);
+        }
+        point[static_cast<Eigen::Index>(k - 1)] = *value;
+      }
+      mesh.add_node(whole(fields[0]), point);
+    } else if (block == Block::Faces) {
+      if (fields.size() < corners + 1) {
+        reader.fail_line("has fewer nodes than its type of element" + std::string(export_again));
+      }
+      nodes.clear();
+      for (std::size_t k = 1; k <= corners; ++k) nodes.push_back(whole(fields[k]));
+      mesh.add_face(nodes);
+    }
+  }
+  return mesh.mesh();
+}
+
+}  // namespace wscvt
