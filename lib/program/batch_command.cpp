@@ -267,11 +267,9 @@ int run(const BatchArguments& arguments) {
   BatchOutput output(arguments);
   checked([&] { output.check_meshes(grains); });
   std::error_code error;
+  fs::create_directories(output.whole().path(), error);
+  checked([&] { check_call(output.whole().call(), call_text(arguments), output.is_begun()); });
   for (const OutputFolder& level : output.levels()) fs::create_directories(level.path(), error);
-  checked([&] {
-    check_call(output.whole().call(), call_text(arguments),
-               fs::exists(output.levels().front().table(), error));
-  });
   const std::size_t first = checked([&] { return output.open_tables(grains, arguments); });
   output.remove_parts(grains, first);
 

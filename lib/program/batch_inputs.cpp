@@ -81,6 +81,9 @@ void add_input(const std::string& input, std::vector<std::string>& files) {
   std::error_code ignored;
   if (fs::is_directory(input, ignored) && !is_volume(input)) return add_folder(input, files);
   if (is_pattern(input)) return add_matches(input, files);
+  if (!fs::exists(input, ignored) && !is_mesh_file(input) && !is_volume(input)) {
+    refuse("There is no file and no folder \"" + input + "\". Check its name.");
+  }
   files.push_back(input);
 }
 

@@ -80,6 +80,19 @@ std::size_t BatchOutput::open_tables(const std::vector<std::string>& grains,
   return rows;
 }
 
+bool BatchOutput::is_begun() const {
+  std::error_code ignored;
+  const fs::path table = whole_.table();
+  if (fs::exists(table, ignored)) return true;
+  for (const fs::directory_entry& entry : fs::directory_iterator(whole_.path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_level = name.size() > 1 && name.front() == 'n' &&
+                          name.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (is_level && fs::exists(entry.path() / table.filename(), ignored)) return true;
+  }
+  return false;
+}
+
 void BatchOutput::append(const GrainRow& row) {
   // The first table is written last, because its row marks the grain as done.
   for (std::size_t k = tables_.size() - 1; k > 0; --k) tables_[k]->append(row.others[k - 1]);

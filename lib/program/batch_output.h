@@ -52,6 +52,9 @@ class BatchOutput {
   /// may have added a row to only some of them. Returns the number of rows. Throws as SampleTable.
   std::size_t open_tables(const std::vector<std::string>& grains, const BatchArguments& arguments);
 
+  /// Whether the folder has tables of this shard, with one or several numbers of nodes.
+  bool is_begun() const;
+
   std::size_t failed_rows() const { return tables_.front()->failed_rows(); }
 
   /// Adds the records of the next grain to the tables of each level: grains.csv and, if shapes are

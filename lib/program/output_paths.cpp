@@ -8,6 +8,34 @@ namespace wscvt::program {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Whether a path names a table, a page or the call of the output folder of a batch, which the
+/// batch needs to continue, or which other commands read.
+bool is_kept_by_batch(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const std::string kind = stem.substr(0, stem.find('-'));
+  std::error_code ignored;
+  if ((kind != "grains" && kind != "shape" && kind != "call" && kind != "summary" &&
+       kind != "labels") ||
+      !fs::exists(path, ignored)) {
+    return false;
+  }
+  // A level of a batch has its call in the folder above.
+  const fs::path folder = fs::absolute(path, ignored).parent_path();
+  for (const fs::path& place : {folder, folder.parent_path()}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(place, ignored)) {
+      const std::string name = entry.path().filename().string();
+      if (name == "call.json" || (name.rfind("call-", 0) == 0 && name.find("-of-") != name.npos)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                         bool overwrite) {
   const auto refuse = [](const std::string& sentence) {
@@ -25,6 +53,10 @@ void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<
       if (overwrite || !wscvt::same_file(output.path, input.path)) continue;
       refuse("\"" + output.path + "\", given for " + output.meaning + ", is " + input.meaning +
              " itself. Give another name, or use --overwrite to replace it.");
+    }
+    if (is_kept_by_batch(output.path)) {
+      refuse("\"" + output.path + "\", given for " + output.meaning +
+             ", is a file of a batch, which needs it. Give another name.");
     }
     wscvt::check_writable(output.path);
   }

@@ -14,7 +14,8 @@ struct NamedFile {
 };
 
 /// Throws wscvt::Error before any work is done if an output cannot be written, if two outputs are
-/// one file, or if an output is an input and `overwrite` is false.
+/// one file, if an output is an input and `overwrite` is false, or if an output is a table, a page
+/// or the call of a batch.
 void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
                         bool overwrite);
 

@@ -290,6 +290,62 @@ TEST_F(Batch, GoesOnOnlyWithWhatItBeganWith) {
   EXPECT_EQ(content("out/grains.csv").rfind(before, 0), 0U);
 }
 
+TEST_F(Batch, OtherNumbersOfNodesAreOtherOptions) {
+  write_scans(2);
+  ASSERT_EQ(run(std::string("batch scans -o one") + options_).exit_code, 0);
+  ASSERT_EQ(run("batch scans -o two -q -n 40,60 -d 6 --describe remesh").exit_code, 0);
+  for (const auto& [folder, nodes] : {std::pair("one", "40,60"), std::pair("two", "60")}) {
+    const std::string call = std::string(folder) + "/call.json";
+    const std::string before = content(call);
+    const Outcome other = run("batch scans -o " + std::string(folder) + " -q -d 6 -n " + nodes +
+                              " --describe remesh");
+    EXPECT_EQ(other.exit_code, 2) << folder;
+    EXPECT_NE(other.errors.find(call), std::string::npos) << other.errors;
+    EXPECT_EQ(content(call), before) << folder;
+  }
+  EXPECT_FALSE(exists("one/n40"));
+}
+
+TEST_F(Batch, OtherCommandsDoNotReplaceItsFiles) {
+  write_scans(3);
+  ASSERT_EQ(run(std::string("batch scans -o out") + options_).exit_code, 0);
+  ASSERT_EQ(run("batch scans -o levels -q -n 40,60 --describe remesh").exit_code, 0);
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"sample out", "out/shape.csv"},          {"sample out", "out/grains.csv"},
+      {"sample out", "out/summary.html"},       {"sample out", "./out/../out/summary.json"},
+      {"sample out", "out/call.json"},          {"sample levels", "levels/n40/shape.csv"},
+      {"describe scans/a.ply", "out/shape.csv"}};
+  for (const auto& [command, file] : cases) {
+    SCOPED_TRACE(command + " " + file);
+    const std::string before = content(file);
+    const Outcome outcome = run(command + " -q --report " + file);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("is a file of a batch"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(content(file), before);
+  }
+  EXPECT_EQ(run("sample out -q --report out/sample.csv --report shape.csv").exit_code, 0);
+}
+
+TEST_F(Batch, NamesOfAnyLengthAreRemeshed) {
+  write_scans(1);
+  fs::create_directory(folder_ / "long");
+  // 255 bytes are the most that a name has.
+  for (const int bytes : {100, 251, 252, 255}) {
+    const std::string name = std::string(static_cast<std::size_t>(bytes) - 4, 'x') + ".ply";
+    fs::copy_file(folder_ / scan(0), folder_ / "long" / name);
+  }
+  const Outcome outcome = run(std::string("batch long -o out") + options_);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(column("out/grains.csv", "status"), std::vector<std::string>(4, "done"));
+}
+
+TEST_F(Batch, SaysThatAnInputIsNotThere) {
+  const Outcome outcome = run("batch nowhere -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("There is no file and no folder \"nowhere\""), std::string::npos)
+      << outcome.errors;
+}
+
 TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
   write_scans(4);
   fs::create_directory(folder_ / "more");

@@ -90,7 +90,24 @@ TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
   EXPECT_NE(summary_html(summary).find("Broken."), std::string::npos);
   EXPECT_EQ(summary_lines(summary).front(),
             "6 grains: 5 remeshed, 1 of them with warnings, 1 failed");
+  EXPECT_EQ(summary_lines(summary)[1], "Warnings: warned");
+  EXPECT_EQ(json.at("grains_with_warnings"), nlohmann::ordered_json::array({"warned"}));
+  EXPECT_NE(summary_html(summary).find("Warnings: warned."), std::string::npos);
   for (const std::string& line : summary_lines(summary)) EXPECT_LE(line.size(), 80U) << line;
+}
+
+TEST_F(SampleSummaryOfAFile, NamesTheGrainsWithWarningsThatFitOnALine) {
+  std::string table = sample_header(false);
+  for (int k = 0; k < 250; ++k) {
+    table += sample_row("grain_" + std::to_string(k), grain_of(1.0, {"Odd."}), {});
+  }
+  write(table);
+  const std::string line = summary_lines(summarise_table(path_)).at(1);
+  EXPECT_LE(line.size(), 80U);
+  EXPECT_EQ(line.rfind("Warnings: grain_0, grain_1, ", 0), 0U) << line;
+  // Those that are named and those that are counted are all.
+  const auto named = std::count(line.begin(), line.end(), ',') + 1;
+  EXPECT_NE(line.find(" and " + std::to_string(250 - named) + " more"), std::string::npos) << line;
 }
 
 TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {

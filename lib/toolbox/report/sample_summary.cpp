@@ -123,6 +123,24 @@ std::string count_line(const SampleSummary& summary) {
          std::to_string(summary.failed) + " failed";
 }
 
+/// Returns "Warnings: a.ply, b.ply and 7 more", at most 80 characters unless one name is longer.
+/// The table has the warnings themselves. Empty without warnings.
+std::string warned_line(const SampleSummary& summary) {
+  constexpr std::size_t longest = 80;
+  std::string line;
+  std::size_t named = 0;
+  for (const std::string& grain : summary.warned) {
+    const std::size_t left = summary.with_warnings - named - 1;
+    const std::string rest = left == 0 ? "" : " and " + std::to_string(left) + " more";
+    const std::string longer = (named == 0 ? "Warnings: " : line + ", ") + grain;
+    if (named > 0 && longer.size() + rest.size() > longest) break;
+    line = longer;
+    ++named;
+  }
+  if (named == summary.with_warnings) return line;
+  return line + " and " + std::to_string(summary.with_warnings - named) + " more";
+}
+
 }  // namespace
 
 SampleSummary summarise_table(const std::string& path) {
@@ -160,7 +178,10 @@ SampleSummary summarise_table(const std::string& path) {
       }
       continue;
     }
-    if (!fields[warnings].empty()) ++summary.with_warnings;
+    if (!fields[warnings].empty()) {
+      ++summary.with_warnings;
+      if (summary.warned.size() < most_failures_named) summary.warned.push_back(fields[grain]);
+    }
     for (std::size_t k = 0; k < places.size(); ++k) {
       const auto& [column, divisor] = places[k];
       const double value =
@@ -222,6 +243,7 @@ std::string summary_json(const SampleSummary& summary) {
                         {"grains", summary.grains},
                         {"remeshed", summary.grains - summary.failed},
                         {"with_warnings", summary.with_warnings},
+                        {"grains_with_warnings", summary.warned},
                         {"failed", summary.failed},
                         {"distributions", distributions},
                         {"failures", failures}});
@@ -231,6 +253,7 @@ std::string summary_html(const SampleSummary& summary) {
   HtmlDocument page("A sample of " + std::to_string(summary.grains) + " grains");
   page.add_paragraph(origin_sentence({}));
   page.add_paragraph(count_line(summary) + ".");
+  if (summary.with_warnings > 0) page.add_paragraph(warned_line(summary) + ".");
   std::vector<Figure> figures;
   for (const SampleDistribution& one : summary.distributions) {
     if (one.values.empty()) continue;
@@ -257,6 +280,7 @@ std::string summary_html(const SampleSummary& summary) {
 
 std::vector<std::string> summary_lines(const SampleSummary& summary) {
   std::vector<std::string> lines = {count_line(summary)};
+  if (summary.with_warnings > 0) lines.push_back(warned_line(summary));
   // Columns that fit 80 characters. The files have all columns.
   std::vector<std::vector<std::string>> rows = {{"Quantity", "mean", "10 %", "50 %", "90 %"}};
   for (const SampleDistribution& one : summary.distributions) {

@@ -28,13 +28,15 @@ struct SampleSummary {
   std::size_t grains = 0;
   std::size_t failed = 0;
   std::size_t with_warnings = 0;
+  /// The first grains with warnings only, to limit the memory.
+  std::vector<std::string> warned;
   /// The first failures only, to limit the memory.
   std::vector<SampleFailure> failures;
   /// Size, form, sphericity, errors and quality.
   std::vector<SampleDistribution> distributions;
 };
 
-/// Max. number of failures in a summary.
+/// Max. number of failures, and of grains with warnings, that a summary names.
 inline constexpr std::size_t most_failures_named = 100;
 
 /// Reads a whole table. Needs memory for 12 numbers per grain. Throws Error(InvalidInput) if the

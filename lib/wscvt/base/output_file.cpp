@@ -35,8 +35,13 @@ namespace fs = std::filesystem;
        "limit of file sizes (ulimit -f), and that no folder has this name.");
 }
 
-/// Returns the name of a file while it is written.
-std::string partial_name(const std::string& target) { return target + ".part"; }
+/// Returns the name of a file while it is written. Names have at most 255 bytes, so a longer one
+/// loses its end.
+std::string partial_name(const std::string& target) {
+  constexpr std::size_t longest = 248;  // leaves room for ".part" and a number
+  const fs::path path(target);
+  return (path.parent_path() / path.filename().string().substr(0, longest)).string() + ".part";
+}
 
 constexpr const char* check_the_folder =
     "cannot be written. Check that the folder exists and is writable.";
