@@ -32,7 +32,8 @@ constexpr NumberOption<double> smallest_body_option = {
 
 std::string table_header() {
   return csv_record({"body", "state", "volume", "pores", "pore_volume", "boundary_edges", "x_min",
-                     "y_min", "z_min", "x_max", "y_max", "z_max", "vertices", "faces", "file"});
+                     "y_min", "z_min", "x_max", "y_max", "z_max", "vertices", "faces", "file",
+                     "name"});
 }
 
 /// Returns the row of a body; `file` is empty if the body is open or too small.

@@ -33,10 +33,6 @@ std::vector<Call> refused_calls() {
       {"TargetMeasureOutOfRange", grain(), {{"TargetMeasure", "5"}}, {"TargetMeasure", "Inertia"}},
       {"ErrorTargetNegative", grain(), {{"ErrorTarget", "-1"}}, {"ErrorTarget"}},
       {"WeightingOfTheOtherMethod", grain(), {{"Weighting", "3"}}, {"Weighting", "As published"}},
-      {"WeightingOfTheScan",
-       grain(),
-       {{"Method", "1"}, {"Weighting", "4"}},
-       {"Weighting", "On the scan"}},
       {"PlacementOfTheOtherMethod", grain(), {{"Placement", "0"}}, {"Placement", "As published"}},
       {"PlacementOfTheScan",
        grain(),
@@ -109,7 +105,7 @@ std::vector<Call> extreme_calls() {
        grain(),
        {{"NodeCount", "200"}, {"Placement", "2"}, {"EdgeRatio", "1.5"}, {"Quality", "3"}},
        {}},
-      {"ForContacts", grain(), {{"NodeCount", "300"}, {"Weighting", "4"}, {"Placement", "3"}}, {}},
+      {"ForContacts", grain(), {{"NodeCount", "300"}, {"Weighting", "1"}, {"Placement", "3"}}, {}},
       {"OnTheOriginalMesh", grain(), {{"NodeCount", "500"}, {"Placement", "1"}}, {}},
   };
 }

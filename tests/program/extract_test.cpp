@@ -272,7 +272,7 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
                   {"sample.nrrd out --voxel-size 1,2,3,4", 2, "three numbers with commas"},
                   {"sample.nrrd out --background -1", 2, "0 or more"},
                   {"sample.nrrd out --format step", 2, "The format of the meshes"},
-                  {"sample.ply out", 2, "does not have the ending of a volume"},
+                  {"sample.ply out", 2, "is a mesh, not a volume"},
                   {"missing.nrrd out", 1, "missing.nrrd"},
                   {"cut.nrrd out", 1, "bytes of voxels"},
                   {"empty.nrrd out", 1, "no label except the background"},

@@ -109,7 +109,8 @@ TEST_F(Split, SaysWhichCommandTakesAnotherInput) {
                  {"o.ply"});
   expect_refused("describe", {{"scans", 2, "wscvt batch FOLDER -o OUT"}}, {});
   expect_refused("extract", {{"sample.stl out", 2, "wscvt split MESH FOLDER"}}, {"out/labels.csv"});
-  expect_refused("batch", {{"nothere -o out", 2, "does not exist"}}, {"out/grains.csv"});
+  expect_refused("batch", {{"nothere -o out", 2, "There is no file and no folder"}},
+                 {"out/grains.csv"});
   expect_refused("sample", {{"/dev/zero", 1, "is a folder or a device"}}, {});
 }
 
@@ -163,7 +164,7 @@ TEST_F(Split, RefusesWhatMakesNoSense) {
   expect_refused("split",
                  {{"", 2, "mesh is required"},
                   {"sample.stl", 2, "folder is required"},
-                  {"sample.xyzzy out", 2, "does not end in"},
+                  {"sample.xyzzy out", 2, "There is no file and no folder"},
                   {"no.stl out", 1, "no.stl"},
                   {"sample.stl sample.stl", 2, "is the mesh itself"},
                   {"sample.stl out --format step", 2, "The format of the meshes"},

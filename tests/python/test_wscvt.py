@@ -161,7 +161,7 @@ def test_options_of_version_2_and_of_the_other_method_are_refused(scan, given, p
 @pytest.mark.parametrize("given, part", [
     ({"weighting": "area"}, "as-published"), ({"weighting": "radial-distance"}, "wscvt-d"),
     ({"placement": "least-squares"}, "fitted"),
-    ({"weighting": "error-adaptive"}, "edge-ratio 1.4")])
+    ({"weighting": "error-adaptive"}, "wscvt-d with edge_ratio 1.4")])
 def test_values_of_version_2_and_of_the_other_method_are_refused(scan, given, part):
     with pytest.raises(wscvt.Error, match=part):
         wscvt.remesh(*scan, **given)

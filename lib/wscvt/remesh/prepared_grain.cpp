@@ -175,14 +175,14 @@ void refuse_too_few(const PreparedGrain& grain, const IndexedMesh& mesh,
   const bool is_empty = !(volume_of(mesh, execution) > 0.0);
   for (const int times : {2, 3, 5, 10}) {
     if (is_unusable(grain.method->place(times * count, execution).mesh, execution)) continue;
-    refuse(std::to_string(count) + " nodes are too few for so long or thin a body: " +
+    refuse("So long or thin a body needs more than " + std::to_string(count) + " nodes: " +
            (is_empty ? "their mesh encloses no volume. " : "triangles of their mesh intersect. ") +
            std::to_string(times * count) + " were tried and are enough. Use that number or more.");
   }
   if (!is_empty) return;
-  refuse(std::to_string(count) +
-         " nodes are too few for so long or thin a body: their mesh encloses no volume. Up to " +
-         std::to_string(10 * count) + " were tried and are not enough. Use more.");
+  refuse("So long or thin a body needs more than " + std::to_string(count) +
+         " nodes: their mesh encloses no volume. Up to " + std::to_string(10 * count) +
+         " were tried and are not enough. Use more.");
 }
 
 }  // namespace
