@@ -164,14 +164,14 @@ TEST_F(Split, RefusesWhatMakesNoSense) {
   expect_refused("split",
                  {{"", 2, "mesh is required"},
                   {"sample.stl", 2, "folder is required"},
-                  {"sample.xyzzy out", 2, "There is no file and no folder"},
+                  {"sample.xyzzy out", 2, "does not end in"},
                   {"no.stl out", 1, "no.stl"},
                   {"sample.stl sample.stl", 2, "is the mesh itself"},
                   {"sample.stl out --format step", 2, "The format of the meshes"},
                   {"sample.stl out --smallest 101", 2, "0 to 100"}},
                  {"out/1.ply"});
   // Nor is a batch begun with a file of no known format.
-  expect_refused("batch", {{"sample.stl more.xyzzy -o out", 2, "does not end in"}},
+  expect_refused("batch", {{"sample.stl more.xyzzy -o out", 2, "There is no file and no folder"}},
                  {"out/grains.csv"});
   fs::create_directory(path("in"));
   fs::rename(path("sample.stl"), path("in/1.stl"));

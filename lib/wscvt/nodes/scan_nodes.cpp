@@ -48,7 +48,7 @@ constexpr double evened_steepness = 0.7;
 constexpr double fitted_steepness = 0.82;
 /// Smallest number of samples, for few nodes, whose cells are so large that a fixed number per node
 /// would scatter: four nodes on a ball are a tetrahedron within 3 % only with 120.
-constexpr std::size_t fewest_samples = 8000;
+constexpr std::size_t fewest_samples = 6000;
 /// Samples per node of a scan with fewer vertices than nodes, which is flat between them.
 constexpr int samples_of_coarse_scan = 16;
 /// If a number of nodes is too few, up to this many times as many are tried.
