@@ -149,6 +149,27 @@ TEST(ConvexParts, MeasuresTellWhatPartsShareAndLeaveOut) {
   EXPECT_NEAR(measures.grain_volume, 3.5, 1e-12);
 }
 
+TEST(ConvexParts, WhatThreePartsShareCountsTwiceAndDistancesAreThoseOfTheOutside) {
+  // Three boxes 2 x 2 x 2 at x = 0, 0.5 and 1: from 0 to 1 all three, on either side of it half a
+  // unit of two. So 4 + 2 + 2 * (2 + 2) of the 24 are there once too often: 24 - 2 x 2 x 3 = 12.
+  ConvexParts parts;
+  for (const double x : {0.0, 0.5, 1.0}) {
+    parts.push_back(test::moved(test::box(2.0, 2.0, 2.0), 1.0, Vector3(x, 0.0, 0.0)));
+  }
+  const IndexedMesh grain = test::moved(test::box(3.2, 2.2, 2.2), 1.0, Vector3(0.5, 0.0, 0.0));
+  const PartsMeasures measures = measure_parts(parts, grain);
+  const double cell = 3.0 / 96.0;
+  EXPECT_NEAR(measures.shared_volume, 12.0, 4.0 * 4.0 * cell);
+  EXPECT_NEAR(measures.parts_volume + measures.shared_volume, 24.0, 1e-12);
+  EXPECT_NEAR(measures.excess_percent(),
+              100.0 * (measures.parts_volume / measures.grain_volume - 1.0), 1e-12);
+  // The parts' outside lies 0.1 below the grain's faces everywhere, the grain's corners
+  // 0.1 * 3^(1/2) beside the parts'.
+  EXPECT_NEAR(measures.largest_distance, 0.1, 1e-12);
+  EXPECT_NEAR(measures.rms_distance, 0.1, 1e-12);
+  EXPECT_NEAR(measures.largest_gap, 0.1 * std::sqrt(3.0), 1e-12);
+}
+
 TEST(ConvexParts, CoverTheBodyAndComeNearerTheMoreTheyAre) {
   const IndexedMesh body = ring();
   double before = 2.0;

@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "support/count_of.h"
+#include "support/flat_json.h"
+#include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/report/mass_table.h"
 
 namespace wscvt {
 namespace {
@@ -134,6 +137,134 @@ TEST(ClumpReport, PageShowsScanClumpDistanceAndEachTable) {
   EXPECT_EQ(count_of(less, "<svg"), 2U);
   EXPECT_FALSE(holds(less, "remesh of"));
   EXPECT_FALSE(holds(less, "A sentence"));
+}
+
+/// A result whose numbers are all different, and have no more than three digits.
+ClumpResult numbered_clump() {
+  ClumpResult clump = shown_clump();
+  clump.equivalent_radius = 4.0;
+  clump.rms_distance = 0.5;       // 12.5 %
+  clump.largest_distance = 0.75;  // 18.75 %
+  clump.intersection_over_union = 0.875;
+  clump.contact = {-1.5, 2.25};
+  clump.remesh_contact = ContactError{-0.25, 0.125};
+  clump.united.error = {3.5, 4.5, 5.5};
+  clump.summed.error = {6.5, 7.5, 8.5};
+  clump.input.vertices = 1234;
+  clump.input.faces = 2464;
+  clump.input.genus = 2;
+  clump.stages = {{2, 3.0}, {4, 1.25}, {6, 0.5}};
+  return clump;
+}
+
+TEST(ClumpReportNumbers, StandUnderTheirNamesInPageAndLog) {
+  const ClumpResult clump = numbered_clump();
+  const std::string page = clump_html(clump, {}, Execution(1));
+  const test::Rows errors = {{"error of the clump", "length", "% of equivalent radius"},
+                             {"rms distance from scan to clump", "0.5", "12.5"},
+                             {"largest distance from scan to clump", "0.75", "18.8"}};
+  const test::Rows contacts = {{"first contact, % of equivalent radius", "mean error", "scatter"},
+                               {"clump of 6 spheres", "-1.5", "2.25"},
+                               {"remesh of 150 nodes", "-0.25", "0.125"}};
+  const test::Rows masses = {
+      {"error if taken for the grain's", "volume %", "centroid, % of radius", "inertia %"},
+      {"union of the spheres", "3.5", "4.5", "5.5"},
+      {"sum over the spheres", "6.5", "7.5", "8.5"}};
+  const test::Rows log = test::cells_of_lines(clump_lines(clump));
+  for (const test::Rows& rows : {errors, contacts, masses}) {
+    EXPECT_EQ(test::table_named(page, rows[0][0]), rows);
+    const auto found = std::find(log.begin(), log.end(), rows[0]);
+    ASSERT_NE(found, log.end()) << rows[0][0];
+    EXPECT_EQ(test::Rows(found, found + static_cast<std::ptrdiff_t>(rows.size())), rows);
+  }
+  const auto bodies = mass_rows({{"grain", mass_properties(clump.original)},
+                                 {"union of the spheres", clump.united.mass},
+                                 {"sum over the spheres", clump.summed.mass}});
+  EXPECT_EQ(test::table_named(page, bodies[0][0]), bodies);
+  EXPECT_TRUE(holds(page, "Intersection over union of the volumes: 0.875."));
+  EXPECT_EQ(clump_lines(clump)[0], "Scan        1234 vertices, 2464 faces, equivalent radius 4");
+  EXPECT_EQ(clump_lines(clump)[1], "Clump       6 spheres, intersection over union 0.875");
+
+  // The log has a number per cell: grain, union, sum.
+  const MassProperties all[] = {mass_properties(clump.original), clump.united.mass,
+                                clump.summed.mass};
+  const auto expect = [&](const std::string& label, const auto& number_of) {
+    const std::vector<std::string> row = {label, format_number(number_of(all[0])),
+                                          format_number(number_of(all[1])),
+                                          format_number(number_of(all[2]))};
+    EXPECT_EQ(std::count(log.begin(), log.end(), row), 1) << label;
+  };
+  const std::string axes = "xyz";
+  expect("volume, length^3", [](const MassProperties& m) { return m.volume; });
+  for (int i = 0; i < 3; ++i) {
+    expect(std::string("centroid ") + axes[static_cast<std::size_t>(i)] + ", length",
+           [&](const MassProperties& m) { return m.centroid[i]; });
+    expect("principal moment " + std::to_string(i + 1) + ", length^5",
+           [&](const MassProperties& m) { return m.principal_moments[i]; });
+    for (int j = i; j < 3; ++j) {
+      expect(std::string("inertia about it ") + axes[static_cast<std::size_t>(i)] +
+                 axes[static_cast<std::size_t>(j)] + ", length^5",
+             [&](const MassProperties& m) { return m.inertia_tensor(i, j); });
+    }
+  }
+  expect("principal axes, quaternion w",
+         [](const MassProperties& m) { return m.principal_axes.w(); });
+  expect("principal axes, quaternion x",
+         [](const MassProperties& m) { return m.principal_axes.x(); });
+  expect("principal axes, quaternion y",
+         [](const MassProperties& m) { return m.principal_axes.y(); });
+  expect("principal axes, quaternion z",
+         [](const MassProperties& m) { return m.principal_axes.z(); });
+}
+
+TEST(ClumpReportNumbers, StandUnderTheirNamesInJsonAndCsv) {
+  const ClumpResult clump = numbered_clump();
+  const auto json = nlohmann::json::parse(clump_json(clump, {"grain.ply", ""}));
+  const std::pair<const char*, double> expected[] = {
+      {"/input/vertices", 1234},
+      {"/input/faces", 2464},
+      {"/input/genus", 2},
+      {"/input/equivalent_radius", 4.0},
+      {"/rms_distance", 0.5},
+      {"/rms_percent", 12.5},
+      {"/largest_distance", 0.75},
+      {"/largest_percent", 18.75},
+      {"/intersection_over_union", 0.875},
+      {"/first_contact/clump/mean_percent", -1.5},
+      {"/first_contact/clump/scatter_percent", 2.25},
+      {"/first_contact/remesh/mean_percent", -0.25},
+      {"/first_contact/remesh/scatter_percent", 0.125},
+      {"/union/volume_error_percent", 3.5},
+      {"/union/centroid_error_percent", 4.5},
+      {"/union/inertia_error_percent", 5.5},
+      {"/sum/volume_error_percent", 6.5},
+      {"/sum/centroid_error_percent", 7.5},
+      {"/sum/inertia_error_percent", 8.5},
+      {"/grain/volume", mass_properties(clump.original).volume},
+      {"/union/mass/volume", clump.united.mass.volume},
+      {"/sum/mass/volume", clump.summed.mass.volume},
+      {"/union/mass/centroid/y", clump.united.mass.centroid.y()},
+      {"/sum/mass/centroid/y", clump.summed.mass.centroid.y()},
+      {"/stages/0/spheres", 2},
+      {"/stages/0/rms_percent", 75.0},
+      {"/stages/1/rms_percent", 31.25},
+      {"/stages/2/spheres", 6}};
+  for (const auto& [name, value] : expected) {
+    EXPECT_EQ(json.at(nlohmann::json::json_pointer(name)).get<double>(), value) << name;
+  }
+  for (std::size_t k = 0; k < clump.spheres.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(json["spheres"][k][i], clump.spheres[k].centre[static_cast<Eigen::Index>(i)]);
+    }
+    EXPECT_EQ(json["spheres"][k][3], clump.spheres[k].radius);
+  }
+  test::expect_csv_is_flat_json(clump_csv(clump, {"grain.ply", ""}),
+                                clump_json(clump, {"grain.ply", ""}));
+}
+
+TEST(ClumpReportNumbers, CurveHasAPointPerStage) {
+  const std::string page = clump_html(numbered_clump(), {}, Execution(1));
+  EXPECT_EQ(count_of(page, "<circle"), 3U);
 }
 
 }  // namespace

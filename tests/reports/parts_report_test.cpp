@@ -10,11 +10,16 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/page_tables.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/pi.h"
 #include "wscvt/base/readable_text.h"
+#include "wscvt/report/mass_table.h"
 
 namespace wscvt {
 namespace {
@@ -73,6 +78,54 @@ TEST(PartsReportJson, HoldsTheMeasures) {
   EXPECT_NEAR(json.at("largest_distance").get<double>(), 0.05 * std::sqrt(2.0), 0.002);
   EXPECT_NEAR(json.at("mass_properties").at("volume").get<double>(), 6.0, 1e-12);
   EXPECT_EQ(json.at("warnings"), nlohmann::json({"A <warning>."}));
+}
+
+/// A result whose measures are all different. The equivalent radius is 2.
+PartsResult numbered_parts() {
+  PartsResult result = three_boxes(0.05);
+  result.parts[2] = test::sphere(1);  // 80 faces
+  PartsMeasures& m = result.measures;
+  m.grain_volume = 32.0 * pi / 3.0;
+  m.parts_volume = 1.25 * m.grain_volume;
+  m.shared_volume = 0.0625 * m.grain_volume;
+  m.rms_distance = 0.125;
+  m.largest_distance = 0.5;
+  m.largest_gap = 0.75;
+  return result;
+}
+
+TEST(PartsReportNumbers, StandUnderTheirNames) {
+  const PartsResult result = numbered_parts();
+  const std::vector<std::string> lines = {
+      "Convex parts: 3, 12 to 80 faces each",
+      "Distance from the parts to the grain: rms 0.125 (6.25 % of the equivalent radius), largest "
+      "0.5 (25 % of the equivalent radius)",
+      "Points of the grain outside of the parts: at most 0.75 (37.5 % of the equivalent radius)",
+      "Volume of the parts beyond the grain's: 25 %, and 6.25 % inside several parts"};
+  EXPECT_EQ(parts_lines(result), lines);
+  const auto json = nlohmann::json::parse(parts_json(result, {"grain.ply", ""}));
+  EXPECT_EQ(json.at("faces"), nlohmann::json({12, 12, 80}));
+  const std::pair<const char*, double> expected[] = {
+      {"rms_distance", 0.125},
+      {"rms_distance_percent", 6.25},
+      {"largest_distance", 0.5},
+      {"largest_distance_percent", 25.0},
+      {"largest_gap", 0.75},
+      {"largest_gap_percent", 37.5},
+      {"excess_volume_percent", 25.0},
+      {"parts_volume", result.measures.parts_volume},
+      {"shared_volume", result.measures.shared_volume}};
+  for (const auto& [name, value] : expected) {
+    EXPECT_NEAR(json.at(name).get<double>(), value, 1e-12 * value) << name;
+  }
+  const std::string page = parts_html(result, {}, Execution(1));
+  const auto mass = mass_rows({{"grain", mass_properties(result.original)}});
+  EXPECT_EQ(test::table_named(page, mass[0][0]), mass);
+
+  PartsResult one = result;
+  one.parts.resize(1);
+  EXPECT_EQ(parts_lines(one)[0], "Convex parts: 1, 12 faces");
+  EXPECT_NE(parts_html(one, {}, Execution(1)).find("<h1>1 convex part<"), std::string::npos);
 }
 
 class PartsTable : public test::FileFolder {};

@@ -3,14 +3,22 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "support/flat_json.h"
+#include "support/page_tables.h"
+#include "support/plain_statistics.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
@@ -150,6 +158,393 @@ TEST(SampleReport, APageOfManyGrainsStaysSmall) {
   // 50 descriptors of them fit in 6 MB with a name and a number.
   const double bytes_a_number = (static_cast<double>(page.size()) - 10000.0 * 18.0) / 70000.0;
   EXPECT_LT(bytes_a_number, 11.0);
+}
+
+/// A number as a table shows it, beside its interval if it has one.
+std::string shown(double value, const Estimate& interval) {
+  const std::string text = format_number(value, 4);
+  if (std::isnan(interval.lower)) return text;
+  return text + " (" + format_number(interval.lower, 4) + " to " +
+         format_number(interval.upper, 4) + ")";
+}
+
+/// The sizes of a sample, by their definitions.
+std::vector<std::pair<std::string, double>> plain_sizes(const test::PlainStatistics& plain) {
+  const double d10 = plain.quantile(0.1), d30 = plain.quantile(0.3), d60 = plain.quantile(0.6);
+  return {{"D10", d10},
+          {"D30", d30},
+          {"D50", plain.quantile(0.5)},
+          {"D60", d60},
+          {"D90", plain.quantile(0.9)},
+          {"Cu", d60 / d10},
+          {"Cc", d30 * d30 / (d10 * d60)}};
+}
+
+Estimate size_of(const SizeEstimates& sizes, const std::string& name) {
+  const std::pair<const char*, Estimate> all[] = {
+      {"D10", sizes.d10}, {"D30", sizes.d30},       {"D50", sizes.d50},     {"D60", sizes.d60},
+      {"D90", sizes.d90}, {"Cu", sizes.uniformity}, {"Cc", sizes.curvature}};
+  for (const auto& [key, estimate] : all) {
+    if (key == name) return estimate;
+  }
+  return {};
+}
+
+TEST(SampleReportNumbers, OfTheSizesAreThoseOfTheGrains) {
+  const SampleReport report = report_of(23, true);
+  const test::Rows page = test::table_named(sample_html(report, Execution(1)), "size");
+  const Document json = Document::parse(sample_json(report));
+  const auto csv = test::csv_records(sample_csv(report));
+  ASSERT_EQ(page.size(), 8U);
+  EXPECT_EQ(page[0],
+            (std::vector<std::string>{"size", "first, by mass", "first, by number",
+                                      "second & last, by mass", "second & last, by number"}));
+  std::size_t csv_rows = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ReportedSample& one = report.samples[k];
+    for (const bool by_mass : {true, false}) {
+      const test::PlainStatistics plain(
+          one.sample.sizes,
+          by_mass ? one.sample.masses : Eigen::VectorXd(Eigen::VectorXd::Ones(23)));
+      const SizeEstimates& sizes =
+          by_mass ? one.statistics.size_by_mass : one.statistics.size_by_number;
+      const test::Rows log = test::cells_of_lines(sample_lines(report));
+      std::size_t row = 0;
+      for (const auto& [name, value] : plain_sizes(plain)) {
+        SCOPED_TRACE(one.name + " " + name + (by_mass ? " by mass" : " by number"));
+        const Estimate interval = size_of(sizes, name);
+        ++row;
+        EXPECT_EQ(page[row][0].substr(0, name.size()), name);
+        EXPECT_EQ(page[row][1 + 2 * k + (by_mass ? 0 : 1)], shown(value, interval));
+        const Document& in_json =
+            json.at("samples").at(k).at("size").at(by_mass ? "by_mass" : "by_number").at(name);
+        EXPECT_NEAR(in_json.at("value").get<double>(), value, 1e-12 * value);
+        EXPECT_EQ(in_json.at("lower"), interval.lower);
+        EXPECT_EQ(in_json.at("upper"), interval.upper);
+        for (const auto& record : csv) {
+          if (record[0] != one.name || record[1] != "size" || record[4] != name) continue;
+          if (record[3] != (by_mass ? "mass" : "number")) continue;
+          ++csv_rows;
+          EXPECT_EQ(record[2], name[0] == 'C' ? "" : "mm");  // ratios have no unit
+          EXPECT_NEAR(std::stod(record[5]), value, 1e-12 * value);
+          EXPECT_EQ(std::stod(record[6]), interval.lower);
+          EXPECT_EQ(std::stod(record[7]), interval.upper);
+        }
+        // The log has both weightings in a line; its second such line is of the second sample.
+        std::size_t seen = 0;
+        for (const auto& cells : log) {
+          if (cells.empty() || cells[0] != name || seen++ != k) continue;
+          ASSERT_EQ(cells.size(), 7U);
+          const std::size_t at = by_mass ? 1 : 4;
+          EXPECT_EQ(cells[at], format_number(value, 4));
+          EXPECT_EQ(cells[at + 1], format_number(interval.lower, 4));
+          EXPECT_EQ(cells[at + 2], format_number(interval.upper, 4));
+        }
+        EXPECT_EQ(seen, 2U);
+      }
+    }
+    double mass = 0.0;
+    for (const double own : one.sample.masses) mass += own;
+    EXPECT_NEAR(json.at("samples").at(k).at("mass").get<double>(), mass, 1e-12 * mass);
+  }
+  EXPECT_EQ(csv_rows, 28U);
+}
+
+TEST(SampleReportNumbers, OfTheDescriptorsAreThoseOfTheGrains) {
+  const SampleReport report = report_of(23, true);
+  const std::string html = sample_html(report, Execution(1));
+  const Document json = Document::parse(sample_json(report));
+  const auto csv = test::csv_records(sample_csv(report));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ReportedSample& one = report.samples[k];
+    const test::Rows page = test::table_named(html, "descriptor", 1 + k);  // 0: the comparison
+    ASSERT_EQ(page.size(), 1 + one.sample.columns.size());
+    EXPECT_EQ(page[0], (std::vector<std::string>{"descriptor", "grains", "mean by number",
+                                                 "std. dev. (n - 1)", "10 %", "median", "90 %",
+                                                 "mean by mass", "correlation with size"}));
+    for (std::size_t c = 0; c < one.sample.columns.size(); ++c) {
+      const GrainColumn& column = one.sample.columns[c];
+      SCOPED_TRACE(one.name + " " + column.name);
+      const Eigen::VectorXd values = one.sample.values.col(static_cast<Eigen::Index>(c));
+      const test::PlainStatistics by_number(values);
+      const test::PlainStatistics by_mass(values, one.sample.masses);
+      const double correlation = test::plain_rank_correlation(one.sample.sizes, values);
+      const ColumnStatistics& s = one.statistics.columns[c];
+      EXPECT_EQ(
+          page[1 + c],
+          (std::vector<std::string>{
+              heading_of(column), std::to_string(by_number.grains().size()),
+              shown(by_number.mean(), s.by_number.mean), format_number(by_number.deviation(), 4),
+              format_number(by_number.quantile(0.1), 4), format_number(by_number.quantile(0.5), 4),
+              format_number(by_number.quantile(0.9), 4), format_number(by_mass.mean(), 4),
+              shown(correlation, s.size_correlation)}));
+      const Document& in_json = json.at("samples").at(k).at("descriptors").at(column.name);
+      EXPECT_EQ(in_json.at("unit"), column.unit);
+      EXPECT_EQ(in_json.at("count"), by_number.grains().size());
+      EXPECT_EQ(in_json.at("minimum"), by_number.grains().front().first);
+      EXPECT_EQ(in_json.at("maximum"), by_number.grains().back().first);
+      EXPECT_NEAR(in_json.at("size_correlation").at("value").get<double>(), correlation, 1e-12);
+      for (const auto& [weighting, plain, estimates] :
+           {std::tuple("number", by_number, s.by_number), std::tuple("mass", by_mass, s.by_mass)}) {
+        const std::tuple<const char*, double, Estimate> expected[] = {
+            {"mean", plain.mean(), estimates.mean},
+            {"standard_deviation", plain.deviation(), estimates.deviation},
+            {"percent_10", plain.quantile(0.1), estimates.percent_10},
+            {"median", plain.quantile(0.5), estimates.median},
+            {"percent_90", plain.quantile(0.9), estimates.percent_90}};
+        for (const auto& [statistic, value, estimate] : expected) {
+          SCOPED_TRACE(std::string(statistic) + " by " + weighting);
+          const double rounding = 1e-12 * std::abs(value);
+          const Document& found = in_json.at(std::string("by_") + weighting).at(statistic);
+          EXPECT_NEAR(found.at("value").get<double>(), value, rounding);
+          EXPECT_EQ(found.at("lower"), estimate.lower);
+          EXPECT_EQ(found.at("upper"), estimate.upper);
+          std::size_t rows = 0;
+          for (const auto& record : csv) {
+            if (record[0] != one.name || record[1] != column.name) continue;
+            if (record[3] != weighting || record[4] != statistic) continue;
+            ++rows;
+            EXPECT_EQ(record[2], column.unit);
+            EXPECT_NEAR(std::stod(record[5]), value, rounding);
+            EXPECT_EQ(std::stod(record[6]), estimate.lower);
+            EXPECT_EQ(std::stod(record[7]), estimate.upper);
+          }
+          EXPECT_EQ(rows, 1U);
+        }
+      }
+      for (const auto& record : csv) {
+        if (record[0] != one.name || record[1] != column.name) continue;
+        if (record[4] != "size_correlation") continue;
+        EXPECT_EQ(record[2], "");
+        EXPECT_NEAR(std::stod(record[5]), correlation, 1e-12);
+      }
+    }
+    // The log has the main ones alone: the mean by number with its interval, median, mean by mass.
+    std::size_t seen = 0;
+    for (const auto& cells : test::cells_of_lines(sample_lines(report))) {
+      if (cells.empty() || cells[0] != "convexity" || cells.size() != 6) continue;
+      if (seen++ != k) continue;
+      const Eigen::VectorXd values = one.sample.values.col(4);
+      const Estimate& mean = one.statistics.columns[4].by_number.mean;
+      const test::PlainStatistics plain(values);
+      EXPECT_EQ(cells,
+                (std::vector<std::string>{
+                    "convexity", format_number(plain.mean(), 4), format_number(mean.lower, 4),
+                    format_number(mean.upper, 4), format_number(plain.quantile(0.5), 4),
+                    format_number(test::PlainStatistics(values, one.sample.masses).mean(), 4)}));
+    }
+    EXPECT_EQ(seen, 2U);
+  }
+}
+
+TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
+  const SampleReport report = report_of(23, true);
+  const test::Rows page = test::table_named(sample_html(report, Execution(1)), "descriptor");
+  const Document json = Document::parse(sample_json(report)).at("comparison");
+  const GrainSample& a = report.samples[0].sample;
+  const GrainSample& b = report.samples[1].sample;
+  ASSERT_EQ(page.size(), 2 + a.columns.size());
+  EXPECT_EQ(json.size(), 1 + a.columns.size());
+  for (std::size_t k = 0; k < report.comparison.size(); ++k) {
+    const ColumnComparison& row = report.comparison[k];
+    SCOPED_TRACE(row.column.name);
+    const auto values = [&](const GrainSample& sample) {
+      return k == 0 ? sample.sizes
+                    : Eigen::VectorXd(sample.values.col(static_cast<Eigen::Index>(k) - 1));
+    };
+    const double deviation = test::PlainStatistics(values(a)).deviation();
+    std::vector<std::string> expected = {heading_of(row.column)};
+    for (const bool by_mass : {false, true}) {
+      const auto plain = [&](const GrainSample& sample) {
+        return by_mass ? test::PlainStatistics(values(sample), sample.masses)
+                       : test::PlainStatistics(values(sample));
+      };
+      const auto [largest, area] = test::plain_distances(plain(a), plain(b));
+      const SampleDistance& d = by_mass ? row.by_mass : row.by_number;
+      for (const double value : {largest, d.kolmogorov_p, area / deviation, d.wasserstein_p}) {
+        expected.push_back(format_number(value, 3));
+      }
+      const Document& found = json.at(row.column.name).at(by_mass ? "by_mass" : "by_number");
+      EXPECT_NEAR(found.at("kolmogorov_smirnov").get<double>(), largest, 1e-12);
+      EXPECT_NEAR(found.at("wasserstein").get<double>(), area, 1e-12 * (1.0 + area));
+      EXPECT_EQ(found.at("kolmogorov_smirnov_p"), d.kolmogorov_p);
+      EXPECT_EQ(found.at("wasserstein_p"), d.wasserstein_p);
+    }
+    ASSERT_EQ(page[1 + k].size(), 9U);
+    for (std::size_t cell = 0; cell < 9; ++cell) {
+      // Distances of 0 are sums of rounding.
+      if (expected[cell].find("e-") != std::string::npos) continue;
+      if (page[1 + k][cell].find("e-") != std::string::npos) continue;
+      EXPECT_EQ(page[1 + k][cell], expected[cell]) << page[0][cell];
+    }
+    EXPECT_NEAR(json.at(row.column.name).at("deviation").get<double>(), deviation,
+                1e-12 * deviation);
+  }
+  for (const auto& cells : test::cells_of_lines(sample_lines(report))) {
+    if (cells.size() != 5 || cells[0] != "size") continue;
+    const SampleDistance& d = report.comparison[0].by_number;
+    EXPECT_EQ(cells[1], format_number(d.kolmogorov, 4));
+    EXPECT_EQ(cells[2], format_number(d.kolmogorov_p, 4));
+    EXPECT_EQ(cells[3], format_number(d.wasserstein / report.comparison[0].deviation, 4));
+    EXPECT_EQ(cells[4], format_number(d.wasserstein_p, 4));
+  }
+}
+
+/// Levels whose numbers are all different: k and 90 % of k * 10 of row r at level l.
+DetailLevels six_levels() {
+  DetailLevels levels;
+  levels.mark_percent = 1.5;
+  levels.nodes = {100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0};
+  for (const char* name : {"volume", "convexity", "rms_distance"}) {
+    DescriptorLevels row;
+    row.name = name;
+    for (std::size_t l = 0; l < 6; ++l) {
+      LevelError error;
+      error.count = 7 + l;
+      error.median =
+          0.5 + static_cast<double>(levels.rows.size()) + 0.0625 * static_cast<double>(l);
+      error.percent_90 = 10.0 * error.median;
+      row.levels.push_back(error);
+    }
+    row.nodes_needed = 1000.0 + 100.0 * static_cast<double>(levels.rows.size());
+    levels.rows.push_back(row);
+  }
+  levels.rows[0].levels[5].median = 1e-13;
+  levels.rows[1].levels[0].count = 0;
+  return levels;
+}
+
+TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
+  SampleReport report = report_of(12, false);
+  report.levels = six_levels();
+  const std::string html = sample_html(report, Execution(1));
+  const test::Rows page = test::table_named(html, "median, 90 % of the errors, %");
+  ASSERT_EQ(page.size(), 4U);
+  EXPECT_EQ(page[0], (std::vector<std::string>{"median, 90 % of the errors, %", "N = 100",
+                                               "N = 200", "N = 400", "N = 800", "N = 1600",
+                                               "N = 3200", "N for 1.5 %"}));
+  const Document json = Document::parse(sample_json(report)).at("levels");
+  EXPECT_EQ(json.at("mark_percent"), 1.5);
+  const Document data = data_of(html).at("levels");
+  EXPECT_EQ(data.at("mark"), 1.5);
+  EXPECT_EQ(data.at("nodes"), Document(report.levels->nodes));
+  const auto csv = test::csv_records(sample_csv(report));
+  const test::Rows log = test::cells_of_lines(sample_lines(report));
+  for (std::size_t r = 0; r < 3; ++r) {
+    const DescriptorLevels& row = report.levels->rows[r];
+    SCOPED_TRACE(row.name);
+    ASSERT_EQ(page[1 + r].size(), 8U);
+    EXPECT_EQ(page[1 + r][0], row.name);
+    EXPECT_EQ(page[1 + r][7], format_number(row.nodes_needed, 4));
+    EXPECT_EQ(data.at("rows").at(r).at("name"), row.name);
+    EXPECT_EQ(json.at("descriptors").at(row.name).at("nodes_needed"), row.nodes_needed);
+    std::map<std::string, double> in_csv;
+    for (const auto& record : csv) {
+      if (record[0] == "first" && record[1] == row.name && record[3] == "number" &&
+          record[4].find('n') != std::string::npos && record[6].empty()) {
+        in_csv[record[4] + "|" + record[2]] = std::stod(record[5]);
+      }
+    }
+    EXPECT_EQ(in_csv.at("nodes_needed|"), row.nodes_needed);
+    for (std::size_t l = 0; l < 6; ++l) {
+      const LevelError& error = row.levels[l];
+      const std::string nodes = format_number(report.levels->nodes[l], 9);
+      const std::string median = error.median < 1e-9 ? "exact" : format_number(error.median, 3);
+      EXPECT_EQ(page[1 + r][1 + l],
+                error.count == 0 ? "-" : median + ", " + format_number(error.percent_90, 3));
+      const Document& found = json.at("descriptors").at(row.name).at("errors").at(l);
+      EXPECT_EQ(found.at("nodes"), report.levels->nodes[l]);
+      EXPECT_EQ(found.at("grains"), error.count);
+      EXPECT_EQ(found.at("median_percent"), error.median);
+      EXPECT_EQ(found.at("percent_90_percent"), error.percent_90);
+      EXPECT_EQ(data.at("rows").at(r).at("median").at(l), error.median);
+      EXPECT_EQ(data.at("rows").at(r).at("percent_90").at(l), error.percent_90);
+      EXPECT_EQ(in_csv.at("error_median_n" + nodes + "|%"), error.median);
+      EXPECT_EQ(in_csv.at("error_percent_90_n" + nodes + "|%"), error.percent_90);
+    }
+  }
+  // The terminal has room for the last four.
+  const auto head = std::find_if(log.begin(), log.end(), [](const std::vector<std::string>& cells) {
+    return !cells.empty() && cells[0] == "90 % of errors, %";
+  });
+  ASSERT_NE(head, log.end());
+  EXPECT_EQ(*head, (std::vector<std::string>{"90 % of errors, %", "N 400", "N 800", "N 1600",
+                                             "N 3200", "N for 1.5 %"}));
+  for (std::size_t r = 0; r < 3; ++r) {
+    const DescriptorLevels& row = report.levels->rows[r];
+    std::vector<std::string> expected = {row.name};
+    for (std::size_t l = 2; l < 6; ++l) {
+      expected.push_back(format_number(row.levels[l].percent_90, 4));
+    }
+    expected.push_back(format_number(row.nodes_needed, 4));
+    EXPECT_EQ(*(head + 1 + static_cast<std::ptrdiff_t>(r)), expected);
+  }
+}
+
+TEST(SampleReportNumbers, TellGrainsFailuresNotesAndWhatIsDrawn) {
+  SampleReport report = report_of(12, true);
+  report.samples[0].sample.failed = 3;
+  report.samples[1].sample.notes = {"One note."};
+  const std::string html = sample_html(report, Execution(1));
+  EXPECT_NE(html.find("<p>first: 12 grains, 3 failed. Size: "), std::string::npos);
+  EXPECT_NE(html.find("<p>second &amp; last: 12 grains. Size: "), std::string::npos);
+  EXPECT_NE(html.find("<p class=\"warning\">One note.</p>"), std::string::npos);
+  EXPECT_NE(html.find("95 % intervals from 20 random samples"), std::string::npos);
+  EXPECT_NE(html.find("seed " + std::to_string(report.options.seed) + ")"), std::string::npos);
+  const auto lines = sample_lines(report);
+  EXPECT_NE(std::find(lines.begin(), lines.end(), "first: 12 grains, 3 failed"), lines.end());
+  EXPECT_NE(std::find(lines.begin(), lines.end(), "second & last: 12 grains"), lines.end());
+  const Document json = Document::parse(sample_json(report));
+  EXPECT_EQ(json.at("samples").at(0).at("failed"), 3);
+  EXPECT_EQ(json.at("samples").at(1).at("failed"), 0);
+  EXPECT_EQ(json.at("samples").at(0).at("repetitions"), 20);
+  EXPECT_EQ(json.at("samples").at(1).at("notes"), Document({"One note."}));
+  EXPECT_EQ(json.at("options").at("repetitions"), 20);
+  EXPECT_EQ(json.at("options").at("seed"), report.options.seed);
+
+  const Document data = data_of(html);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const GrainSample& sample = report.samples[k].sample;
+    const Document& drawn = data.at("samples").at(k);
+    EXPECT_EQ(drawn.at("name"), report.samples[k].name);
+    EXPECT_EQ(drawn.at("count"), 12);
+    for (std::size_t c = 0; c < sample.columns.size(); ++c) {
+      EXPECT_EQ(drawn.at("columns").at(c).at("name"), sample.columns[c].name);
+      EXPECT_EQ(drawn.at("columns").at(c).at("unit"), sample.columns[c].unit);
+    }
+    for (Eigen::Index row = 0; row < 12; ++row) {
+      const auto at = static_cast<std::size_t>(row);
+      // Four digits are drawn.
+      EXPECT_NEAR(drawn.at("size").at(at).get<double>(), sample.sizes[row],
+                  5e-4 * sample.sizes[row]);
+      EXPECT_NEAR(drawn.at("mass").at(at).get<double>(), sample.masses[row],
+                  5e-4 * sample.masses[row]);
+      for (std::size_t c = 0; c < sample.columns.size(); ++c) {
+        const double value = sample.values(row, static_cast<Eigen::Index>(c));
+        const Document& found = drawn.at("values").at(c).at(at);
+        if (std::isnan(value)) {
+          EXPECT_TRUE(found.is_null());
+        } else {
+          EXPECT_NEAR(found.get<double>(), value, 5e-4 * value);
+        }
+      }
+    }
+  }
+  // How many grains an interval needs is told of the first sample.
+  const SampleStatistics& s = report.samples[0].statistics;
+  std::vector<std::pair<std::string, Estimate>> needed = {{"D10 by mass", s.size_by_mass.d10},
+                                                          {"D50 by mass", s.size_by_mass.d50},
+                                                          {"D60 by mass", s.size_by_mass.d60}};
+  for (const ColumnStatistics& column : s.columns) {
+    needed.emplace_back("mean of " + column.column.name, column.by_number.mean);
+  }
+  ASSERT_EQ(data.at("needed").size(), needed.size());
+  for (std::size_t k = 0; k < needed.size(); ++k) {
+    EXPECT_EQ(data.at("needed").at(k).at("name"), needed[k].first);
+    EXPECT_EQ(data.at("needed").at(k).at("value"), needed[k].second.value);
+    EXPECT_EQ(data.at("needed").at(k).at("lower"), needed[k].second.lower);
+    EXPECT_EQ(data.at("needed").at(k).at("upper"), needed[k].second.upper);
+  }
 }
 
 }  // namespace

@@ -15,7 +15,10 @@
 
 #include "support/expect_error.h"
 #include "support/flat_json.h"
+#include "support/page_tables.h"
+#include "support/plain_statistics.h"
 #include "toolbox/report/sample_table.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
@@ -196,6 +199,66 @@ TEST_F(SampleSummaryOfAFile, RefusesWhatIsNoTableOfASample) {
   std::remove(path_.c_str());
   EXPECT_ERROR(summarise_table(path_), InputOutput);
   EXPECT_ERROR(check_summary("table.csv"), InvalidInput);
+}
+
+TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
+  std::string table = sample_header(false);
+  Eigen::VectorXd radii(13);
+  for (Eigen::Index k = 0; k < 13; ++k) {
+    radii[k] = 1.0 + 0.37 * static_cast<double>((k * 5) % 13);
+    RemeshResult result = grain_of(radii[k]);
+    result.original.volume = 3.0 * radii[k];
+    table += sample_row("grain" + std::to_string(k), result, {});
+  }
+  table += failed_row("bad <one>", "Broken & gone.", {});
+  write(table);
+  const SampleSummary summary = summarise_table(path_);
+  const std::string page = summary_html(summary);
+  EXPECT_NE(page.find("<h1>A sample of 14 grains</h1>"), std::string::npos);
+  EXPECT_NE(page.find("<p>14 grains: 13 remeshed, 0 of them with warnings, 1 failed.</p>"),
+            std::string::npos);
+  EXPECT_EQ(test::table_named(page, "grain"),
+            (test::Rows{{"grain", "error"}, {"bad <one>", "Broken & gone."}}));
+  const test::Rows rows = test::table_named(page, "Quantity");
+  ASSERT_GE(rows.size(), 3U);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"Quantity", "mean", "std. dev. (n - 1)", "smallest",
+                                               "10 %", "50 %", "90 %", "largest"}));
+  const auto expect = [&](std::size_t row, const std::string& name, const Eigen::VectorXd& values) {
+    const test::PlainStatistics plain(values);
+    std::vector<std::string> cells = {name};
+    for (const double value :
+         {plain.mean(), plain.deviation(), plain.grains().front().first, plain.quantile(0.1),
+          plain.quantile(0.5), plain.quantile(0.9), plain.grains().back().first}) {
+      cells.push_back(format_number(value, 4));
+    }
+    EXPECT_EQ(rows[row], cells);
+    EXPECT_NE(page.find(" of 13 grains, half of them below " +
+                        format_number(plain.quantile(0.5), 4) + "."),
+              std::string::npos)
+        << name;
+  };
+  expect(1, "equivalent radius, length", radii);
+  expect(2, "volume, length^3", 3.0 * radii);
+  const auto json = nlohmann::ordered_json::parse(summary_json(summary));
+  EXPECT_EQ(json.at("grains"), 14);
+  EXPECT_EQ(json.at("remeshed"), 13);
+  EXPECT_EQ(json.at("failed"), 1);
+  EXPECT_EQ(json.at("failures"),
+            nlohmann::ordered_json({{{"grain", "bad <one>"}, {"error", "Broken & gone."}}}));
+}
+
+TEST(HistogramOf, CountsEveryValueInItsBin) {
+  std::vector<double> values;
+  for (int k = 0; k < 100; ++k) values.push_back(static_cast<double>(k));
+  const Histogram histogram = histogram_of(values);
+  EXPECT_EQ(histogram.lower, 0.0);
+  EXPECT_EQ(histogram.upper, 99.0);
+  EXPECT_EQ(histogram.counts, std::vector<std::size_t>(10, 10));  // the square root of 100
+  EXPECT_EQ(histogram_of({1.0, 2.0, 8.0}).counts.size(), 8U);
+  EXPECT_EQ(histogram_of(std::vector<double>(5000, 1.0)).counts.size(), 60U);
+  const Histogram equal = histogram_of({2.0, 2.0});
+  EXPECT_LT(equal.lower, 2.0);
+  EXPECT_GT(equal.upper, 2.0);
 }
 
 }  // namespace

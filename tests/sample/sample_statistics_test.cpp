@@ -7,8 +7,10 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "support/plain_statistics.h"
 #include "toolbox/sample/distribution.h"
 #include "toolbox/sample/random_stream.h"
 #include "toolbox/sample/sample_comparison.h"
@@ -169,6 +171,87 @@ GrainSample gapped_sample() {
   return sample_of(table, {});
 }
 
+TEST(SampleStatistics, EveryNumberIsThatOfItsDefinition) {
+  const GrainSample sample = gapped_sample();
+  SampleOptions options;
+  options.repetitions = 0;
+  const SampleStatistics s = measure_sample(sample, options, Execution(1));
+  const auto expect = [](const ColumnEstimates& found, const test::PlainStatistics& plain) {
+    EXPECT_NEAR(found.mean.value, plain.mean(), 1e-12 * std::abs(plain.mean()));
+    EXPECT_NEAR(found.deviation.value, plain.deviation(), 1e-12 * plain.deviation());
+    EXPECT_NEAR(found.percent_10.value, plain.quantile(0.1), 1e-12);
+    EXPECT_NEAR(found.median.value, plain.quantile(0.5), 1e-12);
+    EXPECT_NEAR(found.percent_90.value, plain.quantile(0.9), 1e-12);
+  };
+  ASSERT_EQ(s.columns.size(), sample.columns.size());
+  for (std::size_t k = 0; k < s.columns.size(); ++k) {
+    SCOPED_TRACE(sample.columns[k].name);
+    const Eigen::VectorXd values = sample.values.col(static_cast<Eigen::Index>(k));
+    const test::PlainStatistics by_number(values);
+    expect(s.columns[k].by_number, by_number);
+    expect(s.columns[k].by_mass, test::PlainStatistics(values, sample.masses));
+    EXPECT_EQ(s.columns[k].count, by_number.grains().size());
+    EXPECT_EQ(s.columns[k].smallest, by_number.grains().front().first);
+    EXPECT_EQ(s.columns[k].largest, by_number.grains().back().first);
+    EXPECT_NEAR(s.columns[k].size_correlation.value,
+                test::plain_rank_correlation(sample.sizes, values), 1e-12);
+  }
+  for (const auto& [found, plain] :
+       {std::pair(s.size_by_number, test::PlainStatistics(sample.sizes)),
+        std::pair(s.size_by_mass, test::PlainStatistics(sample.sizes, sample.masses))}) {
+    const double d10 = plain.quantile(0.1), d30 = plain.quantile(0.3), d60 = plain.quantile(0.6);
+    EXPECT_NEAR(found.d10.value, d10, 1e-12);
+    EXPECT_NEAR(found.d30.value, d30, 1e-12);
+    EXPECT_NEAR(found.d50.value, plain.quantile(0.5), 1e-12);
+    EXPECT_NEAR(found.d60.value, d60, 1e-12);
+    EXPECT_NEAR(found.d90.value, plain.quantile(0.9), 1e-12);
+    EXPECT_NEAR(found.uniformity.value, d60 / d10, 1e-12);
+    EXPECT_NEAR(found.curvature.value, d30 * d30 / (d10 * d60), 1e-12);
+  }
+  double mass = 0.0;
+  for (const double one : sample.masses) mass += std::isfinite(one) ? one : 0.0;
+  EXPECT_NEAR(s.mass, mass, 1e-12 * mass);
+}
+
+TEST(SampleStatistics, FewerRepetitionsAreMadeOfVeryManyGrains) {
+  SampleOptions options;
+  options.repetitions = 1000;
+  const auto made = [&](Eigen::Index grains) {
+    return measure_sample(sample_with(uniform(grains, 4).array() + 1.0), options, Execution(2))
+        .repetitions;
+  };
+  EXPECT_EQ(made(100), 1000);
+  options.repetitions = 240;
+  EXPECT_EQ(made(20000), 240);
+  EXPECT_EQ(made(22000), 218);  // 240 * 20,000 / 22,000
+  EXPECT_EQ(made(60000), 200);  // at least
+  options.repetitions = 3;
+  EXPECT_EQ(made(60000), 3);
+}
+
+TEST(GrainsNeeded, FollowTheSquareOfTheInterval) {
+  // The interval reaches 2 to either side of -10, 20 %; wanted are 5 %: 16 times the grains.
+  EXPECT_EQ(grains_needed({-10.0, -12.0, -8.0}, 50, 5.0), 800.0);
+  EXPECT_EQ(grains_needed({10.0, 7.0, 11.0}, 3, 20.0), 3.0);
+  EXPECT_EQ(grains_needed({10.0, 7.0, 11.0}, 3, 15.0), 6.0);  // 5.33, whole grains
+  EXPECT_TRUE(std::isnan(grains_needed({0.0, -1.0, 1.0}, 50, 5.0)));
+}
+
+TEST(RankCorrelation, HasTheIntervalOfBonettAndWright) {
+  Eigen::VectorXd one = uniform(40, 5);
+  Eigen::VectorXd other = one + 0.7 * uniform(40, 6);
+  one[3] = no_value;
+  other[17] = no_value;
+  const Estimate r = rank_correlation(one, other);
+  EXPECT_NEAR(r.value, test::plain_rank_correlation(one, other), 1e-12);
+  // 38 rows have both numbers.
+  const double reach = 1.959963984540054 * std::sqrt((1.0 + 0.5 * r.value * r.value) / 35.0);
+  EXPECT_NEAR(r.lower, std::tanh(std::atanh(r.value) - reach), 1e-12);
+  EXPECT_NEAR(r.upper, std::tanh(std::atanh(r.value) + reach), 1e-12);
+  EXPECT_TRUE(std::isnan(rank_correlation(uniform(3, 1), uniform(3, 2)).value));
+  EXPECT_FALSE(std::isnan(rank_correlation(uniform(4, 1), uniform(4, 2)).value));
+}
+
 /// The middle 95 % of repetitions that are made here one by one.
 TEST(SampleStatistics, IntervalsAreThoseOfEachDraw) {
   const GrainSample sample = gapped_sample();
@@ -284,6 +367,32 @@ TEST(SampleComparison, DistancesOfKnownSamples) {
   const SampleDistance none = distance_between(uniform_one, uniform_one);
   EXPECT_NEAR(none.kolmogorov, 0.0, 1e-12);
   EXPECT_NEAR(none.wasserstein, 0.0, 1e-12);
+}
+
+TEST(SampleComparison, EveryRowIsOfItsOwnColumn) {
+  SampleOptions options;
+  options.repetitions = 0;
+  const GrainSample one = gapped_sample();
+  const GrainSample other = sample_with(2.0 * uniform(150, 31).array() + 0.2);
+  const auto rows = compare_samples(one, other, options, Execution(1));
+  ASSERT_EQ(rows.size(), 1 + one.columns.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k) - 1;
+    const Eigen::VectorXd a = k == 0 ? one.sizes : Eigen::VectorXd(one.values.col(column));
+    const Eigen::VectorXd b = k == 0 ? other.sizes : Eigen::VectorXd(other.values.col(column));
+    EXPECT_EQ(rows[k].column.name, k == 0 ? "size" : one.columns[k - 1].name);
+    SCOPED_TRACE(rows[k].column.name);
+    const auto expect = [](const SampleDistance& found, const test::PlainStatistics& x,
+                           const test::PlainStatistics& y) {
+      const auto [largest, area] = test::plain_distances(x, y);
+      EXPECT_NEAR(found.kolmogorov, largest, 1e-12);
+      EXPECT_NEAR(found.wasserstein, area, 1e-12 * (1.0 + area));
+    };
+    expect(rows[k].by_number, test::PlainStatistics(a), test::PlainStatistics(b));
+    expect(rows[k].by_mass, test::PlainStatistics(a, one.masses),
+           test::PlainStatistics(b, other.masses));
+    EXPECT_NEAR(rows[k].deviation, test::PlainStatistics(a).deviation(), 1e-12 * rows[k].deviation);
+  }
 }
 
 TEST(SampleComparison, PTellsSamplesOfOneFromThoseOfTwo) {

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 
 #include "support/expect_error.h"
+#include "support/plain_statistics.h"
 #include "toolbox/sample/nonnegative_minimum.h"
 #include "toolbox/sample/random_stream.h"
 
@@ -53,6 +56,52 @@ TEST(Templates, AllGrainsAreAtDistanceZero) {
   }
   for (const double distance : all.reached.by_number) EXPECT_NEAR(distance, 0.0, 1e-12);
   for (const double distance : all.reached.by_mass) EXPECT_NEAR(distance, 0.0, 1e-12);
+}
+
+TEST(Templates, GrainsBelongToTheNearestInAllDescriptorsAndDistancesAreThoseReached) {
+  const MadeSample sample(90, 8);
+  const SampleTemplates chosen =
+      choose_templates(sample.descriptors, sample.masses, with(6), Execution(1));
+  ASSERT_EQ(chosen.grains.size(), 6U);
+  ASSERT_EQ(chosen.stands_for.size(), 90U);
+  EXPECT_TRUE(std::is_sorted(chosen.grains.begin(), chosen.grains.end()));
+  EXPECT_NEAR(sum(chosen.by_number), 1.0, 1e-12);
+  EXPECT_NEAR(sum(chosen.by_mass), 1.0, 1e-12);
+  // In units of each descriptor's deviation, over n.
+  Eigen::MatrixXd standard = sample.descriptors.rowwise() - sample.descriptors.colwise().mean();
+  for (Eigen::Index j = 0; j < 2; ++j)
+    standard.col(j) /= std::sqrt(standard.col(j).squaredNorm() / 90.0);
+  for (std::size_t grain = 0; grain < 90; ++grain) {
+    const auto distance = [&](std::size_t k) {
+      return (standard.row(static_cast<Eigen::Index>(grain)) -
+              standard.row(static_cast<Eigen::Index>(chosen.grains[k])))
+          .norm();
+    };
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_LE(distance(chosen.stands_for[grain]), distance(k) + 1e-12) << grain;
+    }
+  }
+  const Eigen::Map<const Eigen::VectorXd> masses(sample.masses.data(), 90);
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    Eigen::VectorXd values(6);
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      values[k] =
+          standard(static_cast<Eigen::Index>(chosen.grains[static_cast<std::size_t>(k)]), j);
+    }
+    const Eigen::Map<const Eigen::VectorXd> number(chosen.by_number.data(), 6);
+    const Eigen::Map<const Eigen::VectorXd> mass(chosen.by_mass.data(), 6);
+    const auto at = static_cast<std::size_t>(j);
+    EXPECT_NEAR(chosen.reached.by_number[at],
+                test::plain_distances(test::PlainStatistics(values, number),
+                                      test::PlainStatistics(standard.col(j)))
+                    .second,
+                1e-12);
+    EXPECT_NEAR(chosen.reached.by_mass[at],
+                test::plain_distances(test::PlainStatistics(values, mass),
+                                      test::PlainStatistics(standard.col(j), masses))
+                    .second,
+                1e-12);
+  }
 }
 
 // Of random choices the distances are .3 at K = 8, as the square root of K says.

@@ -80,7 +80,8 @@ std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
   const PageFigures figures = page_figures(ShownMesh{result.grain, "grain"}, {shown, "parts"},
                                            execution, outer_points(result.parts));
   const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
-  HtmlDocument page(std::to_string(result.parts.size()) + " convex parts" +
+  HtmlDocument page(std::to_string(result.parts.size()) +
+                    (result.parts.size() == 1 ? " convex part" : " convex parts") +
                     (name.empty() ? "" : " of " + name));
   page.add_paragraph(origin_sentence(origin));
   for (const std::string& warning : result.warnings) page.add_warning(warning);
