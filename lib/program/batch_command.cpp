@@ -22,6 +22,7 @@
 #include "toolbox/clump/first_contact.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
+#include "toolbox/volume/open_volume.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"

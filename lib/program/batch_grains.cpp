@@ -6,6 +6,7 @@
 #include "progress_line.h"
 #include "signals.h"
 #include "toolbox/volume/label_table.h"
+#include "toolbox/volume/open_volume.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wscvt/base/error.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"

@@ -17,6 +17,7 @@
 #include "toolbox/report/clump_json.h"
 #include "toolbox/report/clump_report.h"
 #include "toolbox/report/sample_table.h"
+#include "toolbox/volume/open_volume.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"

@@ -13,6 +13,7 @@
 #include "grain_run.h"
 #include "signals.h"
 #include "toolbox/volume/label_table.h"
+#include "toolbox/volume/open_volume.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/error.h"

@@ -10,6 +10,7 @@
 #include "output_paths.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/label_writer.h"
+#include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/segmentation_page.h"
 #include "volume_arguments.h"
 #include "work.h"
@@ -78,7 +79,9 @@ int run(const SegmentArguments& arguments) {
   work.write(page, [&](const std::string& path, const Execution& execution) {
     write_file(path, segmentation_html(*scan, result, origin_of(arguments.scan), execution));
   });
-  std::vector<std::string> lines = scan->notes();
+  std::vector<std::string> lines = {scan->description()};
+  lines.insert(lines.end(), scan->notes().begin(), scan->notes().end());
+  for (const std::string& warning : scan->warnings()) lines.push_back("Look: " + warning);
   for (std::string& line : segmentation_lines(result)) lines.push_back(std::move(line));
   lines.push_back("Look at \"" + page + "\" first. Then: wscvt batch " + arguments.labels +
                   " -o out -n 500");

@@ -8,7 +8,7 @@
 
 #include "batch_inputs.h"
 #include "grain_run.h"
-#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/mesh_files/mesh_io.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume_arguments.h"
 
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "command.h"
@@ -10,6 +12,7 @@
 #include "toolbox/volume/segmentation.h"
 #include "work.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/lower_case.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt::program {
@@ -80,7 +83,14 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
   add_number(app, name_of(smallest_option.key), options.smallest, smallest_option)->group(heading);
   add_number(app, name_of(smoothing_option.key), options.smoothing, smoothing_option)
       ->group(heading);
-  add_number(app, name_of(background_option.key), options.background, background_option)
+  add_typed(app, name_of(background_option.key),
+            [&options](std::string_view text) {
+              options.background = lower_case(text) == "nan"
+                                       ? std::numeric_limits<double>::quiet_NaN()
+                                       : from_typed(text, background_option);
+            })
+      ->description(help_of(options.background, background_option))
+      ->type_name("N")
       ->group(heading);
   app.add_flag(name_of(at_border_option.key), options.at_border,
                help_of(options.at_border, at_border_option))
@@ -109,7 +119,11 @@ std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const Volume
 }
 
 void print_notes(const LabelGrains& grains, const std::string& command, bool quiet) {
+  print({grains.description()}, quiet);
   for (const std::string& note : grains.notes()) print({note}, quiet);
+  for (const std::string& warning : grains.warnings()) {
+    std::fprintf(stderr, "Warning: %s\n", warning.c_str());
+  }
   std::size_t in_pieces = 0;
   std::size_t pieces = 0;
   for (const std::size_t k : grains.taken()) {
@@ -154,7 +168,8 @@ Json json_of(const VolumeOptions& options) {
   put(channel_option.key, choice.channel ? Json(*choice.channel) : Json());
   put(frame_option.key, choice.frame ? Json(*choice.frame) : Json());
   put("array", choice.array);
-  put(background_option.key, options.background);
+  const bool is_nan = std::isnan(options.background);
+  put(background_option.key, is_nan ? Json("nan") : Json(options.background));
   put(at_border_option.key, options.at_border);
   return json;
 }

@@ -143,9 +143,10 @@ py::dict extract(const py::object& labels, const std::array<double, 3>& voxel_si
 void bind_extract(py::module_& module) {
   const VolumeOptions defaults;
   module.def("extract", &extract, py::arg("labels"), py::arg("voxel_size"), py::kw_only(),
-             py::arg("background") = defaults.background, py::arg("smallest") = defaults.smallest,
-             py::arg("at_border") = defaults.at_border, py::arg("smoothing") = defaults.smoothing,
-             py::arg("threads") = 0, py::arg("progress") = py::none());
+             py::arg("background") = static_cast<std::int64_t>(defaults.background),
+             py::arg("smallest") = defaults.smallest, py::arg("at_border") = defaults.at_border,
+             py::arg("smoothing") = defaults.smoothing, py::arg("threads") = 0,
+             py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

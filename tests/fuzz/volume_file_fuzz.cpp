@@ -13,7 +13,7 @@
 #include <string>
 
 #include "fuzz/promise.h"
-#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 
 namespace {

@@ -55,7 +55,10 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   write_sample();
   const Outcome outcome = run("extract sample.nrrd out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(outcome.output, "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small\n");
+  EXPECT_NE(
+      outcome.output.find("5 labels: 3 written (1 in pieces), 1 at the border, 1 too small\n"),
+      std::string::npos)
+      << outcome.output;
   EXPECT_EQ(
       outcome.errors.rfind("Warning: 1 label of 3 is in several parts. Only the largest part of "
                            "each label is used. The others, 0.512 % of all voxels, are left out. "
@@ -130,7 +133,7 @@ TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {
   const Outcome parted = run("extract mask.nrrd out --parts");
   EXPECT_EQ(parted.exit_code, 0) << parted.errors;
   EXPECT_EQ(parted.errors, "");
-  EXPECT_EQ(parted.output,
+  EXPECT_EQ(parted.output.substr(parted.output.find('\n') + 1),
             "Voxel size not in the file: lengths in voxels. Give it by --voxel-size.\n"
             "2 labels: 2 written\n");
   table = rows("out/labels.csv", "label");
@@ -154,7 +157,10 @@ TEST_F(Extract, CountsWhatBecameOfTheLabels) {
   volume_.fill_box(12, {0, 0, 0}, {20, 20, 4});
   write_sample();
   const Outcome outcome = run("extract sample.nrrd out");
-  EXPECT_EQ(outcome.output, "6 labels: 3 written (1 in pieces), 2 at the border, 1 too small\n");
+  EXPECT_NE(
+      outcome.output.find("6 labels: 3 written (1 in pieces), 2 at the border, 1 too small\n"),
+      std::string::npos)
+      << outcome.output;
 }
 
 TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
@@ -209,7 +215,8 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
   write_sample();
   const Outcome outcome = run("batch sample.nrrd -o out -n 60");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(outcome.output.rfind("3 grains: 3 remeshed, ", 0), 0U) << outcome.output;
+  EXPECT_EQ(outcome.output.rfind("70 x 60 x 60 voxels of 0.5 x 0.5 x 0.5 mm", 0), 0U);
+  EXPECT_NE(outcome.output.find("\n3 grains: 3 remeshed, "), std::string::npos) << outcome.output;
   EXPECT_EQ(read_mesh(path("out/8.ply")).points.size(), 60U);
   auto labels = rows("out/labels.csv", "grain");
   EXPECT_EQ(labels.size(), 5U);
@@ -270,7 +277,7 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
                   {"sample.nrrd out --voxel-size 0", 2, "above 0"},
                   {"sample.nrrd out --voxel-size 1,2", 2, "three numbers with commas"},
                   {"sample.nrrd out --voxel-size 1,2,3,4", 2, "three numbers with commas"},
-                  {"sample.nrrd out --background -1", 2, "0 or more"},
+                  {"sample.nrrd out --background x", 2, "The number of the background is \"x\""},
                   {"sample.nrrd out --format step", 2, "The format of the meshes"},
                   {"sample.ply out", 2, "is a mesh, not a volume"},
                   {"missing.nrrd out", 1, "missing.nrrd"},

@@ -39,7 +39,10 @@ class Segment : public test::LimitedRun {
 TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
   const Outcome outcome = run("segment scan.nrrd labels.nrrd");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(outcome.output.rfind("3 grains, 0 of them at the border\nThreshold 114.5; ", 0), 0U)
+  EXPECT_EQ(outcome.output.rfind("46 x 48 x 30 voxels of 0.5 x 0.5 x 0.5 mm, from the file's "
+                                 "header.\n3 grains, 0 of them at the border\nThreshold 114.5; ",
+                                 0),
+            0U)
       << outcome.output;
   EXPECT_NE(outcome.output.find("Look at \"labels.html\" first. Then: wscvt batch labels.nrrd -o "
                                 "out -n 500\n"),
@@ -60,18 +63,19 @@ TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
   EXPECT_FALSE(exists("again.html"));
   EXPECT_EQ(run("segment scan.nrrd labels.mha --threshold 500 -q").exit_code, 1);
   EXPECT_FALSE(exists("labels.mha"));
-  EXPECT_EQ(run("segment mask.nrrd labels.mha --separate 50 --smallest 3000").output.substr(0, 7),
-            "1 grain");
+  const std::string all = run("segment mask.nrrd labels.mha --separate 50 --smallest 3000").output;
+  EXPECT_NE(all.find("\n1 grain"), std::string::npos) << all;
 }
 
 TEST_F(Segment, SeparatesMasksOnTheWayToMeshes) {
   const Outcome whole = run("extract mask.nrrd whole");
   EXPECT_EQ(whole.exit_code, 3);
   EXPECT_NE(whole.errors.find("--separate 0.75 also separates"), std::string::npos) << whole.errors;
-  EXPECT_EQ(run("extract mask.nrrd parts --parts").output, "2 labels: 2 written\n");
+  EXPECT_NE(run("extract mask.nrrd parts --parts").output.find("2 labels: 2 written\n"),
+            std::string::npos);
   const Outcome apart = run("extract mask.nrrd apart --separate 0.75");
   EXPECT_EQ(apart.exit_code, 0) << apart.errors;
-  EXPECT_EQ(apart.output, "3 labels: 3 written\n");
+  EXPECT_NE(apart.output.find("3 labels: 3 written\n"), std::string::npos) << apart.output;
   EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 0.75").exit_code, 0);
   EXPECT_TRUE(exists("out/3.ply"));
   // What it was called with belongs to the batch.

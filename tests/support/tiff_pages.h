@@ -23,6 +23,7 @@ struct TiffPages {
   int rows = 2;  ///< of a strip
   int tile = 0;  ///< side of a tile; 0: strips
   int photometric = PHOTOMETRIC_MINISBLACK;
+  int orientation = ORIENTATION_TOPLEFT;
   std::string text;         ///< of the first page
   double resolution = 0.0;  ///< along x; half of it along y; 0: none
   int resolution_unit = RESUNIT_INCH;
@@ -44,6 +45,7 @@ inline void write_tiff(const std::string& path, const TiffPages& as,
     TIFFSetField(file, TIFFTAG_PLANARCONFIG,
                  as.is_planar ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG);
     TIFFSetField(file, TIFFTAG_COMPRESSION, as.compression);
+    TIFFSetField(file, TIFFTAG_ORIENTATION, as.orientation);
     if (k == 0 && !as.text.empty()) {
       TIFFSetField(file, TIFFTAG_IMAGEDESCRIPTION, as.text.c_str());
     }

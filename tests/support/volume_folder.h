@@ -10,7 +10,7 @@
 
 #include "support/expect_error.h"
 #include "support/made_volume.h"
-#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/open_volume.h"
 
 namespace wscvt::test {
 

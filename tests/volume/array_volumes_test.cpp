@@ -142,6 +142,23 @@ TEST_F(ArrayVolumes, NamesTheDimensionsOfNumpyThatAreMoreThanThree) {
   expect_refused("a.npy", {"not a NumPy array"});
 }
 
+TEST_F(ArrayVolumes, TakesAShortLastDimensionForChannels) {
+  make({9, 8, 7});
+  std::string all;
+  for (const Label label : made_.labels) {
+    for (std::size_t c = 0; c < 3; ++c) all += test::four_bytes(label + 200 * c).substr(0, 2);
+  }
+  write("a.npy", npy("<u2", "False", "7, 8, 9, 3", all));
+  expect_refused("a.npy", {"3 channels", "--channel"});
+  expect_made("a.npy", channel(1));
+  EXPECT_EQ(labels_of("a.npy", channel(3)), labels(400));
+  // With frames before: both are chosen.
+  write("a.npy", npy("<u2", "False", "2, 7, 8, 9, 3", all + all));
+  VolumeChoice choice = channel(2);
+  choice.frame = 2;
+  EXPECT_EQ(labels_of("a.npy", choice), labels(200));
+}
+
 TEST_F(ArrayVolumes, ReadsTheChosenArrayOfAnNpz) {
   const auto write_npz = [&](const std::vector<std::pair<std::string, std::string>>& members,
                              int level) {
@@ -444,6 +461,22 @@ class Hdf5Volumes : public ArrayVolumes {
     H5Pclose(links);
     H5Fclose(file);
   }
+
+  void add_text(const std::string& name, const char* key, const std::string& text) const {
+    const hid_t file = H5Fopen(path("a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, H5T_VARIABLE);
+    const hid_t space = H5Screate(H5S_SCALAR);
+    const hid_t id = H5Acreate2(set, key, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const char* const value = text.c_str();
+    H5Awrite(id, type, &value);
+    H5Aclose(id);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Dclose(set);
+    H5Fclose(file);
+  }
 };
 
 TEST_F(Hdf5Volumes, AreReadByThePathOfTheirDataSet) {
@@ -491,6 +524,76 @@ TEST_F(Hdf5Volumes, OfMatlabAreNotMirrored) {
   std::filesystem::rename(path("a.h5"), path("a.mat"));
   EXPECT_EQ(geometry("a.mat").counts, (VoxelCounts{5, 7, 3}));
   expect_placed("a.mat", Vector3(1, 1, 1));
+}
+
+TEST_F(Hdf5Volumes, OfIlastikAreReadByTheirAxistags) {
+  // Stored as x, y, z, with the channels at any place.
+  std::string bytes;
+  for (int x = 0; x < 7; ++x) {
+    for (int y = 0; y < 5; ++y) {
+      for (int z = 0; z < 3; ++z) {
+        const std::uint32_t label = made_.labels[static_cast<std::size_t>((z * 5 + y) * 7 + x)];
+        bytes += test::four_bytes(label).substr(0, 2);
+      }
+    }
+  }
+  const auto key = [](const std::string& letter) {
+    return R"({"key":")" + letter + R"(","typeFlags":2,"resolution":0,"description":""})";
+  };
+  for (const bool has_channel : {false, true}) {
+    std::filesystem::remove(path("a.h5"));
+    if (has_channel) {
+      add("exported_data", H5T_NATIVE_UINT16, {7, 5, 3, 1}, bytes);
+    } else {
+      add("exported_data", H5T_NATIVE_UINT16, {7, 5, 3}, bytes);
+    }
+    add_text("exported_data", "axistags",
+             R"({"axes":[)" + key("x") + "," + key("y") + "," + key("z") +
+                 (has_channel ? "," + key("c") : "") + "]}");
+    expect_placed("a.h5", Vector3(1, 1, 1));
+  }
+}
+
+TEST_F(Hdf5Volumes, OfDream3dHaveTheSizeOfTheirGeometry) {
+  const std::string cells = "DataContainers/Image/CellData/";
+  add(cells + "FeatureIds", H5T_NATIVE_INT32, {3, 5, 7, 1}, made_.bytes<std::int32_t>());
+  add(cells + "Phases", H5T_NATIVE_INT32, {3, 5, 7, 1}, made_.bytes<std::int32_t>());
+  std::vector<float> numbers = {0.5F, 0.25F, 1.0F};
+  const auto bytes = [&] {
+    return std::string(reinterpret_cast<const char*>(numbers.data()), 3 * sizeof(float));
+  };
+  add("DataContainers/Image/_SIMPL_GEOMETRY/SPACING", H5T_NATIVE_FLOAT, {3}, bytes());
+  numbers = {10.0F, 20.0F, 30.0F};
+  add("DataContainers/Image/_SIMPL_GEOMETRY/ORIGIN", H5T_NATIVE_FLOAT, {3}, bytes());
+  std::filesystem::rename(path("a.h5"), path("a.dream3d"));
+  EXPECT_TRUE(is_volume(path("a.dream3d")));
+  expect_made("a.dream3d");
+  EXPECT_NE(notes("a.dream3d").at(0).find("CellData/FeatureIds\""), std::string::npos);
+  EXPECT_EQ(geometry("a.dream3d").point({1, 1, 1}), Vector3(10.5, 20.25, 31.0));
+  expect_made("a.dream3d", array(cells + "Phases"));
+}
+
+TEST_F(Hdf5Volumes, WithVoxelsInOtherFilesAreRefused) {
+  write("other.raw", std::string(105, 'x'));
+  const hsize_t counts[3] = {3, 5, 7};
+  for (const bool is_virtual : {false, true}) {
+    const hid_t file = H5Fcreate(path("a.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(3, counts, nullptr);
+    const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+    if (is_virtual) {
+      H5Pset_virtual(made, space, path("other.h5").c_str(), "labels", space);
+    } else {
+      H5Pset_external(made, path("other.raw").c_str(), 0, 105);
+    }
+    const hid_t set =
+        H5Dcreate2(file, "labels", H5T_NATIVE_UINT8, space, H5P_DEFAULT, made, H5P_DEFAULT);
+    ASSERT_GE(set, 0);
+    H5Dclose(set);
+    H5Pclose(made);
+    H5Sclose(space);
+    H5Fclose(file);
+    expect_refused("a.h5", {is_virtual ? "virtual data set" : "external storage", "h5repack"});
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -89,6 +90,89 @@ TEST_F(LabelGrainsOfAFile, SortsLabelsOutAndReadsThemInTheOrderOfTheirLastSlices
       "a.nrrd/5,5,,in 2 pieces,,576,288,,24.75,2.25,39,28.75,18.75,91,2,0.11111111111111116,256," +
           std::to_string(third.mesh.points.size()) + "," +
           std::to_string(third.mesh.triangles.size()) + ",5.ply\r\n");
+}
+
+TEST_F(LabelGrainsOfAFile, TakesTheBackgroundThatOtherProgramsWrite) {
+  // Two boxes, labels 0 and 7, in a background that is no label.
+  const auto write_as = [&](const char* type, auto background, auto one) {
+    using Value = decltype(background);
+    std::vector<Value> values;
+    for (int k = 0; k < 20 * 9 * 8; ++k) {
+      const bool is_in = k / 20 % 9 > 1 && k / 20 % 9 < 7 && k / 180 > 1 && k / 180 < 6;
+      const bool is_first = k % 20 > 1 && k % 20 < 8;
+      const bool is_second = k % 20 > 10 && k % 20 < 16;
+      values.push_back(!is_in || (!is_first && !is_second) ? background
+                       : is_first                          ? Value{0}
+                                                           : one);
+    }
+    test::write_bytes(path_,
+                      std::string("NRRD0004\ntype: ") + type +
+                          "\nendian: little\ndimension: 3\nsizes: 20 9 8\nencoding: raw\n\n" +
+                          std::string(reinterpret_cast<const char*>(values.data()),
+                                      values.size() * sizeof(Value)));
+  };
+  VolumeOptions options;
+  const auto labels = [&] {
+    std::vector<Label> found;
+    const LabelGrains grains(path_, options, Execution(1));
+    for (const LabelExtent& label : grains.labels()) {
+      found.push_back(label.label);
+    }
+    return found;
+  };
+  const std::vector<Label> both = {0, 7};
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  write_as("int32", std::int32_t{-1}, std::int32_t{7});
+  const std::string sentence = test::refusal(ErrorCode::InputOutput, labels);
+  EXPECT_NE(sentence.find("holds -1 at the voxel (0, 0, 0)"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("--background -1."), std::string::npos) << "the way that follows";
+  EXPECT_EQ(sentence.find("segment"), std::string::npos) << sentence;
+  options.background = -1.0;
+  EXPECT_EQ(labels(), both);
+  write_as("float", -1.0F, 7.0F);
+  EXPECT_EQ(labels(), both);
+  options.background = 0.0;
+  EXPECT_NE(test::refusal(ErrorCode::InputOutput, labels).find("--background -1."),
+            std::string::npos);
+  write_as("float", std::numeric_limits<float>::quiet_NaN(), 7.0F);
+  EXPECT_EQ(labels(), (std::vector<Label>{7})) << "NaN as well as 0 is background";
+  options.background = nan;
+  EXPECT_EQ(labels(), both);
+  options.parts = true;
+  EXPECT_EQ(labels(), (std::vector<Label>{1, 2}));
+  options = {};
+  write_as("double", 0.5, 7.0);
+  EXPECT_NE(test::refusal(ErrorCode::InputOutput, labels).find("wscvt segment"), std::string::npos);
+}
+
+TEST_F(LabelGrainsOfAFile, NumbersLargeLabelsAnewAndKeepsTheirNames) {
+  for (const bool has_sign : {false, true}) {
+    for (const bool is_parted : {false, true}) {
+      std::vector<std::uint64_t> values(20 * 9 * 8, 0);
+      const std::uint64_t large = has_sign ? 3000000000000U : 0xfffffffffffffff0U;
+      for (std::size_t k = 3 * 180; k < 5 * 180; ++k) {
+        if (k / 20 % 9 < 3 || k / 20 % 9 > 5) continue;
+        if (k % 20 > 1 && k % 20 < 6) values[k] = large;
+        if (k % 20 > 7 && k % 20 < 12) values[k] = 5;
+        if (k % 20 > 13 && k % 20 < 18) values[k] = 10000000000U;
+      }
+      test::write_bytes(
+          path_, std::string("NRRD0004\ntype: ") + (has_sign ? "int64" : "uint64") +
+                     "\nendian: little\ndimension: 3\nsizes: 20 9 8\nencoding: "
+                     "raw\n\n" +
+                     std::string(reinterpret_cast<const char*>(values.data()), 8 * values.size()));
+      VolumeOptions options;
+      options.smallest = 1;
+      options.parts = is_parted;
+      const LabelGrains grains(path_, options, Execution(1));
+      ASSERT_EQ(grains.labels().size(), 3U);
+      if (is_parted) continue;
+      EXPECT_EQ(grains.name_of(1), "5");
+      EXPECT_EQ(grains.name_of(2), "10000000000");
+      EXPECT_EQ(grains.name_of(3), std::to_string(large));
+      EXPECT_EQ(grains.labels()[2].begin, (VoxelCounts{2, 3, 3}));
+    }
+  }
 }
 
 TEST_F(LabelGrainsOfAFile, TouchesTheBorderOnAnySide) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/label_volume.h"
-
 #include <gtest/gtest.h>
 #include <tiffio.h>
 
@@ -10,6 +8,7 @@
 
 #include "support/expect_error.h"
 #include "support/made_volume.h"
+#include "toolbox/volume/open_volume.h"
 
 namespace wscvt {
 namespace {
@@ -577,6 +576,28 @@ TEST_F(LabelVolumeOfAFile, RefusesVoxelsThatAreNoLabels) {
   bytes[4] = 1;  // 2^32
   write_bytes(path("a.nrrd"), nrrd("uint64", "endian: little\nencoding: raw\n\n") + bytes);
   EXPECT_ERROR(read("a.nrrd"), InputOutput);
+}
+
+TEST_F(LabelVolumeOfAFile, NamesAWayFromFormatsThatAreNotRead) {
+  write_bytes(path("a.dcm"), std::string(128, '\0') + "DICM");
+  write_bytes(path("IM0001"), std::string(128, '\0') + "DICM");
+  write_bytes(path("a.am"), "# AmiraMesh BINARY-LITTLE-ENDIAN 2.1\n");
+  write_bytes(path("a.raw"), "x");
+  fs::create_directory(folder_ / "series");
+  write_bytes(path("series/IM0001"), std::string(128, '\0') + "DICM");
+  fs::create_directory(folder_ / "a.zarr");
+  write_bytes(path("a.zarr/.zarray"), "{}");
+  for (const auto& [name, way] :
+       std::vector<std::pair<std::string, std::string>>{{"a.dcm", "dcm2niix"},
+                                                        {"IM0001", "dcm2niix"},
+                                                        {"series", "dcm2niix"},
+                                                        {"a.zarr", "numpy.save"},
+                                                        {"a.am", "Fiji"},
+                                                        {"a.raw", "\"file\": \"a.raw\""}}) {
+    EXPECT_NE(test::refusal(ErrorCode::InputOutput, [&] { open_volume(path(name)); }).find(way),
+              std::string::npos)
+        << name;
+  }
 }
 
 }  // namespace

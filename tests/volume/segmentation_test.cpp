@@ -295,6 +295,32 @@ TEST_F(SegmentationOfAFile, TakesFractionsNegativeValuesAndWhatIsNoNumber) {
   }
 }
 
+TEST_F(SegmentationOfAFile, DoubtsOneGrainAndDarkGrains) {
+  made_ = MadeVolume({40, 30, 26});
+  const auto fill = [&](Label grain, Label rest) {
+    made_.fill(rest, [](const Vector3&) { return true; });
+    made_.fill_ball(grain, {12, 14, 13}, 8.0);
+    made_.fill_ball(grain, {29, 14, 13}, 7.0);
+    made_.at(0, 0, 0) = rest + 1;  // not a mask
+    write_made();
+  };
+  const auto has = [&](const Segmentation& found, const char* words) {
+    for (const std::string& line : segmentation_lines(found)) {
+      if (line.rfind("Look: ", 0) == 0 && line.find(words) != std::string::npos) return true;
+    }
+    return false;
+  };
+  fill(200, 50);
+  EXPECT_FALSE(has(segmented(), "One grain"));
+  EXPECT_FALSE(has(segmented(), "darker"));
+  SegmentationOptions low;
+  low.threshold = 20.0;
+  EXPECT_TRUE(has(segmented(low), "One grain has 100 %"));
+  EXPECT_FALSE(has(segmented(low), "darker"));
+  fill(50, 200);
+  EXPECT_TRUE(has(segmented(), "darker than the rest"));
+}
+
 TEST_F(SegmentationOfAFile, DoubtsLabels) {
   made_ = MadeVolume({30, 20, 20});
   made_.fill_ball(1, {9, 10, 10}, 6.0);

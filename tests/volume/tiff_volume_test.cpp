@@ -328,7 +328,7 @@ TEST_F(TiffVolume, ReadsTheChosenNumberOfAVoxel) {
       all.push_back(mixed);
     }
     write_tiff(path("a.tif"), stack, all);
-    expect_refused("a.tif", {"3 channels"});
+    expect_refused("a.tif", {is_planar ? "3 channels" : "picture in colours"});
     expect_made("a.tif", channel(1));
     EXPECT_EQ(labels_of("a.tif", channel(3)), labels(120)) << is_planar;
   }
@@ -367,7 +367,7 @@ TEST_F(TiffVolume, TakesFloatsThatAreWholeForLabels) {
   made_.labels.back() = 4294967295U;
   write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, 4294967295.0)));
   expect_made("a.tif");
-  for (const double wrong : {0.5, -1.0, 4294967296.0, std::nan(""), HUGE_VAL}) {
+  for (const double wrong : {0.5, -1.0, 4294967296.0, HUGE_VAL}) {
     write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, wrong)));
     // The first place, which is the last voxel here.
     expect_refused("a.tif", {"(6, 4, 2)", "whole numbers"});
@@ -474,11 +474,11 @@ TEST_F(TiffVolume, LeavesForeignFilesOutOfAFolderAndNamesTheOddSlice) {
   expect_refused("slices", {"s9.tif"});
   fs::remove(path("slices/s9.tif"));
   write_png("slices/s9.png", 1, 16, PNG_COLOR_TYPE_GRAY);
-  expect_refused("slices", {"2 .tif and 1 .png"});
+  expect_refused("slices", {"2 .tif, 1 .png"});
   for (const char* name : {"slices/s8.tif", "slices/s11.tif", "slices/s9.png"}) {
     fs::remove(path(name));
   }
-  expect_refused("slices", {"no .tif and no .png"});
+  expect_refused("slices", {"no .tif, .png or .bmp"});
 }
 
 TEST_F(TiffVolume, ReadsFoldersOfPngs) {
@@ -500,7 +500,7 @@ TEST_F(TiffVolume, ReadsFoldersOfPngs) {
   for (int z = 0; z < 3; ++z) {
     write_png("slices/s" + std::to_string(9 + z) + ".png", z, 16, PNG_COLOR_TYPE_RGB);
   }
-  expect_refused("slices", {"3 channels"});
+  expect_refused("slices", {"picture in colours"});
   EXPECT_EQ(labels_of("slices", channel(3)), labels(6));
   expect_refused("slices/s9.png", {"one image of 7 x 5"}, channel(1));
   write_png("slices/s10.png", 1, 16, PNG_COLOR_TYPE_RGB, false, 6);
@@ -511,6 +511,167 @@ TEST_F(TiffVolume, ReadsFoldersOfPngs) {
     fs::resize_file(path("slices/s10.png"), left);
     expect_refused("slices", {"s10.png"}, channel(1));
   }
+}
+
+// ImageJ, and tifffile with imagej=True, write 16 bits with a sign without it, 32768 higher.
+TEST_F(TiffVolume, AppliesTheShiftThatImageJNotes) {
+  TiffPages stack = as();
+  stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=-32768.0\nc1=1.0\n";
+  write_tiff(path("a.tif"), stack, pages(32768));
+  expect_made("a.tif");
+  EXPECT_NE(notes("a.tif")[0].find("-32768"), std::string::npos);
+  const std::unique_ptr<LabelVolume> grey = open_volume(path("a.tif"));
+  grey->read_grey_values();
+  EXPECT_EQ(grey_value(grey->next_row()[3]), static_cast<float>(made_.labels[3]));
+  // A calibration that is no shift is told, and left.
+  stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=3\nc1=0.5\n";
+  write_tiff(path("a.tif"), stack, pages());
+  expect_made("a.tif");
+  EXPECT_NE(notes("a.tif")[0].find("calibration"), std::string::npos);
+  stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=0\nc1=1\n";
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_EQ(notes("a.tif").size(), 1U);
+}
+
+TEST_F(TiffVolume, TurnsPagesAsTheirOrientationTagSays) {
+  // Where the first row and the first column lie: TIFF 6.0, Orientation.
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    SCOPED_TRACE(orientation);
+    TiffPages stack = as();
+    stack.orientation = orientation;
+    write_tiff(path("a.tif"), stack, pages());
+    const Vector3 found = geometry("a.tif").point({1.5, 2.5, 0.5});
+    const bool is_transposed = orientation > 4;
+    const bool is_from_right =
+        orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
+    const bool is_from_below =
+        orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
+    Vector3 wanted(is_transposed ? 2.5 : 1.5, is_transposed ? 1.5 : 2.5, 0.5);
+    if (is_from_right) wanted.x() = (is_transposed ? 5 : 7) - wanted.x();
+    if (is_from_below) wanted.y() = (is_transposed ? 7 : 5) - wanted.y();
+    EXPECT_LT((found - wanted).norm(), 1e-14) << found.transpose();
+    EXPECT_EQ(notes("a.tif").size(), orientation == 1 ? 1U : 2U);
+  }
+}
+
+TEST_F(TiffVolume, ReadsShapesThatEndInOneAndPagesThatWereWrittenOneByOne) {
+  TiffPages stack = as();
+  for (const char* text :
+       {R"({"shape": [3, 5, 7, 1]})", R"({"shape": [1, 3, 5, 7, 1, 1]})", R"({"shape": [5, 7]})",
+        R"({"shape": [1, 5, 7]})", "ImageJ=1.11a\nimages=1\n"}) {
+    stack.text = text;
+    write_tiff(path("a.tif"), stack, pages());
+    expect_made("a.tif");
+  }
+}
+
+TEST_F(TiffVolume, TakesThreeEqualColoursForOneNumber) {
+  TiffPages stack = as();
+  stack.samples = 3;
+  stack.bits = 8;
+  stack.photometric = PHOTOMETRIC_RGB;
+  std::vector<std::string> all;
+  for (const std::string& one : pages_of<std::uint8_t>()) {
+    std::string three;
+    for (const char c : one) three += std::string(3, c);
+    all.push_back(three);
+  }
+  write_tiff(path("a.tif"), stack, all);
+  expect_made("a.tif");
+}
+
+TEST_F(TiffVolume, DropsAScreensResolutionThatContradictsTheSlices) {
+  for (const auto& [unit, dots] : std::vector<std::pair<std::string, double>>{
+           {"inch", 72.0}, {"inch", 96.0}, {"inch", 300.0}, {"cm", 72.0 / 2.54}}) {
+    SCOPED_TRACE(unit + std::to_string(dots));
+    TiffPages stack = as();
+    stack.resolution = dots;
+    stack.resolution_unit = RESUNIT_NONE;
+    stack.text = "ImageJ=1.53\nimages=3\nslices=3\nspacing=1\nunit=" + unit + "\n";
+    write_tiff(path("a.tif"), stack, pages());
+    EXPECT_FALSE(geometry("a.tif").has_size);
+    EXPECT_NE(notes("a.tif")[0].find("of a screen"), std::string::npos) << notes("a.tif")[0];
+  }
+  // Other voxels that are longer than five to one are taken, with a warning.
+  TiffPages stack = as();
+  stack.resolution = 10.0;
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\nspacing=1.2\nunit=um\n";
+  write_tiff(path("a.tif"), stack, pages());
+  const std::unique_ptr<LabelVolume> volume = open_volume(path("a.tif"));
+  ASSERT_EQ(volume->warnings().size(), 1U);
+  EXPECT_NE(volume->warnings()[0].find("12 times"), std::string::npos) << volume->warnings()[0];
+  EXPECT_EQ(volume->description(), "7 x 5 x 3 voxels of 0.1 x 0.2 x 1.2 um, from ImageJ's text.");
+}
+
+TEST_F(TiffVolume, NamesTwoSeriesInAFolderAndLeavesAPreviewOut) {
+  fs::create_directory(folder_ / "slices");
+  const auto write_slices = [&](const std::string& before, const std::string& behind) {
+    for (int z = 0; z < 3; ++z) {
+      write_tiff(path("slices/" + before + std::to_string(8 + z) + behind + ".tif"), as(),
+                 {page(z)});
+    }
+  };
+  write_slices("rec", "");
+  for (const char* odd : {"preview", "rec0_mip", "s9"}) {
+    const std::string name = "slices/" + std::string(odd) + ".tif";
+    write_tiff(path(name), as(), {page(1)});
+    expect_made("slices");
+    EXPECT_NE(notes("slices")[0].find(odd), std::string::npos) << notes("slices")[0];
+    fs::remove(path(name));
+  }
+  for (const auto& [before, behind] : std::vector<std::pair<std::string, std::string>>{
+           {"rec", "_mask"}, {"mask", ""}, {"rec", "_mask2"}, {"scan2_", ""}}) {
+    write_slices(before, behind);
+    expect_refused("slices", {"more than one series", "rec8.tif", before + "8" + behind});
+    for (int z = 8; z < 11; ++z) {
+      fs::remove(path("slices/" + before + std::to_string(z) + behind + ".tif"));
+    }
+  }
+  // Two numbers in each name, of which one tells the series; or which count together.
+  for (int z = 8; z < 11; ++z) fs::remove(path("slices/rec" + std::to_string(z) + ".tif"));
+  write_slices("scan1_", "");
+  expect_made("slices");
+  write_slices("scan2_", "");
+  expect_refused("slices", {"scan1_8.tif", "scan2_8.tif"});
+}
+
+TEST_F(TiffVolume, ReadsSlicesOfBmp) {
+  fs::create_directory(folder_ / "slices");
+  const auto two = [](std::size_t number) { return test::four_bytes(number).substr(0, 2); };
+  const auto write_bmp = [&](int z, int bits, bool is_from_above, int other) {
+    const std::string voxels = made_.bytes<std::uint8_t>();
+    std::string rows;
+    for (int y = 0; y < 5; ++y) {
+      const int from = is_from_above ? y : 4 - y;
+      std::string row;
+      for (int x = 0; x < 7; ++x) {
+        const char value = voxels[static_cast<std::size_t>((z * 5 + from) * 7 + x)];
+        row += std::string(static_cast<std::size_t>(bits / 8), value);
+      }
+      if (bits > 8) row[2] = static_cast<char>(row[2] + other);
+      while (row.size() % 4 != 0) row += 'x';
+      rows += row;
+    }
+    const std::size_t offset = 54 + (bits == 8 ? 1024 : 0);
+    write("slices/rec" + std::to_string(8 + z) + ".bmp",
+          "BM" + test::four_bytes(offset + rows.size()) + test::four_bytes(0) +
+              test::four_bytes(offset) + test::four_bytes(40) + test::four_bytes(7) +
+              test::four_bytes(is_from_above ? 0xfffffffbU : 5U) + two(1) +
+              two(static_cast<std::size_t>(bits)) + std::string(24, '\0') +
+              std::string(offset - 54, '\0') + rows);
+  };
+  for (const int bits : {8, 24, 32}) {
+    for (const bool is_from_above : {false, true}) {
+      for (int z = 0; z < 3; ++z) write_bmp(z, bits, is_from_above, 0);
+      expect_made("slices");
+    }
+  }
+  write_bmp(1, 32, false, 1);
+  expect_refused("slices", {"picture in colours"});
+  write_bmp(1, 8, false, 0);
+  expect_refused("slices", {"rec9.bmp", "8 bits", "32 bits"});
+  fs::resize_file(path("slices/rec8.bmp"), 100);
+  expect_refused("slices", {"rec8.bmp"});
 }
 
 }  // namespace

@@ -17,16 +17,33 @@ std::string text_of(const std::vector<std::int64_t>& counts) {
   return text;
 }
 
+constexpr int channel_role = -2;
+
 /// Returns the conventional roles of dimensions.
 std::vector<int> usual_roles(const std::vector<std::int64_t>& counts) {
   std::vector<int> roles(counts.size(), -1);
   int next = 0;  // x, the last dimension
-  for (std::size_t k = counts.size(); k-- > 0 && next < 3;) {
+  std::size_t end = counts.size();
+  std::vector<std::size_t> long_ones;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    if (counts[k] > 1) long_ones.push_back(k);
+  }
+  if (long_ones.size() > 3) {
+    const std::size_t last = long_ones.back();
+    const std::int64_t shortest = std::min(
+        {counts[long_ones.end()[-2]], counts[long_ones.end()[-3]], counts[long_ones.end()[-4]]});
+    constexpr std::int64_t most_channels = 8;
+    if (counts[last] <= most_channels && 2 * counts[last] < shortest) {
+      roles[last] = channel_role;
+      end = last;
+    }
+  }
+  for (std::size_t k = end; k-- > 0 && next < 3;) {
     if (counts[k] > 1) roles[k] = next++;
   }
   // An image gets a dimension of one slice, so that its refusal names the real cause.
   for (std::size_t k = counts.size(); k-- > 0 && next < 3;) {
-    if (roles[k] < 0) roles[k] = next++;
+    if (roles[k] == -1) roles[k] = next++;
   }
   return roles;
 }
@@ -45,7 +62,10 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
   std::size_t of_space = 0;
   for (std::size_t k = shape.counts.size(); k-- > 0;) {
     const bool is_space = roles[k] >= 0;
-    volume.axes.push_back({is_space ? AxisKind::Space : AxisKind::Frame, shape.counts[k]});
+    volume.axes.push_back({is_space                   ? AxisKind::Space
+                           : roles[k] == channel_role ? AxisKind::Channel
+                                                      : AxisKind::Frame,
+                           shape.counts[k]});
     if (!is_space) continue;
     if (of_space < 3) {
       counts[of_space] = shape.counts[k];
@@ -77,7 +97,9 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
     const Eigen::Index axis = volume.geometry.order[static_cast<std::size_t>(k)];
     axes(axis, k) = size[axis];
   }
-  set_lattice(volume.geometry, axes, 0.5 * size, choice, path);
+  volume.geometry.size_source = shape.size_source;
+  const Vector3 origin = 0.5 * size + shape.corner.value_or(Vector3::Zero());
+  set_lattice(volume.geometry, axes, origin, choice, path);
   return volume;
 }
 

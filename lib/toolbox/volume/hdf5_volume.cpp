@@ -12,6 +12,7 @@
 
 #include <boost/endian/conversion.hpp>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "wscvt/base/file_name.h"
 #include "wscvt/mesh_files/text_fields.h"
@@ -22,6 +23,8 @@ namespace wscvt {
 #ifdef WSCVT_HAS_HDF5
 
 namespace {
+
+using Json = nlohmann::json;
 
 /// Locks the library: Debian's is not thread-safe, and several threads of a batch read volumes.
 std::unique_lock<std::mutex> alone() {
@@ -104,6 +107,104 @@ void find_volumes(hid_t group, const std::string& path, int depth, std::size_t& 
   }
 }
 
+/// Refuses voxels that other files hold: a file could show any other file of the machine.
+void refuse_foreign_voxels(hid_t data_set, const std::string& path) {
+  const Handle made(H5Dget_create_plist(data_set), H5Pclose);
+  const bool is_external = H5Pget_external_count(made) > 0;
+  if (!is_external && H5Pget_layout(made) != H5D_VIRTUAL) return;
+  refuse_volume(path, std::string("is an HDF5 file whose voxels are in other files, by ") +
+                          (is_external ? "external storage" : "a virtual data set") +
+                          ". Copy the voxels into one file, for example by h5repack.");
+}
+
+/// Returns the text of an attribute; empty without one.
+std::string text_of(hid_t object, const char* name) {
+  if (H5Aexists(object, name) <= 0) return "";
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute), H5Tclose);
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return "";
+  constexpr std::size_t longest = 1 << 16;
+  if (H5Tis_variable_str(type) > 0) {
+    char* text = nullptr;
+    const Handle memory(H5Tcopy(type), H5Tclose);
+    if (H5Aread(attribute, memory, &text) < 0 || text == nullptr) return "";
+    const std::string result(text);
+    H5free_memory(text);
+    return result;
+  }
+  const std::size_t size = H5Tget_size(type);
+  if (size > longest) return "";
+  std::string text(size, '\0');
+  if (H5Aread(attribute, type, text.data()) < 0) return "";
+  return text.substr(0, text.find('\0'));
+}
+
+/// Returns the roles of dimensions by ilastik's axistags; empty without them or for unknown ones.
+std::vector<int> roles_of_axistags(hid_t data_set, std::size_t dimensions) {
+  const Json json = Json::parse(text_of(data_set, "axistags"), nullptr, false);
+  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array() ||
+      json["axes"].size() != dimensions) {
+    return {};
+  }
+  std::vector<int> roles;
+  for (const Json& axis : json["axes"]) {
+    const std::string key =
+        axis.is_object() && axis.contains("key") && axis["key"].is_string() ? axis["key"] : "";
+    if (key == "x" || key == "y" || key == "z") {
+      roles.push_back(key.front() - 'x');
+    } else if (key == "c" || key == "t") {
+      roles.push_back(key == "c" ? -2 : -1);
+    } else {
+      return {};
+    }
+  }
+  return roles;
+}
+
+/// Returns three numbers of a data set or an attribute; nothing without them.
+std::optional<Vector3> three_numbers(hid_t group, const std::string& data_set,
+                                     const char* attribute) {
+  double values[3] = {};
+  if (H5Lexists(group, data_set.substr(0, data_set.find('/')).c_str(), H5P_DEFAULT) > 0 &&
+      H5Lexists(group, data_set.c_str(), H5P_DEFAULT) > 0) {
+    const Handle found(H5Dopen2(group, data_set.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!found.is_there()) return std::nullopt;
+    const Handle made(H5Dget_create_plist(found), H5Pclose);
+    const Handle space(H5Dget_space(found), H5Sclose);
+    if (H5Pget_external_count(made) > 0 || H5Pget_layout(made) == H5D_VIRTUAL ||
+        H5Sget_simple_extent_npoints(space) != 3 ||
+        H5Dread(found, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
+      return std::nullopt;
+    }
+    return Vector3(values[0], values[1], values[2]);
+  }
+  if (H5Aexists(group, attribute) <= 0) return std::nullopt;
+  const Handle found(H5Aopen(group, attribute, H5P_DEFAULT), H5Aclose);
+  const Handle space(H5Aget_space(found), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space) != 3 || H5Aread(found, H5T_NATIVE_DOUBLE, values) < 0) {
+    return std::nullopt;
+  }
+  return Vector3(values[0], values[1], values[2]);
+}
+
+/// Reads the geometry that DREAM.3D keeps in a group above the data set: version 6 in
+/// _SIMPL_GEOMETRY, version 7 in attributes.
+void read_dream3d(hid_t file, const std::string& name, ArrayShape& shape) {
+  for (std::size_t end = name.rfind('/'); end != std::string::npos && end > 0;
+       end = name.rfind('/', end - 1)) {
+    const Handle group(H5Gopen2(file, name.substr(0, end).c_str(), H5P_DEFAULT), H5Gclose);
+    if (!group.is_there()) continue;
+    const auto spacing = three_numbers(group, "_SIMPL_GEOMETRY/SPACING", "_SPACING");
+    if (!spacing || !(spacing->minCoeff() > 0.0)) continue;
+    shape.voxel_size = *spacing;
+    shape.corner = three_numbers(group, "_SIMPL_GEOMETRY/ORIGIN", "_ORIGIN");
+    shape.unit = "";
+    shape.size_source = "DREAM.3D's geometry";
+    return;
+  }
+}
+
 bool is_of_matlab(hid_t data_set) { return H5Aexists(data_set, "MATLAB_class") > 0; }
 
 /// Returns the voxel size along x, y and z, from an attribute of Fiji and ilastik: z, y, x in
@@ -120,7 +221,9 @@ Vector3 voxel_size_of(hid_t data_set) {
   return {values[2], values[1], values[0]};
 }
 
-ArrayShape shape_of(hid_t data_set, const std::string& path) {
+ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path) {
+  const Handle data_set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  refuse_foreign_voxels(data_set, path);
   ArrayShape shape;
   for (const hsize_t count : counts_of(data_set)) {
     constexpr hsize_t most = 1000000000;
@@ -138,8 +241,11 @@ ArrayShape shape_of(hid_t data_set, const std::string& path) {
     shape.roles[last - 1] = 0;
     shape.roles[last - 2] = 2;
   }
+  if (shape.roles.empty()) shape.roles = roles_of_axistags(data_set, shape.counts.size());
   shape.voxel_size = voxel_size_of(data_set);
   shape.unit = "um";
+  shape.size_source = "element_size_um";
+  if (!(shape.voxel_size.minCoeff() > 0.0)) read_dream3d(file, name, shape);
   return shape;
 }
 
@@ -183,7 +289,7 @@ class Hdf5Volume : public LabelVolume {
     if (next_ % rows == 0) read_slice(next_ / rows, rows * row_bytes);
     row_.resize(static_cast<std::size_t>(geometry().counts[0]));
     labels_of(
-        slice_.data() + next_ % rows * row_bytes, type_, is_grey(), row_,
+        slice_.data() + next_ % rows * row_bytes, type_, coding(), row_,
         {path_, static_cast<std::int64_t>(next_ % rows), static_cast<std::int64_t>(next_ / rows)});
     ++next_;
     return row_;
@@ -249,6 +355,7 @@ class Hdf5Volume : public LabelVolume {
 std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice) {
   file_size(path);  // throws if there is no file
   std::string name;
+  std::string note;
   ArrayShape shape;
   {
     const auto lock = alone();
@@ -267,12 +374,23 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
     }
     VolumeChoice from_root = choice;
     if (!choice.array.empty() && choice.array.front() != '/') from_root.array = "/" + choice.array;
+    // Of DREAM.3D's arrays of cells one has the labels.
+    std::vector<std::string> labels;
+    for (const std::string& one : names) {
+      if (one.substr(one.rfind('/') + 1) == "FeatureIds") labels.push_back(one);
+    }
+    if (choice.array.empty() && names.size() > 1 && labels.size() == 1) {
+      note = "The array \"" + labels.front() + "\" was read, one of " +
+             std::to_string(names.size()) + ". Choose another by --array.";
+      from_root.array = labels.front();
+    }
     name = names[chosen_array(names, from_root, path)];
-    const Handle data_set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-    shape = shape_of(data_set, path);
+    shape = shape_of(file, name, path);
   }
-  const ShapedVolume volume = volume_of_shape(shape, choice, path);
-  return std::make_unique<Hdf5Volume>(volume, path, name, choice);
+  const ShapedVolume shaped = volume_of_shape(shape, choice, path);
+  auto volume = std::make_unique<Hdf5Volume>(shaped, path, name, choice);
+  if (!note.empty()) volume->add_note(note);
+  return volume;
 }
 
 #else

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "toolbox/volume/volume_formats.h"
@@ -27,6 +29,7 @@ bool is_tiff(const std::string& name) {
 struct FolderContent {
   std::vector<std::string> tiffs;
   std::vector<std::string> pngs;
+  std::vector<std::string> bmps;
   std::vector<std::string> others;  ///< names
 };
 
@@ -39,7 +42,11 @@ FolderContent content_of(const std::string& folder) {
     if (!is_taken) {
       content.others.push_back(name);
     } else {
-      (is_tiff(name) ? content.tiffs : content.pngs).push_back(entry.path().string());
+      const bool is_bmp = ending_of(name) == ".bmp";
+      (is_tiff(name) ? content.tiffs
+       : is_bmp      ? content.bmps
+                     : content.pngs)
+          .push_back(entry.path().string());
     }
   }
   // Compares numbers in names by value: 9 before 10.
@@ -48,6 +55,7 @@ FolderContent content_of(const std::string& folder) {
   };
   std::sort(content.tiffs.begin(), content.tiffs.end(), comes_before);
   std::sort(content.pngs.begin(), content.pngs.end(), comes_before);
+  std::sort(content.bmps.begin(), content.bmps.end(), comes_before);
   std::sort(content.others.begin(), content.others.end());
   return content;
 }
@@ -72,6 +80,94 @@ std::optional<std::int64_t> number_of(const std::string& path) {
   const std::size_t before = stem.find_last_not_of("0123456789", end);
   const std::size_t begin = before == std::string::npos ? 0 : before + 1;
   return whole_number_in(std::string_view(stem).substr(begin, end + 1 - begin));
+}
+
+/// Returns a name with # for each number in it, in lower case.
+std::string pattern_of(const std::string& path) {
+  std::string pattern;
+  for (const char c : lower_case(fs::path(path).stem().string())) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (!is_digit) pattern += c;
+    if (is_digit && (pattern.empty() || pattern.back() != '#')) pattern += '#';
+  }
+  return pattern;
+}
+
+/// Returns the numbers in a name.
+std::vector<std::string> numbers_of(const std::string& path) {
+  std::vector<std::string> numbers;
+  bool was_digit = false;
+  for (const char c : fs::path(path).stem().string()) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (is_digit && !was_digit) numbers.emplace_back();
+    if (is_digit) numbers.back() += c;
+    was_digit = is_digit;
+  }
+  return numbers;
+}
+
+/// Returns the names of one pattern in series: by the first number that is not another in each
+/// name, when no number is.
+std::map<std::string, std::vector<std::string>> series_of(const std::vector<std::string>& paths) {
+  std::vector<std::set<std::string>> values;
+  for (const std::string& path : paths) {
+    const std::vector<std::string> numbers = numbers_of(path);
+    values.resize(std::max(values.size(), numbers.size()));
+    for (std::size_t k = 0; k < numbers.size(); ++k) values[k].insert(numbers[k]);
+  }
+  const auto counts_all = [&](const std::set<std::string>& of) {
+    return of.size() == paths.size();
+  };
+  std::map<std::string, std::vector<std::string>> series;
+  if (values.empty() || std::any_of(values.begin(), values.end(), counts_all)) {
+    series[""] = paths;
+    return series;
+  }
+  // The number with the fewest values but one tells the series.
+  std::size_t fewest = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const bool is_first = values[fewest].size() < 2;
+    if (values[k].size() > 1 && (is_first || values[k].size() < values[fewest].size())) fewest = k;
+  }
+  for (const std::string& path : paths) {
+    const std::vector<std::string> numbers = numbers_of(path);
+    series[fewest < numbers.size() ? numbers[fewest] : ""].push_back(path);
+  }
+  return series;
+}
+
+/// Keeps the files of one series of slices, and adds the names of odd files, such as a preview, to
+/// `others`. Throws Error(InputOutput), naming them, for two series.
+void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
+                     std::vector<std::string>& others) {
+  std::map<std::string, std::vector<std::string>> by_pattern;
+  for (const std::string& path : paths) by_pattern[pattern_of(path)].push_back(path);
+  if (by_pattern.size() == paths.size()) return;  // names without an order of numbers
+  std::vector<std::vector<std::string>> series;
+  for (const auto& [pattern, files] : by_pattern) {
+    for (auto& [key, part] : series_of(files)) series.push_back(std::move(part));
+  }
+  std::stable_sort(series.begin(), series.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  const auto name = [](const std::string& path) {
+    return "\"" + fs::path(path).filename().string() + "\"";
+  };
+  // A preview, a mask of one slice or a logo is one file or two.
+  constexpr std::size_t most_odd = 2;
+  if (series.size() > 1 && (series[1].size() > most_odd || series[1].size() == series[0].size())) {
+    refuse_volume(folder,
+                  "holds more than one series of slices: " + std::to_string(series[0].size()) +
+                      " files like " + name(series[0].front()) + " and " +
+                      std::to_string(series[1].size()) + " files like " + name(series[1].front()) +
+                      ". Move one of them to a folder of its own.");
+  }
+  for (std::size_t k = 1; k < series.size(); ++k) {
+    for (const std::string& path : series[k]) {
+      others.push_back(fs::path(path).filename().string());
+    }
+  }
+  std::sort(others.begin(), others.end());
+  paths = series.front();
 }
 
 /// Returns a sentence about the first missing slice of numbered names; empty if none is missing.
@@ -103,22 +199,32 @@ bool is_foreign_file(const std::string& name) {
          lower == "desktop.ini" || lower == "__macosx";
 }
 
-bool is_slice(const std::string& name) { return is_tiff(name) || ending_of(name) == ".png"; }
+bool is_slice(const std::string& name) {
+  const std::string ending = ending_of(name);
+  return is_tiff(name) || ending == ".png" || ending == ".bmp";
+}
 
 std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeChoice& choice) {
-  const FolderContent content = content_of(path);
-  if (content.tiffs.empty() && content.pngs.empty()) {
-    refuse_volume(path, "has no .tif and no .png file. Check its name.");
+  FolderContent content = content_of(path);
+  std::vector<std::string>* kind = nullptr;
+  for (std::vector<std::string>* one : {&content.tiffs, &content.pngs, &content.bmps}) {
+    if (one->empty()) continue;
+    if (kind != nullptr) {
+      refuse_volume(path, "holds " + std::to_string(content.tiffs.size()) + " .tif, " +
+                              std::to_string(content.pngs.size()) + " .png and " +
+                              std::to_string(content.bmps.size()) +
+                              " .bmp files. Keep only one kind there.");
+    }
+    kind = one;
   }
-  if (!content.tiffs.empty() && !content.pngs.empty()) {
-    refuse_volume(path, "holds " + std::to_string(content.tiffs.size()) + " .tif and " +
-                            std::to_string(content.pngs.size()) +
-                            " .png files. Keep only one kind there.");
+  if (kind == nullptr) {
+    refuse_volume(path, "has no .tif, .png or .bmp file. Check its name.");
   }
-  const bool of_tiffs = !content.tiffs.empty();
-  const SliceFiles slices = {path, of_tiffs ? content.tiffs : content.pngs};
-  std::unique_ptr<LabelVolume> volume =
-      of_tiffs ? open_tiff_slices(slices, choice) : open_png_slices(slices, choice);
+  keep_one_series(path, *kind, content.others);
+  const SliceFiles slices = {path, *kind};
+  std::unique_ptr<LabelVolume> volume = kind == &content.tiffs  ? open_tiff_slices(slices, choice)
+                                        : kind == &content.pngs ? open_png_slices(slices, choice)
+                                                                : open_bmp_slices(slices, choice);
   if (!content.others.empty()) volume->add_note(sentence_of_others(content.others));
   const std::string gap = sentence_of_gap(slices.paths);
   if (!gap.empty()) volume->add_note(gap);
@@ -131,6 +237,10 @@ std::unique_ptr<LabelVolume> open_tiff(const std::string& path, const VolumeChoi
 
 std::unique_ptr<LabelVolume> open_png(const std::string& path, const VolumeChoice& choice) {
   return open_png_slices({path, {path}}, choice);
+}
+
+std::unique_ptr<LabelVolume> open_bmp(const std::string& path, const VolumeChoice& choice) {
+  return open_bmp_slices({path, {path}}, choice);
 }
 
 }  // namespace wscvt

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/volume_choice.h"
 
 namespace wscvt {
 
-// A folder of slices, each an image: TIFF or PNG.
+// A folder of slices, each an image: TIFF, PNG or BMP.
 
 /// Returns whether a file is a hidden one from a system: "._s03.tif", "Thumbs.db", ".DS_Store".
 bool is_foreign_file(const std::string& name);
@@ -30,5 +31,8 @@ std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices, const Vo
 
 /// Opens slices that are PNG files, in the same way.
 std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const VolumeChoice& choice);
+
+/// Opens slices that are BMP files, of 8 bits or of three equal colours, in the same way.
+std::unique_ptr<LabelVolume> open_bmp_slices(const SliceFiles& slices, const VolumeChoice& choice);
 
 }  // namespace wscvt

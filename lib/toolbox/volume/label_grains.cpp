@@ -2,9 +2,11 @@
 #include "toolbox/volume/label_grains.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/segmentation.h"
 #include "toolbox/volume/volume_parts.h"
 #include "wscvt/base/error.h"
@@ -13,6 +15,7 @@
 namespace wscvt {
 
 void check_volume_options(const VolumeOptions& options) {
+  if (!std::isnan(options.background)) require_in_range(options.background, background_option);
   require_in_range(options.smallest, smallest_option);
   require_in_range(options.smoothing, smoothing_option);
   if (options.separate) {
@@ -29,21 +32,17 @@ LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
                          const Execution& execution)
     : options_(options) {
   check_volume_options(options);
-  volume_ = open_volume(path, options.choice);
-  const bool is_numbered_anew = options.parts || options.separate;
-  const Execution numbering = execution.part(0.0, 0.5);
-  if (options.separate) {
-    volume_ = separated(*volume_, options.background, *options.separate, numbering);
-  } else if (options.parts) {
-    volume_ = parts_of(std::move(volume_), options.background, numbering);
+  try {
+    find_labels(path, false, execution);
+  } catch (const LargeNumber&) {
+    find_labels(path, true, execution);
   }
-  if (is_numbered_anew) options_.background = 0;
-  labels_ = label_census(*volume_, options_.background,
-                         is_numbered_anew ? execution.part(0.5, 1.0) : execution);
   if (labels_.empty()) {
-    throw Error(ErrorCode::InvalidInput, "\"" + path + "\" has no label except the background, " +
-                                             std::to_string(options.background) +
-                                             ". Check it, or give --background.");
+    throw Error(ErrorCode::InvalidInput,
+                "\"" + path + "\" has no label except the background, " +
+                    (std::isnan(options.background) ? std::string("nan")
+                                                    : format_number(options.background, 17)) +
+                    ". Check it, or give --background.");
   }
   for (std::size_t k = 0; k < labels_.size(); ++k) {
     if (state(labels_[k]) == LabelState::Taken) taken_.push_back(k);
@@ -51,6 +50,23 @@ LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
   std::stable_sort(taken_.begin(), taken_.end(), [&](std::size_t a, std::size_t b) {
     return labels_[a].end[2] < labels_[b].end[2];
   });
+}
+
+void LabelGrains::find_labels(const std::string& path, bool anew, const Execution& execution) {
+  volume_ = open_volume(path, options_.choice);
+  volume_->set_background(options_.background);
+  if (anew) volume_->number_anew(most_labels);
+  Label background = anew ? 0 : background_label(options_.background);
+  const bool is_numbered_anew = options_.parts || options_.separate;
+  const Execution numbering = execution.part(0.0, 0.5);
+  if (options_.separate) {
+    volume_ = separated(*volume_, background, *options_.separate, numbering);
+  } else if (options_.parts) {
+    volume_ = parts_of(std::move(volume_), background, numbering);
+  }
+  if (is_numbered_anew) background = 0;
+  labels_ =
+      label_census(*volume_, background, is_numbered_anew ? execution.part(0.5, 1.0) : execution);
 }
 
 std::string LabelGrains::name_of(Label label) const {

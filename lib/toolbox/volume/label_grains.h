@@ -14,6 +14,7 @@
 #include "toolbox/volume/label_census.h"
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/smoothed_surface.h"
+#include "toolbox/volume/volume_choice.h"
 #include "toolbox/volume/voxel_surface.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/option.h"
@@ -21,7 +22,7 @@
 namespace wscvt {
 
 struct VolumeOptions {
-  Label background = 0;         ///< between the grains; not a grain
+  double background = 0.0;      ///< number between the grains, not a grain; see LabelCoding
   std::int64_t smallest = 100;  ///< voxels of the smallest grain to mesh
   bool at_border = false;       ///< also cut grains at the border of the volume
   int smoothing = 20;           ///< passes, see smoothed_surface
@@ -32,8 +33,8 @@ struct VolumeOptions {
   VolumeChoice choice;  ///< the part of the file to read, and the size of its voxels
 };
 
-inline constexpr NumberOption<Label> background_option = {"background", "label of the background",
-                                                          0, std::numeric_limits<Label>::max()};
+inline constexpr NumberOption<double> background_option = {
+    "background", "number of the background", -1e15, 1e15, Ends::Both, "such as 0 or -1, or nan"};
 inline constexpr NumberOption<std::int64_t> smallest_option = {
     "smallest", "number of voxels of the smallest grain",
     1,          std::numeric_limits<std::int64_t>::max(),
@@ -72,14 +73,17 @@ struct LabelGrain {
 /// current slices are in memory.
 class LabelGrains {
  public:
-  /// Opens the volume and finds its labels. Throws as open_volume, label_census and
-  /// check_volume_options do, and Error(InvalidInput) for a volume without labels.
+  /// Opens the volume and finds its labels; numbers them anew if the file's numbers are too large
+  /// for a label. Throws as open_volume, label_census and check_volume_options do, and
+  /// Error(InvalidInput) for a volume without labels.
   LabelGrains(const std::string& path, const VolumeOptions& options, const Execution& execution);
 
   const VolumeGeometry& geometry() const { return volume_->geometry(); }
 
   /// See LabelVolume.
   const std::vector<std::string>& notes() const { return volume_->notes(); }
+  const std::string& description() const { return volume_->description(); }
+  const std::vector<std::string>& warnings() const { return volume_->warnings(); }
 
   /// Returns the file's name of a label; empty if it has none.
   std::string name_of(Label label) const;
@@ -106,6 +110,7 @@ class LabelGrains {
   LabelGrain read(std::size_t grain, const Execution& execution);
 
  private:
+  void find_labels(const std::string& path, bool anew, const Execution& execution);
   std::vector<VoxelStretch> stretches_of(std::size_t grain, const Execution& execution);
   void read_to(std::int32_t slice, const Execution& execution);
   void begin_again();

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "toolbox/volume/volume_choice.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -30,6 +30,7 @@ struct VolumeGeometry {
   Vector3 corner = Vector3::Zero();  ///< of the cell of voxel (0, 0, 0)
   std::string unit;                  ///< of length, see unit_of; empty: unknown
   bool has_size = false;             ///< the file or the user gives the size of a voxel
+  std::string size_source = {};      ///< what gives it, for people; empty: the file's header
   /// The file's axis (x, y, z) of each axis of the lattice: the file may store voxels in another
   /// order.
   std::array<Eigen::Index, 3> order = {0, 1, 2};
@@ -37,6 +38,23 @@ struct VolumeGeometry {
   Vector3 point(const Vector3& lattice) const { return axes * lattice + corner; }
   double voxel_volume() const;  ///< length^3
 };
+
+/// How the numbers of a file become labels.
+struct LabelCoding {
+  bool as_grey = false;  ///< grey values: any numbers, as the codes of grey_code
+  /// The number between the grains, as the file holds it; NaN: only NaN. NaN always counts as it.
+  double background = 0.0;
+  std::int64_t offset = 0;  ///< to be added to each number of the file
+  /// The label of each number above the largest label, see LabelVolume::number_anew.
+  std::map<std::uint64_t, Label> numbers = {};
+  bool finds_numbers = false;  ///< such numbers are entered in `numbers`
+};
+
+/// The label that stands for a background which is no label itself, such as -1.
+inline constexpr Label no_label = 0xffffffffU;
+
+/// Returns the label of the background.
+Label background_label(double background);
 
 /// The labels of a volume, row by row along x, rows along y, slices along z, readable repeatedly
 /// from the beginning. Memory is a row and the buffer for unpacking, such as a TIFF's strip, a row
@@ -47,50 +65,64 @@ class LabelVolume {
 
   const VolumeGeometry& geometry() const { return geometry_; }
 
-  /// Returns sentences for the user about how the file was read.
+  /// Returns sentences for the user about how the file was read, and about what looks wrong in it.
   const std::vector<std::string>& notes() const { return notes_; }
-  void add_note(const std::string& sentence);
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  void add_note(const std::string& sentence) { notes_.push_back(sentence); }
+  void add_warning(const std::string& sentence) { warnings_.push_back(sentence); }
+  void take_notes_of(const LabelVolume& other);
+
+  /// Returns one sentence: the counts and the size of the voxels, and what gives the size.
+  const std::string& description() const { return description_; }
+  void describe(const std::string& sentence) { description_ = sentence; }
 
   /// Returns the file's names of labels; empty if it has none.
   const std::map<Label, std::string>& names() const { return names_; }
   void set_names(std::map<Label, std::string> names) { names_ = std::move(names); }
 
   /// Returns the next row, geometry().counts[0] labels, valid until the next call. Throws
-  /// Error(InputOutput) if the file ends before it, is damaged, or has a label below 0 or above
-  /// 4294967295.
+  /// Error(InputOutput) if the file ends before it, is damaged, or has a number that is neither a
+  /// label nor the background; LargeNumber for a whole number above 4294967295.
   virtual const std::vector<Label>& next_row() = 0;
 
   /// From now on rows contain grey values, any numbers, as the codes of grey_code.
-  void read_grey_values() { is_grey_ = true; }
+  void read_grey_values() { coding_.as_grey = true; }
+
+  /// Sets the number that is the background, see LabelCoding.
+  void set_background(double background) { coding_.background = background; }
+
+  /// Adds a whole number to every number of the file.
+  void set_offset(std::int64_t offset) { coding_.offset = offset; }
+
+  /// Reads the volume, and numbers from now on all its labels from 1, in their order; names() get
+  /// the file's numbers. For files whose numbers are larger than a label. Throws
+  /// Error(InvalidInput) for more than `most` labels.
+  void number_anew(std::size_t most);
 
   /// Goes back to the first row.
   virtual void rewind() = 0;
 
  protected:
   explicit LabelVolume(VolumeGeometry geometry);
-  bool is_grey() const { return is_grey_; }
+  LabelCoding& coding() { return coding_; }
 
  private:
-  bool is_grey_ = false;
+  LabelCoding coding_;
   VolumeGeometry geometry_;
   std::vector<std::string> notes_;
+  std::vector<std::string> warnings_;
+  std::string description_;
   std::map<Label, std::string> names_;
+};
+
+/// Thrown for a whole number above the largest label.
+class LargeNumber : public Error {
+ public:
+  using Error::Error;
 };
 
 /// Convert a grey value to 32 bits in the order of the values, and back. NaN is the smallest.
 Label grey_code(float value);
 float grey_value(Label code);
-
-/// Returns whether a name is a volume's: it has an ending of the formats below, or is a folder with
-/// TIFF files and no meshes.
-bool is_volume(const std::string& path);
-
-/// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The ending
-/// gives the format; lib/doc/files.md has the table of what is read of each. `choice` selects a
-/// part of the file, and may replace its voxel size.
-///
-/// Throws Error: InputOutput if the file cannot be read, is cut short, has an unknown form, or
-/// contains more than one volume and none was chosen; InvalidInput for sizes that are not above 0.
-std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice = {});
 
 }  // namespace wscvt

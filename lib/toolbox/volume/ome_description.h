@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "toolbox/volume/tiff_layout.h"
+#include "toolbox/volume/tiff_dimensions.h"
 
 namespace wscvt {
 

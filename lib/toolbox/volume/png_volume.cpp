@@ -3,6 +3,7 @@
 #include <png.h>
 #endif
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
@@ -119,11 +120,13 @@ class PngFile {
 /// Slices in separate files.
 class PngStack : public LabelVolume {
  public:
+  /// `channel`: the selected one; -1: all colours must be equal.
   PngStack(const VolumeGeometry& geometry, const PngImage& image, int channel,
            std::vector<std::string> paths)
       : LabelVolume(geometry),
         image_(image),
-        channel_(static_cast<std::size_t>(channel)),
+        channel_(static_cast<std::size_t>(std::max(0, channel))),
+        needs_grey_(channel < 0),
         paths_(std::move(paths)),
         next_row_(image.height) {}
 
@@ -144,7 +147,7 @@ class PngStack : public LabelVolume {
                             static_cast<std::int64_t>(next_slice_) - 1};
     ++next_row_;
     if (image_.channels == 1) {
-      labels_of(packed, type, is_grey(), row_, place);
+      labels_of(packed, type, coding(), row_, place);
       return row_;
     }
     const auto channels = static_cast<std::size_t>(image_.channels);
@@ -152,7 +155,10 @@ class PngStack : public LabelVolume {
     for (std::size_t k = 0; k < voxels_.size(); ++k) {
       voxels_[k] = packed[(k / size * channels + channel_) * size + k % size];
     }
-    labels_of(voxels_.data(), type, is_grey(), row_, place);
+    for (std::size_t x = 0; needs_grey_ && x < image_.width; ++x) {
+      check_colours_equal(packed + x * channels * size, size, place.path);
+    }
+    labels_of(voxels_.data(), type, coding(), row_, place);
     return row_;
   }
 
@@ -182,6 +188,7 @@ class PngStack : public LabelVolume {
 
   PngImage image_;
   std::size_t channel_;
+  bool needs_grey_;
   std::vector<std::string> paths_;
   std::unique_ptr<PngFile> file_;
   std::size_t next_slice_ = 0;
@@ -202,14 +209,18 @@ std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const Vol
     refuse_volume(path, "is a slice of " + here.text() + ", but the slices before it have " +
                             image.text() + ". Save all slices alike.");
   }
+  // Transparency is no channel of labels; three equal colours are one.
+  const bool is_grey = image.channels > 1 && !choice.channel;
   const std::int64_t channel =
-      chosen_place({AxisKind::Channel, image.channels}, choice, slices.folder);
+      chosen_place({AxisKind::Channel, is_grey ? 1 : image.channels}, choice, slices.folder);
   chosen_place({AxisKind::Frame, 1}, choice, slices.folder);
   VolumeGeometry geometry;
   geometry.counts = voxel_counts(
       {image.width, image.height, static_cast<std::int64_t>(slices.paths.size())}, slices.folder);
   set_lattice(geometry, Eigen::Matrix3d::Identity(), Vector3::Constant(0.5), choice, slices.folder);
-  return std::make_unique<PngStack>(geometry, image, static_cast<int>(channel), slices.paths);
+  return std::make_unique<PngStack>(geometry, image,
+                                    is_grey && image.channels > 2 ? -1 : static_cast<int>(channel),
+                                    slices.paths);
 }
 
 #else

@@ -289,7 +289,7 @@ std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, doub
     fill_holes(voxels, mask.geometry().counts, execution.part(0.2, 0.3));
     return parts_of_mask(std::move(voxels), mask.geometry(), depth, execution.part(0.3, 1.0));
   });
-  for (const std::string& note : mask.notes()) parts->add_note(note);
+  parts->take_notes_of(mask);
   return parts;
 }
 

@@ -127,6 +127,13 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
         "and extract read labels directly.");
   }
   constexpr double much = 0.05;
+  const bool is_full = segmentation.material == segmentation.voxels;
+  if (is_full && segmentation.filled > 0) {
+    doubts.push_back("The material fills the volume, with holes of " +
+                     format_percent(share_of(segmentation.filled, segmentation.material)) +
+                     " of it: the grains seem to be darker than the rest. Invert the grey values, "
+                     "in Fiji by Edit > Invert, and segment them again.");
+  }
   if (share_of(segmentation.dropped, segmentation.material) > much) {
     doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
                      " of the material is in parts that are too small, red in the slices: noise, "
@@ -135,7 +142,7 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   std::uint64_t largest = 0;
   for (const LabelExtent& grain : segmentation.grains) largest = std::max(largest, grain.voxels);
   constexpr double most = 0.75;
-  if (segmentation.grains.size() > 2 && share_of(largest, segmentation.material) > most) {
+  if (segmentation.grains.size() != 2 && share_of(largest, segmentation.material) > most) {
     doubts.push_back("One grain has " + format_percent(share_of(largest, segmentation.material)) +
                      " of the material: it may be several. Give a smaller --separate, or a higher "
                      "--threshold.");

@@ -48,6 +48,26 @@ class ImageJText {
   std::string text_;
 };
 
+/// Reads the calibration of the numbers, a straight line c0 + c1 n if cf is 0. ImageJ stores 16
+/// bits with a sign as numbers without one and c0=-32768.
+void read_calibration(const ImageJText& text, TiffLayout& layout) {
+  if (text.value("cf").empty()) return;
+  const double least = number_in(text.value("c0")).value_or(0.0);
+  const double slope = number_in(text.value("c1")).value_or(1.0);
+  const bool is_shift = text.value("cf") == "0" && slope == 1.0 && least == std::floor(least) &&
+                        std::abs(least) < 1e9;
+  if (is_shift && least == 0.0) return;
+  if (is_shift) {
+    layout.offset = static_cast<std::int64_t>(least);
+    layout.more_notes.push_back(
+        "ImageJ's calibration was applied: " + std::to_string(layout.offset) +
+        " was added to the file's numbers.");
+  } else {
+    layout.more_notes.emplace_back(
+        "ImageJ noted a calibration of the grey values. The file's numbers were used without it.");
+  }
+}
+
 TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
                             std::int64_t samples, const std::string& path) {
   const ImageJText text(description);
@@ -57,7 +77,8 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   layout.axes = {{AxisKind::Channel, text.count("channels")},
                  {AxisKind::Space, text.count("slices")},
                  {AxisKind::Frame, text.count("frames")}};
-  const std::int64_t images = text.value("images").empty() ? pages : text.count("images");
+  // A page that was written by itself says that it is one image.
+  const std::int64_t images = text.count("images") == 1 ? pages : text.count("images");
   const std::int64_t product = product_of(layout.axes);
   // A stack without dimensions has slices.
   if (product == 1) layout.axes = {{AxisKind::Space, images}};
@@ -78,6 +99,7 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
     refuse_volume(path, "has " + std::to_string(pages) + " pages, but ImageJ noted " +
                             std::to_string(images) + " images. Export it again.");
   }
+  read_calibration(text, layout);
   const std::string unit = text.value("unit");
   layout.unit = unit_of(unit);
   if (layout.unit.empty()) return layout;
@@ -91,13 +113,32 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   return layout;
 }
 
+/// Returns how many of the last dimensions belong to a page, its rows and columns, with its samples
+/// beside them or before them, or behind dimensions of one; 0 if none fit.
+std::size_t dimensions_of_page(const std::vector<std::int64_t>& counts, const TiffPageShape& page) {
+  const std::size_t all = counts.size();
+  const auto fits = [&](const std::vector<std::int64_t>& last) {
+    return last.size() <= all && std::equal(last.rbegin(), last.rend(), counts.rbegin());
+  };
+  if (page.samples > 1) {
+    const bool fits_page = fits({page.height, page.width, page.samples}) ||
+                           fits({page.samples, page.height, page.width});
+    return fits_page ? 3 : 0;
+  }
+  std::vector<std::int64_t> last = {page.height, page.width};
+  for (; last.size() <= all; last.push_back(1)) {
+    if (fits(last)) return last.size();
+  }
+  return 0;
+}
+
 /// Reads tifffile's text: {"shape": [2, 24, 28, 36], "axes": "CZYX"}; the last dimensions are the
 /// page's.
-TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t samples,
+TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPageShape& page,
                               const std::string& path) {
   TiffLayout layout;
   layout.writer = "tifffile";
-  layout.samples = samples;
+  layout.samples = page.samples;
   const Json shape = json["shape"];
   std::vector<std::int64_t> counts;
   for (const Json& count : shape) {
@@ -109,15 +150,21 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t
     }
     counts.push_back(count.get<std::int64_t>());
   }
-  const std::size_t of_page = samples > 1 ? 3 : 2;
   std::string letters;
   if (json.contains("axes") && json["axes"].is_string()) letters = json["axes"].get<std::string>();
-  if (counts.size() < of_page || (!letters.empty() && letters.size() != counts.size())) {
-    refuse_volume(path, "has a \"shape\" in its text that fits no page. Export it again.");
-  }
   std::string text;
   for (std::size_t k = 0; k < counts.size(); ++k) {
     text += (k == 0 ? "" : " x ") + std::to_string(counts[k]);
+  }
+  if (!letters.empty() && letters.size() != counts.size()) {
+    refuse_volume(path, "has a \"shape\" in its text that fits no page. Export it again.");
+  }
+  const std::size_t of_page = dimensions_of_page(counts, page);
+  if (of_page == 0) {
+    refuse_volume(path, "has pages of " + std::to_string(page.height) + " x " +
+                            std::to_string(page.width) +
+                            " voxels, but the \"shape\" in its text, " + text +
+                            ", does not end so. Export it again.");
   }
   const std::size_t slower = counts.size() - of_page;
   bool has_space = false;
@@ -135,18 +182,23 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, std::int64_t
     layout.axes.push_back(axis);
   }
   const std::int64_t product = product_of(layout.axes);
+  if (product == 1 && pages > 1) {  // each page was written by itself, with its own text
+    layout.axes = {{AxisKind::Space, pages}};
+    return layout;
+  }
   layout.may_be_one_block = pages == 1 && product > 1;
   if (product != pages && !layout.may_be_one_block) {
     refuse_volume(path, "has " + std::to_string(pages) + " pages, but its text gives " + text +
-                            " voxels. Export it again.");
+                            " voxels. If it holds several volumes, save the labels alone.");
   }
   return layout;
 }
 
 }  // namespace
 
-TiffLayout tiff_layout(const std::string& text, std::int64_t pages, std::int64_t samples,
+TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPageShape& page,
                        const std::string& path) {
+  const std::int64_t samples = page.samples;
   if (text.rfind("ImageJ=", 0) == 0) return layout_of_imagej(text, pages, samples, path);
   const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   if (first != std::string::npos && text[first] == '<' && text.find("<OME") != std::string::npos) {
@@ -155,7 +207,7 @@ TiffLayout tiff_layout(const std::string& text, std::int64_t pages, std::int64_t
   if (first != std::string::npos && text[first] == '{') {
     const Json json = Json::parse(text, nullptr, false);
     if (json.is_object() && json.contains("shape") && json["shape"].is_array()) {
-      return layout_of_tifffile(json, pages, samples, path);
+      return layout_of_tifffile(json, pages, page, path);
     }
   }
   TiffLayout layout;

@@ -7,6 +7,7 @@
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #ifdef WSCVT_HAS_TIFF
+#include <array>
 #include <boost/endian/conversion.hpp>
 #include <cmath>
 #include <cstring>
@@ -32,6 +33,8 @@ struct Page {
   int samples = 1;         ///< numbers per voxel
   bool is_planar = false;  ///< samples follow each other, not interleaved
   bool shows_0_as_white = false;
+  bool shows_colours = false;             ///< samples are red, green and blue
+  int orientation = ORIENTATION_TOPLEFT;  ///< the first page's counts for all
 
   bool operator==(const Page& other) const {
     return width == other.width && height == other.height && bits == other.bits &&
@@ -88,6 +91,10 @@ Page page_of(const TiffFile& file) {
   page.samples = samples;
   page.is_planar = planes == PLANARCONFIG_SEPARATE && samples > 1;
   page.shows_0_as_white = photometric == PHOTOMETRIC_MINISWHITE;
+  page.shows_colours = photometric == PHOTOMETRIC_RGB && samples > 2 && !page.is_planar;
+  std::uint16_t orientation = ORIENTATION_TOPLEFT;
+  TIFFGetField(tiff, TIFFTAG_ORIENTATION, &orientation);
+  page.orientation = orientation >= 1 && orientation <= 8 ? orientation : ORIENTATION_TOPLEFT;
   return page;
 }
 
@@ -100,12 +107,13 @@ struct SlicePage {
 /// Slices that are pages of one file, or files of one page.
 class TiffStack : public LabelVolume {
  public:
-  /// `sample`: number of the selected sample of each voxel.
+  /// `sample`: number of the selected sample of each voxel; -1: all colours must be equal.
   TiffStack(const VolumeGeometry& geometry, const Page& page, int sample,
             std::vector<std::string> files, std::vector<SlicePage> slices)
       : LabelVolume(geometry),
         page_(page),
-        sample_(static_cast<std::uint16_t>(sample)),
+        sample_(static_cast<std::uint16_t>(std::max(0, sample))),
+        needs_grey_(sample < 0),
         files_(std::move(files)),
         slices_(std::move(slices)),
         next_row_(page.height) {}
@@ -116,7 +124,7 @@ class TiffStack : public LabelVolume {
     if (in_band == 0) read_band();
     row_.resize(page_.width);
     unpack_row(band_.data() + in_band * row_bytes_);
-    labels_of(voxels_.data(), page_.type, is_grey(), row_,
+    labels_of(voxels_.data(), page_.type, coding(), row_,
               {file_->path(), next_row_, static_cast<std::int64_t>(next_slice_) - 1});
     ++next_row_;
     return row_;
@@ -239,12 +247,14 @@ class TiffStack : public LabelVolume {
       const std::size_t step = size * static_cast<std::size_t>(page_.samples);
       for (std::size_t x = 0; x < page_.width; ++x) {
         std::memcpy(voxels_.data() + x * size, packed + x * step + sample_ * size, size);
+        if (needs_grey_) check_colours_equal(packed + x * step, size, file_->path());
       }
     }
   }
 
   Page page_;
   std::uint16_t sample_;
+  bool needs_grey_;
   std::vector<std::string> files_;
   std::vector<SlicePage> slices_;
   std::unique_ptr<TiffFile> file_;
@@ -281,23 +291,73 @@ std::optional<Vector3> voxel_of_resolution(const TiffFile& file) {
   return size;
 }
 
+/// Whether a resolution is a usual one of screens and printers, in dots per inch, and the distance
+/// of slices does not fit it: then a program wrote it that knew no size of voxels.
+bool is_of_a_screen(const Vector3& size_cm, const Vector3& size) {
+  constexpr std::array<double, 14> usual = {72,  96,  100, 120, 144, 150, 180,
+                                            200, 240, 300, 360, 400, 600, 1200};
+  const double dots = 2.54 / size_cm.x();
+  const bool is_usual = std::any_of(usual.begin(), usual.end(),
+                                    [&](double dpi) { return std::abs(dots - dpi) < 2e-3 * dpi; });
+  constexpr double far = 5.0;
+  return is_usual && (size.z() > far * size.x() || size.x() > far * size.z());
+}
+
+/// Sets the directions of the axes by the orientation tag: where the first row and the first column
+/// lie (TIFF 6.0, Orientation).
+void set_lattice_turned(VolumeGeometry& geometry, const Vector3& size, int orientation,
+                        const VolumeChoice& choice, const std::string& path) {
+  const bool is_transposed = orientation >= ORIENTATION_LEFTTOP;
+  if (is_transposed) geometry.order = {1, 0, 2};
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::Index axis = geometry.order[static_cast<std::size_t>(k)];
+    axes(axis, k) = size[axis];
+  }
+  set_lattice(geometry, axes, 0.5 * size, choice, path);
+  const bool is_from_right =
+      orientation == ORIENTATION_TOPRIGHT || orientation == ORIENTATION_BOTRIGHT ||
+      orientation == ORIENTATION_RIGHTTOP || orientation == ORIENTATION_RIGHTBOT;
+  const bool is_from_below =
+      orientation == ORIENTATION_BOTRIGHT || orientation == ORIENTATION_BOTLEFT ||
+      orientation == ORIENTATION_RIGHTBOT || orientation == ORIENTATION_LEFTBOT;
+  for (const Eigen::Index axis : {Eigen::Index{0}, Eigen::Index{1}}) {
+    if (!(axis == 0 ? is_from_right : is_from_below)) continue;
+    const Eigen::Index k = geometry.order[static_cast<std::size_t>(axis)];  // its own inverse
+    geometry.corner += geometry.axes.col(k) * geometry.counts[static_cast<std::size_t>(k)];
+    geometry.axes.col(k) = -geometry.axes.col(k);
+  }
+}
+
 /// Sets the lattice from the text of ImageJ or OME, or from the page's resolution.
-void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, TiffLayout& layout,
-                         const VolumeChoice& choice) {
+void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const Page& page,
+                         TiffLayout& layout, const VolumeChoice& choice) {
   const std::optional<Vector3> resolution = voxel_of_resolution(file);
   Vector3 size = layout.voxel_size;
   std::uint16_t unit = RESUNIT_INCH;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
+  geometry.size_source = layout.writer + "'s text";
   if (layout.writer == "ImageJ" && size.z() > 0.0 && resolution) {
     // In ImageJ's unit, not the page's.
     size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
     size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();
+    const double cm = layout.unit == "inch" ? 2.54 : layout.unit == "cm" ? 1.0 : 0.1;
+    const bool has_coarse_unit = cm >= 1.0 || layout.unit == "mm";
+    if (has_coarse_unit && is_of_a_screen(cm * size, size)) {
+      layout.notes.push_back("ImageJ noted voxels of " + format_number(size.x(), 4) + " x " +
+                             format_number(size.y(), 4) + " x " + format_number(size.z(), 4) + " " +
+                             layout.unit + ", " + format_number(2.54 / (cm * size.x())) +
+                             " per inch: the resolution of a screen, not of a scan. It was not "
+                             "used.");
+      size = Vector3::Zero();
+    }
   } else if (layout.writer.empty() && resolution && unit != RESUNIT_NONE) {
     // Screens and printers have up to 1200 dots per inch, 0.021 mm; a finer one is an instrument's.
     constexpr double finest_dot_cm = 2.54 / 1200.0;
     if (resolution->x() < 0.999 * finest_dot_cm && resolution->y() < 0.999 * finest_dot_cm) {
       size = 10.0 * Vector3(resolution->x(), resolution->y(), resolution->x());
       layout.unit = "mm";
+      geometry.size_source = "the TIFF's resolution";
       layout.notes.push_back("Voxel size from the TIFF's resolution, along z as along x: " +
                              format_number(size.x()) + " mm. Give another by --voxel-size X,Y,Z.");
     }
@@ -310,7 +370,11 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, TiffLay
   } else {
     geometry.unit = layout.unit;
   }
-  set_lattice(geometry, size.asDiagonal(), 0.5 * size, choice, file.path());
+  set_lattice_turned(geometry, size, page.orientation, choice, file.path());
+  if (page.orientation != ORIENTATION_TOPLEFT) {
+    layout.more_notes.push_back("The pages were turned as their orientation tag, " +
+                                std::to_string(page.orientation) + ", says.");
+  }
 }
 
 /// Returns the positions of the selected slices in a file of pages.
@@ -335,9 +399,23 @@ std::vector<SlicePage> slices_of(const TiffLayout& layout,
   return slices;
 }
 
+void add_notes(const TiffLayout& layout, const VolumeChoice& choice, LabelVolume& volume) {
+  for (const std::string& note : layout.notes) {
+    if (!choice.voxel_size) volume.add_note(note);
+  }
+  for (const std::string& note : layout.more_notes) volume.add_note(note);
+}
+
+/// Returns the selected sample of a page. Three equal colours are one, see TiffStack.
+int chosen_sample(const Page& page, std::int64_t channel, const VolumeChoice& choice) {
+  if (page.samples == 1) return 0;
+  return page.shows_colours && !choice.channel ? -1 : static_cast<int>(channel);
+}
+
 /// Returns the channels in a file's dimensions or in its voxels; refuses a file with both.
-VolumeAxis channels_of(const TiffLayout& layout, const std::string& path) {
+VolumeAxis channels_of(const TiffLayout& layout, bool is_grey, const std::string& path) {
   VolumeAxis channels = {AxisKind::Channel, layout.samples};
+  if (is_grey) channels.count = 1;
   for (const VolumeAxis& axis : layout.axes) {
     if (axis.kind != AxisKind::Channel || axis.count == 1) continue;
     if (channels.count > 1) {
@@ -353,9 +431,11 @@ VolumeAxis channels_of(const TiffLayout& layout, const std::string& path) {
 std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& page,
                                              const VolumeChoice& choice) {
   const std::string& path = file.path();
-  TiffLayout layout = tiff_layout(file.description(), file.pages(), page.samples, path);
+  TiffLayout layout =
+      tiff_layout(file.description(), file.pages(), {page.width, page.height, page.samples}, path);
   // Each kind of dimension is selected once.
-  const std::int64_t channel = chosen_place(channels_of(layout, path), choice, path);
+  const std::int64_t channel =
+      chosen_place(channels_of(layout, page.shows_colours && !choice.channel, path), choice, path);
   VolumeAxis frames = {AxisKind::Frame, 1};
   std::vector<std::int64_t> places;
   std::int64_t slices = 1;
@@ -380,7 +460,7 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
   }
   VolumeGeometry geometry;
   geometry.counts = voxel_counts({page.width, page.height, slices}, path);
-  set_lattice_of_tiff(geometry, file, layout, choice);
+  set_lattice_of_tiff(geometry, file, page, layout, choice);
   std::unique_ptr<LabelVolume> volume;
   if (layout.may_be_one_block) {
     // Above 4 GiB, ImageJ writes one page, then all voxels uncompressed.
@@ -404,13 +484,12 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
     data.picks = picks_of(axes, choice, path);
     volume = volume_of_files(geometry, type, data);
   } else {
-    const int sample = page.samples > 1 ? static_cast<int>(channel) : 0;
+    const int sample = chosen_sample(page, channel, choice);
     volume = std::make_unique<TiffStack>(geometry, page, sample, std::vector<std::string>{path},
                                          slices_of(layout, places));
   }
-  for (const std::string& note : layout.notes) {
-    if (!choice.voxel_size) volume->add_note(note);
-  }
+  volume->set_offset(layout.offset);
+  add_notes(layout, choice, *volume);
   return volume;
 }
 
@@ -433,20 +512,19 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
     }
     pages.push_back({k, 0});
   }
+  const bool is_grey = page.shows_colours && !choice.channel;
   const std::int64_t channel =
-      chosen_place({AxisKind::Channel, page.samples}, choice, slices.folder);
+      chosen_place({AxisKind::Channel, is_grey ? 1 : page.samples}, choice, slices.folder);
   chosen_place({AxisKind::Frame, 1}, choice, slices.folder);
   VolumeGeometry geometry;
   geometry.counts = voxel_counts({page.width, page.height, static_cast<std::int64_t>(pages.size())},
                                  slices.folder);
   // The text of a single slice describes no stack, but its resolution is valid.
   TiffLayout layout;
-  set_lattice_of_tiff(geometry, first, layout, choice);
+  set_lattice_of_tiff(geometry, first, page, layout, choice);
   std::unique_ptr<LabelVolume> volume = std::make_unique<TiffStack>(
-      geometry, page, static_cast<int>(channel), slices.paths, std::move(pages));
-  for (const std::string& note : layout.notes) {
-    if (!choice.voxel_size) volume->add_note(note);
-  }
+      geometry, page, chosen_sample(page, channel, choice), slices.paths, std::move(pages));
+  add_notes(layout, choice, *volume);
   return volume;
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "toolbox/volume/voxel_rows.h"
+#include "toolbox/volume/volume_error.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -36,6 +36,13 @@ const std::vector<std::string>* unit_row_of(const std::string& text) {
   return nullptr;
 }
 
+/// Returns a name in quotes, whole: paths of data sets differ at their ends.
+std::string whole_in_quotes(const std::string& name) {
+  std::string text = name;
+  for (char& c : text) c = c >= ' ' && c <= '~' ? c : '?';
+  return "\"" + text + "\"";
+}
+
 }  // namespace
 
 std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
@@ -61,7 +68,7 @@ std::size_t chosen_array(const std::vector<std::string>& names, const VolumeChoi
   constexpr std::size_t most_shown = 12;
   std::string all;
   for (std::size_t k = 0; k < std::min(names.size(), most_shown); ++k) {
-    all += (k == 0 ? "" : ", ") + in_quotes(names[k]);
+    all += (k == 0 ? "" : ", ") + whole_in_quotes(names[k]);
   }
   if (names.size() > most_shown) all += ", ...";
   if (choice.array.empty()) {

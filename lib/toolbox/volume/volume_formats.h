@@ -5,6 +5,7 @@
 #include <string>
 
 #include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/volume_choice.h"
 
 namespace wscvt {
 
@@ -17,6 +18,7 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoic
 std::unique_ptr<LabelVolume> open_tiff(const std::string& path, const VolumeChoice& choice);
 
 std::unique_ptr<LabelVolume> open_png(const std::string& path, const VolumeChoice& choice);
+std::unique_ptr<LabelVolume> open_bmp(const std::string& path, const VolumeChoice& choice);
 
 std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice& choice);
 std::unique_ptr<LabelVolume> open_npy(const std::string& path, const VolumeChoice& choice);

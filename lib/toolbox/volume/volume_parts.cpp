@@ -17,7 +17,7 @@ class VolumeOfParts : public LabelVolume {
       : LabelVolume(volume->geometry()),
         volume_(std::move(volume)),
         tracker_(geometry().counts, background) {
-    for (const std::string& note : volume_->notes()) add_note(note);
+    take_notes_of(*volume_);
     join_parts(execution);
     rewind();
   }

@@ -49,51 +49,114 @@ const std::vector<TypeNames>& type_names() {
   return rows;
 }
 
-[[noreturn]] void refuse_voxel(double value, std::size_t x, const RowPlace& place) {
+std::string place_text(std::size_t x, const RowPlace& place) {
+  return " at the voxel (" + std::to_string(x) + ", " + std::to_string(place.y) + ", " +
+         std::to_string(place.z) + "), counted from 0";
+}
+
+/// Refuses a number below 0 that is not the background.
+[[noreturn]] void refuse_negative(const std::string& value, std::size_t x, const RowPlace& place,
+                                  const LabelCoding& coding) {
+  const bool can_be_background = !(coding.background < 0.0);
   refuse_volume(place.path,
-                "holds " + format_number(value, 10) + " at the voxel (" + std::to_string(x) + ", " +
-                    std::to_string(place.y) + ", " + std::to_string(place.z) +
-                    "), counted from 0. Labels are whole numbers from 0 to 4294967295. Make "
-                    "labels of the image by wscvt segment.");
+                "holds " + value + place_text(x, place) + ". Labels are whole numbers from 0 on. " +
+                    (can_be_background
+                         ? "If it is the space between the grains, give --background " + value + "."
+                         : "Change it to the background in the volume."));
+}
+
+[[noreturn]] void refuse_fraction(double value, std::size_t x, const RowPlace& place) {
+  const std::string number = std::isfinite(value) ? format_number(value, 10) : "infinity";
+  refuse_volume(place.path, "holds " + number + place_text(x, place) +
+                                ". Labels are whole numbers. If these are grey values, label the "
+                                "grains by wscvt segment.");
 }
 
 template <class Value, boost::endian::order Order>
-void load_grey_row(const char* bytes, std::vector<Label>& row) {
+void load_grey_row(const char* bytes, std::int64_t offset, std::vector<Label>& row) {
   constexpr double most = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < row.size(); ++i) {
-    const auto value = static_cast<double>(load<Value, Order>(bytes + i * sizeof(Value)));
+    const auto value = static_cast<double>(load<Value, Order>(bytes + i * sizeof(Value))) +
+                       static_cast<double>(offset);
     row[i] = grey_code(static_cast<float>(std::clamp(value, -most, most)));
   }
 }
 
+/// Returns the label of a whole number that needs more than a copy.
+Label label_of(std::int64_t value, bool is_large, std::size_t x, const RowPlace& place,
+               LabelCoding& coding) {
+  // Numbers of 64 bits without a sign may be large and look negative.
+  const bool is_background = !is_large && static_cast<double>(value) == coding.background;
+  if (is_background) {
+    return coding.numbers.empty() ? background_label(coding.background) : Label{0};
+  }
+  if (value < 0 && !is_large) refuse_negative(std::to_string(value), x, place, coding);
+  const auto number = static_cast<std::uint64_t>(value);
+  if (coding.finds_numbers) return coding.numbers.emplace(number, Label{0}).first->second;
+  if (!coding.numbers.empty()) {
+    const auto found = coding.numbers.find(number);
+    if (found != coding.numbers.end()) return found->second;
+    refuse_volume(place.path, "was changed while it was read. Run the command again.");
+  }
+  if (number > std::numeric_limits<Label>::max()) {
+    throw LargeNumber(ErrorCode::InputOutput, "\"" + place.path + "\" holds " +
+                                                  std::to_string(number) + place_text(x, place) +
+                                                  ". A label has at most 32 bits. Number the "
+                                                  "labels anew.");
+  }
+  return static_cast<Label>(number);
+}
+
+template <class Value>
+Label label_of_float(Value value, std::size_t x, const RowPlace& place, LabelCoding& coding) {
+  if (std::isnan(value)) return background_label(coding.background);
+  if (!std::isfinite(value) || value != std::floor(value)) {
+    refuse_fraction(static_cast<double>(value), x, place);
+  }
+  if (static_cast<double>(value) == coding.background) return background_label(coding.background);
+  const std::string number = format_number(static_cast<double>(value), 17);
+  if (value < Value{0}) refuse_negative(number, x, place, coding);
+  refuse_volume(place.path, "holds " + number + place_text(x, place) +
+                                ". Labels have at most 32 bits. Save them as whole numbers of 64 "
+                                "bits, which are numbered anew.");
+}
+
 template <class Value, boost::endian::order Order>
-void load_row(const char* bytes, std::vector<Label>& row, const RowPlace& place) {
+void load_row(const char* bytes, LabelCoding& coding, std::vector<Label>& row,
+              const RowPlace& place) {
+  const bool is_copied = coding.offset == 0 && !coding.finds_numbers && coding.numbers.empty();
   for (std::size_t i = 0; i < row.size(); ++i) {
     const Value value = load<Value, Order>(bytes + i * sizeof(Value));
     if constexpr (std::is_floating_point_v<Value>) {
       constexpr Value end = 4294967296.0;
-      if (!(value >= Value{0} && value < end) || value != std::floor(value)) {
-        refuse_voxel(static_cast<double>(value), i, place);
-      }
-      row[i] = static_cast<Label>(value);
+      const bool is_label = value >= Value{0} && value < end && value == std::floor(value);
+      row[i] = is_label ? static_cast<Label>(value) : label_of_float(value, i, place, coding);
     } else {
-      if constexpr (std::numeric_limits<Value>::is_signed || sizeof(Value) > sizeof(Label)) {
-        const bool below = std::numeric_limits<Value>::is_signed && value < Value{0};
-        if (below || static_cast<std::uint64_t>(value) > std::numeric_limits<Label>::max()) {
-          refuse_voxel(static_cast<double>(value), i, place);
-        }
+      constexpr bool is_always_label =
+          !std::numeric_limits<Value>::is_signed && sizeof(Value) <= sizeof(Label);
+      constexpr auto most = std::numeric_limits<Label>::max();
+      bool is_label = is_copied;
+      if constexpr (!is_always_label) {
+        is_label = is_label && value >= Value{0} && static_cast<std::uint64_t>(value) <= most;
       }
-      row[i] = static_cast<Label>(static_cast<std::make_unsigned_t<Value>>(value));
+      if (is_label) {
+        row[i] = static_cast<Label>(value);
+        continue;
+      }
+      const bool is_large = !std::numeric_limits<Value>::is_signed && sizeof(Value) > 4 &&
+                            static_cast<std::uint64_t>(value) >> 63U != 0;
+      row[i] =
+          label_of(static_cast<std::int64_t>(value) + coding.offset, is_large, i, place, coding);
     }
   }
 }
 
 template <boost::endian::order Order>
-void load_row(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
-              const RowPlace& place) {
+void load_row(const char* bytes, const VoxelType& type, LabelCoding& coding,
+              std::vector<Label>& row, const RowPlace& place) {
   const auto load_one = [&](auto number) {
-    if (as_grey) return load_grey_row<decltype(number), Order>(bytes, row);
-    load_row<decltype(number), Order>(bytes, row, place);
+    if (coding.as_grey) return load_grey_row<decltype(number), Order>(bytes, coding.offset, row);
+    load_row<decltype(number), Order>(bytes, coding, row, place);
   };
   const auto load_as = [&](auto with_sign, auto without_sign) {
     if (type.has_sign) return load_one(with_sign);
@@ -123,7 +186,7 @@ class VolumeOfBytes : public LabelVolume {
                     "it again.");
     }
     const std::int64_t rows = geometry().counts[1];
-    labels_of(packed_.data(), type_, is_grey(), row_, {path_, next_ % rows, next_ / rows});
+    labels_of(packed_.data(), type_, coding(), row_, {path_, next_ % rows, next_ / rows});
     ++next_;
     return row_;
   }
@@ -152,10 +215,6 @@ bool begins_packed(const std::string& path, std::uint64_t offset) {
 
 }  // namespace
 
-void refuse_volume(const std::string& path, const std::string& what) {
-  throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
-}
-
 std::optional<VoxelType> known_voxel_type(std::string_view name) {
   const std::string lower = lower_case(name);
   for (const TypeNames& row : type_names()) {
@@ -174,13 +233,22 @@ VoxelType voxel_type_of(std::string_view name, const std::string& path) {
                           "sign.");
 }
 
-void labels_of(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
-               const RowPlace& place) {
+void labels_of(const char* bytes, const VoxelType& type, LabelCoding& coding,
+               std::vector<Label>& row, const RowPlace& place) {
   if (type.big_endian) {
-    load_row<boost::endian::order::big>(bytes, type, as_grey, row, place);
+    load_row<boost::endian::order::big>(bytes, type, coding, row, place);
   } else {
-    load_row<boost::endian::order::little>(bytes, type, as_grey, row, place);
+    load_row<boost::endian::order::little>(bytes, type, coding, row, place);
   }
+}
+
+void check_colours_equal(const char* colours, std::size_t size, const std::string& path) {
+  const bool are_equal = std::memcmp(colours, colours + size, size) == 0 &&
+                         std::memcmp(colours, colours + 2 * size, size) == 0;
+  if (are_equal) return;
+  refuse_volume(path,
+                "is a picture in colours. A colour is no label: one channel would mix the grains. "
+                "Export the labels themselves, as grey numbers of 8, 16 or 32 bits.");
 }
 
 VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::string& path) {
@@ -334,27 +402,5 @@ std::vector<std::string> voxel_files_beside(const std::string& header, const std
   }
   return files;
 }
-
-void LabelVolume::add_note(const std::string& sentence) { notes_.push_back(sentence); }
-
-LabelVolume::LabelVolume(VolumeGeometry geometry) : geometry_(std::move(geometry)) {}
-
-Label grey_code(float value) {
-  if (std::isnan(value)) return 0;
-  Label bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  constexpr Label sign = 0x80000000U;
-  return (bits & sign) != 0 ? ~bits : bits | sign;
-}
-
-float grey_value(Label code) {
-  constexpr Label sign = 0x80000000U;
-  const Label bits = (code & sign) != 0 ? code & ~sign : ~code;
-  float value = 0.0F;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-double VolumeGeometry::voxel_volume() const { return std::abs(axes.determinant()); }
 
 }  // namespace wscvt

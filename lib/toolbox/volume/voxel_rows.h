@@ -10,6 +10,7 @@
 #include "toolbox/volume/byte_source.h"
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/volume_choice.h"
+#include "toolbox/volume/volume_error.h"
 
 namespace wscvt {
 
@@ -36,11 +37,15 @@ struct RowPlace {
   std::int64_t z = 0;
 };
 
-/// Converts a row of voxels to labels, or to codes of grey values. Floats are labels if they are
-/// whole numbers. Throws Error(InputOutput), naming the file and the voxel, for numbers that are no
-/// labels.
-void labels_of(const char* bytes, const VoxelType& type, bool as_grey, std::vector<Label>& row,
-               const RowPlace& place);
+/// Converts a row of voxels to labels, or to codes of grey values, see LabelCoding. Floats are
+/// labels if they are whole numbers. Throws Error(InputOutput), naming the file and the voxel, for
+/// numbers that are no labels, and LargeNumber.
+void labels_of(const char* bytes, const VoxelType& type, LabelCoding& coding,
+               std::vector<Label>& row, const RowPlace& place);
+
+/// Throws Error(InputOutput), naming the file, if the three colours of a voxel, of `size` bytes
+/// each, differ.
+void check_colours_equal(const char* colours, std::size_t size, const std::string& path);
 
 /// Checks the counts of voxels in a file. Throws Error(InputOutput), naming the file `path`, if one
 /// is below 1 or above a million.
@@ -87,9 +92,6 @@ std::unique_ptr<LabelVolume> volume_of_bytes(const VolumeGeometry& geometry, con
 /// Returns the selection from `bytes`, with `voxel` bytes per voxel.
 std::unique_ptr<ByteSource> picked_voxels(std::unique_ptr<ByteSource> bytes,
                                           const std::vector<BlockPick>& picks, std::uint64_t voxel);
-
-/// Throws Error(InputOutput) for a file that is no such volume: "path" + what, and what to do.
-[[noreturn]] void refuse_volume(const std::string& path, const std::string& what);
 
 /// Returns the file beside a header that the header names for its voxels. Throws Error(InputOutput)
 /// for an empty name.

@@ -14,6 +14,7 @@
 #include "grains/packing.h"
 #include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/segmentation_page.h"
 #include "wscvt/base/output_file.h"
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/volume_choice.h"
+
+namespace wscvt {
+
+/// Returns whether a name is a volume's: it has an ending of the formats below, or is a folder with
+/// TIFF files and no meshes.
+bool is_volume(const std::string& path);
+
+/// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The ending
+/// gives the format; lib/doc/files.md has the table of what is read of each. `choice` selects a
+/// part of the file, and may replace its voxel size.
+///
+/// Throws Error: InputOutput if the file cannot be read, is cut short, has an unknown form, or
+/// contains more than one volume and none was chosen; InvalidInput for sizes that are not above 0.
+std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice = {});
+
+}  // namespace wscvt

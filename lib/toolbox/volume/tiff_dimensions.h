@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "toolbox/volume/volume_choice.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Meaning of the pages of a TIFF. TIFF itself does not define it; ImageJ, OME and tifffile write
+/// it into the text of the first page.
+struct TiffLayout {
+  /// Dimensions of the pages, the fastest first: slices are Space.
+  std::vector<VolumeAxis> axes;
+  /// The page of each position in `axes`; empty: they are consecutive.
+  std::vector<std::int64_t> pages;
+  std::int64_t samples = 1;  ///< numbers per voxel, on one page
+  /// Not above 0 if unknown. ImageJ's is along z; x and y come from the resolution.
+  Vector3 voxel_size = Vector3::Zero();
+  std::string unit;
+  /// All voxels are one block after the only page.
+  bool may_be_one_block = false;
+  std::int64_t offset = 0;  ///< to be added to each number
+  std::string writer;       ///< for messages; empty: the file has no description of its pages
+  std::vector<std::string> notes;       ///< on the size of voxels
+  std::vector<std::string> more_notes;  ///< on other things
+};
+
+/// The pages of a TIFF.
+struct TiffPageShape {
+  std::int64_t width = 1;
+  std::int64_t height = 1;
+  std::int64_t samples = 1;  ///< numbers per voxel
+};
+
+}  // namespace wscvt

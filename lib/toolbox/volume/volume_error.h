@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace wscvt {
+
+/// Throws Error(InputOutput) for a file that is no such volume: "path" + what, and what to do.
+[[noreturn]] void refuse_volume(const std::string& path, const std::string& what);
+
+}  // namespace wscvt

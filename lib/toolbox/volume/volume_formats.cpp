@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/volume_formats.h"
+
+#include <cmath>
+
+#include "toolbox/volume/volume_error.h"
+
+namespace wscvt {
+
+void refuse_array_choice(const VolumeChoice& choice, const std::string& path) {
+  if (choice.array.empty()) return;
+  refuse_volume(path, "has a format with only one array. Leave --array out.");
+}
+
+void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Vector3& origin,
+                 const VolumeChoice& choice, const std::string& path) {
+  geometry.axes = axes;
+  geometry.corner = origin - axes * Vector3::Constant(0.5);
+  if (choice.voxel_size) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Index axis = geometry.order[static_cast<std::size_t>(k)];
+      geometry.axes.col(k) = (*choice.voxel_size)[axis] * Vector3::Unit(axis);
+    }
+    geometry.corner = Vector3::Zero();
+    geometry.has_size = true;
+    if (!choice.unit.empty()) geometry.unit = choice.unit;
+  }
+  const double volume = geometry.voxel_volume();
+  if (std::isnormal(volume) && geometry.corner.allFinite()) return;
+  refuse_volume(path,
+                "gives its voxels no volume. Correct the spacing in it, or give --voxel-size.");
+}
+
+}  // namespace wscvt
