@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "command.h"
-#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "toolbox/volume/segmentation.h"
+#include "toolbox/volume/volume_choice.h"
 
 namespace wscvt::program {
 
