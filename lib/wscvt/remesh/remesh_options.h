@@ -79,8 +79,9 @@ struct OnScanOptions {
   double curvature_alpha = 1.0;  ///< strength of CellWeighting::Curvature, -3 to 3
   ScanPlacement placement = ScanPlacement::Fitted;
   /// Radius of the balls that ContactFit puts on the scan, equivalent radii, in (0, 100]. These
-  /// values give the smallest mean error of a first contact (tests/figures/study/contacts.md): 0.4 for
-  /// nodes against the surface of another grain, 1.3 for nodes of both grains, 5 for flat walls.
+  /// values give the smallest mean error of a first contact (tests/figures/study/contacts.md): 0.4
+  /// for nodes against the surface of another grain, 1.3 for nodes of both grains, 5 for flat
+  /// walls.
   double contact_radius = 0.4;
   /// Wanted mean of longest / shortest edge of a triangle, 1.08 to 1.7: small values give even
   /// triangles, large values a mesh closer to the scan.
