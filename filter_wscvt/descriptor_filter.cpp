@@ -108,7 +108,7 @@ std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds) {
   append(mass_rows(masses));
   lines.push_back(seconds_line(seconds));
   std::vector<std::string> warnings;
-  for (const std::string& remark : remarks(measures)) warnings.push_back(shown_words(remark));
+  for (const Sentence& remark : remarks(measures)) warnings.push_back(shown_words(remark));
   return as_log(warnings, lines);
 }
 

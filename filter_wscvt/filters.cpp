@@ -62,7 +62,7 @@ LayerContent content_of(const RemeshResult& result, const ResultSettings& settin
 }
 
 /// Adds a warning for each picture of the texture that could not be read.
-void warn_of_pictures(const MeshTexture& texture, std::vector<std::string>& warnings) {
+void warn_of_pictures(const MeshTexture& texture, std::vector<Sentence>& warnings) {
   for (std::size_t k = 0; k < texture.pictures.size(); ++k) {
     if (!texture.pictures[k].empty()) continue;
     warnings.push_back("The picture \"" + texture.names[k] +
@@ -335,7 +335,7 @@ std::string sentence_of_current_exception() {
     return "There is not enough memory for this mesh. Simplify it or use fewer nodes.";
   } catch (const Error& error) {
     // The library does not know the document. A run changes it only at its end.
-    const std::string sentence = shown_words(error.what());
+    const std::string sentence = shown_words(error.sentence());
     return error.code() == ErrorCode::Cancelled ? sentence + " Nothing was changed." : sentence;
   } catch (const std::exception& error) {
     return error.what();

@@ -121,17 +121,9 @@ ParameterValue value_of(const FilterParameter& parameter, const typename Api::Va
                   "at the position that it has in the filter's own scripts. Nothing was changed.");
 }
 
-/// Returns the values of the parameters in a list. Throws Error if a required parameter is missing,
-/// and for a parameter of version 2, with its replacement.
+/// Returns the values of the parameters in a list. Throws Error if a required parameter is missing.
 template <class Api>
 ParameterValues values_of(const ParameterList& known, const typename Api::List& list) {
-  for (const ReplacedParameter& replaced : replaced_parameters()) {
-    if (!list.hasParameter(QString(replaced.name))) continue;
-    throw Error(ErrorCode::InvalidInput, "The script has the parameter " +
-                                             std::string(replaced.name) +
-                                             ", which version 3 does not have. " +
-                                             replaced.instead + " Nothing was changed.");
-  }
   ParameterValues values;
   for (const FilterParameter& parameter : known) {
     const QString name = QString::fromStdString(parameter.name);

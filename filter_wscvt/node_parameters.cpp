@@ -219,8 +219,6 @@ std::vector<std::string> all_nodes_names() {
   std::vector<std::string> names;
   for (const auto& row : enumerators<CellWeighting>()) names.push_back(short_label(row.label));
   for (const auto& row : enumerators<Weighting>()) names.push_back(short_label(row.label));
-  // Layers made by version 2.
-  for (const auto& row : enumerators<Sampling>()) names.push_back(short_label(row.label));
   return names;
 }
 

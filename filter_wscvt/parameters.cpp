@@ -161,22 +161,6 @@ CheckedValues::CheckedValues(const ParameterList& parameters, const ParameterVal
   }
 }
 
-const std::vector<ReplacedParameter>& replaced_parameters() {
-  static const std::vector<ReplacedParameter> replaced = {
-      {"RefinementRounds", "Use EdgeRatio 1.4 or larger."},
-      {"SmallestAngle", "Use EdgeRatio 1.4 or larger. The angles stay near 30 degrees or above."},
-      {"Metric", "Method replaces it."},
-      {"Parametrization", "Method replaces it."},
-      {"CurvatureSource", "Leave it out."},
-      {"Sampling", "Only the program has it: wscvt --method as-published --sampling."},
-      {"SeedStart", "Leave it out: the best initial seeds are always used."},
-      {"RandomSeed", "Leave it out: nothing is random."},
-      {"MaxIterations", "Leave it out: the relaxation stops by itself."},
-      {"Threads", "Leave it out: all threads are used."},
-  };
-  return replaced;
-}
-
 double typed_value(float value) {
   std::array<char, 32> buffer{};
   const auto text = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

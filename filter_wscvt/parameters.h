@@ -134,15 +134,6 @@ class CheckedValues {
   ParameterValues values_;
 };
 
-/// A parameter of version 2 that scripts may still have, and its replacement.
-struct ReplacedParameter {
-  const char* name;
-  const char* instead;
-};
-
-/// Returns the replaced parameters of all filters.
-const std::vector<ReplacedParameter>& replaced_parameters();
-
 /// Returns the decimal number that the user typed, from the host's float: 0.1, not 0.100000001.
 double typed_value(float value);
 

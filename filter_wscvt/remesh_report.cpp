@@ -74,7 +74,7 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds) {
   append_topics(lines, report, {"Node count"});
   lines.push_back(seconds_line(seconds));
   std::vector<std::string> warnings;
-  for (const std::string& warning : result.warnings) warnings.push_back(shown_words(warning));
+  for (const Sentence& warning : result.warnings) warnings.push_back(shown_words(warning));
   return as_log(warnings, lines);
 }
 

@@ -9,7 +9,6 @@
 #include "everyday_filter.h"
 #include "filters.h"
 #include "remesh_filter.h"
-#include "wscvt/base/option_words.h"
 #include "wscvt/remesh/error_target.h"
 #include "wscvt/remesh/remesh_options.h"
 
@@ -49,13 +48,6 @@ const std::map<std::string_view, const char*>& names_by_option() {
   return names;
 }
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-}
-
 /// Whether the remesher has the parameter but the basic dialog does not.
 bool is_in_full_dialog_only(const std::string& name) {
   const auto holds = [&](const ParameterList& list) {
@@ -65,13 +57,27 @@ bool is_in_full_dialog_only(const std::string& name) {
   return holds(remesh_parameters()) && !holds(everyday_parameters());
 }
 
-/// Returns "the method on-scan" as the dialog shows it.
+/// Returns the value of an option as the dialog shows it, if it is one of the enumeration's.
 template <class Enumeration>
-void show_values(std::string& text, const std::string& subject) {
+void show_value(const NamedOption& option, std::string& shown) {
+  if (EnumerationTable<Enumeration>::key != option.key) return;
   for (const auto& row : enumerators<Enumeration>()) {
-    replace_all(text, "the " + subject + " " + std::string(row.key),
-                "the " + subject + " \"" + capitalised(row.label) + "\"");
+    if (row.key == option.value) shown = capitalised(row.label);
   }
+}
+
+/// Returns an option as the window shows it: "\"Method: On the scan\"".
+std::string shown_option(const NamedOption& option,
+                         const std::map<std::string, std::string>& labels) {
+  const auto name = names_by_option().find(option.key);
+  if (name == names_by_option().end()) return "wscvt " + Sentence(option).text();
+  std::string value = option.value == "true" ? "" : option.value;
+  show_value<Method>(option, value);
+  show_value<ScanPlacement>(option, value);
+  show_value<PublishedPlacement>(option, value);
+  const std::string label =
+      "\"" + labels.at(name->second) + (value.empty() ? "" : ": " + value) + "\"";
+  return is_in_full_dialog_only(name->second) ? label + " (in " + remesh_name() + ")" : label;
 }
 
 /// Returns the text with the label before a script parameter: "Parameter \"Report file\"
@@ -86,16 +92,10 @@ std::string with_label(const std::string& text, const std::string& name, const s
 
 }  // namespace
 
-std::string shown_words(const std::string& sentence) {
+std::string shown_words(const Sentence& sentence) {
   const std::map<std::string, std::string> labels = labels_by_name();
-  std::string text = with_option_names(sentence, [&](std::string_view key) {
-    const auto name = names_by_option().find(key);
-    if (name == names_by_option().end()) return "wscvt --" + std::string(key);
-    const std::string label = "\"" + labels.at(name->second) + "\"";
-    return is_in_full_dialog_only(name->second) ? label + " (in " + remesh_name() + ")" : label;
-  });
-  show_values<Method>(text, "method");
-  show_values<ScanPlacement>(text, "placement");
+  std::string text =
+      sentence.in([&](const NamedOption& option) { return shown_option(option, labels); });
   for (const auto& [name, label] : labels) text = with_label(text, name, label);
   return text;
 }

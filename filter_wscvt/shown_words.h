@@ -3,12 +3,14 @@
 
 #include <string>
 
+#include "wscvt/base/sentence.h"
+
 namespace wscvt::filter {
 
-/// Returns a sentence in the words of MeshLab's window. An option of the program ("--degree")
-/// becomes the label of its parameter, or "wscvt --handles" if only the program has it. A parameter
-/// of a script ("Parameter ReportFile") gets its label, "Parameter \"Report file\" (ReportFile)".
-/// Values of options ("the method on-scan") become the choices of the dialog.
-std::string shown_words(const std::string& sentence);
+/// Returns a sentence in the words of MeshLab's window. An option becomes the label of its
+/// parameter, with its value as the dialog shows it, or "wscvt --handles" if only the program has
+/// it. A parameter of a script ("Parameter ReportFile") gets its label, "Parameter \"Report file\"
+/// (ReportFile)".
+std::string shown_words(const Sentence& sentence);
 
 }  // namespace wscvt::filter

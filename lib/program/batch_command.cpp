@@ -189,8 +189,6 @@ std::string largest_level(const std::string& text, std::vector<int>& levels) {
 
 }  // namespace
 
-BatchArguments::BatchArguments() { options.measures.suggestions = false; }
-
 void add_sample_arguments(CLI::App& app, BatchArguments& arguments) {
   add_typed(app, "--shard",
             [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
@@ -244,9 +242,8 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
 int run(const BatchArguments& arguments) {
   checked([&] {
     check_options(arguments.options);
-    if (!arguments.levels.empty() &&
-        (arguments.options.target.percent > 0.0 || arguments.options.measures.suggestions)) {
-      refuse("--max-error and --suggestions need a single number of nodes. Leave them out.");
+    if (!arguments.levels.empty() && arguments.options.target.percent > 0.0) {
+      refuse("--max-error needs a single number of nodes. Leave it out.");
     }
     if (arguments.shapes.contacts && arguments.shapes.described == Described::None) {
       refuse(

@@ -15,8 +15,6 @@ namespace wscvt::program {
 /// `wscvt batch`: remeshes the grains of a sample, one grain per thread, and writes a table and a
 /// summary.
 struct BatchArguments {
-  BatchArguments();
-
   std::vector<std::string> inputs;
   std::string folder;          ///< of the output
   std::string format = "ply";  ///< ending of the meshes
@@ -24,7 +22,7 @@ struct BatchArguments {
   bool seconds = false;  ///< the table has a column with the run time of each grain
   int threads = 0;       ///< 0: all
   bool quiet = false;
-  RemeshOptions options;    ///< without suggestions
+  RemeshOptions options;
   std::vector<int> levels;  ///< several numbers of nodes, ascending; empty for one number
   ShapeMeasures shapes;     ///< of shape.csv
   VolumeOptions volume;     ///< of inputs that are volumes

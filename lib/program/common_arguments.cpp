@@ -68,10 +68,6 @@ void add_common_arguments(CLI::App& app, CommonArguments& arguments,
                  "values) or .csv (appends one row to a table). May be given more than once")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  // Old name of --report, which wrote only JSON. Old scripts use it.
-  app.add_option_function<std::string>(
-         "-j,--json", [&arguments](const std::string& file) { arguments.reports.push_back(file); })
-      ->group("");
   add_threads_argument(app, arguments.threads);
   app.add_flag("--overwrite", arguments.overwrite, "Allow an output to replace an input");
   app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings");

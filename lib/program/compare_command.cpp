@@ -52,7 +52,7 @@ void compare_parts(const CompareArguments& arguments) {
   PartsResult result;
   result.parts = parts_of(read_mesh(measure.grain, reading));
   MeshFile reference = read_mesh_file(arguments.reference, reading);
-  result.warnings = std::move(reference.warnings);
+  result.warnings.assign(reference.warnings.begin(), reference.warnings.end());
   result.grain = check_mesh(std::move(reference.mesh), MeshCheckOptions(), reading).mesh;
   result.measures =
       measure_parts(result.parts, result.grain, work.execution().part(reading_share, 1.0));

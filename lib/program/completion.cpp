@@ -41,11 +41,10 @@ std::string value_cases(const CLI::App& command) {
   return cases;
 }
 
-/// Returns "--nodes --method ...", without hidden options for old scripts.
+/// Returns "--nodes --method ...".
 std::string options_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return joined(names);

@@ -102,15 +102,6 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
   add_output(app, "output", arguments.folder, "Output folder", "OUT");
   add_volume_arguments(app, arguments.options, "Options");
   add_format_argument(app, arguments.format);
-  // Until version 2 this option did the work of wscvt batch.
-  app.add_flag_function("--remesh",
-                        [](std::int64_t) {
-                          throw CLI::ValidationError(
-                              "--remesh",
-                              "Version 3 has no such option. Use \"wscvt batch VOLUME -o "
-                              "OUT\" with the same options.");
-                        })
-      ->group("");
   add_threads_argument(app, arguments.threads);
   app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and failures");
   return app;

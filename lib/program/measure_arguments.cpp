@@ -37,7 +37,7 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
     }
   });
   Work work(common);
-  std::vector<std::string> warnings;
+  std::vector<Sentence> warnings;
   const auto read = [&](const std::string& path, double begin, double end) {
     if (is_clump_file(path)) {
       return NamedMesh{path, sphere_union_mesh(read_clump(path), work.execution())};
@@ -57,7 +57,7 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
       write_report(path, measures, origin_of(arguments.grain), execution);
     });
   }
-  for (std::string& remark : remarks(measures)) warnings.push_back(std::move(remark));
+  for (const Sentence& remark : remarks(measures)) warnings.push_back(remark);
   work.print(warnings, descriptor_lines(measures));
 }
 

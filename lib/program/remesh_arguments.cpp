@@ -12,7 +12,7 @@
 
 #include "command.h"
 #include "wscvt/base/lower_case.h"
-#include "wscvt/remesh/option_advice.h"
+#include "wscvt/remesh/other_method.h"
 
 namespace wscvt::program {
 
@@ -39,13 +39,8 @@ constexpr Marked marked[] = {
 
 /// Options without effect on a surface that is known exactly; see remesh.
 constexpr std::string_view of_a_scan[] = {
-    points_option.key,
-    envelope_option.key,
-    suggestions_option.key,
-    mended_area_limit_option.key,
-    harmonic_degree_option.key,
-    max_overhang_option.key,
-    EnumerationTable<HandleAction>::key,
+    points_option.key,          envelope_option.key,     mended_area_limit_option.key,
+    harmonic_degree_option.key, max_overhang_option.key, EnumerationTable<HandleAction>::key,
     max_handle_loop_option.key,
 };
 
@@ -74,8 +69,8 @@ class ReadGiven {
     constexpr std::string_view key = EnumerationTable<Enumeration>::key;
     take(key, [&](const std::string& typed) {
       const std::string text = lower_case(typed);
-      const std::string advice = advice_for_value(key, text, method_);
-      if (!advice.empty()) throw Error(ErrorCode::InvalidInput, advice);
+      const Sentence refusal = refusal_of_value(key, text, method_);
+      if (!refusal.empty()) refuse(refusal);
       value = from_key<Enumeration>(text);
     });
   }
@@ -87,7 +82,7 @@ class ReadGiven {
 
   /// Refuses texts that no option has read.
   void finish() const {
-    for (const auto& [key, text] : given_) refuse_argument(key, advice_for_option(key, method_));
+    for (const auto& [key, text] : given_) refuse_argument(key, refusal_of_option(key, method_));
   }
 
  private:
@@ -202,24 +197,6 @@ class AddArgument {
   std::string of_method_;
 };
 
-/// Adds the options of version 2, hidden. A call with one of them gets a message that names the new
-/// option.
-void add_replaced(CLI::App& app) {
-  const std::map<std::string_view, std::string> letters = {
-      {"refine", "-r,"}, {"iterations", "-i,"}, {"metric", "-m,"}};
-  for (const std::string_view name : replaced_options()) {
-    const std::string key(name);
-    const auto letter = letters.find(name);
-    app.add_option_function<std::vector<std::string>>(
-           (letter == letters.end() ? "" : letter->second) + "--" + key,
-           [key](const std::vector<std::string>& /*texts*/) {
-             refuse_argument(key, advice_for_option(key, Method::OnScan));
-           })
-        ->expected(0, 1)
-        ->group("");
-  }
-}
-
 }  // namespace
 
 void add_remesh_arguments(CLI::App& app, RemeshOptions& options, Remeshed remeshed) {
@@ -239,7 +216,6 @@ void add_remesh_arguments(CLI::App& app, RemeshOptions& options, Remeshed remesh
   for_each_method_option(published_defaults, add);
   add.end_methods();
   for_each_common_option(options, add);
-  add_replaced(app);
   app.parse_complete_callback([given, &options] {
     ReadGiven read(*given);
     for_each_option(options, read);

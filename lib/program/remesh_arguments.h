@@ -12,7 +12,7 @@ enum class Remeshed { Scan, Surface };
 
 /// Adds an argument for every option of both methods, under the option's key. Users type options as
 /// reports print them. Parsing changes `options`, which must outlive `app`. Their values before are
-/// the defaults of their method. A call with an option of the other method or of version 2 is
+/// the defaults of their method. A call with an option of the other method is
 /// refused, with the option to use instead. Help texts are made from the options' tables and
 /// ranges.
 void add_remesh_arguments(CLI::App& app, RemeshOptions& options,

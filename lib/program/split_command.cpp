@@ -147,7 +147,7 @@ int run(const SplitArguments& arguments) {
     ++written;
   }
   write_file(table, rows);
-  work.print(file.warnings, {summary_of(bodies, written)});
+  work.print({file.warnings.begin(), file.warnings.end()}, {summary_of(bodies, written)});
   return Done;
 }
 

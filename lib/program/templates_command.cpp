@@ -166,7 +166,6 @@ bool write_meshes(const TemplatesArguments& arguments, const DescribedSample& sa
   all.work = [&](std::size_t k, const Execution& execution) -> GrainRow {
     RemeshOptions options;
     options.node_count = arguments.nodes;
-    options.measures.suggestions = false;
     const IndexedMesh scan = grain_mesh(sample.files[templates.grains[k]], execution);
     IndexedMesh mesh = remesh(scan, options, execution).mesh;
     mesh = unit_mesh(std::move(mesh), execution);

@@ -51,7 +51,7 @@ Work::Work(const CommonArguments& arguments)
   note_signals();
 }
 
-void Work::print(const std::vector<std::string>& warnings, const std::vector<std::string>& lines) {
+void Work::print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines) {
   line_.clear();
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());

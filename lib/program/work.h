@@ -36,7 +36,7 @@ class Work {
 
   /// Clears the progress line. Prints warnings to the standard error, and the lines to the standard
   /// output unless quiet.
-  void print(const std::vector<std::string>& warnings, const std::vector<std::string>& lines);
+  void print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines);
 
  private:
   bool quiet_;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/option_words.h"
 #include "wscvt/base/readable_text.h"
 
 namespace wscvt::python {
@@ -89,17 +88,18 @@ py::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles) {
   return array;
 }
 
-std::string in_words_of_python(const std::string& sentence) {
-  if (sentence.find("wscvt ") != std::string::npos) return sentence;
-  return with_option_names(sentence, [](std::string_view key) {
-    const bool is_switched_off = key.rfind("no-", 0) == 0;
-    std::string name(is_switched_off ? key.substr(3) : key);
+std::string in_words_of_python(const Sentence& sentence) {
+  return sentence.in([](const NamedOption& option) {
+    std::string name = option.key;
     std::replace(name.begin(), name.end(), '-', '_');
-    return is_switched_off ? name + "=False" : name;
+    if (option.value.empty()) return name;
+    if (option.value == "true") return name + "=True";
+    const bool is_number = option.value.find_first_not_of("0123456789.-") == std::string::npos;
+    return name + "=" + (is_number ? option.value : "\"" + option.value + "\"");
   });
 }
 
-void warn(const std::string& sentence) {
+void warn(const Sentence& sentence) {
   if (PyErr_WarnEx(PyExc_UserWarning, readable(in_words_of_python(sentence)).c_str(), 2) != 0) {
     throw py::error_already_set();
   }

@@ -47,11 +47,11 @@ Enumeration value_of_name(const std::string& name) {
 
 /// Replaces command-line options in a sentence of the library by argument names: "--edge-ratio"
 /// becomes "edge_ratio". Sentences that show a command stay unchanged.
-std::string in_words_of_python(const std::string& sentence);
+std::string in_words_of_python(const Sentence& sentence);
 
 /// Issues a sentence as a UserWarning. Throws if Python's warning filters turn it into an
 /// exception.
-void warn(const std::string& sentence);
+void warn(const Sentence& sentence);
 
 /// Converts JSON to dictionaries, lists and numbers.
 pybind11::object parsed(const std::string& json);

@@ -45,7 +45,7 @@ void bind_error(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const Error& error) {
-      py::object raised = error_type(readable(in_words_of_python(error.what())));
+      py::object raised = error_type(readable(in_words_of_python(error.sentence())));
       raised.attr("code") = name_of(error.code());
       PyErr_SetObject(error_type.ptr(), raised.ptr());
     } catch (const std::bad_alloc&) {

@@ -32,7 +32,7 @@ struct LabelVoxels {
 struct ExtractedGrain {
   IndexedMesh mesh;  ///< without points if the largest piece is too small
   std::size_t pieces = 0;
-  std::string failure;  ///< why there is no mesh
+  Sentence failure;  ///< why there is no mesh
 };
 
 std::map<std::int64_t, LabelVoxels> voxels_of(const Labels& labels, std::int64_t background,
@@ -85,7 +85,7 @@ std::map<std::int64_t, ExtractedGrain> grains_of(const Labels& labels,
       try {
         made[k].mesh = smoothed_surface(surface, options.smoothing, geometry);
       } catch (const Error& error) {
-        made[k].failure = error.what();
+        made[k].failure = error.sentence();
       }
     }
   });

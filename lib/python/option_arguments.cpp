@@ -11,7 +11,7 @@
 #include "bindings.h"
 #include "conversion.h"
 #include "wscvt/base/error.h"
-#include "wscvt/remesh/option_advice.h"
+#include "wscvt/remesh/other_method.h"
 
 namespace wscvt::python {
 
@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// Converts "target-measure" to "target_measure".
+/// Converts "error-measure" to "error_measure".
 std::string keyword_of(std::string_view key) {
   std::string keyword(key);
   std::replace(keyword.begin(), keyword.end(), '-', '_');
@@ -62,8 +62,8 @@ class ReadOptions {
                                                  const py::handle& object) {
       const std::string key =
           lower_case(cast_option<std::string>(keyword, object, keys_of<Enumeration>().c_str()));
-      const std::string advice = advice_for_value(EnumerationTable<Enumeration>::key, key, method_);
-      if (!advice.empty()) refuse("The option " + keyword + ": " + advice);
+      const Sentence refusal = refusal_of_value(EnumerationTable<Enumeration>::key, key, method_);
+      if (!refusal.empty()) refuse("The option " + keyword + ": " + refusal);
       value = from_key<Enumeration>(key);
       if constexpr (std::is_same_v<Enumeration, Method>) method_ = value;
     });
@@ -77,10 +77,9 @@ class ReadOptions {
       if (std::find(known_.begin(), known_.end(), keyword) != known_.end()) continue;
       std::string key = keyword;
       std::replace(key.begin(), key.end(), '_', '-');
-      const std::string advice = advice_for_option(key, method_);
-      if (!advice.empty()) {
-        throw py::type_error("The option " + keyword + ": " + in_words_of_python(advice));
-      }
+      const Sentence refusal = refusal_of_option(key, method_);
+      if (!refusal.empty())
+        throw py::type_error("The option " + keyword + ": " + in_words_of_python(refusal));
       throw py::type_error("There is no option " + keyword +
                            ". wscvt.options() lists the options and their defaults.");
     }

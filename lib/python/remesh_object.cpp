@@ -119,12 +119,20 @@ void write_grid_file(const Remesh& one, const std::filesystem::path& path, doubl
   });
 }
 
+std::vector<std::string> warnings_of(const Remesh& one) {
+  std::vector<std::string> sentences;
+  for (const Sentence& warning : one.result.warnings) {
+    sentences.push_back(in_words_of_python(warning));
+  }
+  return sentences;
+}
+
 py::tuple state_of(const Remesh& one) {
   const RemeshResult& result = one.result;
   return py::make_tuple(array_of(result.mesh.points), array_of(result.mesh.triangles),
                         array_of(std::vector<Vector3>{result.centre}), result.radial_distances,
-                        result.cell_areas, result.vertex_distances, result.warnings, report_of(one),
-                        log_of(one));
+                        result.cell_areas, result.vertex_distances, warnings_of(one),
+                        report_of(one), log_of(one));
 }
 
 Remesh from_state(const py::tuple& state) {
@@ -134,7 +142,9 @@ Remesh from_state(const py::tuple& state) {
   one.result.radial_distances = state[3].cast<std::vector<double>>();
   one.result.cell_areas = state[4].cast<std::vector<double>>();
   one.result.vertex_distances = state[5].cast<std::vector<double>>();
-  one.result.warnings = state[6].cast<std::vector<std::string>>();
+  for (auto& warning : state[6].cast<std::vector<std::string>>()) {
+    one.result.warnings.emplace_back(std::move(warning));
+  }
   one.pickled_report = state[7].cast<std::string>();
   one.pickled_log = state[8].cast<std::string>();
   return one;
@@ -174,14 +184,7 @@ void add_arrays(RemeshClass& type) {
       .def_property_readonly(
           "vertex_distances",
           [](const Remesh& one) { return array_of(one.result.vertex_distances); })
-      .def_property_readonly("warnings",
-                             [](const Remesh& one) {
-                               std::vector<std::string> sentences;
-                               for (const std::string& warning : one.result.warnings) {
-                                 sentences.push_back(in_words_of_python(warning));
-                               }
-                               return sentences;
-                             })
+      .def_property_readonly("warnings", [](const Remesh& one) { return warnings_of(one); })
       .def_property_readonly("report", [](const Remesh& one) { return parsed(report_of(one)); });
 }
 

@@ -13,9 +13,7 @@
 #include "wscvt/remesh/prepared_grain.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
-#include "wscvt/remesh/suggestions.h"
 #include "wscvt/remesh/target_search.h"
-#include "wscvt/repair/closing_advice.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/scaled_surface.h"
@@ -37,52 +35,20 @@ RemeshResult remesh_to_options(const PreparedGrain& grain, const RemeshOptions& 
       execution);
 }
 
-RemeshResult remesh_scan(IndexedMesh scan, const RemeshOptions& options,
-                         const Execution& whole_execution) {
-  const Execution execution = whole_execution.counted();
+}  // namespace
+
+RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
+  check_options(options);
   RepairedScan repaired = repair_scan(std::move(scan), options, execution.part(0.0, 0.1));
   PreparedGrain grain;
   grain.steep_area_fraction = repaired.steep_area_fraction;
   IndexedMesh kept = options.measures.repaired_scan ? repaired.checked.mesh : IndexedMesh();
   prepare(std::move(repaired.checked), options, execution.part(0.1, 0.3), grain);
-  RemeshResult result = remesh_to_options(grain, options, execution.part(0.3, 0.9));
-  if (options.measures.suggestions && is_inaccurate(result)) {
-    RemeshOptions used = options;
-    used.node_count = static_cast<int>(result.mesh.points.size());
-    result.suggestions = suggest_settings(
-        used, execution.work(),
-        [&](const RemeshOptions& other, const Execution& part) {
-          PreparedGrain again;
-          prepare_again(grain, other, part.part(0.0, 0.3), again);
-          return remesh_prepared(again, other, other.node_count, part.part(0.3, 1.0));
-        },
-        execution.part(0.9, 1.0));
-  }
+  RemeshResult result = remesh_to_options(grain, options, execution.part(0.3, 1.0));
   result.warnings = remesh_warnings(result, repaired.precision_warning);
   result.repaired_scan = std::move(kept);
   execution.report(1.0, "Done");
   return result;
-}
-
-}  // namespace
-
-RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
-  check_options(options);
-  if (!options.measures.suggestions || options.envelope.opening_percent > 0.0) {
-    return remesh_scan(std::move(scan), options, execution);
-  }
-  try {
-    return remesh_scan(scan, options, execution);
-  } catch (const WrappableScan& refused) {
-    const std::optional<double> opening = working_opening(
-        options, refused.opening_percent(),
-        [&](const RemeshOptions& other, const Execution& part) {
-          return remesh_scan(scan, other, part);
-        },
-        execution);
-    if (!opening) throw;
-    throw Error(refused.code(), std::string(refused.what()) + " " + tried_wrap_advice(*opening));
-  }
 }
 
 RemeshResult remesh(const Mesh& scan, const RemeshOptions& options, const Execution& execution) {
@@ -101,8 +67,8 @@ std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
                                         const std::vector<int>& node_counts,
                                         const Execution& execution) {
   if (node_counts.empty()) refuse("No number of nodes is given. Give one or more.");
-  if (searches(options) || options.measures.suggestions) {
-    refuse("An error target and suggestions need a single number of nodes. Leave them out.");
+  if (searches(options)) {
+    refuse("An error target needs a single number of nodes. Leave it out.");
   }
   for (const int count : node_counts) {
     options.node_count = count;

@@ -40,8 +40,8 @@ Mesh to_mesh(const RemeshResult& result);
 
 /// Remeshes a scan to several numbers of nodes and prepares the scan once. Each result equals the
 /// result of remesh for this number, in the order of `node_counts`; only the first contains the
-/// repaired scan. Throws Error as remesh does, and Error(InvalidInput) without a number of nodes,
-/// with an error target and with suggestions.
+/// repaired scan. Throws Error as remesh does, and Error(InvalidInput) without a number of nodes
+/// and with an error target.
 std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
                                         const std::vector<int>& node_counts,
                                         const Execution& execution = Execution());

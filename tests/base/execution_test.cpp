@@ -154,25 +154,6 @@ TEST(Execution, MoreThreadsThanTheMachineHasAreNoReasonToWrite) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Execution, CountsElementsAndStopsBeyondWhatTheyMayCost) {
-  const auto work = [](const Execution& execution) {
-    execution.part(0.2, 0.4).parallel_for(1000, 7, [&](std::size_t begin, std::size_t end) {
-      Execution(execution).parallel_for(end - begin, 1, [](std::size_t, std::size_t) {});
-    });
-  };
-  for (const int threads : {1, 3}) {
-    const Execution execution(threads);
-    work(execution);
-    EXPECT_EQ(execution.work(), 2000U);
-    const Execution anew = execution.counted(2000);
-    EXPECT_EQ(anew.work(), 0U);
-    EXPECT_NO_THROW(work(anew));
-    EXPECT_EQ(anew.work(), 2000U);
-    EXPECT_THROW(work(execution.counted(1999)), WorkExceeded);
-    EXPECT_GT(execution.work(), 4000U);
-  }
-}
-
 TEST(Execution, RefusesNegativeThreads) { EXPECT_ERROR(Execution(-1), InvalidInput); }
 
 }  // namespace

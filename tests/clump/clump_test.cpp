@@ -113,7 +113,8 @@ TEST(Clump, OfAVeryThinPlateStaysAboutIt) {
     EXPECT_LT(sphere.radius, 0.1);
   }
   ASSERT_FALSE(clump.warnings.empty());
-  EXPECT_NE(clump.warnings[0].find("Give more spheres"), std::string::npos) << clump.warnings[0];
+  EXPECT_NE(clump.warnings[0].text().find("Give more spheres"), std::string::npos)
+      << clump.warnings[0].text();
 }
 
 TEST(Clump, BodiesThatAreLeftOutAreTold) {
@@ -126,7 +127,8 @@ TEST(Clump, BodiesThatAreLeftOutAreTold) {
   }
   const ClumpResult clump = clump_of(scan, 1);
   ASSERT_EQ(clump.warnings.size(), 1U);
-  EXPECT_NE(clump.warnings[0].find("2 separate bodies"), std::string::npos) << clump.warnings[0];
+  EXPECT_NE(clump.warnings[0].text().find("2 separate bodies"), std::string::npos)
+      << clump.warnings[0].text();
 }
 
 TEST(Clump, BetterWithMoreSpheres) {
@@ -193,7 +195,7 @@ TEST(Clump, AllowedErrorIsMetByFewSpheres) {
   const ClumpResult short_of = make_clump(scan, options, Execution(2));
   EXPECT_EQ(short_of.spheres.size(), 3U);
   ASSERT_EQ(short_of.warnings.size(), 1U);
-  EXPECT_NE(short_of.warnings[0].find("--max-spheres"), std::string::npos);
+  EXPECT_NE(short_of.warnings[0].text().find("--max-spheres"), std::string::npos);
 }
 
 TEST(Clump, MovesTurnsAndGrowsWithTheScan) {
@@ -256,7 +258,8 @@ TEST(Clump, SpheresApartAreTold) {
   const ClumpResult clump =
       make_clump(test::scan_of(test::capsule(3.0, 0.4), 3.6, 0.1), options, Execution(2));
   ASSERT_FALSE(clump.warnings.empty());
-  EXPECT_NE(clump.warnings.back().find("2 groups"), std::string::npos) << clump.warnings.back();
+  EXPECT_NE(clump.warnings.back().text().find("2 groups"), std::string::npos)
+      << clump.warnings.back().text();
 }
 
 TEST(Clump, RemeshBesideIsNearer) {

@@ -20,7 +20,7 @@ std::vector<Call> refused_calls() {
       {"OpenMesh", without_a_patch(), {}, {"boundary"}},
       {"TwoHalves", two_grains(), {}, {"bodies"}},
       {"NoVolume", flat_grain(), {}, {"volume"}},
-      {"CentreOutside", bent_grain(), {{"Method", "1"}}, {"outside", "the method \"On the scan\""}},
+      {"CentreOutside", bent_grain(), {{"Method", "1"}}, {"outside", "\"Method: On the scan\""}},
       {"TooFewNodes", grain(), {{"NodeCount", "3"}}, {"NodeCount", "4"}},
       {"NegativeNodes", grain(), {{"NodeCount", "-7"}}, {"NodeCount", "4"}},
       {"TooManyNodes", grain(), {{"NodeCount", "1000001"}}, {"NodeCount", "1000000"}},

@@ -814,15 +814,20 @@ TEST(Filter, LogEndsByTheNumberOfWarningsThatThePanelDoesNotHold) {
 }
 
 TEST(Filter, SentencesNameWhatIsOnTheScreen) {
-  const auto shown = [](const std::string& text) { return filter::shown_words(text); };
-  EXPECT_EQ(shown("Lower --edge-ratio."), "Lower \"Mean edge ratio (on the scan)\".");
-  EXPECT_EQ(shown("Raise --degree, or use the method on-scan."),
+  const auto shown = [](const Sentence& sentence) { return filter::shown_words(sentence); };
+  EXPECT_EQ(shown("Lower " + mention("edge-ratio") + "."),
+            "Lower \"Mean edge ratio (on the scan)\".");
+  EXPECT_EQ(shown("Use " + mention("edge-ratio", "1.4") + "."),
+            "Use \"Mean edge ratio (on the scan): 1.4\".");
+  EXPECT_EQ(shown("Raise " + mention("degree") + ", or use " + mention(Method::OnScan) + "."),
             "Raise \"Degree of the SH series\" (in Remeshing: Weighted Spherical Centroidal "
-            "Voronoi), or use the method \"On the scan\".");
-  EXPECT_EQ(shown("Use the placement on-surface."), "Use the placement \"On the surface\".");
+            "Voronoi), or use \"Method: On the scan\".");
+  EXPECT_EQ(shown(mention(PublishedPlacement::Surface)),
+            "\"Node placement: On the surface\" (in Remeshing: Weighted Spherical Centroidal "
+            "Voronoi)");
   // Options that only the program has.
-  EXPECT_EQ(shown("use --shrink-wrap 5 and"), "use wscvt --shrink-wrap 5 and");
-  EXPECT_EQ(shown("(--handles keep)."), "(wscvt --handles keep).");
+  EXPECT_EQ(shown("use " + mention("shrink-wrap", "5") + " and"), "use wscvt --shrink-wrap 5 and");
+  EXPECT_EQ(shown("(" + mention(HandleAction::Keep) + ")."), "(wscvt --handles keep).");
   // Parameters of scripts.
   EXPECT_EQ(shown("Parameter ReportFile is 'x'"), "Parameter \"Report file\" (ReportFile) is 'x'");
   EXPECT_EQ(shown("Parameters ReportFile and CoefficientsFile both name 'x'"),
@@ -1036,24 +1041,6 @@ TEST(Filter, SaysWhatItReadFromAScriptThatLacksMost) {
   LoadedFilter again;
   ASSERT_TRUE(again.apply(document, again.parameters(document))) << again.message();
   EXPECT_FALSE(again.log().join("\n").contains("script"));
-}
-
-TEST(Filter, RefusesParametersOfVersion2WithWhatToUseInstead) {
-  const std::pair<const char*, const char*> replaced[] = {
-      {"RefinementRounds", "EdgeRatio"}, {"Metric", "Method"}, {"RandomSeed", "random"}};
-  for (const auto& [name, instead] : replaced) {
-    SCOPED_TRACE(name);
-    LoadedFilter loaded;
-    MeshDocument document;
-    add_layer(document, grain());
-    const auto before = state_of(document);
-    RichParameterList old = loaded.parameters(document);
-    old.addParam(RichInt(name, 0));
-    EXPECT_FALSE(loaded.apply(document, old));
-    EXPECT_TRUE(state_of(document) == before) << "the document has changed";
-    EXPECT_NE(loaded.message().find(name), std::string::npos) << loaded.message();
-    EXPECT_NE(loaded.message().find(instead), std::string::npos) << loaded.message();
-  }
 }
 
 TEST(Filter, WarnsOfWhatAScriptMisspells) {

@@ -14,7 +14,7 @@
 namespace wscvt {
 namespace {
 
-std::ptrdiff_t count_of(const std::vector<std::string>& sentences, const std::string& text) {
+std::ptrdiff_t count_of(const std::vector<Sentence>& sentences, const std::string& text) {
   return std::count_if(sentences.begin(), sentences.end(),
                        [&](const std::string& one) { return one.find(text) != std::string::npos; });
 }
@@ -22,18 +22,18 @@ std::ptrdiff_t count_of(const std::vector<std::string>& sentences, const std::st
 TEST(GrainMeasures, TellsOverhangsByTheSolidAngleThatTheyCover) {
   const GrainMeasures measures = measure_grain({"rim", test::overhanging_rim(10)}, std::nullopt,
                                                DetailedOptions(), Execution(1));
-  const std::vector<std::string> sentences = remarks(measures);
+  const std::vector<Sentence> sentences = remarks(measures);
   const std::string before = "'rim' is not star-shaped: overhangs cover ";
   const auto found = std::find_if(sentences.begin(), sentences.end(), [&](const std::string& one) {
     return one.find(before) != std::string::npos;
   });
   ASSERT_NE(found, sentences.end());
-  const std::size_t at = found->find(before);
+  const std::size_t at = found->text().find(before);
   // The two belts hold (cos 60 - cos 70) of the sphere's directions, and two sheets beyond the
   // first each. 128 segments cut the belts' rims by 1 - cos(pi / 128), 0.03 %.
   const double degree = test::pi / 180.0;
   const double directions = std::cos(60 * degree) - std::cos(70 * degree);
-  const std::string text = found->substr(at + before.size());
+  const std::string text = found->text().substr(at + before.size());
   EXPECT_NEAR(std::stod(text), 100.0 * 2.0 * directions, 0.1);
   EXPECT_NE(text.find(" % of the sphere"), std::string::npos) << text;
 }
@@ -58,7 +58,7 @@ TEST(GrainMeasures, TellOfPartsLeftOutAndCentroidsOutside) {
   const GrainMeasures measures = measure_grain(
       {"ring", test::torus(1.0, 0.2, 32)}, NamedMesh{"dusty", test::joined(test::sphere(4), crumb)},
       DetailedOptions(), Execution(1));
-  const std::vector<std::string> sentences = remarks(measures);
+  const std::vector<Sentence> sentences = remarks(measures);
   EXPECT_EQ(count_of(sentences, "'ring' is not star-shaped: its volume centroid lies outside"), 1);
   EXPECT_EQ(count_of(sentences, "2 parts of 'dusty'"), 1);
 }
@@ -67,7 +67,7 @@ TEST(GrainMeasures, TellWhatTheEdgesAreTooLongFor) {
   const auto told = [](const IndexedMesh& mesh) {
     return remarks(measure_grain({"body", mesh}, {}, DetailedOptions(), Execution(1)));
   };
-  std::vector<std::string> sentences = told(test::box(1, 1, 1));
+  std::vector<Sentence> sentences = told(test::box(1, 1, 1));
   EXPECT_EQ(count_of(sentences, "'body' are too long to measure roundness"), 1);
   EXPECT_EQ(count_of(sentences, "'body' are too long to measure roughness"), 1);
   // Sharp edges: resolved to a quarter of the balls, which are a fifth of the inscribed sphere.

@@ -111,10 +111,8 @@ TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
   EXPECT_FALSE(exists("out1/broken.ply"));
 
   // A row and a mesh are what the grain alone would have given.
-  ASSERT_EQ(
-      run("remesh " + scan(4) + " alone.ply --no-suggestions --report alone.csv" + remesh_options_)
-          .exit_code,
-      0);
+  ASSERT_EQ(run("remesh " + scan(4) + " alone.ply --report alone.csv" + remesh_options_).exit_code,
+            0);
   EXPECT_EQ(content("alone.ply"), content("out1/e.ply"));
   const Records alone = records("alone.csv");
   for (std::size_t k = 0; k < alone[0].size(); ++k) {
@@ -257,7 +255,7 @@ TEST_F(Batch, LevelsAreTheBatchesOfTheirNumbersOfNodes) {
                  {{"-n 60,60", 2, "twice"},
                   {"-n 60,x", 2, "x"},
                   {"-n 60,3", 2, "3"},
-                  {"-n 60,90 --max-error 1", 2, "need a single number of nodes"}},
+                  {"-n 60,90 --max-error 1", 2, "needs a single number of nodes"}},
                  {"bad"});
 }
 

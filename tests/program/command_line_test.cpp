@@ -83,7 +83,6 @@ TEST_F(CommandLine, SaysItsVersion) {
 TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
   expect_refused("--report report.json",
                  {{"missing.ply remesh.ply -n 100", 1, "missing.ply"},
-                  {sand_ + " remesh.ply -r 10", 2, "--edge-ratio"},
                   {sand_ + " remesh.ply --coefficients ./report.json", 2, "two names"},
                   {sand_ + " remesh.ply --coefficients g.txt", 2, "in .json"},
                   {sand_ + " o.xyz", 2, "o.xyz"},
@@ -179,7 +178,7 @@ TEST_F(CommandLine, AStandardOutputThatTakesNothingIsAnError) {
 }
 
 TEST_F(CommandLine, QuietHidesNoWarning) {
-  const Outcome outcome = run(sand_ + " remesh.ply -n 4 -q --no-suggestions");
+  const Outcome outcome = run(sand_ + " remesh.ply -n 4 -q");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.output, "");
   EXPECT_NE(outcome.errors.find("Warning: "), std::string::npos);

@@ -290,14 +290,6 @@ TEST_F(Commands, RemeshIsWhatACallWithoutOneMeans) {
   EXPECT_FALSE(content("new.ply").empty());
   EXPECT_EQ(content("new.ply"), content("old.ply"));
   EXPECT_EQ(content("new.ply"), content("first.ply"));
-  // What the program was called before reports had endings.
-  for (const std::string option : {"-j", "--json"}) {
-    const Outcome outcome = run("scan.ply old.ply -q -n 60 " + option + " old.json");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-    EXPECT_EQ(Json::parse(content("old.json")).at("result").at("vertices"), 60);
-    fs::remove(folder_ / "old.json");
-  }
-  EXPECT_EQ(run("remesh --help-all").output.find("--json"), std::string::npos);
 }
 
 TEST_F(Commands, ReportsTheIntersectionsOfTheFile) {

@@ -233,7 +233,7 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
 
   // The same as through files, and as a batch that takes the volume among others.
   ASSERT_EQ(run("extract sample.nrrd dense -q").exit_code, 0);
-  ASSERT_EQ(run("remesh dense/8.ply 8.ply -q -n 60 --no-suggestions").exit_code, 0);
+  ASSERT_EQ(run("remesh dense/8.ply 8.ply -q -n 60").exit_code, 0);
   EXPECT_EQ(content("8.ply"), content("out/8.ply"));
   fs::copy_file(folder_ / "dense/8.ply", folder_ / "more.ply");
   ASSERT_EQ(run("batch more.ply sample.nrrd -o both -n 60 -q --shard 1/1").exit_code, 0);
@@ -271,8 +271,7 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
   test::write_bytes(folder_ / "cut.nrrd", content("sample.nrrd").substr(0, 100000));
   test::write_bytes(folder_ / "empty.nrrd", test::nrrd(test::MadeVolume({9, 9, 9}), ""));
   expect_refused("extract",
-                 {{"sample.nrrd out --remesh", 2, "wscvt batch VOLUME"},
-                  {"sample.nrrd out --smallest 0", 2, "1 or more"},
+                 {{"sample.nrrd out --smallest 0", 2, "1 or more"},
                   {"sample.nrrd out --smoothing 1001", 2, "from 0 to 1000"},
                   {"sample.nrrd out --voxel-size 0", 2, "above 0"},
                   {"sample.nrrd out --voxel-size 1,2", 2, "three numbers with commas"},

@@ -48,7 +48,6 @@ const std::vector<OptionCase>& option_cases() {
       {"placement", "on-surface", "off", "fitted, on-surface or contact-fit"},
       {"edge-ratio", 1.25, "1", "from 1.08 to 1.7"},
       {"distances", true, "perhaps", "distances"},
-      {"suggestions", false, "perhaps", "suggestions"},
       {"max-repaired-area", 12.5, "101", "from 0 to 100"},
       {"max-handle-loop", 0.25, "-1", "0 or more"},
       {"handles", "keep", "50", "cut, keep or refuse"},
@@ -77,10 +76,9 @@ class ProgramOptions : public test::ProgramRun {
 };
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
-  std::set<std::string> tested = {"help",       "help-all",    "threads",        "coefficients",
-                                  "overwrite",  "quiet",       "no-suggestions", "report",
-                                  "node-table", "sdf",         "frame",          "size",
-                                  "scale",      "sdf-surface", "sdf-spacing",    "output"};
+  std::set<std::string> tested = {"help",  "help-all", "threads",     "coefficients", "overwrite",
+                                  "quiet", "report",   "node-table",  "sdf",          "frame",
+                                  "size",  "scale",    "sdf-surface", "sdf-spacing",  "output"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("remesh --help-all");
   EXPECT_EQ(help.exit_code, 0);
@@ -95,8 +93,8 @@ TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
     }
   }
   EXPECT_EQ(in_help, tested);
-  // A stranger reads all of them: 35 at most, --suggestions and --no-suggestions being one.
-  EXPECT_LE(in_help.size(), 36U);
+  // A stranger reads all of them: 34 at most.
+  EXPECT_LE(in_help.size(), 34U);
 }
 
 TEST_F(ProgramOptions, ReachTheRemeshUnderTheirNames) {
@@ -130,46 +128,6 @@ TEST_F(ProgramOptions, OfTheOtherMethodAreRefusedWithItsName) {
       {"--weighting area", "method as-published"},
       {"--placement sh-surface", "method as-published"},
       {"-p contact-fit --method as-published", "method on-scan"}};
-  for (const auto& [arguments, words] : cases) {
-    SCOPED_TRACE(arguments);
-    const Outcome outcome = run("scan.ply remesh.ply " + arguments);
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
-    EXPECT_FALSE(exists("remesh.ply"));
-  }
-}
-
-TEST_F(ProgramOptions, OfVersion2SayWhatToUseInstead) {
-  const std::vector<std::pair<std::string, std::string>> cases = {
-      {"-r 60", "--edge-ratio"},
-      {"--refine 60", "--edge-ratio"},
-      {"--refine-angle=20", "--edge-ratio"},
-      {"--refine-tolerance 0.1", "stops by itself"},
-      {"-m surface", "--method"},
-      {"--metric sphere", "--method"},
-      {"--parametrization spherical", "any closed grain"},
-      {"--target 0.5", "--max-error"},
-      {"--target-measure area", "--error-measure"},
-      {"--largest 500", "--max-nodes"},
-      {"--mend-limit 3", "--max-repaired-area"},
-      {"--envelope 5", "--shrink-wrap"},
-      {"--fold-limit 3", "--max-overhang"},
-      {"--handle-length 2", "--max-handle-loop"},
-      {"--no-advice", "--no-suggestions"},
-      {"--seed-start random", "best initial seeds"},
-      {"--seed 3", "nothing is random"},
-      {"-i 7", "stops by itself"},
-      {"--curvature-source quadrics", "SH series"},
-      {"--no-acceleration", "accelerated"},
-      {"--weld-tolerance 0", "1e-12"},
-      {"--input-unit mm", "--scale"},
-      {"--sdf-margin 2", "4 cells"},
-      {"-w radial-distance", "wscvt-d"},
-      {"-w curvature", "wscvt-c"},
-      {"-p least-squares", "fitted"},
-      {"-p scan", "on-surface"},
-      {"-p contact", "contact-fit"},
-      {"--method as-published -p series", "sh-surface"}};
   for (const auto& [arguments, words] : cases) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run("scan.ply remesh.ply " + arguments);
@@ -242,7 +200,6 @@ TEST_F(ProgramOptions, LettersStandForNames) {
             "icosahedron");
   EXPECT_EQ(report_of("--weighting WSCVT-C").at("options").at("weighting"), "wscvt-c");
   EXPECT_EQ(report_of("--method As-Published -w WSCVT-D").at("options").at("weighting"), "wscvt-d");
-  EXPECT_EQ(report_of("--no-suggestions").at("options").at("suggestions"), false);
 }
 
 TEST_F(ProgramOptions, QuietThreadsAndCoefficientsDoAsTheySay) {

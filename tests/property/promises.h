@@ -200,7 +200,6 @@ inline RemeshOptions random_options(Choices& choices) {
   o.degree = choices.whole(1, 30);
   o.measures.distances = choices.one_in(8);
   o.measures.node_curvatures = choices.one_in(2);
-  o.measures.suggestions = choices.one_in(8);
   o.points = choices.one_in(16);
   o.max_repaired_area_percent = choices.one_in(2) ? 5.0 : choices.real(0.0, 100.0);
   if (choices.one_in(16) && any_count) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The published method gives the same meshes, to the byte, in every version:
-// as_published_digests.txt holds what version 2 gave (by "--method as-published" and a weighting or
-// a sampling).
+// The published method always gives the same meshes, to the byte: as_published_digests.txt has
+// their digests (by "--method as-published" and a weighting or a sampling).
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -69,7 +68,6 @@ RemeshOptions options_of(const DigestCase& one) {
   RemeshOptions options;
   options.node_count = one.nodes;
   options.method = published;
-  options.measures.suggestions = false;
   return options;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,8 @@ void expect_valid(const RemeshResult& result, std::size_t nodes, int genus,
       << what;
 }
 
-bool says(const std::vector<std::string>& lines, const std::string& what) {
+template <class Lines>
+bool says(const Lines& lines, const std::string& what) {
   return std::any_of(lines.begin(), lines.end(),
                      [&](const std::string& line) { return line.find(what) != std::string::npos; });
 }
@@ -134,8 +136,6 @@ TEST(OnScan, ContactFitKeepsTheMeshAndLiesFartherOut) {
     EXPECT_EQ(contact.mesh.triangles, fitted.mesh.triangles) << name;
     EXPECT_GT(contact.remesh.volume, 1.001 * fitted.remesh.volume) << name;
     EXPECT_LT(contact.remesh.volume, 1.1 * fitted.remesh.volume) << name;
-    // What it is fitted to is not the scan's shape, so nothing better is suggested.
-    EXPECT_TRUE(contact.suggestions.empty()) << name;
   }
 }
 
@@ -195,7 +195,7 @@ TEST(OnScan, HandlesAreKeptOrRefusedWhereAskedFor) {
   on_scan.handles.action = HandleAction::Refuse;
   const std::string sentence = test::refusal(
       ErrorCode::InvalidInput, [&] { remesh(drilled, options_of(500, on_scan), Execution(1)); });
-  EXPECT_NE(sentence.find("--handles cut or keep"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("--handles cut or --handles keep"), std::string::npos) << sentence;
 }
 
 TEST(OnScan, ARingStaysARing) {
@@ -241,48 +241,50 @@ TEST(OnScan, ASurfaceFromAFormulaIsSampledAndItsNodesLieOnIt) {
   EXPECT_NEAR(fitted.remesh.volume / fitted.original.volume, 1.0, 1e-11);
 }
 
-TEST(OnScan, WhatIsNotAccurateIsSaidWithSettingsThatHelp) {
-  // So few nodes of so dense a scan that a trial costs less than the run.
-  const IndexedMesh mushroom = test::subdivided(body("mushroom"), 2);
-  const RemeshOptions options = options_of(40);
-  const RemeshResult few = remesh(mushroom, options);
+TEST(OnScan, CellsCoverTheRemeshAndTheRatioIsIts) {
+  const Superellipsoid formula(Vector3(1.0, 0.8, 0.6), 0.7, 0.8);
+  for (const ScanPlacement placement :
+       {ScanPlacement::Fitted, ScanPlacement::OnSurface, ScanPlacement::ContactFit}) {
+    const OnScanOptions on_scan = placed(placement);
+    for (const RemeshResult& result : {remesh(formula, options_of(60, on_scan), Execution(1)),
+                                       remesh(body("hook"), options_of(150, on_scan))}) {
+      SCOPED_TRACE(key_of(placement));
+      const double cells = std::accumulate(result.cell_areas.begin(), result.cell_areas.end(), 0.0);
+      // Sums of some hundred areas, in different orders.
+      EXPECT_NEAR(cells / result.remesh.area, 1.0, 1e-12);
+      EXPECT_NEAR(report_of(result).nodes.mean_edge_ratio, result.quality.edge_ratio.mean, 1e-12);
+    }
+  }
+}
+
+TEST(OnScan, WhatIsNotAccurateIsSaidWithWhatHelps) {
+  const IndexedMesh mushroom = body("mushroom");
+  const RemeshResult few = remesh(mushroom, options_of(100));
   ASSERT_TRUE(is_inaccurate(few));
   EXPECT_TRUE(says(few.warnings, "not accurate: rms distance"));
-  // One setting with as many nodes was tried to its end; followed, it gives what it promises.
-  ASSERT_EQ(few.suggestions.size(), 1U);
-  const SuggestedSetting& found = few.suggestions.front();
-  EXPECT_EQ(found.setting, "a mean edge ratio of 1.4");
-  RemeshOptions adaptive = options;
-  OnScanOptions changed;
-  changed.edge_ratio = 1.4;
-  adaptive.method = changed;
-  const RemeshResult followed = remesh(mushroom, adaptive);
-  EXPECT_DOUBLE_EQ(rms(followed), found.rms_distance);
-  EXPECT_DOUBLE_EQ(followed.remesh.area / followed.original.area - 1.0, found.area_difference);
-  RemeshOptions silent = options;
-  silent.measures.suggestions = false;
-  EXPECT_TRUE(remesh(mushroom, silent).suggestions.empty());
+  EXPECT_TRUE(says(few.warnings, "--edge-ratio 1.4"));
+  // Followed, each of the two helps.
+  OnScanOptions closer;
+  closer.edge_ratio = 1.4;
+  EXPECT_LT(rms(remesh(mushroom, options_of(100, closer))), 0.7 * rms(few));
+  EXPECT_LT(rms(remesh(mushroom, options_of(300))), 0.7 * rms(few));
   // As published on a body of fine detail the other method helps.
   const IndexedMesh box = test::subdivided(test::box(1.0, 1.1, 1.3), 6);
   RemeshOptions published = options_of(60);
   published.method = AsPublishedOptions();
   published.degree = 4;
-  const RemeshResult blunt = remesh(box, published);
-  EXPECT_TRUE(says(blunt.warnings, "Better: the method on-scan"));
-  const RemeshResult enough = remesh(box, options_of(800));
-  EXPECT_FALSE(is_inaccurate(enough));
-  EXPECT_TRUE(enough.suggestions.empty());
+  EXPECT_TRUE(says(remesh(box, published).warnings, "or --method on-scan"));
+  EXPECT_FALSE(is_inaccurate(remesh(box, options_of(800))));
 }
 
 // The steps' area is not the grain's, so a remesh that misses them is not inaccurate.
-TEST(OnScan, AScanInVoxelStepsIsToldAsSuchAndNoSettingThatFollowsThemIsSuggested) {
+TEST(OnScan, AScanInVoxelStepsIsToldAsSuchAndIsNotCalledInaccurate) {
   const double radius = 12.0;
   const IndexedMesh steps =
       test::voxel_ellipsoid(Vector3::Constant(radius), Vector3(13.1, 12.7, 13.4), 27);
   const RemeshResult result = remesh(steps, options_of(300));
   EXPECT_TRUE(says(result.warnings, "The scan is made of the faces of voxels"));
   EXPECT_FALSE(says(result.warnings, "not accurate"));
-  EXPECT_TRUE(result.suggestions.empty());
   // The reason: a ball's steps have 1.5 times its area, the remesh is nearer to it than half way.
   const double area = 4.0 * test::pi * radius * radius;
   EXPECT_GT(result.original.area, 1.4 * area);

@@ -61,7 +61,6 @@ TEST(RemeshDefaults, AHandfulOfNodesGoesRoundALongGrain) {
   // With cells on the sphere they ran together on one side of it, at angles of 1 to 16 degrees.
   const IndexedMesh scan = test::scaled(test::sphere(3), Vector3(1.0, 2.0, 3.0));
   RemeshOptions options;
-  options.measures.suggestions = false;
   for (options.node_count = 10; options.node_count < 20; ++options.node_count) {
     SCOPED_TRACE(options.node_count);
     const RemeshResult result = remesh(scan, options);

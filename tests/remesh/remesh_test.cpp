@@ -474,7 +474,7 @@ IndexedMesh bent_rod() {
 
 TEST(Remesh, RefusesAnOverhangAboveTheLimit) {
   RemeshOptions options = options_of(200, Weighting::Area);
-  expect_refused(mushroom(), options, ErrorCode::NotStarShaped, "Use the method on-scan");
+  expect_refused(mushroom(), options, ErrorCode::NotStarShaped, "Use --method on-scan");
   options.method = OnScanOptions();  // the advice
   expect_closed(remesh(mushroom(), options, Execution(1)), 200);
 }
@@ -491,7 +491,7 @@ TEST(Remesh, AnOverhangUnderTheLimitIsRemeshedWithAWarning) {
   published(options).max_overhang_percent = 1.001 * percent;
   EXPECT_NO_THROW(remesh(mushroom(), options, Execution(1)));
   published(options).max_overhang_percent = 0.999 * percent;
-  expect_refused(mushroom(), options, ErrorCode::NotStarShaped, "Use the method on-scan");
+  expect_refused(mushroom(), options, ErrorCode::NotStarShaped, "Use --method on-scan");
 
   // Within the limit as it is.
   const AsPublishedOptions usual;
@@ -509,7 +509,6 @@ TEST(Remesh, ResidualOfAScanWithOverhangsIsThatOfAllItsSheets) {
   published(options).max_overhang_percent = 60.0;
   published(options).sampling = Sampling::Fibonacci;  // what is measured is the series
   options.measures.distances = true;
-  options.measures.suggestions = false;
   for (const IndexedMesh& body : {mushroom(), bent_rod()}) {
     const RemeshResult result = remesh(body, options, Execution(2));
     ASSERT_GT(published_report(result).overhang_fraction, 0.0);
@@ -527,7 +526,7 @@ TEST(Remesh, WarningsDoNotFollowTheLocale) {
   ASSERT_TRUE(warns_of(plain, " % of the sphere"));
   const test::GermanNumbers german;
   const RemeshResult result = remesh(bent_rod(), options, Execution(1));
-  EXPECT_EQ(result.warnings, plain.warnings);
+  EXPECT_TRUE(result.warnings == plain.warnings);
 }
 
 TEST(Remesh, ASmallSecondPartIsLeftOutWithAWarning) {
@@ -675,7 +674,7 @@ void expect_that_the_advice_works(const IndexedMesh& scan, RemeshOptions options
   EXPECT_EQ(wrapped.mesh.points.size(), static_cast<std::size_t>(options.node_count));
 }
 
-TEST(Remesh, ARefusalAdvisesAShrinkWrapThatWasTried) {
+TEST(Remesh, ARefusalNamesAShrinkWrapThatWorks) {
   RemeshOptions options;
   options.node_count = 300;
   const auto sentence_of = [&](const IndexedMesh& scan) {
@@ -685,54 +684,6 @@ TEST(Remesh, ARefusalAdvisesAShrinkWrapThatWasTried) {
   IndexedMesh open = test::sphere(4);
   open.triangles.resize(open.triangles.size() - 40);
   expect_that_the_advice_works(open, options, sentence_of(open));
-  // In a batch nothing is tried.
-  options.measures.suggestions = false;
-  EXPECT_EQ(sentence_of(open).find("--shrink-wrap"), std::string::npos);
-}
-
-/// A body with four legs and a tail of 1 : 20, and a head on a thin neck.
-IndexedMesh animal() {
-  const auto limb = [](const Vector3& p, const Vector3& from, const Vector3& to, double radius) {
-    const Vector3 way = to - from;
-    const double along = std::clamp((p - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (p - from - along * way).norm() - radius;
-  };
-  const auto body = [limb](const Vector3& p) {
-    double nearest = limb(p, {-0.8, 0.0, 0.0}, {0.8, 0.05, 0.0}, 0.35);
-    for (const double x : {-0.7, 0.75}) {
-      for (const double y : {-0.2, 0.25}) {
-        nearest = std::min(nearest, limb(p, {x, y, 0.0}, {1.1 * x, 1.5 * y, -2.0}, 0.05));
-      }
-    }
-    nearest = std::min(nearest, limb(p, {-1.0, 0.0, 0.1}, {-2.2, 0.3, 1.6}, 0.05));
-    nearest = std::min(nearest, limb(p, {1.0, 0.0, 0.1}, {1.6, 0.0, 0.9}, 0.06));
-    return std::min(nearest, (p - Vector3(1.7, 0.0, 1.0)).norm() - 0.25);
-  };
-  return test::scan_of(body, 2.4, 0.05);
-}
-
-TEST(Remesh, SuggestionsCostNoMoreThanTheRun) {
-  const IndexedMesh scans[] = {animal(), test::lumpy(5)};
-  int inaccurate = 0;
-  for (const IndexedMesh& scan : scans) {
-    for (const ScanPlacement placement : {ScanPlacement::Fitted, ScanPlacement::OnSurface}) {
-      for (const int nodes : {20, 150}) {
-        OnScanOptions on_scan;
-        on_scan.placement = placement;
-        RemeshOptions options;
-        options.method = on_scan;
-        options.node_count = nodes;
-        options.measures.suggestions = false;
-        const Execution alone(1);
-        if (is_inaccurate(remesh(scan, options, alone))) ++inaccurate;
-        options.measures.suggestions = true;
-        const Execution both(2);
-        remesh(scan, options, both);
-        EXPECT_LE(both.work(), 2 * alone.work()) << nodes;
-      }
-    }
-  }
-  EXPECT_GE(inaccurate, 5);
 }
 
 TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
@@ -756,7 +707,7 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   // Faces as wide as the opening, .35, cut off up to .35^2 / 6 of the radius.
   EXPECT_NEAR(wrapped.input.volume / (4.0 * test::pi / 3.0), 1.0, 0.06);
 
-  // Two on one ray have no surface at all, and are told the same, and of a wrap that was tried.
+  // Two on one ray have no surface at all, and are told the same, and of a wrap.
   options.envelope.opening_percent = 0.0;
   cloud = {};
   // 512 points whose mean is 0 without rounding.
@@ -956,7 +907,7 @@ TEST(RemeshErrorTarget, SaysSoWhenTheLimitIsTooLow) {
   EXPECT_FALSE(result.search->met);
   EXPECT_EQ(result.mesh.points.size(), 80U);
   ASSERT_FALSE(result.warnings.empty());
-  EXPECT_NE(result.warnings.back().find("has an error of at most"), std::string::npos);
+  EXPECT_NE(result.warnings.back().text().find("has an error of at most"), std::string::npos);
 }
 
 TEST(RemeshErrorTarget, StopsAtOnceWhereTheSeriesItselfIsFartherOff) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -54,12 +55,12 @@ void expect_warnings(const std::vector<Case>& cases) {
   for (std::size_t k = 0; k < cases.size(); ++k) {
     RemeshResult result = clean();
     cases[k].change(result);
-    const std::vector<std::string> warnings = remesh_warnings(result, "");
+    const std::vector<Sentence> warnings = remesh_warnings(result, "");
     ASSERT_EQ(warnings.size(), cases[k].parts.empty() ? 0U : 1U)
-        << k << ": " << (warnings.empty() ? "" : warnings.front());
+        << k << ": " << (warnings.empty() ? "" : warnings.front().text());
     for (const std::string& part : cases[k].parts) {
-      EXPECT_NE(warnings.front().find(part), std::string::npos)
-          << k << ": \"" << part << "\" in: " << warnings.front();
+      EXPECT_NE(warnings.front().text().find(part), std::string::npos)
+          << k << ": \"" << part << "\" in: " << warnings.front().text();
     }
   }
 }
@@ -67,7 +68,8 @@ void expect_warnings(const std::vector<Case>& cases) {
 TEST(RemeshWarnings, ThereAreNoneOfACleanResult) {
   EXPECT_TRUE(remesh_warnings(clean(), "").empty());
   const auto warnings = remesh_warnings(clean(), "Far away.");
-  EXPECT_EQ(warnings, std::vector<std::string>{"Far away."});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].text(), "Far away.");
 }
 
 TEST(RemeshWarnings, ThoseOfTheScanLeaveOutTheRemesh) {
@@ -78,12 +80,12 @@ TEST(RemeshWarnings, ThoseOfTheScanLeaveOutTheRemesh) {
   result.remesh.area = 5.0;
   result.original.sdq = 0.5;
   result.original.sdq_half_clip = 0.52;
-  const std::vector<std::string> all = remesh_warnings(result, "");
-  const std::vector<std::string> of_scan = scan_warnings(result);
+  const std::vector<Sentence> all = remesh_warnings(result, "");
+  const std::vector<Sentence> of_scan = scan_warnings(result);
   ASSERT_EQ(of_scan.size(), 2U);
-  EXPECT_NE(of_scan[0].find("by its shrink-wrap"), std::string::npos);
-  EXPECT_NE(of_scan[1].find("1 handle"), std::string::npos);
-  EXPECT_EQ(std::vector<std::string>(all.begin(), all.begin() + 2), of_scan);
+  EXPECT_NE(of_scan[0].text().find("by its shrink-wrap"), std::string::npos);
+  EXPECT_NE(of_scan[1].text().find("1 handle"), std::string::npos);
+  EXPECT_TRUE(std::equal(of_scan.begin(), of_scan.end(), all.begin()));
   EXPECT_EQ(all.size(), 4U);
 }
 
@@ -185,7 +187,7 @@ TEST(RemeshWarnings, TellASurfaceThatIsFarOffTheScan) {
          as_published(r).fit.residual = 0.12;
          std::get<AsPublishedReport>(r.method).fit.limit = DegreeLimit::Radius;
        },
-       {"away from the scan. Use the placement on-surface"}},
+       {"away from the scan. Use --placement on-surface"}},
       {[](RemeshResult& r) {
          as_published(r).fit.residual = 1.0;
          published_options(r).placement = PublishedPlacement::Surface;
@@ -194,14 +196,14 @@ TEST(RemeshWarnings, TellASurfaceThatIsFarOffTheScan) {
   });
 }
 
-TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndTheBestTwoSuggestions) {
+TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndWhatHelps) {
   expect_warnings({
       {[](RemeshResult& r) { r.rms_distance = 0.02; }, {}},
       {[](RemeshResult& r) { r.rms_distance = 0.03; },
        {"rms distance 1.5 % of the equivalent radius"}},
       {[](RemeshResult& r) { r.remesh.area = 9.81; }, {}},
-      {[](RemeshResult& r) { r.remesh.area = 9.5; }, {"area error -5 %."}},
-      {[](RemeshResult& r) { r.remesh.area = 10.5; }, {"area error +5 %."}},
+      {[](RemeshResult& r) { r.remesh.area = 9.5; }, {"area error -5 %. "}},
+      {[](RemeshResult& r) { r.remesh.area = 10.5; }, {"area error +5 %. "}},
       {[](RemeshResult& r) {
          r.remesh.area = 9.5;
          r.input.input_vertices = 0;  // a formula
@@ -212,25 +214,23 @@ TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndTheBestTwoSuggestions) {
          std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
        },
        {}},
-      // Twice the limit of the area is worse than half of it and 1.6 times that of the distance.
+      // What helps follows from the options.
+      {[](RemeshResult& r) { r.rms_distance = 0.04; }, {"Use more nodes, or --edge-ratio 1.4: "}},
       {[](RemeshResult& r) {
          r.rms_distance = 0.04;
-         r.suggestions = {
-             {"small steps", 0.001, -0.04}, {"more nodes", 0.016, 0.01}, {"luck", 0.03, 0.0}};
+         std::get<OnScanOptions>(r.options.method).edge_ratio = 1.5;
        },
-       {"Better: more nodes (rms distance 1.6 % of the equivalent radius, area error +1 %)."}},
+       {"area error +0 %. Use more nodes."}},
       {[](RemeshResult& r) {
          r.rms_distance = 0.04;
-         r.suggestions = {{"more nodes", 0.02, 0.01}, {"luck", 0.03, 0.0}};
+         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::OnSurface;
        },
-       {"No tested setting is better."}},
+       {"Use more nodes, or --placement fitted."}},
       {[](RemeshResult& r) {
+         as_published(r);
          r.rms_distance = 0.04;
-         r.suggestions = {
-             {"luck", 0.018, 0.0}, {"more nodes", 0.016, 0.01}, {"care", 0.012, -0.01}};
        },
-       {"area error +0 %. Better: care (rms distance 1.2 % of the equivalent radius, area error -1 "
-        "%). Better: more nodes (rms distance 1.6 % of the equivalent radius, area error +1 %)."}},
+       {"Use more nodes, or --method on-scan."}},
   });
 }
 

@@ -407,16 +407,14 @@ IndexedMesh without_cap(double height) {
   return mesh;
 }
 
-/// The opening of a shrink-wrap that is worth a trial; 0 where the refusal names none.
+/// The opening of the shrink-wrap that a refusal names; 0 if it names none.
 double opening_for(const IndexedMesh& mesh, const MeshCheckOptions& options = {}) {
-  try {
-    check_mesh(mesh, options, Execution(1));
-    ADD_FAILURE() << "not refused";
-  } catch (const WrappableScan& refused) {
-    EXPECT_EQ(refused.code(), ErrorCode::InvalidInput);
-    return refused.opening_percent();
-  }
-  return 0.0;
+  const std::string sentence =
+      test::refusal(ErrorCode::InvalidInput, [&] { check_mesh(mesh, options, Execution(1)); });
+  std::smatch named;
+  return std::regex_search(sentence, named, std::regex("--shrink-wrap ([0-9.]+)"))
+             ? std::stod(named[1])
+             : 0.0;
 }
 
 TEST(MeshCheck, NamesAnOpeningThatClosesTheHoles) {
@@ -425,13 +423,15 @@ TEST(MeshCheck, NamesAnOpeningThatClosesTheHoles) {
   options.mended_area_limit_percent = 1.0;
   const IndexedMesh small = without_cap(0.97);
   const double percent = opening_for(small, options);
-  EXPECT_LE(percent, coarsest_tried_percent);
+  EXPECT_GT(percent, 0.0);
+  EXPECT_LE(percent, coarsest_opening_percent);
   const IndexedMesh closed = envelope_of(small, {percent}, Execution(1));
   const MeshCheckReport report = check(closed).report;
   EXPECT_EQ(report.genus, 0);
   // Of a hole that is not closed the wrap takes both sides, which is next to no volume.
   EXPECT_NEAR(report.volume, 4.0 * test::pi / 3.0, 0.2 * 4.0 * test::pi / 3.0);
-  EXPECT_GT(opening_for(without_cap(0.5)), coarsest_tried_percent);
+  // Too wide for a wrap.
+  EXPECT_EQ(opening_for(without_cap(0.5)), 0.0);
   // The widest hole counts, wherever it stands.
   IndexedMesh two = small;
   two.triangles.erase(two.triangles.begin() + 9);

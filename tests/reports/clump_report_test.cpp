@@ -90,7 +90,7 @@ TEST(ClumpReport, JsonHoldsTheResult) {
   EXPECT_EQ(json["smallest_radius"], smallest);
   EXPECT_EQ(json["stages"].back()["spheres"], 6);
   EXPECT_DOUBLE_EQ(json["stages"].back()["rms_percent"], json["rms_percent"]);
-  EXPECT_EQ(json["warnings"][0], clump.warnings[0]);
+  EXPECT_EQ(json["warnings"][0], clump.warnings[0].text());
 }
 
 TEST(ClumpReport, CsvHasAHeadingForEachValue) {

@@ -35,7 +35,7 @@ class SampleSummaryOfAFile : public testing::Test {
   std::string path_;
 };
 
-RemeshResult grain_of(double radius, const std::vector<std::string>& warnings = {}) {
+RemeshResult grain_of(double radius, const std::vector<Sentence>& warnings = {}) {
   RemeshResult result;
   result.input.equivalent_radius = radius;
   result.original.inertia_semi_axes = Vector3(1.0, 2.0, 4.0);

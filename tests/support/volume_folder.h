@@ -66,7 +66,8 @@ class VolumeFolder : public testing::Test {
     return open_volume(path(name), choice)->geometry();
   }
   std::vector<std::string> notes(const std::string& name) const {
-    return open_volume(path(name))->notes();
+    const auto volume = open_volume(path(name));
+    return {volume->notes().begin(), volume->notes().end()};
   }
 
   /// Opens and reads a file that has to be refused, with these words.

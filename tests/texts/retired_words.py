@@ -20,22 +20,15 @@ RETIRED = {
     r"misfits?": "rms distance",
     r"closeness": "rms distance",
     r"originals?": "scan",
-    r"used scan": "repaired scan",
     r"sites?": "seed",
     r"least[- ]squares": "fitted",
-    r"contact nodes": "contact fit",
     r"shares?": "fraction",
-    r"advice": "suggestion",
     r"meetings?": "intersection",
-    r"refine-angle": "edge ratio",
     r"fitted surface": "SH surface",
 }
 
 # File, and why it may hold such words.
 EXCEPTIONS = {
-    "GLOSSARY.md": "lists them",
-    "CHANGELOG.md": "names what version 2 had",
-    "lib/wscvt/remesh/option_advice.cpp": "names what version 2 had",
     "tests/figures/study": "the paper's own words, and programs of the study",
     "tests/figures/benchmarks": "other programs' words",
 }

@@ -599,7 +599,8 @@ TEST_F(TiffVolume, DropsAScreensResolutionThatContradictsTheSlices) {
   write_tiff(path("a.tif"), stack, pages());
   const std::unique_ptr<LabelVolume> volume = open_volume(path("a.tif"));
   ASSERT_EQ(volume->warnings().size(), 1U);
-  EXPECT_NE(volume->warnings()[0].find("12 times"), std::string::npos) << volume->warnings()[0];
+  EXPECT_NE(volume->warnings()[0].text().find("12 times"), std::string::npos)
+      << volume->warnings()[0].text();
   EXPECT_EQ(volume->description(), "7 x 5 x 3 voxels of 0.1 x 0.2 x 1.2 um, from ImageJ's text.");
 }
 

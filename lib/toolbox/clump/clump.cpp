@@ -121,8 +121,8 @@ void add_warnings(ClumpResult& result) {
   if (options.max_error_percent > 0.0 && error > options.max_error_percent) {
     result.warnings.push_back("With " + count + " the rms distance is " + format_number(error, 3) +
                               " % of the equivalent radius, more than the allowed " +
-                              format_typed(options.max_error_percent) +
-                              " %. Give a larger --max-spheres, or allow a larger error.");
+                              format_typed(options.max_error_percent) + " %. Give a larger " +
+                              mention("max-spheres") + ", or allow a larger error.");
   } else if (options.max_error_percent == 0.0 &&
              result.spheres.size() < static_cast<std::size_t>(options.sphere_count)) {
     result.warnings.push_back("Only " + count + " of the smallest radius fit inside.");
@@ -136,9 +136,10 @@ void add_warnings(ClumpResult& result) {
   }
   const std::size_t groups = group_count(result.spheres);
   if (groups > 1) {
-    result.warnings.push_back("The spheres are in " + std::to_string(groups) +
-                              " groups that do not touch each other. Give more spheres, or leave "
-                              "out --inside, if they must be connected.");
+    result.warnings.push_back(
+        "The spheres are in " + std::to_string(groups) +
+        " groups that do not touch each other. Give more spheres, or leave out " +
+        mention("inside") + ", if they must be connected.");
   }
 }
 
@@ -148,7 +149,6 @@ ContactError remesh_contact(const IndexedMesh& grain, const UnitFrame& frame, in
                             const Execution& execution) {
   RemeshOptions options;
   options.node_count = nodes;
-  options.measures.suggestions = false;
   const IndexedMesh mesh = frame.to_unit(remesh(grain, options, execution).mesh);
   return contact_error(ContactHeights(mesh, reach, execution).distances(execution), scan);
 }

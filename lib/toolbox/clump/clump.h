@@ -49,7 +49,7 @@ struct ClumpResult {
   IndexedMesh repaired_scan;
   IndexedMesh surface;  ///< of the union, see sphere_union_mesh
   ClumpOptions options;
-  std::vector<std::string> warnings;  ///< sentences for the user
+  std::vector<Sentence> warnings;  ///< sentences for the user
 };
 
 /// Makes a clump of a scan, which is repaired as in remesh(). Choose K by its error of first

@@ -111,9 +111,9 @@ class Growth {
     const InscribedSphere largest = largest_inscribed_sphere(grain, execution_);
     if (options_.inside && largest.radius < smallest_) {
       refuse("No sphere fits inside the grain: the largest has a radius of " +
-             format_number(100.0 * largest.radius, 3) +
-             " % of the equivalent radius, less than --smallest-radius. Give a smaller "
-             "--smallest-radius, or leave out --inside.");
+             format_number(100.0 * largest.radius, 3) + " % of the equivalent radius, less than " +
+             mention("smallest-radius") + ". Give a smaller " + mention("smallest-radius") +
+             ", or leave out " + mention("inside") + ".");
     }
     const bool is_target = options_.max_error_percent > 0.0;
     const auto count =

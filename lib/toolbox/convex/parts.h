@@ -17,9 +17,9 @@ namespace wscvt {
 struct PartsResult {
   ConvexParts parts;
   PartsMeasures measures;
-  ShapeDescriptors original;  ///< of the grain: the mass properties that the parts should have
-  IndexedMesh grain;          ///< the repaired scan: closed, outward
-  std::vector<std::string> warnings;  ///< sentences for the user
+  ShapeDescriptors original;       ///< of the grain: the mass properties that the parts should have
+  IndexedMesh grain;               ///< the repaired scan: closed, outward
+  std::vector<Sentence> warnings;  ///< sentences for the user
 };
 
 /// Makes convex parts of a scan, which is repaired as in remesh(). convex_parts chooses the cuts on

@@ -147,7 +147,6 @@ PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const Con
                        const Execution& execution) {
   check_options(options);
   remesh_options.measures.repaired_scan = true;
-  remesh_options.measures.suggestions = false;  // would not be shown
   RemeshResult remeshed = remesh(std::move(scan), remesh_options, execution.part(0.0, 0.3));
   PartsResult result;
   // The parts do not inherit the remesh's faults, because they are made of the scan.

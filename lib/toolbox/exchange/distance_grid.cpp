@@ -83,7 +83,7 @@ double affordable_spacing(const Box& box, GridOptions options) {
 
 void refuse_grid(const Box& box, const GridOptions& options) {
   throw Error(ErrorCode::InvalidInput,
-              "A spacing (--" + std::string(grid_spacing_option.key) + ") of " +
+              "A spacing (" + mention(grid_spacing_option) + ") of " +
                   format_number(options.spacing) + " needs a grid of " +
                   format_number(point_count(box, options) / 1e6, 3) +
                   " million points, more than " + format_number(most_grid_points / 1e6) +

@@ -119,7 +119,7 @@ void write_parts(const std::string& path, const ConvexParts& parts, const MassPr
   write_file(path, urdf_text(path, parts.size(), mass, density));
 }
 
-std::string inertia_warning(const std::string& path, const MassProperties& mass, double density) {
+Sentence inertia_warning(const std::string& path, const MassProperties& mass, double density) {
   constexpr double least_of_mujoco = 1e-14;  // mjEPS of its compiler
   const double least = density * mass.principal_moments.minCoeff();
   if (ending_of(path) != ".xml" || least >= least_of_mujoco) return "";
@@ -129,8 +129,9 @@ std::string inertia_warning(const std::string& path, const MassProperties& mass,
   return "MuJoCo refuses \"" + path + "\": its least moment of inertia is " +
          format_number(least, 2) +
          ", and MuJoCo's limit is 1e-14. Use a smaller unit of length: "
-         "multiply --size or --scale by " +
-         format_number(units) + ", set --density " + format_number(density / std::pow(units, 3)) +
+         "multiply " +
+         mention("size") + " or " + mention("scale") + " by " + format_number(units) + ", set " +
+         mention("density", format_number(density / std::pow(units, 3))) +
          ", and multiply gravity by " + format_number(units) + ".";
 }
 

@@ -7,6 +7,7 @@
 
 #include "toolbox/convex/convex_parts.h"
 #include "wscvt/base/option.h"
+#include "wscvt/base/sentence.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
@@ -35,6 +36,6 @@ void write_parts(const std::string& path, const ConvexParts& parts, const MassPr
 
 /// Returns a warning with the unit to use if MuJoCo would refuse the inertia in a file of this
 /// name, else an empty text. `mass` as write_parts takes it, in metres.
-std::string inertia_warning(const std::string& path, const MassProperties& mass, double density);
+Sentence inertia_warning(const std::string& path, const MassProperties& mass, double density);
 
 }  // namespace wscvt

@@ -56,9 +56,9 @@ std::vector<std::string> sample_files(const std::string& path) {
   }
   const std::string parts = (fs::path(path) / "shape-*.csv").string();
   refuse("The folder \"" + path +
-         "\" has no shape.csv. Give a folder that wscvt batch wrote without --describe none. Join "
-         "the tables of its parts by: wscvt collect " +
-         parts + " -o " + whole);
+         "\" has no shape.csv. Give a folder that wscvt batch wrote without " +
+         mention("describe", "none") + ". Join the tables of its parts by: wscvt collect " + parts +
+         " -o " + whole);
 }
 
 SampleTables read_sample(const std::string& path, const Execution& execution) {

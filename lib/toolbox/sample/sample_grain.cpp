@@ -209,8 +209,8 @@ SampleGrain measured(SampleGrain grain, const SampleGrids& grids) {
                          grids.sphere().triangles};
   if (has_offset(grain.radial_offset) && !self_intersections(mesh).empty()) {
     refuse("The series of degree " + std::to_string(grids.degree()) +
-           " of the grain intersects itself, because walls of the grain are thin. Give a higher "
-           "--degree, or leave the grain out of the sample.");
+           " of the grain intersects itself, because walls of the grain are thin. Give a higher " +
+           mention("degree") + ", or leave the grain out of the sample.");
   }
   const QuickShape quick = quick_shape(mesh, Execution(1));
   grain.sphericity = quick.shape.sphericity;

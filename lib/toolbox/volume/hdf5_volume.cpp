@@ -355,7 +355,7 @@ class Hdf5Volume : public LabelVolume {
 std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice) {
   file_size(path);  // throws if there is no file
   std::string name;
-  std::string note;
+  Sentence note;
   ArrayShape shape;
   {
     const auto lock = alone();
@@ -381,7 +381,7 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
     }
     if (choice.array.empty() && names.size() > 1 && labels.size() == 1) {
       note = "The array \"" + labels.front() + "\" was read, one of " +
-             std::to_string(names.size()) + ". Choose another by --array.";
+             std::to_string(names.size()) + ". Choose another by " + mention("array") + ".";
       from_root.array = labels.front();
     }
     name = names[chosen_array(names, from_root, path)];

@@ -42,7 +42,7 @@ LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
                 "\"" + path + "\" has no label except the background, " +
                     (std::isnan(options.background) ? std::string("nan")
                                                     : format_number(options.background, 17)) +
-                    ". Check it, or give --background.");
+                    ". Check it, or give " + mention("background") + ".");
   }
   for (std::size_t k = 0; k < labels_.size(); ++k) {
     if (state(labels_[k]) == LabelState::Taken) taken_.push_back(k);

@@ -81,9 +81,9 @@ class LabelGrains {
   const VolumeGeometry& geometry() const { return volume_->geometry(); }
 
   /// See LabelVolume.
-  const std::vector<std::string>& notes() const { return volume_->notes(); }
-  const std::string& description() const { return volume_->description(); }
-  const std::vector<std::string>& warnings() const { return volume_->warnings(); }
+  const std::vector<Sentence>& notes() const { return volume_->notes(); }
+  const Sentence& description() const { return volume_->description(); }
+  const std::vector<Sentence>& warnings() const { return volume_->warnings(); }
 
   /// Returns the file's name of a label; empty if it has none.
   std::string name_of(Label label) const;

@@ -12,6 +12,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 
@@ -66,15 +67,15 @@ class LabelVolume {
   const VolumeGeometry& geometry() const { return geometry_; }
 
   /// Returns sentences for the user about how the file was read, and about what looks wrong in it.
-  const std::vector<std::string>& notes() const { return notes_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
-  void add_note(const std::string& sentence) { notes_.push_back(sentence); }
-  void add_warning(const std::string& sentence) { warnings_.push_back(sentence); }
+  const std::vector<Sentence>& notes() const { return notes_; }
+  const std::vector<Sentence>& warnings() const { return warnings_; }
+  void add_note(const Sentence& sentence) { notes_.push_back(sentence); }
+  void add_warning(const Sentence& sentence) { warnings_.push_back(sentence); }
   void take_notes_of(const LabelVolume& other);
 
   /// Returns one sentence: the counts and the size of the voxels, and what gives the size.
-  const std::string& description() const { return description_; }
-  void describe(const std::string& sentence) { description_ = sentence; }
+  const Sentence& description() const { return description_; }
+  void describe(const Sentence& sentence) { description_ = sentence; }
 
   /// Returns the file's names of labels; empty if it has none.
   const std::map<Label, std::string>& names() const { return names_; }
@@ -109,9 +110,9 @@ class LabelVolume {
  private:
   LabelCoding coding_;
   VolumeGeometry geometry_;
-  std::vector<std::string> notes_;
-  std::vector<std::string> warnings_;
-  std::string description_;
+  std::vector<Sentence> notes_;
+  std::vector<Sentence> warnings_;
+  Sentence description_;
   std::map<Label, std::string> names_;
 };
 

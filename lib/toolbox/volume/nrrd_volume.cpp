@@ -222,7 +222,7 @@ void set_geometry(const NrrdHeader& header, const std::vector<VolumeAxis>& axes,
   for (const std::string& unit : units) {
     if (unit_of(unit) != geometry.unit && !choice.voxel_size) {
       refuse_volume(path, "has axes in " + in_quotes(units.front()) + " and in " + in_quotes(unit) +
-                              ". Give the size in one unit by --voxel-size.");
+                              ". Give the size in one unit by " + mention("voxel-size") + ".");
     }
   }
   set_lattice(geometry, lattice, header.origin, choice, path);

@@ -106,9 +106,9 @@ void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayo
   if (!(size.z() > 0.0)) {
     size.z() = size.x();
     units[2] = units[0];
-    layout.notes.emplace_back(
-        "OME's text has no PhysicalSizeZ. The size along x was used. Give another by --voxel-size "
-        "X,Y,Z.");
+    layout.notes.push_back(
+        "OME's text has no PhysicalSizeZ. The size along x was used. Give another by " +
+        mention("voxel-size", "X,Y,Z") + ".");
   }
   layout.unit = units[0];
   for (std::size_t axis = 1; axis < 3; ++axis) {

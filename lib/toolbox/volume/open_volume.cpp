@@ -12,6 +12,7 @@
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
+#include "wscvt/base/sentence.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/text_fields.h"
@@ -144,12 +145,13 @@ void describe(LabelVolume& volume, const VolumeChoice& choice) {
   }
   if (!geometry.has_size) {
     volume.describe(counts + " voxels.");
-    volume.add_note("Voxel size not in the file: lengths in voxels. Give it by --voxel-size.");
+    volume.add_note("Voxel size not in the file: lengths in voxels. Give it by " +
+                    mention("voxel-size") + ".");
     return;
   }
-  const std::string source = choice.voxel_size              ? "--voxel-size"
-                             : geometry.size_source.empty() ? "the file's header"
-                                                            : geometry.size_source;
+  const Sentence source = choice.voxel_size              ? mention("voxel-size")
+                          : geometry.size_source.empty() ? Sentence("the file's header")
+                                                         : Sentence(geometry.size_source);
   volume.describe(counts + " voxels of " + sizes + (geometry.unit.empty() ? "" : " ") +
                   geometry.unit + ", from " + source + ".");
   constexpr double longest = 5.0;
@@ -158,7 +160,7 @@ void describe(LabelVolume& volume, const VolumeChoice& choice) {
   volume.add_warning("The voxels are " + format_number(ratio) +
                      " times as long in one direction as in another: " + sizes +
                      ". Few scans have such voxels. Check " + source +
-                     ", and give the right size by --voxel-size X,Y,Z.");
+                     ", and give the right size by " + mention("voxel-size", "X,Y,Z") + ".");
 }
 
 /// Checks common to all formats.

@@ -164,7 +164,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     for (const std::uint16_t value : grey) ++counts[value];
     const auto is_some = [](std::uint64_t count) { return count > 0; };
     if (std::count_if(counts.begin(), counts.end(), is_some) < 2) {
-      refuse("All voxels have one grey value after smoothing. Give --threshold.");
+      refuse("All voxels have one grey value after smoothing. Give " + mention("threshold") + ".");
     }
     threshold = base + step * level_between_peaks(counts);
   }
@@ -208,7 +208,8 @@ void drop_small(Segmentation& result, std::int64_t smallest, const Execution& ex
   if (result.grains.empty()) {
     refuse("No grain is left: all " + std::to_string(all.size()) + " parts of material from " +
            format_number(result.threshold) + " on have fewer than " + std::to_string(smallest) +
-           " voxels. Give another --threshold, or a lower --smallest.");
+           " voxels. Give another " + mention("threshold") + ", or a lower " + mention("smallest") +
+           ".");
   }
   for (std::size_t part = 1; part < numbers.size(); ++part) {
     if (numbers[part] == 0) numbers[part] = static_cast<Label>(result.grains.size() + 1);
@@ -279,7 +280,8 @@ std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, doub
     if (value == background) return false;
     if (material && *material != value) {
       refuse("The volume has the labels " + std::to_string(*material) + " and " +
-             std::to_string(value) + ", but --separate needs a mask with one label. Leave it out.");
+             std::to_string(value) + ", but " + mention("separate") +
+             " needs a mask with one label. Leave it out.");
     }
     material = value;
     return true;

@@ -137,15 +137,16 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   if (share_of(segmentation.dropped, segmentation.material) > much) {
     doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
                      " of the material is in parts that are too small, red in the slices: noise, "
-                     "or a wrong threshold. Give --threshold, or a lower --smallest.");
+                     "or a wrong threshold. Give " +
+                     mention("threshold") + ", or a lower " + mention("smallest") + ".");
   }
   std::uint64_t largest = 0;
   for (const LabelExtent& grain : segmentation.grains) largest = std::max(largest, grain.voxels);
   constexpr double most = 0.75;
   if (segmentation.grains.size() != 2 && share_of(largest, segmentation.material) > most) {
     doubts.push_back("One grain has " + format_percent(share_of(largest, segmentation.material)) +
-                     " of the material: it may be several. Give a smaller --separate, or a higher "
-                     "--threshold.");
+                     " of the material: it may be several. Give a smaller " + mention("separate") +
+                     ", or a higher " + mention("threshold") + ".");
   }
   return doubts;
 }
@@ -209,10 +210,11 @@ std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentatio
     figures.push_back({image_element(pictures[k], captions[k]), captions[k]});
   }
   page.add_figures(figures);
-  page.add_paragraph(
-      "Each grain has its own outline. If an outline goes around two grains, make --separate "
-      "smaller. If a line cuts through a grain, make --separate larger. If outlines are off the "
-      "edges of the grains, give --threshold. Red parts were dropped.");
+  page.add_paragraph("Each grain has its own outline. If an outline goes around two grains, make " +
+                     mention("separate") + " smaller. If a line cuts through a grain, make " +
+                     mention("separate") +
+                     " larger. If outlines are off the edges of the grains, give " +
+                     mention("threshold") + ". Red parts were dropped.");
   page.add_lines(segmentation_lines(segmentation));
   std::vector<double> diameters;
   for (const LabelExtent& grain : segmentation.grains) {

@@ -191,7 +191,8 @@ void restore_volume(IndexedMesh& mesh, double volume) {
   if (!(sums.volume() > least_share * volume)) {
     throw Error(ErrorCode::NumericalFailure,
                 "Smoothing leaves less than a tenth of the grain's volume: it is a voxel or two "
-                "thick. Give fewer passes by --smoothing.");
+                "thick. Give fewer passes by " +
+                    mention("smoothing") + ".");
   }
   const Vector3 centroid = start + sums.centroid();
   const double scale = std::cbrt(volume / sums.volume());

@@ -7,6 +7,7 @@
 
 #include "toolbox/volume/volume_choice.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 
@@ -23,10 +24,10 @@ struct TiffLayout {
   std::string unit;
   /// All voxels are one block after the only page.
   bool may_be_one_block = false;
-  std::int64_t offset = 0;  ///< to be added to each number
-  std::string writer;       ///< for messages; empty: the file has no description of its pages
-  std::vector<std::string> notes;       ///< on the size of voxels
-  std::vector<std::string> more_notes;  ///< on other things
+  std::int64_t offset = 0;      ///< to be added to each number
+  std::string writer;           ///< for messages; empty: the file has no description of its pages
+  std::vector<Sentence> notes;  ///< on the size of voxels
+  std::vector<Sentence> more_notes;  ///< on other things
 };
 
 /// The pages of a TIFF.

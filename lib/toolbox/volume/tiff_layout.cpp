@@ -108,7 +108,7 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   layout.voxel_size = Vector3::Constant(spacing ? std::abs(*spacing) : 1.0);
   if (!spacing) {
     layout.notes.push_back("ImageJ noted no distance of slices, which means 1 " + layout.unit +
-                           ". Give another by --voxel-size X,Y,Z.");
+                           ". Give another by " + mention("voxel-size", "X,Y,Z") + ".");
   }
   return layout;
 }

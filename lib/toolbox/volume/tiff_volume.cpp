@@ -358,8 +358,9 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
       size = 10.0 * Vector3(resolution->x(), resolution->y(), resolution->x());
       layout.unit = "mm";
       geometry.size_source = "the TIFF's resolution";
-      layout.notes.push_back("Voxel size from the TIFF's resolution, along z as along x: " +
-                             format_number(size.x()) + " mm. Give another by --voxel-size X,Y,Z.");
+      layout.notes.push_back(
+          "Voxel size from the TIFF's resolution, along z as along x: " + format_number(size.x()) +
+          " mm. Give another by " + mention("voxel-size", "X,Y,Z") + ".");
     }
   } else if (layout.writer == "ImageJ") {
     size = Vector3::Zero();
@@ -541,7 +542,8 @@ std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
   if (page.shows_0_as_white) {
     volume->add_note(
         "The TIFF shows 0 as white. Its numbers were used unchanged. This is correct if the space "
-        "between the grains is white. Otherwise give --background.");
+        "between the grains is white. Otherwise give " +
+        mention("background") + ".");
   }
   return volume;
 }

@@ -74,12 +74,12 @@ std::size_t chosen_array(const std::vector<std::string>& names, const VolumeChoi
   if (choice.array.empty()) {
     if (names.size() == 1) return 0;
     refuse_volume(path, "has " + std::to_string(names.size()) + " arrays: " + all +
-                            ". Choose the array of labels by --array NAME.");
+                            ". Choose the array of labels by " + mention("array", "NAME") + ".");
   }
   const auto found = std::find(names.begin(), names.end(), choice.array);
   if (found == names.end()) {
-    refuse_volume(
-        path, "has no array " + in_quotes(choice.array) + ". It has " + all + ". Correct --array.");
+    refuse_volume(path, "has no array " + in_quotes(choice.array) + ". It has " + all +
+                            ". Correct " + mention("array") + ".");
   }
   if (std::find(found + 1, names.end(), choice.array) != names.end()) {
     refuse_volume(path, "has two arrays " + in_quotes(choice.array) +

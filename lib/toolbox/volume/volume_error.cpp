@@ -5,7 +5,7 @@
 
 namespace wscvt {
 
-void refuse_volume(const std::string& path, const std::string& what) {
+void refuse_volume(const std::string& path, const Sentence& what) {
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
 }
 

@@ -3,9 +3,11 @@
 
 #include <string>
 
+#include "wscvt/base/sentence.h"
+
 namespace wscvt {
 
 /// Throws Error(InputOutput) for a file that is no such volume: "path" + what, and what to do.
-[[noreturn]] void refuse_volume(const std::string& path, const std::string& what);
+[[noreturn]] void refuse_volume(const std::string& path, const Sentence& what);
 
 }  // namespace wscvt

@@ -9,7 +9,7 @@ namespace wscvt {
 
 void refuse_array_choice(const VolumeChoice& choice, const std::string& path) {
   if (choice.array.empty()) return;
-  refuse_volume(path, "has a format with only one array. Leave --array out.");
+  refuse_volume(path, "has a format with only one array. Leave " + mention("array") + " out.");
 }
 
 void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Vector3& origin,
@@ -27,8 +27,8 @@ void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Ve
   }
   const double volume = geometry.voxel_volume();
   if (std::isnormal(volume) && geometry.corner.allFinite()) return;
-  refuse_volume(path,
-                "gives its voxels no volume. Correct the spacing in it, or give --voxel-size.");
+  refuse_volume(path, "gives its voxels no volume. Correct the spacing in it, or give " +
+                          mention("voxel-size") + ".");
 }
 
 }  // namespace wscvt

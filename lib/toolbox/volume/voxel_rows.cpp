@@ -60,9 +60,9 @@ std::string place_text(std::size_t x, const RowPlace& place) {
   const bool can_be_background = !(coding.background < 0.0);
   refuse_volume(place.path,
                 "holds " + value + place_text(x, place) + ". Labels are whole numbers from 0 on. " +
-                    (can_be_background
-                         ? "If it is the space between the grains, give --background " + value + "."
-                         : "Change it to the background in the volume."));
+                    (can_be_background ? "If it is the space between the grains, give " +
+                                             mention("background", value) + "."
+                                       : Sentence("Change it to the background in the volume.")));
 }
 
 [[noreturn]] void refuse_fraction(double value, std::size_t x, const RowPlace& place) {

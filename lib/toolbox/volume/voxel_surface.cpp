@@ -216,7 +216,8 @@ class FaceMaker {
     if (surface_.faces.size() == most) {
       throw Error(ErrorCode::InvalidInput,
                   "A label has a surface of more than 300 million faces: it seems to be the space "
-                  "between the grains. Name it by --background.");
+                  "between the grains. Name it by " +
+                      mention("background") + ".");
     }
     surface_.faces.push_back(face);
   }

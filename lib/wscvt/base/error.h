@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 
@@ -16,15 +20,20 @@ enum class ErrorCode {
 };
 
 /// The base of every exception that the library throws on purpose. The message names the fault, its
-/// place and the remedy.
+/// place and the remedy. what() names options as the program does, `sentence` has them as data.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(ErrorCode code, Sentence sentence)
+      : std::runtime_error(sentence.text()),
+        code_(code),
+        sentence_(std::make_shared<const Sentence>(std::move(sentence))) {}
 
   ErrorCode code() const noexcept { return code_; }
+  const Sentence& sentence() const noexcept { return *sentence_; }
 
  private:
   ErrorCode code_;
+  std::shared_ptr<const Sentence> sentence_;  ///< shared, so that copies throw nothing
 };
 
 /// Thrown when the machine refuses a resource, such as disk space or another open file. The code is
@@ -32,12 +41,12 @@ class Error : public std::runtime_error {
 /// std::bad_alloc.
 class MachineRefused : public Error {
  public:
-  explicit MachineRefused(const std::string& sentence) : Error(ErrorCode::InputOutput, sentence) {}
+  explicit MachineRefused(Sentence sentence) : Error(ErrorCode::InputOutput, std::move(sentence)) {}
 };
 
 /// Throws Error(InvalidInput) with the sentence.
-[[noreturn]] inline void refuse(const std::string& sentence) {
-  throw Error(ErrorCode::InvalidInput, sentence);
+[[noreturn]] inline void refuse(Sentence sentence) {
+  throw Error(ErrorCode::InvalidInput, std::move(sentence));
 }
 
 }  // namespace wscvt

@@ -29,12 +29,6 @@ class Execution::Arena {
   std::string stage;
 };
 
-struct Execution::Count {
-  std::shared_ptr<Count> whole;  ///< count of the execution that made this one by counted()
-  std::atomic<std::uint64_t> elements{0};
-  std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-};
-
 namespace {
 
 /// Makes this thread the caller during a loop, unless the loop is inside another loop's body.
@@ -71,7 +65,6 @@ Execution::Execution(int threads, ProgressCallback progress) : progress_(std::mo
   // More threads than the machine has would not be faster.
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   arena_ = std::make_shared<Arena>(threads > 0 ? std::min(threads, machine) : machine);
-  count_ = std::make_shared<Count>();
 }
 
 void Execution::report(double fraction, const std::string& stage) const {
@@ -98,21 +91,8 @@ Execution Execution::part(double begin, double end) const {
   return result;
 }
 
-Execution Execution::counted(std::uint64_t most) const {
-  Execution result = *this;
-  result.count_ = std::make_shared<Count>();
-  result.count_->whole = count_;
-  result.count_->most = most;
-  return result;
-}
-
-std::uint64_t Execution::work() const { return count_->elements; }
-
 void Execution::parallel_for(std::size_t count, std::size_t block,
                              const std::function<void(std::size_t, std::size_t)>& body) const {
-  for (Count* each = count_.get(); each != nullptr; each = each->whole.get()) {
-    if ((each->elements += count) > each->most) throw WorkExceeded();
-  }
   const std::size_t blocks = (count + block - 1) / block;
   std::optional<CallerOfLoop> caller;
   if (progress_) caller.emplace(arena_->caller);

@@ -2,10 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <exception>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,12 +12,6 @@ namespace wscvt {
 /// Called on the thread that called the library, with the fraction of the work done, 0 to 1, and
 /// the name of the stage. Returning false cancels: the library throws Error(Cancelled).
 using ProgressCallback = std::function<bool(double fraction, const std::string& stage)>;
-
-/// Thrown when the work exceeds its limit, see Execution::counted.
-class WorkExceeded : public std::exception {
- public:
-  const char* what() const noexcept override { return "The work costs more than it may."; }
-};
 
 /// Settings of a run: number of threads, and progress with cancel. Cheap to copy. Any function that
 /// takes an Execution may throw Error(Cancelled), even if its comment does not say so.
@@ -39,15 +30,6 @@ class Execution {
   /// Returns a part. Its progress fills [begin, end] of this one's progress; 0 <= begin <= end <=
   /// 1.
   Execution part(double begin, double end) const;
-
-  /// Returns this execution with its own count of work, starting at 0. The work also counts for
-  /// this execution. A loop that raises the new count above `most` throws WorkExceeded.
-  Execution counted(std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
-
-  /// Returns the work done by this execution, its copies and parts: the number of elements of all
-  /// their loops. Most elements take some hundredths to tenths of a microsecond. Unlike time, this
-  /// number is equal on every machine and for any number of threads.
-  std::uint64_t work() const;
 
   /// Calls body(begin, end) for consecutive blocks of at most `block` >= 1 indices covering [0,
   /// count), possibly at the same time. Exceptions from the body reach the caller.
@@ -72,9 +54,7 @@ class Execution {
 
  private:
   class Arena;
-  struct Count;
   std::shared_ptr<Arena> arena_;
-  std::shared_ptr<Count> count_;
   ProgressCallback progress_;
   double progress_begin_ = 0.0;
   double progress_end_ = 1.0;

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 
@@ -160,6 +161,23 @@ template <class Number>
 std::string typed_text(Number value) {
   static_assert(std::is_integral_v<Number>);
   return std::to_string(value);
+}
+
+// Mentions of these options in a sentence, see sentence.h.
+template <class Number>
+Sentence mention(const NumberOption<Number>& option) {
+  return mention(std::string(option.key));
+}
+template <class Number>
+Sentence mention(const NumberOption<Number>& option, Number value) {
+  return mention(std::string(option.key), typed_text(value));
+}
+inline Sentence mention(const FlagOption& option) {
+  return mention(std::string(option.key), "true");
+}
+template <class Enumeration, class = std::enable_if_t<std::is_enum_v<Enumeration>>>
+Sentence mention(Enumeration value) {
+  return mention(std::string(EnumerationTable<Enumeration>::key), key_of(value));
 }
 
 /// Returns a text with a capital first letter, for the beginning of a sentence.

@@ -32,12 +32,12 @@ MeasuredGrain measured(NamedMesh grain, const DetailedOptions& options,
     return {std::move(grain.name), std::move(checked), descriptors};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
-    throw Error(error.code(), "'" + grain.name + "': " + error.what());
+    throw Error(error.code(), "'" + grain.name + "': " + error.sentence());
   }
 }
 
 void append_detail_remarks(const std::string& name, const DetailedDescriptors& descriptors,
-                           std::vector<std::string>& sentences) {
+                           std::vector<Sentence>& sentences) {
   const Roundness& roundness = descriptors.roundness;
   if (std::isnan(roundness.roundness)) {
     sentences.push_back(
@@ -57,12 +57,12 @@ void append_detail_remarks(const std::string& name, const DetailedDescriptors& d
                         format_number(roughness.cutoff, 3) +
                         ", but edges of this length only show waves from " +
                         format_number(descriptors.least_cutoff, 3) +
-                        " on. Use a denser mesh or a larger --roughness-cutoff.");
+                        " on. Use a denser mesh or a larger " + mention("roughness-cutoff") + ".");
   } else if (roughness.form_leak > told_leak_share * roughness.sq) {
     sentences.push_back("Up to " + format_number(roughness.form_leak, 3) + " of the roughness Sq " +
                         format_number(roughness.sq, 3) + " of '" + name +
                         "' may be form: Ssk and Sku then describe edges more than roughness. " +
-                        "Use a smaller --roughness-cutoff.");
+                        "Use a smaller " + mention("roughness-cutoff") + ".");
   }
   std::string clipped = sdq_clip_sentence("'" + name + "'", descriptors.basic);
   if (!clipped.empty()) sentences.push_back(std::move(clipped));
@@ -82,7 +82,7 @@ void append_detail_remarks(const std::string& name, const DetailedDescriptors& d
   }
 }
 
-void append_remarks(const MeasuredGrain& grain, std::vector<std::string>& sentences) {
+void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences) {
   if (grain.checked.report.components > 1) {
     sentences.push_back("Only the largest of the " +
                         std::to_string(grain.checked.report.components) + " parts of '" +
@@ -129,8 +129,8 @@ std::vector<DescriptorComparison> compare_descriptors(const GrainMeasures& measu
                              list_descriptors(measures.grain.descriptors));
 }
 
-std::vector<std::string> remarks(const GrainMeasures& measures) {
-  std::vector<std::string> sentences;
+std::vector<Sentence> remarks(const GrainMeasures& measures) {
+  std::vector<Sentence> sentences;
   append_remarks(measures.grain, sentences);
   if (measures.reference) append_remarks(*measures.reference, sentences);
   return sentences;

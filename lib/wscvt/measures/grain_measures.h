@@ -43,6 +43,6 @@ GrainMeasures measure_grain(NamedMesh grain, std::optional<NamedMesh> reference,
 std::vector<DescriptorComparison> compare_descriptors(const GrainMeasures& measures);
 
 /// Returns warnings about the numbers: parts left out, descriptors that do not exist, overhangs.
-std::vector<std::string> remarks(const GrainMeasures& measures);
+std::vector<Sentence> remarks(const GrainMeasures& measures);
 
 }  // namespace wscvt

@@ -150,7 +150,7 @@ int fewest_nodes(std::size_t genus) {
 [[noreturn]] void refuse_too_few(int count, std::size_t genus, int enough) {
   const int fewest = fewest_nodes(genus);
   const std::string handles = std::to_string(genus) + (genus == 1 ? " handle" : " handles");
-  std::string text =
+  Sentence text =
       count < fewest
           ? "A closed mesh with " + handles + " needs at least " + std::to_string(fewest) +
                 " nodes, not " + std::to_string(count) + "."
@@ -159,8 +159,8 @@ int fewest_nodes(std::size_t genus) {
     text += " " + std::to_string(enough) + " were tried and are enough. Use that number or more.";
   } else {
     text += " Up to " + std::to_string(most_tried_times * count) +
-            " were tried and are not enough. Use more, or let the handles be cut: --handles cut, "
-            "with a larger --max-handle-loop.";
+            " were tried and are not enough. Use more, or let the handles be cut: " +
+            mention("handles", "cut") + ", with a larger " + mention("max-handle-loop") + ".";
   }
   refuse(text);
 }
@@ -209,13 +209,6 @@ ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& 
     parts->base_clusters[v] = parts->base.cluster_of(static_cast<std::int32_t>(v));
   }
   parts->base.forget();
-}
-
-ScanRemesher ScanRemesher::with(const ScanNodesOptions& options) const {
-  check_scan_options(options);
-  ScanRemesher other = *this;
-  other.options_ = options;
-  return other;
 }
 
 namespace {

@@ -15,7 +15,7 @@ namespace wscvt {
 /// Nodes on a scan, as a closed, oriented 2-manifold of the scan's genus g: F = 2 N - 4 + 4 g.
 struct ScanNodes {
   IndexedMesh mesh;
-  std::vector<double> cell_areas;  ///< of each node's Voronoi cell on the mesh, in its order
+  std::vector<double> cell_areas;  ///< see voronoi_areas; their sum is the mesh's area
   ScanNodesReport report;
 };
 
@@ -37,10 +37,6 @@ class ScanRemesher {
   /// Throws Error(InvalidInput) for options out of range, Error(Cancelled).
   ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& options, int most_nodes,
                const Execution& execution);
-
-  /// Returns a remesher of the same scan with other options, without repeating the preparation.
-  /// Throws Error(InvalidInput) for options out of range.
-  ScanRemesher with(const ScanNodesOptions& options) const;
 
   /// Places exactly `node_count` nodes, 4 to `most_nodes`. The same bytes on any number of threads.
   /// Throws Error(InvalidInput) if a body with handles cannot be triangulated by so few; the

@@ -28,15 +28,16 @@ void refuse_overhang(double overhang_fraction, double limit) {
   if (overhang_fraction >= 1.0) {
     throw Error(ErrorCode::NotStarShaped,
                 "The grain is not star-shaped: its volume centroid lies outside of it or on its "
-                "surface. Use the method on-scan. It accepts any closed grain.");
+                "surface. Use " +
+                    mention(Method::OnScan) + ". It accepts any closed grain.");
   }
   if (overhang_fraction > limit) {
     throw Error(ErrorCode::NotStarShaped,
                 "The grain is not star-shaped: overhangs cover " +
                     format_percent(overhang_fraction) + " of the sphere (limit " +
-                    format_percent(limit) +
-                    "). Use the method on-scan. It accepts any closed grain. Or raise --" +
-                    std::string(max_overhang_option.key) + " and check the result.");
+                    format_percent(limit) + "). Use " + mention(Method::OnScan) +
+                    ". It accepts any closed grain. Or raise " + mention(max_overhang_option) +
+                    " and check the result.");
   }
 }
 

@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/nodes/evening.h"
 #include "wscvt/remesh/contact_fit.h"
 #include "wscvt/repair/handles.h"
 #include "wscvt/surface/curvature.h"
+#include "wscvt/surface/edit_mesh.h"
 #include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
@@ -24,6 +25,14 @@ ScanNodesOptions nodes_options(const OnScanOptions& options) {
   return nodes;
 }
 
+/// Measures nodes anew that have moved since their placement.
+void measure_moved(const Execution& execution, Nodes& nodes, ScanNodesReport& report) {
+  const EditMesh moved(nodes.mesh.points, nodes.mesh.triangles, execution);
+  nodes.cell_areas = voronoi_areas(moved);
+  report.mean_edge_ratio = mean_edge_ratio(moved);
+  report.self_intersections = self_intersections(nodes.mesh, execution).size();
+}
+
 }  // namespace
 
 HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
@@ -33,8 +42,8 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
   if (options.handles.action == HandleAction::Refuse) {
     throw Error(ErrorCode::InvalidInput,
                 "The scan has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
-                    " (tunnels through the grain), but the options do not allow handles. Use --" +
-                    std::string(EnumerationTable<HandleAction>::key) + " cut or keep.");
+                    " (tunnels through the grain), but the options do not allow handles. Use " +
+                    mention(HandleAction::Cut) + " or " + mention(HandleAction::Keep) + ".");
   }
   if (options.handles.action == HandleAction::Cut) {
     return cut_handles(scan, options.handles, execution);
@@ -46,21 +55,10 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
 
 ScanMethod::ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
                        bool with_curvatures, const Execution& execution)
-    : ScanMethod(scan, options, with_curvatures,
-                 ScanRemesher(scan.mesh, nodes_options(options), most_nodes, execution)) {}
-
-ScanMethod::ScanMethod(const NormalizedScan& scan, const OnScanOptions& options,
-                       bool with_curvatures, ScanRemesher remesher)
     : scan_(scan),
       options_(options),
       with_curvatures_(with_curvatures),
-      remesher_(std::move(remesher)) {}
-
-std::unique_ptr<ScanMethod> ScanMethod::with(const OnScanOptions& options,
-                                             bool with_curvatures) const {
-  return std::unique_ptr<ScanMethod>(
-      new ScanMethod(scan_, options, with_curvatures, remesher_.with(nodes_options(options))));
-}
+      remesher_(scan.mesh, nodes_options(options), most_nodes, execution) {}
 
 Nodes ScanMethod::place(int node_count, const Execution& execution) const {
   ScanNodes placed = remesher_.place(node_count, execution.part(0.0, 0.95));
@@ -70,8 +68,7 @@ Nodes ScanMethod::place(int node_count, const Execution& execution) const {
   if (options_.placement == ScanPlacement::ContactFit) {
     nodes.mesh.points = fit_to_contacts(nodes.mesh, scan_.mesh, nullptr, options_.contact_radius,
                                         execution.part(0.95, 1.0));
-    nodes.cell_areas = vertex_areas(nodes.mesh);
-    placed.report.self_intersections = self_intersections(nodes.mesh, execution).size();
+    measure_moved(execution, nodes, placed.report);
   }
   if (with_curvatures_) nodes.curvatures = largest_curvatures(nodes.mesh, execution);
   nodes.report = OnScanReport{{}, std::move(placed.report)};
@@ -85,6 +82,8 @@ Nodes SurfaceMethod::place(int node_count, const Execution& execution) const {
     const Vector3 direction = point.normalized();
     point = surface_.radius(direction) * direction;
   }
+  measure_moved(execution, nodes, std::get<OnScanReport>(nodes.report).nodes);
+  if (!nodes.curvatures.empty()) nodes.curvatures = largest_curvatures(nodes.mesh, execution);
   return nodes;
 }
 

@@ -29,16 +29,9 @@ class ScanMethod : public RemeshMethod {
   ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
              bool with_curvatures, const Execution& execution);
 
-  /// Returns this method with other options and the same `most_nodes`. Throws Error(InvalidInput)
-  /// for options out of range.
-  std::unique_ptr<ScanMethod> with(const OnScanOptions& options, bool with_curvatures) const;
-
   Nodes place(int node_count, const Execution& execution) const override;
 
  private:
-  ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, bool with_curvatures,
-             ScanRemesher remesher);
-
   const NormalizedScan& scan_;
   OnScanOptions options_;
   bool with_curvatures_;

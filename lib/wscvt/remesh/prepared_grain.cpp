@@ -71,20 +71,16 @@ void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget&
               "The allowed error is " + format_number(target.percent) +
                   " % of the equivalent radius, but the SH surface itself is " +
                   format_number(reach, 3) +
-                  " % off the scan. Nodes on it are not closer. Allow a larger error, raise --" +
-                  std::string(harmonic_degree_option.key) + ", or use the method on-scan.");
+                  " % off the scan. Nodes on it are not closer. Allow a larger error, raise " +
+                  mention(harmonic_degree_option) + ", or use " + mention(Method::OnScan) + ".");
 }
 
-/// Prepares the method in the options. This is where it is chosen. `before`: the method prepared
-/// for the same scan, or nullptr.
-void choose_method(const RemeshOptions& options, const ScanMethod* before,
-                   const Execution& execution, PreparedGrain& grain) {
+/// Prepares the method in the options. This is where it is chosen.
+void choose_method(const RemeshOptions& options, const Execution& execution, PreparedGrain& grain) {
   const bool with_curvatures = options.measures.node_curvatures;
   if (const auto* on_scan = std::get_if<OnScanOptions>(&options.method)) {
-    grain.method = before != nullptr
-                       ? before->with(*on_scan, with_curvatures)
-                       : std::make_unique<ScanMethod>(grain.scan, *on_scan, most_nodes(options),
-                                                      with_curvatures, execution.part(0.0, 0.8));
+    grain.method = std::make_unique<ScanMethod>(grain.scan, *on_scan, most_nodes(options),
+                                                with_curvatures, execution.part(0.0, 0.8));
     if (options.measures.series) {
       grain.coefficients =
           options.measures.series(grain.scan.mesh, options.degree, execution.part(0.8, 0.9));
@@ -112,15 +108,7 @@ void prepare(CheckedMesh checked, const RemeshOptions& options, const Execution&
   grain.input = checked.report;
   grain.scan = normalize(std::move(checked.mesh), checked.report.centroid,
                          checked.report.equivalent_radius, execution.part(0.1, 0.2));
-  choose_method(options, nullptr, execution.part(0.2, 1.0), grain);
-}
-
-void prepare_again(const PreparedGrain& prepared, const RemeshOptions& options,
-                   const Execution& execution, PreparedGrain& grain) {
-  grain.scan = prepared.scan;
-  grain.input = prepared.input;
-  grain.handles = prepared.handles;
-  choose_method(options, dynamic_cast<const ScanMethod*>(prepared.method.get()), execution, grain);
+  choose_method(options, execution.part(0.2, 1.0), grain);
 }
 
 void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, double unit,

@@ -38,12 +38,6 @@ struct PreparedGrain {
 void prepare(CheckedMesh checked, const RemeshOptions& options, const Execution& execution,
              PreparedGrain& grain);
 
-/// Prepares the same scan for other options with as many nodes. Reuses its handles and, for the
-/// method on the scan, everything that does not depend on its options. `prepared` must outlive
-/// `grain`, which is empty before.
-void prepare_again(const PreparedGrain& prepared, const RemeshOptions& options,
-                   const Execution& execution, PreparedGrain& grain);
-
 /// Prepares a surface given by a formula or by coefficients. `scaled`, of equivalent radius 1, must
 /// outlive the grain; `integrals` are the surface's, in the unit `unit`.
 void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, double unit,

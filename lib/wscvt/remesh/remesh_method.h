@@ -27,7 +27,7 @@ class RemeshMethod {
   RemeshMethod& operator=(const RemeshMethod&) = delete;
   virtual ~RemeshMethod() = default;
 
-  /// Places `node_count` nodes. Called once, or many times by a search and by suggestions. Throws
+  /// Places `node_count` nodes. Called once, or many times by a search. Throws
   /// Error: InvalidInput, NumericalFailure, Cancelled.
   virtual Nodes place(int node_count, const Execution& execution) const = 0;
 };

@@ -146,7 +146,6 @@ struct MeasureOptions {
   bool distances = false;        ///< fill RemeshResult::distances and vertex_distances
   bool node_curvatures = false;  ///< fill RemeshResult::curvatures
   bool repaired_scan = false;    ///< fill RemeshResult::repaired_scan
-  bool suggestions = true;       ///< fill RemeshResult::suggestions if the remesh is not accurate
   /// Fits RemeshResult::coefficients to a scan that is remeshed on the scan, to the degree of the
   /// options. It is called with the repaired scan, its handles cut, centred and of equivalent
   /// radius
@@ -186,11 +185,6 @@ inline constexpr FlagOption points_option = {
     "an error"};
 inline constexpr FlagOption distances_option = {"distances", "measure distances",
                                                 "from remesh to scan and back, and report them"};
-inline constexpr FlagOption suggestions_option = {
-    "suggestions", "suggest better settings",
-    "if the remesh is not accurate: try another setting at no more cost than the run, and name it "
-    "if it is better"};
-
 /// Calls `visitor` for each option of one method, with a number and its NumberOption, or with an
 /// enumeration. `options` may be const.
 template <class Options, class Visitor>
@@ -221,7 +215,6 @@ void for_each_common_option(Options& options, Visitor& visitor) {
   visitor(options.envelope.opening_percent, envelope_option);
   visitor(options.max_repaired_area_percent, mended_area_limit_option);
   visitor(options.measures.distances, distances_option);
-  visitor(options.measures.suggestions, suggestions_option);
 }
 
 /// Calls `visitor` for every option that changes a remesh or its report: with a number and its

@@ -20,13 +20,6 @@
 
 namespace wscvt {
 
-/// Another setting and its result.
-struct SuggestedSetting {
-  std::string setting;           ///< in words that complete "with"
-  double rms_distance = 0.0;     ///< from the scan to that remesh / equivalent radius
-  double area_difference = 0.0;  ///< area of that remesh / the scan's, less 1
-};
-
 /// Report of the method OnScan.
 struct OnScanReport {
   HandleReport handles;  ///< lengths and places of the input
@@ -49,8 +42,9 @@ struct RemeshResult {
   std::vector<Vector3> directions;       ///< unit, from `centre` to each vertex
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
-  /// Surface area of each node's cell, length^2: as published the area of its power cell, on the
-  /// scan a third of the area of its triangles.
+  /// Surface area of each node's cell, length^2: on the scan its Voronoi cell on the remesh, as
+  /// published its power cell, projected to the surface. On the scan the sum is the remesh's area.
+  /// Node tables have the area that a node stands for, a third of its triangles (vertex_areas).
   std::vector<double> cell_areas;
   std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
   Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
@@ -67,15 +61,14 @@ struct RemeshResult {
   /// Rms distance from the scan to the remesh; length. Measured at the samples of `distances`, or
   /// at 5,000 points of the scan without `distances`.
   double rms_distance = 0.0;
-  std::vector<SuggestedSetting> suggestions;  ///< if the remesh is not accurate; see is_inaccurate
-  std::optional<MeshDistances> distances;     ///< between remesh and scan; if asked for
-  std::optional<NodeCountSearch> search;  ///< the error of each N tried, %; with an error target
-  MeshQuality original_quality;           ///< of the repaired scan
-  MeshQuality quality;                    ///< of the remesh
-  ShapeDescriptors original;              ///< of the repaired scan
+  std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for
+  std::optional<NodeCountSearch> search;   ///< the error of each N tried, %; with an error target
+  MeshQuality original_quality;            ///< of the repaired scan
+  MeshQuality quality;                     ///< of the remesh
+  ShapeDescriptors original;               ///< of the repaired scan
   ShapeDescriptors remesh;
-  RemeshOptions options;              ///< as used
-  std::vector<std::string> warnings;  ///< sentences for the user
+  RemeshOptions options;           ///< as used
+  std::vector<Sentence> warnings;  ///< sentences for the user
 };
 
 /// Return the report of the method, or nullptr if the other method was used.

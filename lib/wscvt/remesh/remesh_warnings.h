@@ -27,15 +27,14 @@ bool is_inaccurate(const RemeshResult& result);
 /// Appends a sentence each about the scan's omitted bodies, inner surfaces and repaired area.
 /// `done` says what was done with the remaining body, such as "remeshed".
 void append_repair_warnings(const MeshCheckReport& input, const std::string& done,
-                            std::vector<std::string>& warnings);
+                            std::vector<Sentence>& warnings);
 
 /// Returns warnings for users of anything else than the remesh that is made of the scan: how the
 /// scan was read and repaired, and its handles.
-std::vector<std::string> scan_warnings(const RemeshResult& result);
+std::vector<Sentence> scan_warnings(const RemeshResult& result);
 
 /// Returns the warnings of a result, the scan's faults first. The very first is `of_precision`, if
 /// it is not empty (see precision_warning).
-std::vector<std::string> remesh_warnings(const RemeshResult& result,
-                                         const std::string& of_precision);
+std::vector<Sentence> remesh_warnings(const RemeshResult& result, const std::string& of_precision);
 
 }  // namespace wscvt

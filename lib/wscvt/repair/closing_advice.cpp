@@ -5,10 +5,9 @@
 
 namespace wscvt {
 
-std::string tried_wrap_advice(double opening_percent) {
-  return "A shrink-wrap with an opening of " + format_number(opening_percent) +
-         " % was tried and can be remeshed: use --" + std::string(envelope_option.key) + " " +
-         format_number(opening_percent) + " and check the result against the scan.";
+Sentence wrap_advice(double opening_percent) {
+  return "Or remesh its shrink-wrap by " + mention(envelope_option, opening_percent) +
+         ", and check the result against the scan.";
 }
 
 std::string where_meshlab_closes() {

@@ -11,27 +11,14 @@ namespace wscvt {
 
 // Advice in errors and warnings about scans with openings. Tests follow it.
 
-/// Thrown if a scan is refused but its shrink-wrap may be usable.
-class WrappableScan : public Error {
- public:
-  /// `opening_percent`: the smallest opening that is worth a trial, in % of the bounding box's
-  /// diagonal.
-  WrappableScan(ErrorCode code, const std::string& sentence, double opening_percent)
-      : Error(code, sentence), opening_percent_(opening_percent) {}
+/// The opening of a shrink-wrap that is tried first, in % of the diagonal of the scan's bounding
+/// box: smaller openings take seconds. With an opening above the coarsest a wrap does not follow
+/// its scan.
+inline constexpr double usual_opening_percent = 5.0;
+inline constexpr double coarsest_opening_percent = 20.0;
 
-  double opening_percent() const noexcept { return opening_percent_; }
-
- private:
-  double opening_percent_;
-};
-
-/// The smallest and the largest opening that are tried. Smaller openings take seconds. With larger
-/// openings a wrap does not follow its scan.
-inline constexpr double finest_tried_percent = 5.0;
-inline constexpr double coarsest_tried_percent = 20.0;
-
-/// Returns a sentence on a shrink-wrap that was tried.
-std::string tried_wrap_advice(double opening_percent);
+/// Returns a sentence on the shrink-wrap of a scan that is refused.
+Sentence wrap_advice(double opening_percent = usual_opening_percent);
 
 /// Returns the menu path and settings of the MeshLab filter that closes openings.
 std::string where_meshlab_closes();

@@ -273,12 +273,9 @@ HandleFreeMesh remove_handles(IndexedMesh mesh, const HandleOptions& options,
   HandleFreeMesh result;
   const std::size_t genus = genus_of(mesh);
   if (genus > most_handles_cut) {
-    throw WrappableScan(ErrorCode::InvalidInput,
-                        "The scan has " + std::to_string(genus) +
-                            " handles, more than the limit of " + std::to_string(most_handles_cut) +
-                            ": it is porous. Close the pores first (" + where_meshlab_closes() +
-                            ").",
-                        finest_tried_percent);
+    refuse("The scan has " + std::to_string(genus) + " handles, more than the limit of " +
+           std::to_string(most_handles_cut) + ": it is porous. Close the pores first (" +
+           where_meshlab_closes() + "). " + wrap_advice());
   }
   const double volume = volume_of(mesh, Execution(1));
   const double radius = equivalent_radius(std::abs(volume));

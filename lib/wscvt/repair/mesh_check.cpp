@@ -143,15 +143,16 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, 
     found += (found.empty() ? "" : ", and ") + count_of(boundary_edges, "boundary edge") +
              " around " + count_of(report.filled_holes, "hole");
   }
-  const std::string sentence =
-      "The mesh has " + found + ". Their repair would change " + format_percent(mended) +
-      " of its area (limit " + format_percent(limit) + "). Raise --" +
-      std::string(mended_area_limit_option.key) + " above " + format_percent(mended) +
-      " and check the result against the scan, close the openings first (" +
-      where_meshlab_closes() + "), or scan the grain again.";
+  Sentence sentence = "The mesh has " + found + ". Their repair would change " +
+                      format_percent(mended) + " of its area (limit " + format_percent(limit) +
+                      "). Raise " + mention(mended_area_limit_option) + " above " +
+                      format_percent(mended) +
+                      " and check the result against the scan, close the openings first (" +
+                      where_meshlab_closes() + "), or scan the grain again.";
   // A ball as wide as the hole still enters it a little.
-  const double percent = std::max(finest_tried_percent, std::ceil(120.0 * widest_share));
-  throw WrappableScan(ErrorCode::InvalidInput, sentence, percent);
+  const double percent = std::max(usual_opening_percent, std::ceil(120.0 * widest_share));
+  if (percent <= coarsest_opening_percent) sentence += " " + wrap_advice(percent);
+  refuse(sentence);
 }
 
 /// Refuses a mesh in which a vertex lies so far from all its neighbours that it is a fault of the
@@ -395,13 +396,10 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
     look_again();
   }
   if (!components.list[main].orientable) {
-    throw WrappableScan(
-        ErrorCode::InvalidInput,
-        std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
-            " is not orientable: its faces cannot all be turned to face outward, so they enclose "
-            "nothing. Give it two sides first (" +
-            where_meshlab_closes() + "), or scan the grain again.",
-        finest_tried_percent);
+    refuse(std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
+           " is not orientable: its faces cannot all be turned to face outward, so they enclose "
+           "nothing. Give it two sides first (" +
+           where_meshlab_closes() + "), or scan the grain again. " + wrap_advice());
   }
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;

@@ -36,13 +36,13 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
     const auto triangulation =
         SphereTriangulation::try_build(directions, std::vector<double>(), part);
     if (!triangulation) {
-      // The wrap enters gaps between points that are as wide as its opening.
-      constexpr double first_percent = 10.0;
-      throw WrappableScan(ErrorCode::NumericalFailure,
-                          "No surface with one radius in each direction goes through the points: "
-                          "they do not surround their centre, or two lie on one ray from it. " +
-                              surface_of_points_advice(),
-                          first_percent);
+      // A wrap enters gaps between points that are as wide as its opening. Points of a box of
+      // 4 x 7 x 9 at a distance of 1 need 13 %.
+      constexpr double first_percent = 15.0;
+      throw Error(ErrorCode::NumericalFailure,
+                  "No surface with one radius in each direction goes through the points: they do "
+                  "not surround their centre, or two lie on one ray from it. " +
+                      surface_of_points_advice() + " " + wrap_advice(first_percent));
     }
     mesh.triangles = triangulation->triangles();
     centre += mesh_sums(mesh.points, mesh.triangles, centre, part).centroid();
@@ -56,7 +56,8 @@ IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& ex
   throw Error(ErrorCode::InvalidInput,
               "The scan has " + std::to_string(scan.points.size()) +
                   " points and no faces. If it was exported without its faces, export it again. If "
-                  "there are only points, build a surface from them: --points.");
+                  "there are only points, build a surface from them: " +
+                  mention("points", "true") + ".");
 }
 
 void count_given(std::size_t points, std::size_t faces, std::size_t different,

@@ -133,7 +133,7 @@ struct EnumerationTable<HandleAction> {
   static constexpr std::string_view subject = "treatment of handles";
   static constexpr Enumerator<HandleAction> rows[] = {
       {HandleAction::Cut, "cut", "cut",
-       "remove handles with a loop up to --max-handle-loop, because scanners make them; keep "
+       "remove handles with a short loop, because scanners make them; keep "
        "larger handles, such as a ring's"},
       {HandleAction::Keep, "keep", "keep", "keep all handles"},
       {HandleAction::Refuse, "refuse", "refuse", "refuse a scan with a handle"},

@@ -181,16 +181,6 @@ Json json_of(const std::optional<NodeCountSearch>& search) {
   return report;
 }
 
-Json json_of(const std::vector<SuggestedSetting>& suggestions) {
-  Json list = Json::array();
-  for (const SuggestedSetting& one : suggestions) {
-    list.push_back({{"with", one.setting},
-                    {"rms_distance_percent_of_equivalent_radius", 100.0 * one.rms_distance},
-                    {"area_error_percent", 100.0 * one.area_difference}});
-  }
-  return list;
-}
-
 Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
   const OnScanReport* on_scan = on_scan_report(result);
   const AsPublishedReport* published = as_published_report(result);
@@ -218,7 +208,6 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
        {{"scan_to_remesh", result.rms_distance},
         {"percent_of_equivalent_radius",
          100.0 * result.rms_distance / result.input.equivalent_radius}}},
-      {"suggestions", json_of(result.suggestions)},
       {"distances", json_of(result.distances)},
       {"descriptors", json_of(comparison, ComparisonNames())},
       {"descriptor_names", json_names_of(comparison)},

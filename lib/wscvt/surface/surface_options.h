@@ -23,7 +23,8 @@ inline constexpr NumberOption<int> harmonic_degree_option = {
     fit_degree_option.minimum,
     fit_degree_option.maximum,
     Ends::Both,
-    "of the surface that carries the nodes (as-published), of --coefficients only (on-scan)"};
+    "of the surface that carries the nodes (as-published), of the coefficients file only "
+    "(on-scan)"};
 
 /// Default limit of the overhang fraction (folded_solid_angle), in % of the solid angle. Up to it a
 /// body is treated as star-shaped, and its outermost surface replaces it.

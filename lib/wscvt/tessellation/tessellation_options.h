@@ -34,9 +34,12 @@ struct EnumerationTable<Sampling> {
 
 /// A closed mesh has at least four nodes. A million nodes take minutes.
 inline constexpr NumberOption<int> node_count_option = {
-    "nodes",    "number of nodes",
-    4,          1000000,
-    Ends::Both, "the remesh gets exactly this number. With --max-error, the first number tried"};
+    "nodes",
+    "number of nodes",
+    4,
+    1000000,
+    Ends::Both,
+    "the remesh gets exactly this number. With an allowed error, the first number tried"};
 
 /// Weight of a seed, which sets the size of its cell: w in steradian, for N seeds on a surface of
 /// area S, at radius r and area per solid angle g = dA/dOmega. Equations are of the paper named in

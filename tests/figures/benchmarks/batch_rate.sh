@@ -18,7 +18,7 @@ rate() { awk -v from="$2" -v to="$3" -v n="$count" -v what="$1" \
 
 start=$(now)
 for one in scans/*; do
-  "$program" remesh "$one" one.ply -q --no-suggestions --report table.csv "$@" 2> /dev/null
+  "$program" remesh "$one" one.ply -q --report table.csv "$@" 2> /dev/null
 done
 end=$(now)
 rate "one process a file" "$start" "$end"

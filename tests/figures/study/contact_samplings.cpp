@@ -11,7 +11,6 @@ RemeshOptions published(Weighting weighting, Sampling sampling = Sampling::Weigh
   method.sampling = sampling;
   method.placement = PublishedPlacement::Surface;
   RemeshOptions options;
-  options.measures.suggestions = false;
   options.method = method;
   return options;
 }
@@ -23,7 +22,6 @@ RemeshOptions on_scan(CellWeighting weighting, ScanPlacement placement,
   method.placement = placement;
   method.edge_ratio = edge_ratio;
   RemeshOptions options;
-  options.measures.suggestions = false;
   options.method = method;
   return options;
 }

@@ -50,7 +50,6 @@ void add_fitted(const std::string& name, const wscvt::IndexedMesh& scan, const C
                 int nodes, Table& table, const wscvt::Execution& execution) {
   wscvt::RemeshOptions options;
   options.node_count = nodes;
-  options.measures.suggestions = false;
   wscvt::IndexedMesh mesh = wscvt::remesh(scan, options, execution).mesh;
   const ContactGrain seen(scan, 6000, execution, 1);
   mesh.points = seen.fitted_to_contacts(std::move(mesh.points), execution);

@@ -97,7 +97,6 @@ RemeshOptions paper_options(const Method& method, int node_count) {
   published.weighting = method.weighting;
   RemeshOptions options;
   options.method = published;
-  options.measures.suggestions = false;
   options.node_count = node_count;
   return options;
 }
