@@ -108,29 +108,6 @@ TEST(FitGuards, DriveNothingThroughTheOtherSheet) {
   EXPECT_TRUE(self_intersections({state.mesh.points, state.mesh.triangles}).empty());
 }
 
-TEST(FitGuards, FoldNoEdge) {
-  // A node of a flat place rises alone: the triangles about it may not stand like a tent's.
-  const IndexedMesh plate = test::subdivided(test::box(2.0, 1.8, 0.8), 4);
-  FitState state = test::fit_state(plate, test::clusters(plate, 300));
-  std::vector<Vector3> step = still(state);
-  for (std::size_t i = 0; i < step.size(); ++i) {
-    step[i].z() = (i % 7 == 0 ? 3.0 : -3.0) * state.edge;
-  }
-  move_nodes(state, step, Execution(1));
-  const EditMesh& mesh = state.mesh;
-  // At the box's corners an edge may be as sharp as the scan.
-  const auto agrees = [&](std::size_t t) {
-    return state.of[t].size() >= 3 && state.unit_normal(t).dot(state.sample_normals[t]) >
-                                          face_agreement * state.sample_normals[t].norm();
-  };
-  for (std::size_t h = 0; h < mesh.opposite.size(); ++h) {
-    const std::size_t t = h / 3;
-    const std::size_t u = face_of(mesh.opposite[h]);
-    if (agrees(t) && agrees(u)) continue;
-    EXPECT_GE(state.unit_normal(t).dot(state.unit_normal(u)), folded - 1e-9);
-  }
-}
-
 TEST(FitGuards, AreTheSameOnAnyNumberOfThreads) {
   const IndexedMesh body = test::lumpy(4);
   FitState one = test::fit_state(body, test::clusters(body, 1300), 1.105, 8);

@@ -52,7 +52,7 @@ TEST(FitRelocations, GainMoreThanTheyCostEachTime) {
   const double first = test::mean_square(state);
   double last = first;
   int moved = 1;
-  for (int round = 0; round < 12 && moved > 0; ++round) {
+  for (int round = 0; round < 60 && moved > 0; ++round) {
     moved = relocate_nodes(state, Execution(1));
     // What they gain and cost has springs too: once little is left, these may decide.
     EXPECT_LE(test::mean_square(state), 1.01 * last);

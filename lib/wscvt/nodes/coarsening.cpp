@@ -10,6 +10,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/star_shape.h"
 
 namespace wscvt {
 
@@ -32,6 +33,10 @@ constexpr double large_face = 0.1;
 constexpr double least_squared_sine = 0.0012;
 /// The heap is rebuilt, after flips, each time this fraction of the vertices is left.
 constexpr double heap_share = 0.85;
+/// How much more than its mass a cluster over a rim counts for the place of a merged one, so that
+/// it stays on the rim. Without it, rims of thin plates become saws of teeth one edge long (rms of
+/// 19 thin bodies .59 instead of .38 % in the mean). A tenth or ten times of it change 1 %.
+constexpr double rim_hold = 1000.0;
 
 }  // namespace
 
@@ -57,8 +62,12 @@ Coarsening::Coarsening(EditMesh scan, const std::vector<double>& density)
 }
 
 Vector3 Coarsening::merged(std::int32_t v, std::int32_t w) const {
-  return (masses_[v] * mesh_.points[v] + masses_[w] * mesh_.points[w]) /
-         (masses_[v] + masses_[w] + 1e-300);
+  const auto hold = [&](std::int32_t i) {
+    return masses_[i] * (1.0 + rim_hold * rim_share(vectors_[i].norm() / (areas_[i] + 1e-300)));
+  };
+  const double of_v = hold(v);
+  const double of_w = hold(w);
+  return (of_v * mesh_.points[v] + of_w * mesh_.points[w]) / (of_v + of_w + 1e-300);
 }
 
 double Coarsening::cost(std::int32_t v, std::int32_t w) const {

@@ -12,8 +12,9 @@ namespace wscvt {
 
 /// A closed surface coarsened on its own triangles by merging vertices: Ward's clusters (Ward 1963,
 /// J. Am. Stat. Assoc. 58, 236). A vertex represents a cluster of the scan's vertices and is their
-/// centroid. The next merge adds least to the sum of their squared distances from it. For points
-/// distributed over a surface, this is close to a centroidal Voronoi tessellation.
+/// centroid, but a cluster over a thin rim stays on the rim. The next merge adds least to the sum
+/// of their squared distances from it. For points distributed over a surface, this is close to a
+/// centroidal Voronoi tessellation.
 ///
 /// Masses are areas, or areas times the square of the wanted density of nodes. The cells of an
 /// optimal quantizer in the plane then have the wanted density (Gersho 1979, IEEE Trans. Inf.

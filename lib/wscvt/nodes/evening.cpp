@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "wscvt/base/smooth_step.h"
 #include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/star_shape.h"
 #include "wscvt/surface/triangle_place.h"
 
 namespace wscvt {
@@ -19,10 +19,6 @@ constexpr double momentum = 0.95;
 constexpr double longest_evening_step = 0.3;
 /// How far nodes at a rim are pushed out, in mean edges.
 constexpr double rim_push = 0.5;
-/// Length of the sum of a star's area vectors over its area. Below `rim_begins` the star bends over
-/// a rim; at `rim_begins - rim_width` the push is complete.
-constexpr double rim_begins = 0.75;
-constexpr double rim_width = 0.3;
 /// Smaller cells count as this fraction of the mean, because obtuse triangles reduce the area.
 constexpr double least_cell = 0.3;
 /// Smallest barycentric weight of a circumcentre; farther out the cell would turn over.
@@ -243,26 +239,24 @@ class Evening {
 
   void plan_node(std::size_t i, double mean, double share_of_last) {
     CellPart cell;
-    Vector3 normal = Vector3::Zero();
-    double star = 0.0;
     nodes_.around(static_cast<std::int32_t>(i), [&](std::int32_t h) {
       cell.mass += parts_[h].mass;
       cell.moment += parts_[h].moment;
-      normal += normals_[face_of(h)];
-      star += normals_[face_of(h)].norm();
     });
-    const double flatness = normal.norm() / (star + 1e-300);
-    normal /= normal.norm() + 1e-300;
+    const StarShape shape = star_shape([&](const auto& visit) {
+      nodes_.around(static_cast<std::int32_t>(i),
+                    [&](std::int32_t h) { visit(normals_[face_of(h)]); });
+    });
     const double density = std::sqrt(mass_density_[i]);
     // A cell of the wanted density has the mass mean * density.
     Vector3 step = cell.moment / std::max(cell.mass, least_cell * mean * density) +
                    share_of_last * (nodes_.points[i] - previous_[i]);
-    step -= normal.dot(step) * normal;
+    step = shape.tangential(step);
     const double edge = edge_ / std::sqrt(std::max(density, 1e-3));
     const double length = step.norm();
     if (length > longest_evening_step * edge) step *= longest_evening_step * edge / length;
     steps_[i] = step;
-    pushes_[i] = rim_push * edge * smooth_step((rim_begins - flatness) / rim_width) * normal;
+    pushes_[i] = rim_push * edge * shape.rim * shape.normal;
     shares_[i] = 1.0;
   }
 

@@ -8,6 +8,7 @@
 
 #include "wscvt/nodes/fit_steps.h"
 #include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/star_shape.h"
 
 namespace wscvt {
 
@@ -22,6 +23,11 @@ constexpr double own_weight = 0.2;
 constexpr double own_plane = 0.05;
 /// A node farther than this from all its samples, in mean edges, is pulled to the nearest sample.
 constexpr double leash = 0.2;
+/// A node at a rim that lies farther out than this beyond its samples, in mean edges, is pulled
+/// back with this weight. The planes of a wedge's sheets meet beyond its rounded rim: without it,
+/// rms of 19 thin bodies is 6 % larger in the mean. A third or three times the weight costs 2 %.
+constexpr double rim_reach = 0.03;
+constexpr double rim_support = 0.3;
 /// Added to a triangle's longest / shortest edge less one, so that springs stay finite.
 constexpr double softest_triangle = 0.1;
 constexpr int gradient_steps = 15;
@@ -71,10 +77,20 @@ struct FaceSystem {
   }
 };
 
-/// The nearest of a triangle's samples to one of its corners.
+/// The nearest of a triangle's samples to one of its corners, and how far out they reach along the
+/// normal of a corner's star that bends over a rim.
 struct NearestSample {
   double squared_distance = 1e300;
   std::int32_t sample = -1;
+  double outmost = -1e300;
+
+  void add(const NearestSample& other) {
+    if (other.squared_distance < squared_distance) {
+      squared_distance = other.squared_distance;
+      sample = other.sample;
+    }
+    outmost = std::max(outmost, other.outmost);
+  }
 };
 
 class FitEquations {
@@ -84,7 +100,7 @@ class FitEquations {
         mesh_(state.mesh),
         execution_(execution),
         count_(state.mesh.points.size()),
-        normals_(count_),
+        shapes_(count_),
         centres_(count_),
         faces_(mesh_.triangles.size()),
         nearest_(3 * mesh_.triangles.size()),
@@ -173,19 +189,20 @@ class FitEquations {
 
   /// Computes the normal of a node's star, the middle of its ring and its mean edge.
   void look_at(std::size_t i) {
-    Vector3 sum = Vector3::Zero();
     Vector3 centre = Vector3::Zero();
     double edges = 0.0;
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
-      sum += mesh_.normal(face_of(half_edges_[at]));
       centre += state_.ring_weight(static_cast<std::int32_t>(i), neighbours_[at]) *
                 mesh_.points[neighbours_[at]];
       edges += (mesh_.points[neighbours_[at]] - mesh_.points[i]).norm();
     }
     centres_[i] = centre / ring_sums_[i];
     state_.ring_edges[i] = edges / static_cast<double>(mesh_.degrees[i]);
-    const double length = sum.norm();
-    normals_[i] = length > 0.0 ? Vector3(sum / length) : Vector3::UnitZ();
+    shapes_[i] = star_shape([&](const auto& visit) {
+      for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
+        visit(mesh_.normal(face_of(half_edges_[at])));
+      }
+    });
   }
 
   /// Adds a triangle's samples: their distance along the mean of both normals.
@@ -229,9 +246,10 @@ class FitEquations {
     const FitSample& sample = state_.samples[s];
     if (sample.place.weights[k] <= own_weight) return;
     const std::size_t corner = 3 * t + static_cast<std::size_t>(k);
-    const Vector3& x = mesh_.points[mesh_.triangles[t][static_cast<std::size_t>(k)]];
-    const double squared = (x - sample.point).squaredNorm();
-    if (squared < nearest_[corner].squared_distance) nearest_[corner] = {squared, s};
+    const std::int32_t v = mesh_.triangles[t][static_cast<std::size_t>(k)];
+    const StarShape& shape = shapes_[v];
+    nearest_[corner].add({(mesh_.points[v] - sample.point).squaredNorm(), s,
+                          shape.rim > 0.0 ? shape.normal.dot(sample.point) : -1e300});
   }
 
   /// Adds the price of a sharp triangle.
@@ -286,9 +304,10 @@ class FitEquations {
       add_spring(i, at);
     }
     add_nearest(i);
-    inverse_[i] = (own + ring_diagonal * state_.ring() *
-                             (Matrix3::Identity() - normals_[i] * normals_[i].transpose()))
-                      .inverse();
+    const Vector3& normal = shapes_[i].normal;
+    inverse_[i] =
+        (own + ring_diagonal * state_.ring() * (Matrix3::Identity() - normal * normal.transpose()))
+            .inverse();
   }
 
   void add_spring(std::size_t i, std::int32_t at) {
@@ -311,14 +330,14 @@ class FitEquations {
   }
 
   /// Adds the distance of a node from the plane of its nearest sample, and from the sample itself
-  /// if that is far.
+  /// if that is far; at a rim, also how far it lies beyond its samples.
   void add_nearest(std::size_t i) {
     NearestSample nearest;
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
-      const NearestSample& one = nearest_[half_edges_[at]];
-      if (one.squared_distance < nearest.squared_distance) nearest = one;
+      nearest.add(nearest_[half_edges_[at]]);
     }
     if (nearest.sample < 0) return;
+    add_rim_support(i, nearest.outmost);
     const FitSample& sample = state_.samples[nearest.sample];
     const Vector3 from = mesh_.points[i] - sample.point;
     const double off = sample.normal.dot(from);
@@ -332,15 +351,20 @@ class FitEquations {
     right_[i] -= (distance - leash * state_.edge) * u;
   }
 
-  void add_ring_forces() {
-    std::vector<Vector3> bent(count_);
-    for_nodes([&](std::size_t i) { bent[i] = tangential(i, mesh_.points[i] - centres_[i]); });
-    for_nodes([&](std::size_t i) { right_[i] -= state_.ring() * ring_transposed(i, bent); });
+  void add_rim_support(std::size_t i, double outmost) {
+    const auto& [normal, rim, along] = shapes_[i];
+    const double beyond = normal.dot(mesh_.points[i]) - outmost - rim_reach * state_.edge;
+    if (rim == 0.0 || beyond <= 0.0) return;
+    const double weight = rim_support * rim;
+    diagonal_[i] += weight * normal * normal.transpose();
+    right_[i] -= weight * beyond * normal;
   }
 
-  /// Returns the part of a vector along the surface.
-  Vector3 tangential(std::size_t i, const Vector3& v) const {
-    return v - normals_[i].dot(v) * normals_[i];
+  void add_ring_forces() {
+    std::vector<Vector3> bent(count_);
+    for_nodes(
+        [&](std::size_t i) { bent[i] = shapes_[i].tangential(mesh_.points[i] - centres_[i]); });
+    for_nodes([&](std::size_t i) { right_[i] -= state_.ring() * ring_transposed(i, bent); });
   }
 
   /// Returns the transpose of "a node less the mean of its ring".
@@ -363,14 +387,14 @@ class FitEquations {
       ring += state_.ring_weight(static_cast<std::int32_t>(i), neighbours_[at]) * other;
     }
     q[i] = product;
-    bent[i] = tangential(i, p[i] - ring / ring_sums_[i]);
+    bent[i] = shapes_[i].tangential(p[i] - ring / ring_sums_[i]);
   }
 
   FitState& state_;
   const EditMesh& mesh_;
   const Execution& execution_;
   std::size_t count_;
-  std::vector<Vector3> normals_;   ///< of each node's star, unit
+  std::vector<StarShape> shapes_;  ///< of each node's star
   std::vector<Vector3> centres_;   ///< of each ring
   std::vector<double> ring_sums_;  ///< of the ring's weights
   std::vector<FaceSystem> faces_;
@@ -398,7 +422,6 @@ constexpr double longest_fit_step = 0.35;
 constexpr double most_step_turn = 0.3;
 /// Triangles with fewer samples are judged by the samples about their corners.
 constexpr std::size_t enough_samples = 4;
-constexpr std::size_t enough_to_agree = 3;
 constexpr std::size_t guarded_block = 1024;
 
 class GuardedMove {
@@ -440,9 +463,7 @@ class GuardedMove {
     constexpr int shortenings = 6;
     for (int attempt = 0; attempt < most_tries; ++attempt) {
       std::fill(marked_.begin(), marked_.end(), 0);
-      bool spoilt = mark_spoilt();
-      spoilt = mark_folded() || spoilt;
-      if (spoilt) {
+      if (mark_spoilt()) {
         shorten(attempt < halvings ? 0.5 : 0.0);
         continue;
       }
@@ -515,25 +536,6 @@ class GuardedMove {
       if (spoilt[t] == 0) continue;
       mark(t);
       any = true;
-    }
-    return any;
-  }
-
-  bool mark_folded() {
-    const auto agrees = [&](std::size_t t) {
-      return state_.of[t].size() >= enough_to_agree &&
-             normals_[t].dot(outward_[t]) > face_agreement;
-    };
-    bool any = false;
-    for (std::size_t h = 0; h < mesh_.opposite.size(); ++h) {
-      const std::size_t t = h / 3;
-      const std::size_t u = face_of(mesh_.opposite[h]);
-      if (u < t) continue;
-      const double cosine = normals_[t].dot(normals_[u]);
-      if (cosine >= folded || cosine >= old_normals_[t].dot(old_normals_[u]) - 1e-9) continue;
-      if (agrees(t) && agrees(u)) continue;
-      any = mark_free(t) || any;
-      any = mark_free(u) || any;
     }
     return any;
   }

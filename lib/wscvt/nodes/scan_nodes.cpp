@@ -27,9 +27,9 @@ namespace wscvt {
 
 namespace {
 
-/// A scan with fewer vertices per node is split first, because nodes can only be as even as the
-/// vertices of their clusters.
-constexpr double least_vertices_a_node = 8.0;
+/// A scan with fewer vertices per node, or with faces longer than a node's edges, is split first,
+/// because nodes can only be as even as the vertices of their clusters.
+constexpr std::size_t least_vertices_a_node = 8;
 /// Edges longer than this many edges of even faces are split.
 constexpr double long_edge = 1.4;
 /// Splitting may give up to this many times the scan's vertices and the wanted ones. Boxes 1000
@@ -38,6 +38,8 @@ constexpr std::size_t most_splits = 20;
 /// Above this many vertices per node the scan is coarsened by complete sweeps, which about halve
 /// it, to the surface for equalization.
 constexpr std::size_t most_proxy_vertices_a_node = 30;
+/// A scan of more vertices per node is not looked at for long faces.
+constexpr std::size_t most_split_vertices_a_node = 90;
 constexpr int evening_steps = 100;
 /// Equalization and the fit change the contrast of a density; these powers of the wanted density
 /// correct it in advance. For a scan of sand and 1000 nodes, the logarithm of the nodes' density
@@ -96,22 +98,34 @@ struct Placing {
   std::vector<std::int32_t> clusters;    ///< node for each vertex of the surface
 };
 
-void sweep_to_proxy(Coarsening& coarsening, std::size_t nodes, const Execution& execution) {
-  while (coarsening.size() > most_proxy_vertices_a_node * nodes) {
+/// Coarsens by complete sweeps to at most `most` vertices.
+void sweep_below(Coarsening& coarsening, std::size_t most, const Execution& execution) {
+  while (coarsening.size() > most) {
     execution.report(0.0, "Coarsening the scan");
     if (coarsening.sweep(1) == 0) break;
   }
 }
 
+/// Whether an edge of a scan is longer than the edges of even nodes with a cell of this area. No
+/// cluster has a vertex within such an edge, as in the flat faces of a plate.
+bool has_long_faces(const IndexedMesh& scan, double cell) {
+  const double most = 2.0 / std::sqrt(3.0) * cell;
+  const auto is_long = [&](std::int32_t v, std::int32_t w) {
+    return (scan.points[v] - scan.points[w]).squaredNorm() > most;
+  };
+  return std::any_of(scan.triangles.begin(), scan.triangles.end(), [&](const Triangle& t) {
+    return is_long(t[0], t[1]) || is_long(t[1], t[2]) || is_long(t[2], t[0]);
+  });
+}
+
 /// Splits long edges; the normal of a new vertex is the mean of its edge's ends. Splitting scatters
 /// neighbours in memory, so vertices and faces are sorted again.
-SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, double area, int nodes,
-                       EditMesh& split, const Execution& execution) {
+SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, double area,
+                       std::size_t nodes, EditMesh& split, const Execution& execution) {
   split = scan;
-  const double cell = area / (least_vertices_a_node * nodes);
+  const double cell = area / static_cast<double>(least_vertices_a_node * nodes);
   const double even_edge = std::sqrt(2.0 / std::sqrt(3.0) * cell);
-  const std::size_t most =
-      most_splits * (normals.size() + static_cast<std::size_t>(least_vertices_a_node * nodes));
+  const std::size_t most = most_splits * (normals.size() + least_vertices_a_node * nodes);
   for (const auto& [a, b] : split_long_edges(split, long_edge * even_edge, most, execution)) {
     const Vector3 sum = normals[a] + normals[b];
     const double length = sum.norm();
@@ -201,8 +215,10 @@ ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& 
   parts_ = parts;
   const std::size_t vertices = parts->base.size();
   // A number tried after a smaller one failed gives the same result as when it is asked for.
-  sweep_to_proxy(parts->base, static_cast<std::size_t>(most_tried_times * std::max(most_nodes, 4)),
-                 execution);
+  sweep_below(parts->base,
+              most_split_vertices_a_node *
+                  static_cast<std::size_t>(most_tried_times * std::max(most_nodes, 4)),
+              execution);
   if (parts->base.size() == vertices) return;
   parts->base_clusters.resize(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -219,17 +235,19 @@ Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, in
                          const Execution& execution) {
   Placing placing;
   Coarsening coarsening = parts.base;
-  const bool is_coarse =
-      static_cast<double>(parts.scan.mesh.points.size()) < least_vertices_a_node * node_count;
+  const std::size_t scan_vertices = parts.scan.mesh.points.size();
+  const auto nodes = static_cast<std::size_t>(node_count);
+  const bool is_coarse = scan_vertices < least_vertices_a_node * nodes ||
+                         (scan_vertices <= most_split_vertices_a_node * nodes &&
+                          has_long_faces(parts.scan.mesh, parts.area / node_count));
   if (is_coarse) {
     EditMesh split;
     placing.split =
-        split_scan(parts.base.mesh(), parts.scan.normals, parts.area, node_count, split, execution);
+        split_scan(parts.base.mesh(), parts.scan.normals, parts.area, nodes, split, execution);
     coarsening = Coarsening(std::move(split), {});
   }
-  sweep_to_proxy(coarsening, static_cast<std::size_t>(node_count), execution);
-  const std::size_t vertices =
-      is_coarse ? placing.split.mesh.points.size() : parts.scan.mesh.points.size();
+  sweep_below(coarsening, most_proxy_vertices_a_node * nodes, execution);
+  const std::size_t vertices = is_coarse ? placing.split.mesh.points.size() : scan_vertices;
   placing.on_surface.resize(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
     const auto start = static_cast<std::int32_t>(v);

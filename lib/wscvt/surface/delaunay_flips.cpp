@@ -9,22 +9,32 @@ namespace {
 
 /// Edges below this cosine of their normals are sharp: 73 degrees.
 constexpr double sharp_bend = 0.3;
-/// A flip of a sharp edge must flatten it by this much; other flips may sharpen by as much.
-constexpr double bend_margin = 0.1;
+/// A flip from or to a sharp edge must lower the sum of turns by this much. At a rim, Delaunay's
+/// rule would cut a long edge of the rim by an edge from sheet to sheet, which leaves a notch, or
+/// keep one. A quarter or 2.5 times as much changes 2 %.
+constexpr double least_fall = 0.2;
+/// Such a flip makes no angle below 15 degrees.
+constexpr double sharpest_rim_corner = 0.966;
 
-/// Two triangles abc and bad about the edge ab, with unit normals, before and after a flip.
-struct FlipShape {
-  double agreement_before;
-  double agreement_after;
-  double bend_before;
-  double bend_after;
+/// The edge ab of the triangles abc and bad, which would become cd, with unit normals.
+struct Flip {
+  std::int32_t h, g;
+  Vector3 abc, bad;
+  Vector3 cad, dbc;
 };
 
-bool keeps_shape(const FlipShape& s) {
-  if (s.agreement_before <= least_agreement) return s.agreement_after >= s.agreement_before;
-  if (s.agreement_after < least_agreement) return false;
-  if (s.bend_before < sharp_bend && s.bend_after < s.bend_before + bend_margin) return false;
-  return s.bend_after >= sharp_bend || s.bend_after >= s.bend_before - bend_margin;
+/// Returns how much less the faces turn after a flip, over its edge and the four about it.
+double fall_of_turns(const EditMesh& mesh, const Flip& f) {
+  const auto beyond = [&](std::int32_t h) {
+    const Vector3 n = mesh.normal(face_of(mesh.opposite[h]));
+    return Vector3(n / (n.norm() + 1e-300));
+  };
+  const Vector3 bc = beyond(next_half_edge(f.h));
+  const Vector3 ca = beyond(previous_half_edge(f.h));
+  const Vector3 ad = beyond(next_half_edge(f.g));
+  const Vector3 db = beyond(previous_half_edge(f.g));
+  return f.cad.dot(f.dbc) + f.cad.dot(ca + ad) + f.dbc.dot(db + bc) - f.abc.dot(f.bad) -
+         f.abc.dot(bc + ca) - f.bad.dot(ad + db);
 }
 
 bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t h) {
@@ -45,10 +55,11 @@ bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t 
   const double s2 = m2.norm();
   // The sine of the sum of the angles at c and d, times the edges' lengths.
   const double sine = ca.dot(cb) * s2 + da.dot(db) * s1;
-  if (sine > -1e-6 * (s1 * s2 + 1e-300)) return false;  // Delaunay already
+  const bool is_delaunay = sine > -1e-6 * (s1 * s2 + 1e-300);
   if (mesh.degrees[a] <= 3 || mesh.degrees[b] <= 3 || c == d) return false;
   Vector3 n1 = ca.cross(pd - pc);
   Vector3 n2 = (pd - pc).cross(cb);
+  if (is_delaunay && n1.dot(n2) > 0.0 && m1.dot(m2) > sharp_bend * s1 * s2) return false;
   const double a1 = n1.norm();
   const double a2 = n2.norm();
   if (a1 < 1e-300 || a2 < 1e-300) return false;
@@ -56,12 +67,20 @@ bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t 
   m2 /= s2 + 1e-300;
   n1 /= a1;
   n2 /= a2;
-  const Vector3 ab = outward[a] + outward[b];
-  const Vector3 cd = outward[c] + outward[d];
-  const FlipShape shape = {std::min(cosine_to(m1, ab + outward[c]), cosine_to(m2, ab + outward[d])),
-                           std::min(cosine_to(n1, cd + outward[a]), cosine_to(n2, cd + outward[b])),
-                           m1.dot(m2), n1.dot(n2)};
-  if (!keeps_shape(shape)) return false;
+  if (std::min(m1.dot(m2), n1.dot(n2)) < sharp_bend) {
+    if (std::max(largest_corner_cosine(pc, mesh.points[a], pd),
+                 largest_corner_cosine(pc, pd, mesh.points[b])) > sharpest_rim_corner ||
+        fall_of_turns(mesh, {h, g, m1, m2, n1, n2}) < least_fall) {
+      return false;
+    }
+  } else {
+    if (is_delaunay) return false;
+    const Vector3 ab = outward[a] + outward[b];
+    const Vector3 cd = outward[c] + outward[d];
+    const double before = std::min(cosine_to(m1, ab + outward[c]), cosine_to(m2, ab + outward[d]));
+    const double after = std::min(cosine_to(n1, cd + outward[a]), cosine_to(n2, cd + outward[b]));
+    if (after < std::min(before, least_agreement)) return false;
+  }
   if (mesh.joined(c, d)) return false;
   mesh.flip(h);
   return true;

@@ -7,8 +7,10 @@
 
 namespace wscvt {
 
-/// Flips edges towards the Delaunay triangulation of a surface, once over all of them, and keeps
-/// the shape: no edge becomes sharp, and no face turns against its surface.
+/// Flips edges towards the Delaunay triangulation of a surface, once over all of them. No face
+/// turns against its surface. Sharp edges, as at rims, are flipped if the faces then turn less: the
+/// sum of 1 - cos over the edge and the four about it falls, as in the criterion of the angle
+/// between normals of Dyn, Levin, Rippa 1990 (IMA J. Numer. Anal. 10, 137).
 /// `outward` has a vector per vertex that points out of the surface, with the length of its area,
 /// or all with one length. Returns the number of flips.
 int flip_to_delaunay(EditMesh& mesh, const std::vector<Vector3>& outward);

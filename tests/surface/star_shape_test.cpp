@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/star_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace wscvt {
+namespace {
+
+StarShape shape_of(const std::vector<Vector3>& vectors) {
+  return star_shape([&](const auto& visit) {
+    for (const Vector3& vector : vectors) visit(vector);
+  });
+}
+
+TEST(StarShape, RimShareIsNoneOnASheetAndAllOverBoth) {
+  EXPECT_EQ(rim_share(1.0), 0.0);
+  EXPECT_EQ(rim_share(0.96), 0.0);
+  EXPECT_EQ(rim_share(0.6), 1.0);
+  EXPECT_EQ(rim_share(0.0), 1.0);
+  EXPECT_GT(rim_share(0.75), rim_share(0.85));
+}
+
+TEST(StarShape, KnowsTheRimsDirection) {
+  const Vector3 along = Vector3(0.3, -0.7, 0.2).normalized();
+  const Vector3 up = along.unitOrthogonal();
+  const Vector3 out = along.cross(up);
+  const StarShape shape = shape_of({0.2 * out - up, 0.2 * out + up});
+  EXPECT_EQ(shape.rim, 1.0);
+  EXPECT_NEAR(shape.normal.dot(out), 1.0, 1e-12);
+  EXPECT_NEAR(std::abs(shape.along.dot(along)), 1.0, 1e-12);
+  EXPECT_NEAR(shape.tangential(up).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((shape.tangential(along + out) - along).norm(), 0.0, 1e-12);
+}
+
+TEST(StarShape, OfASheetMovesAlongIt) {
+  const Vector3 up(0.0, 0.0, 2.0);
+  const StarShape shape = shape_of({up, 3.0 * up});
+  EXPECT_EQ(shape.rim, 0.0);
+  EXPECT_LT((shape.tangential(Vector3(1.0, 2.0, 5.0)) - Vector3(1.0, 2.0, 0.0)).norm(), 1e-15);
+  EXPECT_EQ(shape_of({Vector3::Zero()}).normal, Vector3::UnitZ());
+}
+
+}  // namespace
+}  // namespace wscvt
