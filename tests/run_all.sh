@@ -61,7 +61,8 @@ for step in "$@"; do
       commands_file_by_file
       /usr/bin/python3 tests/each_alone.py build/files lib filter_wscvt ;;
     nightly)
-      # After release: other random bodies every night, and more of them.
+      # After release: other random bodies every night, and more of them; the bytes of older processors.
+      tests/scripts/same_bytes_test.sh build/release/lib/wscvt older-processor meshes build/same_bytes every-grain
       WSCVT_PROPERTY_SEED=$(date +%Y%m%d) WSCVT_PROPERTY_COUNT=4000 build/release/tests/property_tests ;;
     sanitizers)
       configure_and_build asan-ubsan

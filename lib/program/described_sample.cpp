@@ -13,6 +13,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 /// Frequency of a mesh of SH coefficients: 2,562 points.
 constexpr int frequency = 16;
 
-double diameter_of(double volume) { return std::cbrt(6.0 / pi * volume); }
+double diameter_of(double volume) { return portable::cbrt(6.0 / pi * volume); }
 
 /// Returns the descriptors that are quick to measure. Any other descriptor needs all descriptors.
 std::vector<DescriptorValue> quick_descriptors(const IndexedMesh& mesh,

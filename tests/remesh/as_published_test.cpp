@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The published method always gives the same meshes, to the byte: as_published_digests.txt has
-// their digests (by "--method as-published" and a weighting or a sampling).
+// The published method gives the same meshes, to the byte, in every version and on every processor:
+// as_published_digests.txt holds what version 3.0.0 gives (by "--method as-published" and a
+// weighting or a sampling). Version 2 took sines and logarithms from the C library, whose last
+// digit is the processor's choice: of these 147 meshes its points were the same to 1e-12 of the
+// radius in 138, in 14 of them, by "equal-angle", with other diagonals of flat squares; 9 relaxed
+// to another optimum.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -73,7 +77,7 @@ RemeshOptions options_of(const DigestCase& one) {
 
 class AsPublishedDigests : public testing::TestWithParam<const char*> {};
 
-TEST_P(AsPublishedDigests, AreThoseOfVersion2) {
+TEST_P(AsPublishedDigests, AreThoseOfVersion3) {
   const std::string scan = GetParam();
   // The project's own samples; those of others are looked at where they lie beside the project.
   const std::string folder = scan.find(".stl") == std::string::npos ? WSCVT_MESHES_DIR "/"

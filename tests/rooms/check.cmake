@@ -1,6 +1,7 @@
 # cmake -D library_dir=DIR -P check.cmake: reads every `#include "wscvt/..."` and `#include "toolbox/..."`
 # below DIR, which holds the folders wscvt/ and toolbox/. Fails, naming file and include, when a room includes one that comes after it, or
-# when subjects, a header with its source, include each other in a circle.
+# when subjects, a header with its source, include each other in a circle; and when one, or a file of the
+# program, calls a function whose value each platform chooses.
 #
 # What stands in no room, remesh.h, conducts them and comes last. Only a new room needs a line here.
 cmake_minimum_required(VERSION 3.22)
@@ -45,6 +46,19 @@ foreach(file ${files})
       list(APPEND needs_${subject} ${needed})
     endif()
   endforeach()
+endforeach()
+
+# Their values are the platform's choice; sqrt, floor, ldexp and the like are exact.
+set(chosen_functions sin cos tan asin acos atan atan2 exp exp2 expm1 log log2 log10 log1p pow cbrt hypot sinh cosh tanh
+  asinh acosh atanh erf erfc tgamma lgamma polar arg fma)
+list(JOIN chosen_functions "|" chosen)
+file(GLOB_RECURSE others RELATIVE ${library_dir} ${library_dir}/program/*.h ${library_dir}/program/*.cpp)
+foreach(file ${files} ${others})
+  file(STRINGS ${library_dir}/${file} calls REGEX
+    "std::(${chosen})\\(|array\\(\\)\\.(${chosen})\\(|AngleAxis|angularDistance|slerp\\(|computeDirect\\(|eulerAngles\\(")
+  if(calls AND NOT file MATCHES "^wscvt/base/portable_math")
+    string(APPEND faults "  ${file} calls what has other values elsewhere, which wscvt/base/portable_math.h has not: ${calls}\n")
+  endif()
 endforeach()
 
 # Subjects that need nothing but what is struck out already are struck out; a circle remains.

@@ -27,6 +27,10 @@ file(REMOVE_RECURSE ${work_dir})
 file(WRITE ${work_dir}/wscvt/attic/box.h "")
 expect_fault("wscvt/attic/box.h stands in a room that the order does not know")
 
+file(REMOVE_RECURSE ${work_dir})
+file(WRITE ${work_dir}/toolbox/clump/one.cpp "double a = std::cos(1.0)\;\n")
+expect_fault("toolbox/clump/one.cpp calls what has other values elsewhere")
+
 execute_process(
   COMMAND ${CMAKE_COMMAND} -D library_dir=${source_dir}/lib
     -P ${source_dir}/tests/rooms/check.cmake

@@ -10,6 +10,7 @@
 #include "toolbox/clump/unit_frame.h"
 #include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh.h"
@@ -33,13 +34,13 @@ MassError mass_error(const MassProperties& mass, const ShapeDescriptors& grain, 
 MassProperties summed_mass(const std::vector<Sphere>& spheres) {
   MassProperties mass;
   for (const Sphere& sphere : spheres) {
-    const double volume = 4.0 / 3.0 * pi * std::pow(sphere.radius, 3);
+    const double volume = 4.0 / 3.0 * pi * portable::pow(sphere.radius, 3);
     mass.volume += volume;
     mass.centroid += volume * sphere.centre;
   }
   mass.centroid /= mass.volume;
   for (const Sphere& sphere : spheres) {
-    const double volume = 4.0 / 3.0 * pi * std::pow(sphere.radius, 3);
+    const double volume = 4.0 / 3.0 * pi * portable::pow(sphere.radius, 3);
     const Vector3 from = sphere.centre - mass.centroid;
     mass.inertia_tensor += volume * ((0.4 * sphere.radius * sphere.radius + from.squaredNorm()) *
                                          Eigen::Matrix3d::Identity() -
@@ -68,7 +69,7 @@ double intersection_over_union(const IndexedMesh& grain, const std::vector<Spher
     include(sphere.centre - Vector3::Constant(sphere.radius));
   }
   const Vector3 size = high - low;
-  const double step = std::cbrt(size.prod() / points);
+  const double step = portable::cbrt(size.prod() / points);
   std::vector<Vector3> grid;
   for (double x = 0.5 * step; x < size.x(); x += step) {
     for (double y = 0.5 * step; y < size.y(); y += step) {

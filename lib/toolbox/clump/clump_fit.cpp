@@ -9,6 +9,7 @@
 #include "toolbox/clump/point_blocks.h"
 #include "toolbox/clump/sphere_fit.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
@@ -46,7 +47,7 @@ GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
   }
   // A long body of equivalent radius 1 is thin, but its box may be large if it is inclined.
   constexpr double most_points = 20000.0;
-  const double step = std::max(spacing, std::cbrt((high - low).prod() / most_points));
+  const double step = std::max(spacing, portable::cbrt((high - low).prod() / most_points));
   const Vector3 middle = 0.5 * (low + high);
   const Eigen::Array3d half = ((high - low) / (2.0 * step)).array().ceil() + 1.0;
   std::vector<Vector3> all;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -28,9 +29,9 @@ std::vector<Eigen::Matrix3d> random_turns(int count) {
     const double w = 2.0 * pi * uniform();
     const double a = std::sqrt(1.0 - u);
     const double b = std::sqrt(u);
-    turns.push_back(
-        Eigen::Quaterniond(b * std::cos(w), a * std::sin(v), a * std::cos(v), b * std::sin(w))
-            .toRotationMatrix());
+    turns.push_back(Eigen::Quaterniond(b * portable::cos(w), a * portable::sin(v),
+                                       a * portable::cos(v), b * portable::sin(w))
+                        .toRotationMatrix());
   }
   return turns;
 }

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -30,7 +31,7 @@ class UnionGrid {
     }
     const Vector3 size = high - low;
     spacing_ = std::max(std::min(size.maxCoeff() / 60.0, smallest / 3.0),
-                        std::cbrt(size.prod() / most_points));
+                        portable::cbrt(size.prod() / most_points));
     origin_ = low - 1.5 * Vector3::Constant(spacing_);
     for (int axis = 0; axis < 3; ++axis) {
       counts_[static_cast<std::size_t>(axis)] =

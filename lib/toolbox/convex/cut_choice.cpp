@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "wscvt/base/portable_math.h"
+
 namespace wscvt {
 
 HullCost::HullCost(const SignedGrid& grid, double tolerance)
@@ -59,7 +61,7 @@ double cut_cost(const CutSolid& solid, const CutPlane& plane, const HullCost& hu
       if (body.empty()) continue;
       const double of_piece = with_distances ? hull_cost(body, piece.volume())
                                              : std::max(0.0, body.volume - piece.volume());
-      cost += std::pow(of_piece, power);
+      cost += portable::pow(of_piece, power);
     }
   }
   return cost;
@@ -93,7 +95,7 @@ void add_dent_cuts(const CutSolid& solid, const ConvexBody& body, const Eigen::M
   std::vector<double> depths;
   depths.reserve(points.size());
   for (const Vector3& p : points) depths.push_back(-body.excess(p));
-  const double apart = 0.5 * std::cbrt(solid.volume());
+  const double apart = 0.5 * portable::cbrt(solid.volume());
   std::vector<Vector3> chosen;
   while (static_cast<int>(chosen.size()) < dents) {
     std::size_t deepest = 0;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wscvt/base/portable_math.h"
+
 namespace wscvt {
 
 namespace {
@@ -173,7 +175,7 @@ bool CutTree::move_plane(std::size_t node, double step, std::vector<PieceGroup>&
   constexpr double least_gain = 1e-5;
   const CutSolid& solid = nodes_[node].solid;
   const std::array<CutPlane, 6> planes =
-      moved_planes(nodes_[node].plane, solid.points(), std::cbrt(solid.volume()), step);
+      moved_planes(nodes_[node].plane, solid.points(), portable::cbrt(solid.volume()), step);
   std::array<Trial, 6> trials;
   execution.parallel_for(planes.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) trials[k] = trial(node, planes[k], groups, group_of);
@@ -195,7 +197,7 @@ void CutTree::move_planes(std::vector<PieceGroup>& groups, const Execution& exec
   constexpr double first_step = 0.15;  // of the cube root of the grain's volume
   constexpr double last_step = 0.005;
   const std::vector<std::size_t> group_of = group_of_nodes(groups);
-  const double size = std::cbrt(nodes_.front().solid.volume());
+  const double size = portable::cbrt(nodes_.front().solid.volume());
   std::vector<double> steps(nodes_.size(), first_step * size);
   bool is_moving = true;
   for (int sweep = 0; sweep < most_sweeps && is_moving; ++sweep) {

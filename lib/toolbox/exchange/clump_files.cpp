@@ -15,6 +15,7 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/next_prime.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/version.h"
 #include "wscvt/mesh_files/text_fields.h"
@@ -177,7 +178,7 @@ std::string pfc_command(const FramedClump& clump, const std::string& path) {
 std::string lammps_molecule(const FramedClump& clump, double density) {
   const std::vector<Sphere>& spheres = clump.spheres;
   double cubes = 0.0;
-  for (const Sphere& sphere : spheres) cubes += std::pow(sphere.radius, 3);
+  for (const Sphere& sphere : spheres) cubes += portable::pow(sphere.radius, 3);
   const double mass = density * clump.mass.volume;
   std::string coordinates, types, diameters, masses;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
@@ -186,7 +187,7 @@ std::string lammps_molecule(const FramedClump& clump, double density) {
     coordinates += number + numbers({c.x(), c.y(), c.z()}, " ") + "\n";
     types += number + "1\n";
     diameters += number + format_exact(2.0 * spheres[k].radius) + "\n";
-    masses += number + format_exact(mass * std::pow(spheres[k].radius, 3) / cubes) + "\n";
+    masses += number + format_exact(mass * portable::pow(spheres[k].radius, 3) / cubes) + "\n";
   }
   std::vector<double> tensor = moments(clump);
   for (double& moment : tensor) moment *= density;

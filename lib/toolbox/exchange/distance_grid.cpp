@@ -8,6 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
@@ -76,7 +77,7 @@ double affordable_spacing(const Box& box, GridOptions options) {
   for (double points = point_count(box, options); !(points <= most_grid_points);
        points = point_count(box, options)) {
     // Exact for bodies with three long axes; others need a few more steps.
-    options.spacing *= std::max(1.001, std::min(1e6, std::cbrt(points / most_grid_points)));
+    options.spacing *= std::max(1.001, std::min(1e6, portable::cbrt(points / most_grid_points)));
   }
   return options.spacing;
 }
@@ -99,7 +100,7 @@ double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
                 "The mesh encloses no positive volume, so there is no inside. Give a closed mesh "
                 "whose faces look outward.");
   }
-  return affordable_spacing(box, {std::cbrt(6.0 * volume / pi) / 50.0});
+  return affordable_spacing(box, {portable::cbrt(6.0 * volume / pi) / 50.0});
 }
 
 }  // namespace

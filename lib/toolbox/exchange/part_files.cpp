@@ -8,6 +8,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 
@@ -131,7 +132,7 @@ Sentence inertia_warning(const std::string& path, const MassProperties& mass, do
          ", and MuJoCo's limit is 1e-14. Use a smaller unit of length: "
          "multiply " +
          mention("size") + " or " + mention("scale") + " by " + format_number(units) + ", set " +
-         mention("density", format_number(density / std::pow(units, 3))) +
+         mention("density", format_number(density / portable::pow(units, 3))) +
          ", and multiply gravity by " + format_number(units) + ".";
 }
 

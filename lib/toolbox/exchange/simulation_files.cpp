@@ -14,6 +14,7 @@
 #include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/report/json.h"
@@ -143,7 +144,7 @@ SimulationFrame simulation_frame(const ShapeDescriptors& grain, const FrameOptio
   check_frame_options(options);
   SimulationFrame frame;
   frame.scale = options.scale;
-  if (options.size > 0.0) frame.scale = options.size / std::cbrt(6.0 * grain.volume / pi);
+  if (options.size > 0.0) frame.scale = options.size / portable::cbrt(6.0 * grain.volume / pi);
   if (options.frame != Frame::Input) frame.origin = grain.centroid;
   if (options.frame == Frame::Principal) frame.axes = grain.principal_axes;
   return frame;
@@ -160,8 +161,8 @@ MassProperties in_frame(const MassProperties& mass, const SimulationFrame& frame
   MassProperties result;
   result.volume = s * s * s * mass.volume;
   result.centroid = frame.point(mass.centroid);
-  result.inertia_tensor = std::pow(s, 5) * (turn.transpose() * mass.inertia_tensor * turn);
-  result.principal_moments = std::pow(s, 5) * mass.principal_moments;
+  result.inertia_tensor = portable::pow(s, 5) * (turn.transpose() * mass.inertia_tensor * turn);
+  result.principal_moments = portable::pow(s, 5) * mass.principal_moments;
   result.principal_axes = frame.axes.conjugate() * mass.principal_axes;
   return result;
 }

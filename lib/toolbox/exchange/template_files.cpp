@@ -7,6 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/next_prime.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -81,7 +82,7 @@ class CumulativeMass {
     const auto k = std::min(static_cast<std::size_t>(above - finer_.begin()), finer_.size() - 1);
     if (k == 0) return diameters_[k];
     const double part = (wanted - finer_[k - 1]) / (finer_[k] - finer_[k - 1]);
-    return diameters_[k - 1] * std::pow(diameters_[k] / diameters_[k - 1], part);
+    return diameters_[k - 1] * portable::pow(diameters_[k] / diameters_[k - 1], part);
   }
 
  private:

@@ -9,6 +9,7 @@
 
 #include "toolbox/sample/distribution.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/measures/descriptor_table.h"
 
 namespace wscvt {
@@ -53,8 +54,8 @@ LevelError level_error(const Eigen::ArrayXd& percent) {
 /// mark.
 double meeting(double nodes, double error, double next_nodes, double next_error, double mark) {
   if (!(next_error > 0.0)) return next_nodes;
-  const double part = std::log(error / mark) / std::log(error / next_error);
-  return std::ceil(nodes * std::pow(next_nodes / nodes, part));
+  const double part = portable::log(error / mark) / portable::log(error / next_error);
+  return std::ceil(nodes * portable::pow(next_nodes / nodes, part));
 }
 
 double nodes_needed(const std::vector<double>& nodes, const std::vector<LevelError>& levels,

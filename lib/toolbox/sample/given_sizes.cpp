@@ -11,6 +11,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -57,7 +58,7 @@ GivenSizes::GivenSizes(std::vector<double> diameters, std::vector<double> percen
   }
   numbers_.push_back(0.0);
   for (std::size_t k = 1; k < count; ++k) {
-    const double width = 3.0 * std::log(diameters_[k] / diameters_[k - 1]);
+    const double width = 3.0 * portable::log(diameters_[k] / diameters_[k - 1]);
     const double mean = (per_mass(diameters_[k - 1]) - per_mass(diameters_[k])) / width;
     numbers_.push_back(numbers_.back() + (percentages[k] - percentages[k - 1]) * mean);
   }
@@ -71,7 +72,7 @@ double GivenSizes::diameter(double fraction) const {
   const double part =
       width > 0.0 ? std::clamp((fraction - numbers_[k - 1]) / width, 0.0, 1.0) : 0.0;
   const double first = per_mass(diameters_[k - 1]);
-  return 1.0 / std::cbrt(first + part * (per_mass(diameters_[k]) - first));
+  return 1.0 / portable::cbrt(first + part * (per_mass(diameters_[k]) - first));
 }
 
 GivenSizes read_given_sizes(const std::string& path) {

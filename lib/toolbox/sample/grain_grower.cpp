@@ -13,6 +13,7 @@
 #include "toolbox/sample/quick_shape.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/self_intersections.h"
 
@@ -41,7 +42,7 @@ constexpr std::uint64_t order_key = std::uint64_t{1} << 62;
 double mean_log(const std::vector<double>& amplitudes, std::size_t first, std::size_t end) {
   double sum = 0.0;
   end = std::min(end, amplitudes.size());
-  for (std::size_t l = first; l < end; ++l) sum += std::log(std::max(amplitudes[l], 1e-12));
+  for (std::size_t l = first; l < end; ++l) sum += portable::log(std::max(amplitudes[l], 1e-12));
   return end > first ? sum / static_cast<double>(end - first) : 0.0;
 }
 
@@ -87,6 +88,10 @@ std::optional<QuickShape> shape_of(const IndexedMesh& mesh) {
   }
 }
 
+Vector3 powers(const Vector3& bases, double exponent) {
+  return bases.unaryExpr([exponent](double base) { return portable::pow(base, exponent); });
+}
+
 /// Returns the deviations of sphericity and convexity over the sample; above 0.
 Eigen::Vector2d deviations_of(const std::vector<SampleGrain>& sample) {
   Eigen::Array2Xd values(2, static_cast<Eigen::Index>(sample.size()));
@@ -123,7 +128,7 @@ class Masks {
       const double largest = *std::max_element(shares_.begin() + first, shares_.end());
       double sum = 0.0;
       for (auto share = shares_.begin() + first; share != shares_.end(); ++share) {
-        *share = std::exp(*share - largest);
+        *share = portable::exp(*share - largest);
         sum += are_aligned ? *share : *share * *share;
       }
       lengths_.push_back(are_aligned ? sum : std::sqrt(sum));
@@ -202,13 +207,13 @@ GrainGrower::GrainGrower(std::vector<SampleGrain> sample, const SampleGrids& gri
     radial_amplitudes_.push_back(degree_amplitudes(grain.radial));
     white_amplitudes_.push_back(degree_amplitudes(grain.white));
     const std::vector<double>& white = white_amplitudes_.back();
-    const Vector3 form = grain.deviations.array().log();
+    const Vector3 form = grain.deviations.unaryExpr([](double x) { return portable::log(x); });
     features_.emplace_back();
     features_.back() << form[1] - form[0], form[2] - form[1], mean_log(white, 2, 5),
         mean_log(white, 5, 9), mean_log(white, 9, static_cast<std::size_t>(grids.degree()) + 1),
         rms_offset(grain.white_offset);
-    sum += std::log(grain.radius);
-    square += std::log(grain.radius) * std::log(grain.radius);
+    sum += portable::log(grain.radius);
+    square += portable::log(grain.radius) * portable::log(grain.radius);
   }
   standardise(features_);
   deviations_ = deviations_of(sample_);
@@ -219,7 +224,7 @@ GrainGrower::GrainGrower(std::vector<SampleGrain> sample, const SampleGrids& gri
   for (const Vector3& centre : fibonacci_lattice(caps_of_collage)) {
     caps_.emplace_back();
     for (std::size_t k = 0; k < directions.size(); ++k) {
-      if (directions[k].dot(centre) > std::cos(cap_angle)) caps_.back().push_back(k);
+      if (directions[k].dot(centre) > portable::cos(cap_angle)) caps_.back().push_back(k);
     }
   }
 }
@@ -300,8 +305,8 @@ std::vector<double> GrainGrower::finished(std::vector<double> radial, std::size_
                                           std::size_t other, double part) const {
   const std::vector<double> amplitudes = degree_amplitudes(radial);
   for (std::size_t l = first_fine_degree; l < amplitudes.size(); ++l) {
-    const double wanted = std::pow(radial_amplitudes_[base][l], 1.0 - part) *
-                          std::pow(radial_amplitudes_[other][l], part);
+    const double wanted = portable::pow(radial_amplitudes_[base][l], 1.0 - part) *
+                          portable::pow(radial_amplitudes_[other][l], part);
     set_degree_gain(radial, l, wanted / std::max(amplitudes[l], 1e-9));
   }
   return radial;
@@ -310,7 +315,7 @@ std::vector<double> GrainGrower::finished(std::vector<double> radial, std::size_
 bool GrainGrower::take_form(GrownGrain& grain, const Quilt& quilt,
                             const Vector3& deviations) const {
   std::vector<double> radii = grids_.white().values(quilt.series);
-  for (double& radius : radii) radius = std::exp(radius);
+  for (double& radius : radii) radius = portable::exp(radius);
   const RadialMoments moments = radial_moments(grids_.white(), radii);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.covariance);
   const Eigen::Matrix3d map = deviations.asDiagonal() * solver.operatorInverseSqrt();
@@ -323,7 +328,7 @@ bool GrainGrower::take_form(GrownGrain& grain, const Quilt& quilt,
   const HarmonicGrid& grid = grids_.radial();
   const auto formed = radii_in_frame(surface, moments.centroid, map.inverse(), grid.directions());
   if (!formed) return false;
-  const double unit = std::cbrt(radial_moments(grid, *formed).volume / (4.0 * pi / 3.0));
+  const double unit = portable::cbrt(radial_moments(grid, *formed).volume / (4.0 * pi / 3.0));
   grain.radial = grid.coefficients(*formed);
   for (double& coefficient : grain.radial) coefficient /= unit;
   return true;
@@ -336,7 +341,7 @@ bool GrainGrower::take_form_with_offset(GrownGrain& grain, const Quilt& quilt,
     HarmonicSeries(quilt.series).sum(directions.data(), directions.size(), logarithms.data());
     std::vector<Vector3> points = offset_values(quilt.offset, directions);
     for (std::size_t k = 0; k < points.size(); ++k) {
-      points[k] += std::exp(logarithms[k]) * directions[k];
+      points[k] += portable::exp(logarithms[k]) * directions[k];
     }
     return points;
   };
@@ -347,7 +352,7 @@ bool GrainGrower::take_form_with_offset(GrownGrain& grain, const Quilt& quilt,
   const Eigen::Matrix3d turn = shape.principal_axes.toRotationMatrix();
   const Vector3 stretch = shape.inertia_semi_axes.reverse().cwiseInverse();
   Eigen::Matrix3d map = deviations.asDiagonal() * turn * stretch.asDiagonal() * turn.transpose();
-  map *= std::cbrt(4.0 * pi / 3.0 / (shape.volume * map.determinant()));
+  map *= portable::cbrt(4.0 * pi / 3.0 / (shape.volume * map.determinant()));
   const Eigen::Matrix3d inverse = map.inverse();
   const HarmonicGrid& grid = grids_.radial();
   std::vector<Vector3> directions = grid.directions();
@@ -396,9 +401,9 @@ std::optional<GrainGrower::Candidate> GrainGrower::attempt(const std::vector<std
   const Quilt quilt = stitch(grain.donors, random);
   // The form of the base grain, moved along the line to a similar grain's.
   const double form_part = random.uniform(-0.5, 0.5);
-  const Vector3 deviations = sample_[base].deviations.array().pow(1.0 - form_part) *
-                             sample_[pick()].deviations.array().pow(form_part);
-  grain.radius = sample_[base].radius * std::exp(size_jitter_ * random.normal());
+  const Vector3 deviations = powers(sample_[base].deviations, 1.0 - form_part)
+                                 .cwiseProduct(powers(sample_[pick()].deviations, form_part));
+  grain.radius = sample_[base].radius * portable::exp(size_jitter_ * random.normal());
   const double fine_part = random.uniform(-0.5, 0.5);
   const std::size_t other = pick();
   const bool is_formed = has_offset(quilt.offset) ? take_form_with_offset(grain, quilt, deviations)

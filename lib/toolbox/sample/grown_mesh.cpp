@@ -7,6 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -50,7 +51,7 @@ IndexedMesh GrownMeshes::mesh(const std::vector<double>& radial, double radius,
     const Vector3 centroid = describe_shape(mesh, one_thread).centroid;
     for (Vector3& point : mesh.points) point -= centroid;
   }
-  const double scale = radius * std::cbrt(4.0 * pi / 3.0 / volume_of(mesh, one_thread));
+  const double scale = radius * portable::cbrt(4.0 * pi / 3.0 / volume_of(mesh, one_thread));
   for (Vector3& point : mesh.points) point *= scale;
   return mesh;
 }

@@ -8,6 +8,7 @@
 #include "toolbox/map/sphere_map.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
@@ -41,7 +42,8 @@ OffsetSeries coordinate_series(const HarmonicGrid& grid, const std::vector<Vecto
 /// Returns t above the limit. Below it, a positive function joins smoothly, with a slope of at most
 /// 1, so that radii of two surfaces differ by no more than their points.
 double radius_along(double along) {
-  return along > smallest_along ? along : smallest_along * std::exp(along / smallest_along - 1.0);
+  return along > smallest_along ? along
+                                : smallest_along * portable::exp(along / smallest_along - 1.0);
 }
 
 OffsetSeries smoothed(OffsetSeries series, double smoothing) {
@@ -49,7 +51,7 @@ OffsetSeries smoothed(OffsetSeries series, double smoothing) {
     for (std::size_t l = 0; l * l < coordinate.size(); ++l) {
       const auto order = static_cast<double>(l * (l + 1));
       // Degree 1, an ellipsoid, stays.
-      const double factor = std::exp(-smoothing * std::abs(order - 2.0));
+      const double factor = portable::exp(-smoothing * std::abs(order - 2.0));
       for (std::size_t k = l * l; k < (l + 1) * (l + 1); ++k) coordinate[k] *= factor;
     }
   }

@@ -7,6 +7,7 @@
 
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -34,15 +35,15 @@ class RandomStream {
   }
   /// Returns a normal number, mean 0, deviation 1 (Box and Muller).
   double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    return radius * std::cos(2.0 * pi * uniform());
+    const double radius = std::sqrt(-2.0 * portable::log(1.0 - uniform()));
+    return radius * portable::cos(2.0 * pi * uniform());
   }
   /// Returns a direction, uniform on the sphere.
   Vector3 direction() {
     const double z = uniform(-1.0, 1.0);
     const double azimuth = 2.0 * pi * uniform();
     const double sine = std::sqrt((1.0 - z) * (1.0 + z));
-    return {sine * std::cos(azimuth), sine * std::sin(azimuth), z};
+    return {sine * portable::cos(azimuth), sine * portable::sin(azimuth), z};
   }
 
  private:

@@ -13,6 +13,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/repair/folded_solid_angle.h"
@@ -45,7 +46,7 @@ constexpr int measuring_frequency = 10;
 int fine_rows_of(int degree) { return std::max(96, 4 * (degree + 1)); }
 
 std::vector<double> logarithms(std::vector<double> values) {
-  for (double& value : values) value = std::log(value);
+  for (double& value : values) value = portable::log(value);
   return values;
 }
 
@@ -105,7 +106,7 @@ std::optional<std::vector<double>> radii_in_frame(const LogRadii& surface, const
     std::size_t kept = 0;
     for (std::size_t i = 0; i < open.size(); ++i) {
       const std::size_t k = open[i];
-      const double ratio = std::exp(values[i]) / rays[i].norm();
+      const double ratio = portable::exp(values[i]) / rays[i].norm();
       radii[k] = radii[k] == 0.0 ? ratio : radii[k] * ratio;
       if (!(radii[k] > 0.0 && std::isfinite(radii[k]))) return {};
       if (step == 0 || std::abs(ratio - 1.0) > tolerance) open[kept++] = k;
@@ -137,7 +138,7 @@ std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
     surface.evaluate_radii(directions.data(), directions.size(), values.data());
     for (double& value : values) {
       if (!(value > 0.0)) return false;
-      value = std::log(value);
+      value = portable::log(value);
     }
     return true;
   };

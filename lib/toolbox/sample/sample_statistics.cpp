@@ -10,6 +10,7 @@
 
 #include "toolbox/sample/distribution.h"
 #include "toolbox/sample/random_stream.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -288,9 +289,9 @@ Estimate correlation_of(const std::vector<double>& one, const std::vector<double
   }
   const double r = ab / std::sqrt(aa * bb);
   if (!std::isfinite(r)) return {no_statistic, no_statistic, no_statistic};
-  const double z = std::atanh(std::clamp(r, -1.0, 1.0));
+  const double z = portable::atanh(std::clamp(r, -1.0, 1.0));
   const double reach = normal_95 * std::sqrt((1.0 + 0.5 * r * r) / (n - 3.0));
-  return {r, std::tanh(z - reach), std::tanh(z + reach)};
+  return {r, portable::tanh(z - reach), portable::tanh(z + reach)};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/volume_parts.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -183,7 +184,7 @@ std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
                                            const VolumeGeometry& geometry, double depth,
                                            const Execution& execution) {
   const Vector3 spacing = geometry.axes.colwise().norm();
-  const double voxel = std::cbrt(spacing.prod());
+  const double voxel = portable::cbrt(spacing.prod());
   std::vector<Label> basins = basins_of(mask, geometry.counts, {spacing[0], spacing[1], spacing[2]},
                                         depth * voxel, execution.part(0.0, 0.9));
   mask = {};

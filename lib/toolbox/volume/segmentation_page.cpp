@@ -9,6 +9,7 @@
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/sample/distribution.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
@@ -219,7 +220,7 @@ std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentatio
   std::vector<double> diameters;
   for (const LabelExtent& grain : segmentation.grains) {
     const double volume = static_cast<double>(grain.voxels) * geometry.voxel_volume();
-    diameters.push_back(std::cbrt(6.0 * volume / pi));
+    diameters.push_back(portable::cbrt(6.0 * volume / pi));
   }
   std::sort(diameters.begin(), diameters.end());
   const std::string unit = geometry.unit.empty() ? "" : ", " + geometry.unit;

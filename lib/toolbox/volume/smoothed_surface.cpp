@@ -11,6 +11,7 @@
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -195,7 +196,7 @@ void restore_volume(IndexedMesh& mesh, double volume) {
                     mention("smoothing") + ".");
   }
   const Vector3 centroid = start + sums.centroid();
-  const double scale = std::cbrt(volume / sums.volume());
+  const double scale = portable::cbrt(volume / sums.volume());
   for (Vector3& point : mesh.points) point = centroid + scale * (point - centroid);
 }
 

@@ -4,6 +4,7 @@
 
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/feret_diameters.h"
 #include "wscvt/measures/form_axes.h"
@@ -31,7 +32,7 @@ DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
   DetailedDescriptors result;
   execution.report(0.0, "Measuring the shape");
   result.basic = describe_shape(mesh, execution);
-  result.equivalent_diameter = std::cbrt(6.0 * result.basic.volume / pi);
+  result.equivalent_diameter = portable::cbrt(6.0 * result.basic.volume / pi);
   const Vector3 axes = 2.0 * result.basic.inertia_semi_axes;
   result.inertia_axes = {axes[0], axes[1], axes[2]};
   result.inertia_ratios = form_ratios(result.inertia_axes);

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "wscvt/base/portable_math.h"
+
 namespace wscvt {
 
 std::vector<Vector3> extreme_points(const std::vector<Vector3>& points, int directions,
@@ -41,7 +43,7 @@ Eigen::Matrix3d frame_of(const std::vector<Vector3>& points) {
   // The signs also turn with the body: axes point to where it reaches farther.
   for (int k = 0; k < 2; ++k) {
     double third = 0.0;
-    for (const Vector3& p : points) third += std::pow(frame.col(k).dot(p - mean), 3);
+    for (const Vector3& p : points) third += portable::pow(frame.col(k).dot(p - mean), 3);
     if (third < 0.0) frame.col(k) = -frame.col(k);
   }
   frame.col(2) = frame.col(0).cross(frame.col(1));

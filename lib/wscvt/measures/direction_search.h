@@ -10,6 +10,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
@@ -38,7 +39,7 @@ DirectionMinimum descend(const Function& function, DirectionMinimum start, doubl
     for (int k = 0; k < 8; ++k) {
       const double angle = turn + 0.25 * pi * k;
       const Vector3 tried =
-          (start.direction + step * (std::cos(angle) * across + std::sin(angle) * beyond))
+          (start.direction + step * (portable::cos(angle) * across + portable::sin(angle) * beyond))
               .normalized();
       const double value = function(tried);
       if (value < best.value) best = {tried, value};
@@ -83,7 +84,7 @@ DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& me
   }
   // Starts only where no near direction is better, because otherwise the best could all lie in one
   // valley.
-  const double near = std::cos(1.7 * spacing);
+  const double near = portable::cos(1.7 * spacing);
   std::vector<DirectionMinimum> found;
   for (const DirectionMinimum& one : all) {
     const bool beaten = std::any_of(all.begin(), all.end(), [&](const DirectionMinimum& other) {

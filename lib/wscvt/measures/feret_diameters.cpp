@@ -10,6 +10,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/direction_search.h"
 #include "wscvt/measures/planar_hull.h"
@@ -260,7 +261,7 @@ double mean_curvature_integral(const IndexedMesh& mesh, const Execution& executi
             if (!(length > 0.0)) continue;
             const double sine = normal.cross(other).dot(edge) / length;
             // Each edge is visited twice, once from either side.
-            part += 0.25 * length * std::atan2(sine, normal.dot(other));
+            part += 0.25 * length * portable::atan2(sine, normal.dot(other));
           }
         }
         return part;

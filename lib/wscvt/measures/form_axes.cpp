@@ -10,6 +10,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/direction_search.h"
 #include "wscvt/measures/planar_hull.h"
@@ -232,7 +233,7 @@ FormRatios form_ratios(const FormAxes& axes) {
   ratios.zingg_flatness = s / i;
   ratios.kong_fonseca_elongation = (l - i) / l;
   ratios.kong_fonseca_flatness = (i - s) / i;
-  ratios.krumbein_sphericity = std::cbrt((i / l) * (s / l));
+  ratios.krumbein_sphericity = portable::cbrt((i / l) * (s / l));
   return ratios;
 }
 

@@ -9,6 +9,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -92,7 +93,7 @@ TriangleEdges triangle_edges(const IndexedMesh& mesh, const Triangle& t) {
 double angle_opposite(const TriangleEdges& edges, std::size_t k) {
   const Vector3& a = edges.vectors[(k + 1) % 3];
   const Vector3& b = edges.vectors[(k + 2) % 3];
-  return std::atan2(a.cross(b).norm(), -a.dot(b)) * degrees_per_radian;
+  return portable::atan2(a.cross(b).norm(), -a.dot(b)) * degrees_per_radian;
 }
 
 double smallest_angle(const TriangleEdges& edges) { return angle_opposite(edges, edges.shortest); }

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -79,7 +80,8 @@ Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centro
     // The second moment along an axis follows from the moments of inertia: integral of x_k^2 dV =
     // (I_1 + I_2 + I_3) / 2 - I_k.
     const double second = 0.5 * moments_of_inertia.sum() - moments_of_inertia[k];
-    const double skewness = moments.third[k] * std::sqrt(moments.volume) / std::pow(second, 1.5);
+    const double skewness =
+        moments.third[k] * std::sqrt(moments.volume) / portable::pow(second, 1.5);
     axes.col(k) = with_sign(solver.eigenvectors().col(k), skewness);
   }
   axes.col(2) = axes.col(0).cross(axes.col(1));

@@ -7,6 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -30,8 +31,8 @@ double printed_sdq(const RadialSurface& surface, int rings, const Execution& exe
   std::vector<double> sines(2 * count);
   for (std::size_t k = 0; k < 2 * count; ++k) {
     const double phi = (static_cast<double>(k) + 0.5) * step;
-    cosines[k] = std::cos(phi);
-    sines[k] = std::sin(phi);
+    cosines[k] = portable::cos(phi);
+    sines[k] = portable::sin(phi);
   }
   const Sums sums =
       execution.parallel_sum(count, 4, Sums(), [&](std::size_t begin, std::size_t end) {
@@ -40,8 +41,8 @@ double printed_sdq(const RadialSurface& surface, int rings, const Execution& exe
         std::vector<RadialJet> jets(2 * count);
         for (std::size_t ring = begin; ring < end; ++ring) {
           const double theta = (static_cast<double>(ring) + 0.5) * step;
-          const double sine = std::sin(theta);
-          const double cosine = std::cos(theta);
+          const double sine = portable::sin(theta);
+          const double cosine = portable::cos(theta);
           for (std::size_t k = 0; k < 2 * count; ++k) {
             directions[k] = {sine * cosines[k], sine * sines[k], cosine};
           }

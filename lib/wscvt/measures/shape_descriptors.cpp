@@ -6,6 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
@@ -144,8 +145,8 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   ShapeDescriptors result;
   result.volume = moments.volume;
   result.area = moments.area;
-  const double side = std::cbrt(moments.volume);
-  result.sphericity = std::cbrt(36.0 * pi) * side * side / moments.area;
+  const double side = portable::cbrt(moments.volume);
+  result.sphericity = portable::cbrt(36.0 * pi) * side * side / moments.area;
   const Vector3 centroid = moments.first / moments.volume;
   result.centroid = origin + centroid;
 
@@ -193,7 +194,7 @@ void scale(ShapeDescriptors& descriptors, double unit, const Vector3& centre) {
   descriptors.area *= unit * unit;
   descriptors.centroid = centre + unit * descriptors.centroid;
   descriptors.inertia_semi_axes *= unit;
-  descriptors.inertia_tensor *= std::pow(unit, 5);
+  descriptors.inertia_tensor *= portable::pow(unit, 5);
 }
 
 MassProperties mass_properties(const ShapeDescriptors& descriptors) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/nodes/fit_steps.h"
 
 namespace wscvt {
@@ -43,7 +44,7 @@ constexpr int rounds_without_relocation = 8;
 /// any. What a round leaves, the next look mends.
 constexpr int rounds_a_look = 4;
 
-double cosine_of_degrees(double degrees) { return std::cos(degrees * pi / 180.0); }
+double cosine_of_degrees(double degrees) { return portable::cos(degrees * pi / 180.0); }
 
 class SurfaceFit {
  public:
@@ -73,19 +74,19 @@ class SurfaceFit {
   double lead(int round) {
     double part = round / dial_.lead_rounds;
     if (dial_.heats > 1 && part < 1.0) part = std::fmod(part * dial_.heats, 1.0);
-    const double rise =
-        (std::log(leading_share) - std::log(dial_.start_evenness)) * std::max(0.0, 1.0 - part);
+    const double rise = (portable::log(leading_share) - portable::log(dial_.start_evenness)) *
+                        std::max(0.0, 1.0 - part);
     if (round >= dial_.first_steering) {
       const double off = mean_edge_ratio(state_.mesh) - dial_.ratio;
       const auto led = [&](double miss) {
-        return evenness_ * std::exp(steering * (miss / dial_.ratio_slope + rise));
+        return evenness_ * portable::exp(steering * (miss / dial_.ratio_slope + rise));
       };
       evenness_ = std::clamp(led(off), least_evenness, std::max(evenness_, most_evenness));
       if (state_.round.late && evenness_ >= most_evenness) {
         evenness_ = std::clamp(led(off - far_off_ratio), most_evenness, stiffest_evenness);
       }
     }
-    return evenness_ * std::exp(rise);
+    return evenness_ * portable::exp(rise);
   }
 
   void begin_round(int round) {
@@ -102,8 +103,8 @@ class SurfaceFit {
     now.goal_cosine =
         cosine_of_degrees(dial_.least_angle + (now.late ? late_margin : early_margin));
     const double part = std::min(1.0, static_cast<double>(round) / std::max(1, first_late));
-    double price = std::pow(last_price, part);
-    if (now.late) price *= std::pow(late_growth, round - first_late);
+    double price = portable::pow(last_price, part);
+    if (now.late) price *= portable::pow(late_growth, round - first_late);
     now.price = price * state_.mean_square * static_cast<double>(state_.mesh.points.size()) /
                 static_cast<double>(state_.mesh.triangles.size());
   }

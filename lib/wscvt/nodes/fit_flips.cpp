@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/nodes/fit_steps.h"
 
 namespace wscvt {
@@ -42,7 +43,7 @@ class FitFlips {
   explicit FitFlips(FitState& state)
       : state_(state),
         mesh_(state.mesh),
-        fine_sharpness_(std::cos((state.round.least_angle + angle_margin) * pi / 180.0)) {}
+        fine_sharpness_(portable::cos((state.round.least_angle + angle_margin) * pi / 180.0)) {}
 
   int run() {
     int flipped = 0;
@@ -130,7 +131,7 @@ class FitFlips {
 
   double small_angle(double sharpness) const {
     if (sharpness <= fine_sharpness_) return 0.0;
-    const double angle = std::acos(std::clamp(sharpness, -1.0, 1.0)) * 180.0 / pi;
+    const double angle = portable::acos(std::clamp(sharpness, -1.0, 1.0)) * 180.0 / pi;
     return square(std::max(0.0, state_.round.least_angle + angle_margin - angle) / angle_unit);
   }
 

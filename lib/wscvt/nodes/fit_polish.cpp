@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/nodes/fit_steps.h"
 
 namespace wscvt {
@@ -204,9 +205,9 @@ int polish_nodes(FitState& state, int passes) {
 }
 
 int mend_angles(FitState& state, double least_angle) {
-  const double limit = std::cos(least_angle * pi / 180.0);
+  const double limit = portable::cos(least_angle * pi / 180.0);
   const double goal = state.round.goal_cosine;
-  state.round.goal_cosine = std::cos((least_angle + 0.2) * pi / 180.0);  // a little beyond
+  state.round.goal_cosine = portable::cos((least_angle + 0.2) * pi / 180.0);  // a little beyond
   int moved = 0;
   for (std::size_t t = 0; t < state.mesh.triangles.size(); ++t) {
     if (state.mesh.sharpness(t) <= limit) continue;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/smooth_step.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/scan_nodes_options.h"
@@ -28,15 +29,15 @@ FitDial fit_dial(double ratio) {
   dial.early_angle = std::min(20.0, std::max(5.0, 0.5 * dial.least_angle));
   const bool even = x < 0.02;
   dial.start_evenness = std::clamp(
-      std::exp(-15.7 * (ratio - default_edge_ratio) - 25.0 * std::max(0.0, ratio - 1.505)), 1e-6,
-      1.0);
+      portable::exp(-15.7 * (ratio - default_edge_ratio) - 25.0 * std::max(0.0, ratio - 1.505)),
+      1e-6, 1.0);
   dial.lead_rounds = even ? dial.rounds - 3 : std::max(1.0, (0.4 + 0.3 * close) * dial.rounds);
   dial.heats = close > 0.3 ? 3 : 1;
   dial.first_steering = even ? dial.rounds / 3 : dial.lead_rounds;
   dial.ratio_slope = 0.03 + 0.25 * x;
   dial.plain_springs = std::max(0.1, 1.0 - 11.0 * x);
   dial.triangle_springs = 0.3 * (1.0 - dial.plain_springs) / 0.9;
-  dial.damping = std::pow(10.0, -3.0 - 2.0 * std::min(0.5, x));
+  dial.damping = portable::pow(10.0, -3.0 - 2.0 * std::min(0.5, x));
   dial.polishes = x > 0.06;
   return dial;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -75,13 +76,13 @@ NodeCountSearch smallest_node_count(double target, int start, int lower, int upp
   constexpr int trials_a_halving = 3;
   for (int step = 1;
        above.node_count - below.node_count > std::max(1.0, resolution * above.node_count); ++step) {
-    const double low = std::log(below.node_count);
-    const double high = std::log(above.node_count);
-    double count = std::exp(0.5 * (low + high));
-    const double span = std::log(below.error / std::max(above.error, 1e-3 * target));
+    const double low = portable::log(below.node_count);
+    const double high = portable::log(above.node_count);
+    double count = portable::exp(0.5 * (low + high));
+    const double span = portable::log(below.error / std::max(above.error, 1e-3 * target));
     if (step % trials_a_halving != 0 && std::isfinite(span) && span > 0.0) {
-      const double share = std::log(below.error / target) / span;
-      count = std::exp(low + share * (high - low));
+      const double share = portable::log(below.error / target) / span;
+      count = portable::exp(low + share * (high - low));
       // First a little more, so that the target is met there; then a little less, so that it is
       // not. Two trials then close the bracket.
       count = (1.0 + 0.4 * resolution) * count < above.node_count - 1.0

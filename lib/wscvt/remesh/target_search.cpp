@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/remesh/node_count_search.h"
 
 namespace wscvt {
@@ -18,8 +19,8 @@ RemeshResult remesh_to_target(const ErrorTarget& target, int first_count,
   int trials = 0;
   const auto error = [&](int node_count) {
     // The number of trials is unknown; about ten are usual.
-    const double begin = 1.0 - std::pow(0.85, trials);
-    const double end = 1.0 - std::pow(0.85, ++trials);
+    const double begin = 1.0 - portable::pow(0.85, trials);
+    const double end = 1.0 - portable::pow(0.85, ++trials);
     RemeshResult result;
     try {
       result = remesh_to(node_count, execution.part(begin, end));

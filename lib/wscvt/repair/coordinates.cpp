@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -126,7 +127,7 @@ std::string precision_warning(const IndexedMesh& mesh) {
   if (!far.empty() || !is_measurable(mesh)) return far;
   const double edge = mean_edge(mesh);
   // Scans of voxels also have coarse steps, but lose no faces.
-  const double power_of_ten = std::pow(10.0, std::floor(-std::log10(coarse_step * edge)));
+  const double power_of_ten = portable::pow(10.0, std::floor(-portable::log10(coarse_step * edge)));
   if (!std::isfinite(power_of_ten) || !all_coordinates(mesh.points, [&](double value) {
         return has_decimals(value, power_of_ten);
       })) {

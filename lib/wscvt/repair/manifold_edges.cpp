@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -211,7 +212,7 @@ class Sheets {
       const std::int32_t h = sides[i].half_edge;
       const Triangle& t = mesh_.triangles[face_of(h)];
       const Vector3 d = mesh_.points[index(t[preceding(corner_of(h))])] - low;
-      turns.push_back({std::atan2(d.dot(y), d.dot(x)), i,
+      turns.push_back({portable::atan2(d.dot(y), d.dot(x)), i,
                        sides[i].forward != patches_[index(sides[i].patch)].turned});
     }
     std::stable_sort(turns.begin(), turns.end(),

@@ -11,6 +11,7 @@
 
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/repair/edge_rings.h"
 
@@ -226,9 +227,9 @@ class CellFinder {
     std::vector<Turn> turns;
     for (const std::int32_t h : edge) {
       const Vector3 d = points_[index(origin_of(cells_.faces, previous_half_edge(h)))] - low;
-      const double height = std::hypot(d.dot(x), d.dot(y));
+      const double height = portable::hypot(d.dot(x), d.dot(y));
       if (!(height > 0.0)) return false;
-      turns.push_back({std::atan2(d.dot(y), d.dot(x)), rounding_ / height, h});
+      turns.push_back({portable::atan2(d.dot(y), d.dot(x)), rounding_ / height, h});
     }
     std::sort(turns.begin(), turns.end(), [](const Turn& s, const Turn& t) {
       return s.angle != t.angle ? s.angle < t.angle : s.half_edge < t.half_edge;

@@ -13,6 +13,7 @@
 #include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/repair/closing_advice.h"
@@ -262,7 +263,7 @@ void refuse_common_walls(const IndexedMesh& mesh, const std::vector<std::int32_t
 void refuse_loose_faces(const IndexedMesh& mesh, std::size_t parts, const Execution& execution) {
   const MeshSums sums =
       mesh_sums(mesh.points, mesh.triangles, mesh.points[index(mesh.triangles[0][0])], execution);
-  if (sums.volume() > flat_limit * std::pow(sums.area(), 1.5)) return;
+  if (sums.volume() > flat_limit * portable::pow(sums.area(), 1.5)) return;
   refuse(
       "The mesh has " + std::to_string(parts) +
       " parts without a common edge, and the largest encloses no volume. If its faces are one "
@@ -279,7 +280,7 @@ void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshChe
   const MeshSums sums = mesh_sums(mesh.points, mesh.triangles, origin, execution);
   report.volume = sums.volume();
   report.area = sums.area();
-  if (!(report.volume > flat_limit * std::pow(report.area, 1.5))) {
+  if (!(report.volume > flat_limit * portable::pow(report.area, 1.5))) {
     // Far from the origin, single precision leaves only a few different positions.
     const std::string precision = single_precision_warning(mesh);
     if (!precision.empty()) refuse("The mesh encloses no volume. " + precision);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -12,7 +13,7 @@ double steep_area_fraction(const IndexedMesh& mesh, const Vector3& centre,
                            const Execution& execution) {
   constexpr std::size_t block_size = 8192;
   constexpr double degree = pi / 180.0;
-  const double smallest_cosine = std::cos(steep_angle * degree);
+  const double smallest_cosine = portable::cos(steep_angle * degree);
   struct Areas {
     double steep = 0.0;
     double all = 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/picture.h"
@@ -112,8 +113,8 @@ double total_of(const Histogram& histogram) {
 
 /// A logarithmic axis for all values, with margins at its ends.
 Axis logarithmic_axis(double smallest, double largest, double from, double to) {
-  const double margin = std::max(0.05 * std::log10(largest / smallest), 0.05);
-  return {std::log10(smallest) - margin, std::log10(largest) + margin, from, to};
+  const double margin = std::max(0.05 * portable::log10(largest / smallest), 0.05);
+  return {portable::log10(smallest) - margin, portable::log10(largest) + margin, from, to};
 }
 
 /// Ticks at 1, 2 and 5 times powers of ten, or at powers of ten if that is too many.
@@ -126,8 +127,8 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
          power <= static_cast<int>(std::ceil(axis.upper)); ++power) {
       if (power % step != 0) continue;
       for (const double digit : digits) {
-        const double value = digit * std::pow(10.0, power);
-        const double place = std::log10(value);
+        const double value = digit * portable::pow(10.0, power);
+        const double place = portable::log10(value);
         if (place >= axis.lower && place <= axis.upper) ticks.push_back({place, number(value)});
       }
     }
@@ -138,8 +139,8 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   // Less than a decade: multiples of one step are more useful.
   ticks.clear();
   for (const double value :
-       round_ticks(std::pow(10.0, axis.lower), std::pow(10.0, axis.upper), 6)) {
-    if (value > 0.0) ticks.push_back({std::log10(value), number(value)});
+       round_ticks(portable::pow(10.0, axis.lower), portable::pow(10.0, axis.upper), 6)) {
+    if (value > 0.0) ticks.push_back({portable::log10(value), number(value)});
   }
   return ticks;
 }
@@ -150,7 +151,7 @@ std::vector<double> round_ticks(double lower, double upper, int most) {
   std::vector<double> ticks;
   if (!(lower < upper) || most < 1) return ticks;
   const double size = (upper - lower) / most;
-  double step = std::pow(10.0, std::floor(std::log10(size)));
+  double step = portable::pow(10.0, std::floor(portable::log10(size)));
   for (const double factor : {2.0, 2.5, 2.0}) {  // 1, 2, 5, 10
     if (step >= size) break;
     step *= factor;
@@ -233,19 +234,19 @@ std::string logarithmic_figure(const std::string& x_axis, const std::string& y_a
                        has_level ? std::max(level, highest->y) : highest->y, height - bottom, top);
   std::string svg = frame(x_axis, x, logarithmic_ticks(x), y_axis, y, logarithmic_ticks(y));
   if (has_level) {
-    const double place = y(std::log10(level));
+    const double place = y(portable::log10(level));
     svg += line_between(x.from, place, x.to, place, "#c60", " stroke-dasharray=\"6 4\"");
     svg += text_at(x.to - 4.0, place - 5.0, "end", "target " + number(level), " fill=\"#c60\"");
   }
   std::string path;
   for (const CurvePoint& p : points) {
-    path +=
-        (path.empty() ? "M" : "L") + number(x(std::log10(p.x))) + " " + number(y(std::log10(p.y)));
+    path += (path.empty() ? "M" : "L") + number(x(portable::log10(p.x))) + " " +
+            number(y(portable::log10(p.y)));
   }
   svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"#0a58b4\"/>\n";
   for (const CurvePoint& p : points) {
-    svg += "<circle cx=\"" + number(x(std::log10(p.x))) + "\" cy=\"" + number(y(std::log10(p.y))) +
-           "\" r=\"3.5\" fill=\"#0a58b4\"/>\n";
+    svg += "<circle cx=\"" + number(x(portable::log10(p.x))) + "\" cy=\"" +
+           number(y(portable::log10(p.y))) + "\" r=\"3.5\" fill=\"#0a58b4\"/>\n";
   }
   return drawing(y_axis, svg);
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wscvt/base/portable_math.h"
+
 namespace wscvt {
 
 namespace {
@@ -90,7 +92,7 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view) {
           const PixelPlace& b = at[(k + 2) % 3];
           const double doubled = doubled_area(a, b, x + 0.5, y + 0.5);
           share[k] = doubled / area;
-          edge = std::min(edge, doubled / std::hypot(b.x - a.x, b.y - a.y));
+          edge = std::min(edge, doubled / portable::hypot(b.x - a.x, b.y - a.y));
         }
         if (!(share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0)) continue;
         const double depth =

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -23,7 +24,7 @@ inline double solid_angle(const Vector3& a, const Vector3& b, const Vector3& c) 
     const double s = x * x;
     return 2.0 * x * (1.0 + s * (-1.0 / 3.0 + s * (0.2 + s * (-1.0 / 7.0 + s * (1.0 / 9.0)))));
   }
-  return 2.0 * std::atan2(numerator, denominator);
+  return 2.0 * portable::atan2(numerator, denominator);
 }
 
 /// Sums of the solid angles of a closed surface's faces.

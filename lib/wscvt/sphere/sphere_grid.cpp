@@ -7,6 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -179,14 +180,14 @@ std::size_t SphereGrid::offset(int row, int column) const {
 std::vector<double> SphereGrid::row_cosines(int rows) {
   std::vector<double> cosines(static_cast<std::size_t>(rows));
   for (int j = 0; j < rows; ++j)
-    cosines[static_cast<std::size_t>(j)] = std::cos((j + 0.5) * pi / rows);
+    cosines[static_cast<std::size_t>(j)] = portable::cos((j + 0.5) * pi / rows);
   return cosines;
 }
 
 std::vector<double> SphereGrid::row_sines(int rows) {
   std::vector<double> sines(static_cast<std::size_t>(rows));
   for (int j = 0; j < rows; ++j)
-    sines[static_cast<std::size_t>(j)] = std::sin((j + 0.5) * pi / rows);
+    sines[static_cast<std::size_t>(j)] = portable::sin((j + 0.5) * pi / rows);
   return sines;
 }
 
@@ -196,7 +197,7 @@ std::vector<Vector3> SphereGrid::directions(int rows) {
   std::vector<Eigen::Vector2d> circle;
   circle.reserve(2 * static_cast<std::size_t>(rows));
   for (int k = 0; k < 2 * rows; ++k) {
-    circle.emplace_back(std::cos(k * pi / rows), std::sin(k * pi / rows));
+    circle.emplace_back(portable::cos(k * pi / rows), portable::sin(k * pi / rows));
   }
   std::vector<Vector3> result;
   result.reserve(cosines.size() * circle.size());

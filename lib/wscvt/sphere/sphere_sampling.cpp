@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
 #include <random>
 #include <string>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -25,7 +25,7 @@ void require_at_least(int value, int least, const char* what) {
 
 Vector3 direction(double z, double azimuth) {
   const double s = std::sqrt(std::max(0.0, 1.0 - z * z));
-  return {s * std::cos(azimuth), s * std::sin(azimuth), z};
+  return {s * portable::cos(azimuth), s * portable::sin(azimuth), z};
 }
 
 // Returns an azimuth of the lattice in turns, in [0, 1): the fractional part of (i + 1/2) * golden
@@ -56,6 +56,24 @@ double invert(const Cumulative& cumulative, std::size_t intervals, double value)
   return static_cast<double>(low) + std::clamp(inside, 0.0, 1.0);
 }
 
+struct LegendreValue {
+  double value;
+  double slope;
+};
+
+// Returns the Legendre polynomial of this degree, at least 1, and its derivative, by the recursion
+// over the degrees in the form that keeps the most digits near x = 1.
+LegendreValue legendre(int degree, double x) {
+  double before = 1.0;
+  double value = x;
+  for (int k = 1; k < degree; ++k) {
+    const double next = x * value + k * (x * value - before) / (k + 1.0);
+    before = value;
+    value = next;
+  }
+  return {value, degree * (before - x * value) / ((1.0 - x) * (1.0 + x))};
+}
+
 }  // namespace
 
 GaussLegendre gauss_legendre(int count) {
@@ -63,16 +81,20 @@ GaussLegendre gauss_legendre(int count) {
   GaussLegendre rule;
   rule.nodes.resize(count);
   rule.weights.resize(count);
-  // Boost returns the zeros >= 0 in ascending order; the other zeros mirror them.
-  const std::vector<double> zeros = boost::math::legendre_p_zeros<double>(count);
-  for (std::size_t i = 0; i < zeros.size(); ++i) {
-    const double x = zeros[zeros.size() - 1 - i];
-    const double slope = boost::math::legendre_p_prime(count, x);
-    const double weight = 2.0 / ((1.0 - x) * (1.0 + x) * slope * slope);
+  for (int i = 0; 2 * i < count; ++i) {
+    // Tricomi's estimate is near enough for Newton's steps to double their digits.
+    double x = portable::cos(pi * (4 * i + 3) / (4.0 * count + 2.0));
+    if (2 * i + 1 == count) x = 0.0;
+    LegendreValue p = legendre(count, x);
+    for (int step = 0; step < 4; ++step) {
+      x -= p.value / p.slope;
+      p = legendre(count, x);
+    }
+    const double weight = 2.0 / ((1.0 - x) * (1.0 + x) * p.slope * p.slope);
     rule.nodes[i] = x;
-    rule.nodes[rule.nodes.size() - 1 - i] = -x;
+    rule.nodes[count - 1 - i] = -x;
     rule.weights[i] = weight;
-    rule.weights[rule.weights.size() - 1 - i] = weight;
+    rule.weights[count - 1 - i] = weight;
   }
   return rule;
 }
@@ -117,7 +139,7 @@ std::vector<Vector3> warped_lattice(int count, const DensityFunction& density, i
   require_at_least(rows, 2, "number of latitude bands");
   const std::size_t columns = 2 * static_cast<std::size_t>(rows);
   std::vector<double> bounds(rows + 1);  // z at the bounds of the bands, descending
-  for (int j = 0; j <= rows; ++j) bounds[j] = std::cos(pi * j / rows);
+  for (int j = 0; j <= rows; ++j) bounds[j] = portable::cos(pi * j / rows);
   std::vector<Vector3> centres;
   centres.reserve(rows * columns);
   for (int j = 0; j < rows; ++j) {
@@ -175,7 +197,7 @@ std::vector<Vector3> equal_angle_grid(int rings) {
   points.reserve(2 + static_cast<std::size_t>(rings) * azimuths);
   points.emplace_back(0.0, 0.0, 1.0);
   for (int i = 1; i <= rings; ++i) {
-    const double z = std::cos(pi * i / (rings + 1));
+    const double z = portable::cos(pi * i / (rings + 1));
     for (int k = 0; k < azimuths; ++k) points.push_back(direction(z, 2.0 * pi * k / azimuths));
   }
   points.emplace_back(0.0, 0.0, -1.0);

@@ -9,6 +9,7 @@
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/sphere_delaunay.h"
@@ -42,7 +43,8 @@ bool is_nearly_flat(const Vector3& a, const Vector3& b, const Vector3& c) {
 /// defined for weights below 0, which have no circle.
 std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<double>& weights) {
   std::vector<Vector3> lifted(seeds.size());
-  for (std::size_t i = 0; i < seeds.size(); ++i) lifted[i] = seeds[i] * std::exp(0.5 * weights[i]);
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    lifted[i] = seeds[i] * portable::exp(0.5 * weights[i]);
   return lifted;
 }
 

@@ -11,6 +11,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 
@@ -167,7 +168,7 @@ PrincipalCurvatures fit_normals(const BallSums& sums, double radius) {
   if (!(trace > 0.0)) return {};
   const Vector3 fitted = equations.ldlt().solve(right);
   const double mean = 0.5 * (fitted[0] + fitted[2]) / radius;
-  const double deviation = std::hypot(0.5 * (fitted[0] - fitted[2]), fitted[1]) / radius;
+  const double deviation = portable::hypot(0.5 * (fitted[0] - fitted[2]), fitted[1]) / radius;
   return {mean + deviation, mean - deviation};
 }
 

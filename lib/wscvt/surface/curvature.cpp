@@ -12,6 +12,7 @@
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -59,7 +60,7 @@ Vector3 angle_weighted_normal(const IndexedMesh& mesh, const VertexCorners& corn
     const Vector3 b = mesh.points[index(previous)] - p;
     const Vector3 normal = a.cross(b);
     const double length = normal.norm();
-    if (length > 0.0) sum += std::atan2(length, a.dot(b)) / length * normal;
+    if (length > 0.0) sum += portable::atan2(length, a.dot(b)) / length * normal;
   });
   return sum.normalized();
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/curvature.h"
 
@@ -77,7 +78,7 @@ double weighted_mean(const std::vector<double>& areas, const std::vector<double>
 
 /// Eqs. 11 to 14; false on a sphere, whose deviation is zero.
 bool weigh_curvature(std::vector<double>& field, const std::vector<double>& areas, double alpha) {
-  for (double& k : field) k = -std::log(std::max(k, flat_curvature_in_space));
+  for (double& k : field) k = -portable::log(std::max(k, flat_curvature_in_space));
   const double mean = weighted_mean(areas, field);
   std::vector<double> squares;
   squares.reserve(field.size());
@@ -120,7 +121,7 @@ std::vector<double> curvature_density(const IndexedMesh& surface, double alpha, 
 std::vector<double> steepened(std::vector<double> density, const IndexedMesh& surface,
                               double power) {
   if (density.empty()) return density;
-  for (double& value : density) value = std::pow(value, power);
+  for (double& value : density) value = portable::pow(value, power);
   const double mean = weighted_mean(vertex_areas(surface), density);
   for (double& value : density) value /= mean;
   return density;

@@ -13,6 +13,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
@@ -192,7 +193,7 @@ AreaSamples sample_by_area(const RadialSurface& surface, const RadialGrid& grid,
       const double z = row_top - at.x() * grid.latitudes.weights[row];
       const double azimuth = (static_cast<double>(i % columns) + at.y() - 0.5) * pi / grid.rows();
       const double sine = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
-      directions.emplace_back(sine * std::cos(azimuth), sine * std::sin(azimuth), z);
+      directions.emplace_back(sine * portable::cos(azimuth), sine * portable::sin(azimuth), z);
       nodes.push_back(i);
     }
     if (i % columns == columns - 1) row_top -= grid.latitudes.weights[row];

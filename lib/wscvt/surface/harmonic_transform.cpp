@@ -7,6 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/surface/spherical_harmonics.h"
 
@@ -36,7 +37,7 @@ std::vector<Eigen::Vector2d> azimuth_circle(int count) {
   circle.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     const double angle = 2.0 * pi * k / count;
-    circle.emplace_back(std::cos(angle), std::sin(angle));
+    circle.emplace_back(portable::cos(angle), portable::sin(angle));
   }
   return circle;
 }

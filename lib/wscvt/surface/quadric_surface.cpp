@@ -6,6 +6,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -24,7 +25,7 @@ void check_semi_axes(const Vector3& semi_axes) {
 
 /// Returns base^exponent for base >= 0. Negative powers use at least a millionth as base.
 double bounded_power(double base, double exponent) {
-  return std::pow(exponent < 0.0 ? std::max(base, 1e-6) : base, exponent);
+  return portable::pow(exponent < 0.0 ? std::max(base, 1e-6) : base, exponent);
 }
 
 double sign(double value) { return value > 0.0 ? 1.0 : value < 0.0 ? -1.0 : 0.0; }
@@ -45,16 +46,16 @@ ImplicitJet superellipsoid_function(const Vector3& t, double p, double q) {
   const double m = std::max(size.x(), size.y());
   const double x = m > 0.0 ? size.x() / m : 1.0;
   const double y = m > 0.0 ? size.y() / m : 1.0;
-  const double sum = std::pow(x, p) + std::pow(y, p);
-  const double outer = s * std::pow(sum, s - 1.0);
-  const double cross = s * (s - 1.0) * std::pow(sum, s - 2.0);
-  const double dx = p * std::pow(x, p - 1.0);
-  const double dy = p * std::pow(y, p - 1.0);
+  const double sum = portable::pow(x, p) + portable::pow(y, p);
+  const double outer = s * portable::pow(sum, s - 1.0);
+  const double cross = s * (s - 1.0) * portable::pow(sum, s - 2.0);
+  const double dx = p * portable::pow(x, p - 1.0);
+  const double dy = p * portable::pow(y, p - 1.0);
   const double first = bounded_power(m, q - 1.0);
   const double second = bounded_power(m, q - 2.0);
-  jet.value = std::pow(m, q) * std::pow(sum, s) + std::pow(size.z(), q);
+  jet.value = portable::pow(m, q) * portable::pow(sum, s) + portable::pow(size.z(), q);
   jet.gradient = {first * outer * dx * sign(t.x()), first * outer * dy * sign(t.y()),
-                  q * std::pow(size.z(), q - 1.0) * sign(t.z())};
+                  q * portable::pow(size.z(), q - 1.0) * sign(t.z())};
   const double ddx = p * (p - 1.0) * bounded_power(x, p - 2.0);
   const double ddy = p * (p - 1.0) * bounded_power(y, p - 2.0);
   jet.hessian(0, 0) = second * (outer * ddx + cross * dx * dx);
@@ -114,7 +115,7 @@ void Superellipsoid::evaluate(const Vector3* directions, std::size_t count, Deri
     const Vector3 relative = u.cwiseQuotient(semi_axes_);
     const double scale = 1.0 / relative.cwiseAbs().maxCoeff();
     const ImplicitJet f = superellipsoid_function(relative * scale, p, q);
-    const double r = scale * std::pow(f.value, -1.0 / q);
+    const double r = scale * portable::pow(f.value, -1.0 / q);
     const Vector3 stretch = scale * semi_axes_.cwiseInverse();
     const Vector3 slope = stretch.cwiseProduct(f.gradient) / (q * f.value);
     const Matrix3 bend = stretch.asDiagonal() * f.hessian * stretch.asDiagonal() / (q * f.value);

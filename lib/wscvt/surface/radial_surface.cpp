@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/sphere_surface.h"
 
@@ -119,7 +120,7 @@ PrincipalCurvatures principal_curvatures(const RadialJet& jet, const Vector3& di
   const double b = first.dot(hessian * second) / slope;
   const double c = second.dot(hessian * second) / slope;
   const double mean = 0.5 * (a + c);
-  const double deviation = std::hypot(0.5 * (a - c), b);
+  const double deviation = portable::hypot(0.5 * (a - c), b);
   return {mean + deviation, mean - deviation};
 }
 

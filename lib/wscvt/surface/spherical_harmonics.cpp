@@ -8,6 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 // The hot loops are compiled three times on x86-64: for every processor, with AVX2 and with
 // AVX-512. All give the same bits, because they have the same operations in the same order and
@@ -298,7 +299,7 @@ void associated_legendre(int degree, int m, const double* cosines, const double*
                     ". Give one from 0 to the degree " + std::to_string(degree) + ".");
   }
   const double constant = sectoral_constant(m);
-  for (std::size_t j = 0; j < count; ++j) values[j] = constant * std::pow(sines[j], m);
+  for (std::size_t j = 0; j < count; ++j) values[j] = constant * portable::pow(sines[j], m);
   for (int l = m + 1; l <= degree; ++l) {
     const Recurrence step = recurrence(l, m);
     const double* previous = values;

@@ -23,7 +23,7 @@ double rim_share(double flatness) {
 
 Vector3 least_direction(const Eigen::Matrix3d& tensor) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(tensor);
+  solver.compute(tensor);
   return solver.eigenvectors().col(0);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "wscvt/base/execution.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -24,7 +25,7 @@ double scale_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>
                        double volume) {
   const MeshSums sums = sums_of(points, triangles);
   if (!(sums.volume() > 0.0)) return 0.0;
-  const double factor = std::cbrt(volume / sums.volume());
+  const double factor = portable::cbrt(volume / sums.volume());
   const Vector3 centroid = sums.centroid();
   double distances = 0.0;
   for (Vector3& point : points) {
@@ -42,7 +43,7 @@ double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle
   constexpr int most_steps = 30;
   constexpr double rounding = 1e-15;
   const std::vector<Vector3> start = points;
-  const double farthest = farthest_offset * std::cbrt(volume);
+  const double farthest = farthest_offset * portable::cbrt(volume);
   double offset = 0.0;
   std::vector<Vector3> gradient(points.size());
   for (int step = 0; step < most_steps; ++step) {

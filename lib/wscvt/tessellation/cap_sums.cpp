@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 
 namespace wscvt {
 
@@ -51,9 +52,9 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
           const double chord_square =
               2.0 - 2.0 * (cosines[row] * cosines[other] +
                            field.sines[row] * field.sines[other] *
-                               std::cos(spacing * static_cast<double>(shift)));
+                               portable::cos(spacing * static_cast<double>(shift)));
           if (shift > 0 && chord_square > radius * radius) break;
-          kernel.push_back(std::exp(-2.0 * chord_square / (radius * radius)));
+          kernel.push_back(portable::exp(-2.0 * chord_square / (radius * radius)));
         }
         const double* source = field.values.data() + other * columns;
         const auto width = static_cast<std::ptrdiff_t>(kernel.size()) - 1;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 
+#include "wscvt/base/portable_math.h"
 #include "wscvt/tessellation/seed_model.h"
 
 namespace wscvt {
@@ -96,7 +97,7 @@ WeightingRule curvature_weighting(const TabulatedSurface& table, const Weighting
   WeightingRule rule;
   rule.field = smoothed_curvature(table, largest_square, execution).values;
   const double radius = table.radius();
-  for (double& k : rule.field) k = -std::log(std::max(k * radius, flat_curvature));
+  for (double& k : rule.field) k = -portable::log(std::max(k * radius, flat_curvature));
   rule.reads_deviation = true;
   rule.weight = [alpha = options.curvature_alpha](double value, double count,
                                                   const FieldDeviation& over_seeds) {
