@@ -4,8 +4,8 @@
 
     packages/make_release.py BUILD OUTPUT_FOLDER
 
-OUTPUT_FOLDER gets the Debian packages, the Python wheel, the Blender add-on, an archive that runs on any
-Linux x86-64 of glibc 2.36 or later (program, plugins, wheel, add-on), a Containerfile, and SHA256SUMS.
+OUTPUT_FOLDER gets the Debian packages, the Python wheel, the Blender add-on, an archive with all of it whose program
+runs on any Linux x86-64, a Containerfile, and SHA256SUMS.
 BUILD is a build folder on Debian 12, build/release for example. The archive has a plugin for each MeshLab whose
 sources BUILD knows: tests/run_all.sh release adds those of 2022.02 and 2025.07.
 """
@@ -20,9 +20,12 @@ import tarfile
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parent
 sys.path.insert(0, str(PROJECT / "lib" / "python"))
+sys.path.insert(0, str(HERE))
+from make_static import make_static  # noqa: E402
 from make_wheel import HEADERS_OF, check_symbols, copyright_of, output_of, package_of  # noqa: E402
 
-OF_GLIBC = re.compile(r"(libc|libm|libresolv|libpthread|libdl|librt|ld-linux-x86-64)\.so\.\d+$")
+# What else the static program holds.
+OF_STATIC = {"libinsighttoolkit5-dev", "libcli11-dev", "libc6-dev", "libstdc++-12-dev"}
 # Debian's MeshLab brings all but these.
 OF_PLUGIN = re.compile(r"lib(gmp|mpfr)\.so\.\d+$")
 
@@ -82,8 +85,9 @@ def bundle(file, target, libraries_folder, wanted):
 
 def fill_archive(folder, build, plugins, output):
     """Puts the files of the archive into a folder."""
-    used = bundle(build / "lib" / "wscvt", folder / "bin" / "wscvt", folder / "lib",
-                  lambda name: not OF_GLIBC.match(name))
+    (folder / "bin").mkdir(parents=True)
+    inside = make_static(build, folder / "bin" / "wscvt")
+    used = {}
     for version, plugin in plugins.items():
         place = folder / "meshlab" / version
         used.update(bundle(plugin, place / "libfilter_wscvt.so", place / "wscvt-libraries", OF_PLUGIN.match))
@@ -107,7 +111,8 @@ def fill_archive(folder, build, plugins, output):
         (folder / "doc").mkdir(exist_ok=True)
         shutil.copy(PROJECT / source / "README.md", folder / "doc" / f"{name}.md")
     (folder / "licences").mkdir()
-    for owner in HEADERS_OF + sorted({package_of(path) for path in used.values()}):
+    owners = {package_of(path) for path in [*used.values(), *inside]} - set(HEADERS_OF)
+    for owner in HEADERS_OF + sorted(owners | OF_STATIC):
         (folder / "licences" / f"{owner}.txt").write_text(copyright_of(owner), encoding="utf-8")
 
 

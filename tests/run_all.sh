@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and runs every test.
-#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [windows] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [static] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [windows] [debian12] [debian13] [sid]
 # Without arguments: install and release. tests/README.md explains each step. The sanitized
 # build has no assertions of CGAL (CGAL_NDEBUG), because they make some tests a hundred times slower. It has
 # those of Eigen and OpenMesh.
@@ -95,6 +95,11 @@ for step in "$@"; do
       # After release. A step of its own, because a browser is 300 MB.
       tests/install_packages.sh chromium poppler-utils
       tests/page_in_browser.sh build/release/lib/wscvt build/page ;;
+    static)
+      # After release; as root, for debootstrap. A step of its own, because ITK's source is 280 MB.
+      tests/install_packages.sh debootstrap
+      packages/make_static.py build/release build/wscvt-static
+      tests/static.sh build/release/lib/wscvt build/wscvt-static meshes build/static ;;
     engines)
       # After release. Yade, LIGGGHTS, LAMMPS, Gmsh and VTK are 1 GB, so a step of its own.
       tests/install_packages.sh yade liggghts lammps gmsh python3-vtk9 python3-numpy libmujoco-dev \
