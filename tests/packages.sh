@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the Debian packages of a build, checks them with lintian, installs them, uses the installed program,
-# library, module and plugin, and removes them: nothing may be left. As root or with sudo.
+# library, module and plugin, and removes them: nothing may be left. Checks the description for software
+# catalogues with appstreamcli. As root or with sudo.
 #   tests/packages.sh BUILD_FOLDER WORK_FOLDER
 set -eu
 build=$(realpath "${1:?usage: packages.sh BUILD_FOLDER WORK_FOLDER}")
@@ -30,6 +31,7 @@ for name in wscvt libwscvt-dev python3-wscvt wscvt-meshlab-plugin; do
   echo "$names" | grep -qw "$name" || fail "There is no package $name among$names."
 done
 
+appstreamcli validate --no-net "$root/packages/wscvt.metainfo.xml" > appstream.txt 2>&1 || fail "$(cat appstream.txt)"
 lintian --allow-root --fail-on error,warning made/*.deb > lintian.txt 2>&1 || fail "$(cat lintian.txt)"
 
 remove() {

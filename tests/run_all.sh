@@ -107,7 +107,7 @@ for step in "$@"; do
       tests/engines/run.sh build/release/lib/wscvt build/engines ;;
     package)
       # After release. A step of its own, because it installs and removes packages of the system.
-      tests/install_packages.sh lintian
+      tests/install_packages.sh lintian appstream
       tests/packages.sh build/release build/packages ;;
     pip)
       # After release, whose program the module is held against. A step of its own, because pip builds

@@ -1,5 +1,5 @@
 # cmake -D source_dir=DIR -P check.cmake: what the project's texts say of its own files is so. README.md
-# keeps to one sitting, the files that texts name are there, no comment leans on a document that is not
+# keeps to one sitting, all descriptions have one version, the files that texts name are there, no comment leans on a document that is not
 # in the repository, and no sentence of the library speaks for its host.
 cmake_minimum_required(VERSION 3.22)
 set(faults)
@@ -62,6 +62,16 @@ foreach(source ${sources})
     foreach(line ${said})
       string(APPEND faults "  ${source} speaks for its host:${line}\n")
     endforeach()
+  endif()
+endforeach()
+
+# The descriptions for catalogues name the version that is built.
+file(STRINGS ${source_dir}/CMakeLists.txt version REGEX "^project\\(wscvt VERSION ")
+string(REGEX REPLACE ".*VERSION ([0-9.]+).*" "\\1" version "${version}")
+foreach(description CITATION.cff packages/codemeta.json packages/conda/meta.yaml)
+  file(READ ${source_dir}/${description} content)
+  if(NOT content MATCHES "version\"?: \"?${version}\"?[,\n]")
+    string(APPEND faults "  ${description} does not have the version ${version}\n")
   endif()
 endforeach()
 
