@@ -121,5 +121,16 @@ TEST_F(Sample, RefusesWhatIsNone) {
                  {"bad.pdf"});
 }
 
+TEST_F(Sample, NamesASizeThatAnotherProgramsTableHas) {
+  // Volumes of balls of 1, 2 and 3; MorphoLibJ has no box.
+  std::ofstream(folder_ / "morpho.csv") << "Label,Volume,SurfaceArea,Sphericity\n1,4.18879,12.6,1\n"
+                                           "2,33.5103,50.3,1\n3,113.097,113,1\n";
+  expect_refused("sample", {{"morpho.csv", 1, "--size equivalent-diameter"}}, {});
+  const Outcome outcome = run("sample morpho.csv --size equivalent-diameter");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("Sizes are from the column \"volume\""), std::string::npos)
+      << outcome.output << outcome.errors;
+}
+
 }  // namespace
 }  // namespace wscvt

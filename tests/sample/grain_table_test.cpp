@@ -8,6 +8,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 namespace {
@@ -51,6 +52,38 @@ TEST_F(GrainTableTest, ReadsNamesUnitsNumbersAndFiles) {
   EXPECT_EQ(table.values(0, 1), 0.5);
   EXPECT_TRUE(std::isnan(table.values(1, 1)) && std::isnan(table.values(2, 1)));
   EXPECT_TRUE(table.values.col(2).array().isNaN().all());
+}
+
+TEST_F(GrainTableTest, KnowsTheColumnsOfOtherPrograms) {
+  const auto value = [](const GrainTable& table, const std::string& column) {
+    return table.values(0, static_cast<Eigen::Index>(table.index_of(column)));
+  };
+  // A box of 2 x 3 x 4 by each program's definitions.
+  const double volume = 24.0;
+  const double area = 52.0;
+  const double wadell = std::cbrt(36.0 * pi * volume * volume) / area;
+  const GrainTable atlas = read(
+      "Particle ID,Volume (\xC2\xB5m\xC2\xB3),Equivalent Diameter (\xC2\xB5m),Middle Axis Length "
+      "(\xC2\xB5m),True Sphericity (-),Compactness (-)\n7,24,3.5789,3.5,0.83,0.58\n");
+  EXPECT_EQ(atlas.grains, (std::vector<std::string>{"7"}));
+  EXPECT_EQ(heading_of(atlas.columns[atlas.index_of("volume")]), "volume [\xC2\xB5m^3]");
+  EXPECT_EQ(atlas.columns[atlas.index_of("sphericity_wadell")].unit, "");
+  EXPECT_EQ(value(atlas, "axis_i_inertia"), 3.5);
+  EXPECT_FALSE(atlas.find("compactness"));
+  const GrainTable morpho =
+      read("Label\tVolume\tSurfaceArea\tMeanBreadth\tSphericity\tElli.R2\n3\t24\t52\t4.5\t" +
+           std::to_string(std::pow(wadell, 3)) + "\t1.75\n");
+  EXPECT_EQ(morpho.grains, (std::vector<std::string>{"3"}));
+  EXPECT_EQ(value(morpho, "area"), area);
+  EXPECT_NEAR(value(morpho, "sphericity_wadell"), wadell, 1e-5);  // six decimals above
+  // Of a box pi (a + b + c), and its mean breadth (a + b + c) / 2.
+  EXPECT_NEAR(value(morpho, "mean_curvature_integral"), 9.0 * pi, 1e-12);
+  EXPECT_EQ(value(morpho, "axis_i_inertia"), 3.5);
+  const GrainTable shape = read("name,Volume,Surface_area,I_obb,Zingg_I_over_L\nb,24,52,3,0.75\n");
+  EXPECT_EQ(value(shape, "axis_i_box"), 3.0);
+  EXPECT_EQ(value(shape, "zingg_elongation_box"), 0.75);
+  // A table of no program keeps its headings.
+  EXPECT_TRUE(read("grain,Volume (mm3)\na,1\n").find("Volume (mm3)"));
 }
 
 TEST_F(GrainTableTest, RefusesMarksBetweenThousandsByRowAndField) {

@@ -9,6 +9,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/readable_text.h"
 
 namespace wscvt {
@@ -84,7 +85,28 @@ std::optional<std::size_t> find(const GrainSample& sample, const std::string& na
   return {};
 }
 
-[[noreturn]] void refuse_without_size(const GrainTable& table, const std::string& column) {
+/// The column that gives a size: its own, or for the equivalent diameter the volume.
+std::optional<std::size_t> place_of_size(const GrainSample& sample, SizeMeasure size) {
+  const auto own = find(sample, column_of(size));
+  return own || size != SizeMeasure::EquivalentDiameter ? own : find(sample, "volume");
+}
+
+/// Returns the size measures that the columns have, for a sentence.
+std::string sizes_in(const GrainSample& sample) {
+  std::string keys;
+  for (const auto& row : EnumerationTable<SizeMeasure>::rows) {
+    if (!place_of_size(sample, row.value)) continue;
+    keys += (keys.empty() ? "" : " or ") + std::string(row.key);
+  }
+  return keys;
+}
+
+[[noreturn]] void refuse_without_size(const GrainTable& table, const GrainSample& sample,
+                                      const std::string& column) {
+  if (const std::string sizes = sizes_in(sample); !sizes.empty()) {
+    refuse("The table has no column \"" + column + "\" for the size of the grains. Use " +
+           mention("size", sizes) + ", which the table has.");
+  }
   for (const std::string& text : table.text_columns) {
     if (text == column || text == "scan." + column) {
       refuse("The column \"" + text +
@@ -140,12 +162,18 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   sample.failed = table.failed;
   const std::vector<std::size_t> places = choose_columns(table, options, sample);
   const std::string size_column = column_of(options.size);
-  const auto size_place = find(sample, size_column);
+  const auto size_place = place_of_size(sample, options.size);
   if (!size_place) {
-    refuse_without_size(table, size_column);
+    refuse_without_size(table, sample, size_column);
   }
   sample.size_name = label_of(options.size);
   sample.size_unit = sample.columns[*size_place].unit;
+  const bool is_from_volume = sample.columns[*size_place].name != size_column;
+  if (is_from_volume) {
+    const std::size_t power = sample.size_unit.rfind("^3");
+    if (power != std::string::npos) sample.size_unit.erase(power);
+    sample.notes.push_back("Sizes are from the column \"volume\".");
+  }
   const auto value = [&](Eigen::Index grain, std::size_t column) {
     return table.values(grain, static_cast<Eigen::Index>(places[column]));
   };
@@ -179,7 +207,8 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     for (std::size_t column = 0; column < places.size(); ++column) {
       sample.values(row, static_cast<Eigen::Index>(column)) = value(k, column);
     }
-    const double size = value(k, *size_place);
+    const double read = value(k, *size_place);
+    const double size = is_from_volume ? cbrt(6.0 / pi * read) : read;
     sample.sizes[row] = size;
     sample.masses[row] = mass_of(k, volume ? value(k, *volume) : pi / 6.0 * size * size * size);
   }

@@ -11,9 +11,11 @@
 #include <unordered_set>
 #include <utility>
 
+#include "toolbox/sample/foreign_columns.h"
 #include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/readable_text.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -113,6 +115,7 @@ class TableReader {
   std::size_t line_ = 1;
   std::size_t next_line_ = 1;
   std::vector<GrainColumn> fields_;
+  std::vector<ForeignColumn> foreign_;  ///< empty: the table is not another program's
   std::vector<Role> roles_;
   std::size_t name_field_ = 0;
   std::optional<std::size_t> file_field_;
@@ -126,11 +129,13 @@ class TableReader {
 
 void TableReader::read_heading(const std::vector<std::string>& fields) {
   std::unordered_set<std::string> names;
+  std::vector<std::string> headings = fields;
+  // Spreadsheets write this mark at the beginning of a UTF-8 file.
+  if (headings[0].rfind("\xEF\xBB\xBF", 0) == 0) headings[0].erase(0, 3);
+  if (const auto foreign = foreign_columns(headings)) foreign_ = *foreign;
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    std::string heading = fields[k];
-    // Spreadsheets write this mark at the beginning of a UTF-8 file.
-    if (k == 0 && heading.rfind("\xEF\xBB\xBF", 0) == 0) heading.erase(0, 3);
-    fields_.push_back(column_of(heading));
+    fields_.push_back(foreign_.empty() ? column_of(headings[k])
+                                       : GrainColumn{foreign_[k].name, foreign_[k].unit});
     const std::string& name = fields_.back().name;
     if (!names.insert(name).second) {
       fail("two columns are named \"" + readable(name, "") + "\". Rename one of them.");
@@ -198,7 +203,10 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
   if (file_field_) table_.files.push_back(fields[*file_field_]);
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (roles_[k] == Role::Text) continue;
-    const std::optional<double> number = field_number(fields[k], decimal_);
+    std::optional<double> number = field_number(fields[k], decimal_);
+    if (number && !foreign_.empty()) {
+      *number = foreign_[k].factor * pow(*number, foreign_[k].exponent);
+    }
     check_field(k, fields[k], number);
     if (!number && roles_[k] == Role::Number) {
       fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +

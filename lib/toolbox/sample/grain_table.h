@@ -45,8 +45,10 @@ std::string heading_of(const GrainColumn& column);
 /// The column "grain", or else the first column, names the grains. The column "file" names mesh
 /// files. Every other column contains numbers if its first entry is a number, and is left out if
 /// that entry is text. An empty field, "nan", "NA" and infinities mean that the number is missing.
-/// A heading may end with a unit in brackets. Rows with the status "failed" (column "status") are
-/// counted and left out. The column "error" is left out.
+/// A heading may end with a unit in brackets. Tables of the Sand Atlas, MorphoLibJ and SHAPE are
+/// recognised by their headings; their columns get our names and definitions (foreign_columns.h).
+/// Rows with the status "failed" (column "status") are counted and left out. The column "error" is
+/// left out.
 ///
 /// Memory is about 20 bytes per field. Throws Error with the file and the line. InvalidInput if a
 /// row has another number of fields than the heading, a column of numbers contains a text, two
