@@ -26,12 +26,12 @@ CLI::App& add_command(CLI::App& program, SegmentArguments& arguments) {
       program,
       {"segment",
        "Label the grains of a grey-value volume or a mask",
-       {"scan.tif labels.nrrd", "mask.tif labels.mha --separate 1.5 --voxel-size 12um"},
+       {"scan.tif labels.nrrd", "scan.tif labels.nrrd --phases 1",
+        "mask.tif labels.mha --separate 0.6 --voxel-size 12um"},
        "Check the page first: it shows the grains' outlines on three slices of the scan. Then\n"
        "remesh the labels with wscvt batch."});
-  add_file_argument(
-      app, "scan", arguments.scan,
-      "Volume of grey values with bright grains, or mask, in a format of wscvt extract")
+  add_file_argument(app, "scan", arguments.scan,
+                    "Volume of grey values, or mask, in a format of wscvt extract")
       ->required();
   add_output(app, "labels", arguments.labels, "Labels to write: .nrrd or .mha");
   add_number(app, "--separate", arguments.options.separate, separate_option);
@@ -40,9 +40,17 @@ CLI::App& add_command(CLI::App& program, SegmentArguments& arguments) {
               arguments.options.threshold = from_typed(text, threshold_option);
             })
       ->description(
-          "Smallest grey value of the material. Default: half-way between the two peaks of the "
-          "histogram")
+          "Smallest grey value of the material. Default: half-way between two peaks of the "
+          "histogram, see --phases")
       ->type_name("N");
+  add_typed(app, "--phases",
+            [&arguments](std::string_view text) {
+              arguments.options.phases = from_typed(text, phases_option);
+            })
+      ->description(capitalised(phases_option.subject) + ": " + std::string(phases_option.meaning))
+      ->type_name("N");
+  app.add_flag("--dark", arguments.options.dark,
+               capitalised(dark_option.subject) + ". " + std::string(dark_option.meaning));
   add_number(app, "--smallest", arguments.options.smallest, smallest_kept_option);
   add_choice_arguments(app, arguments.choice, "Options");
   add_file_argument(app, "--report", arguments.page,

@@ -63,7 +63,7 @@ TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
   EXPECT_FALSE(exists("again.html"));
   EXPECT_EQ(run("segment scan.nrrd labels.mha --threshold 500 -q").exit_code, 1);
   EXPECT_FALSE(exists("labels.mha"));
-  const std::string all = run("segment mask.nrrd labels.mha --separate 50 --smallest 3000").output;
+  const std::string all = run("segment mask.nrrd labels.mha --separate 0 --smallest 3000").output;
   EXPECT_NE(all.find("\n1 grain"), std::string::npos) << all;
 }
 
@@ -79,7 +79,7 @@ TEST_F(Segment, SeparatesMasksOnTheWayToMeshes) {
   EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 0.75").exit_code, 0);
   EXPECT_TRUE(exists("out/3.ply"));
   // What it was called with belongs to the batch.
-  EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 1.5").exit_code, 2);
+  EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 0.6").exit_code, 2);
 }
 
 TEST_F(Segment, RefusesWrongCallsBeforeAnythingIsMade) {
@@ -87,7 +87,7 @@ TEST_F(Segment, RefusesWrongCallsBeforeAnythingIsMade) {
   expect_refused("segment",
                  {{"scan.nrrd labels.tif", 2, ".nrrd or .mha"},
                   {"scan.nrrd labels.mha --report page.json", 2, ".html"},
-                  {"scan.nrrd labels.mha --separate 0", 2, "above 0"},
+                  {"scan.nrrd labels.mha --separate 1.5", 2, "1.5"},
                   {"scan.nrrd labels.mha --smallest 0", 2, "1 or more"},
                   {"scan.nrrd labels.mha --threshold high", 2, "\"high\""},
                   {"scan.nrrd scan.nrrd", 2, "the scan itself"},
@@ -96,7 +96,7 @@ TEST_F(Segment, RefusesWrongCallsBeforeAnythingIsMade) {
                   {"nothing.nrrd labels.mha", 1, "cannot be opened"},
                   {"scan.nrrd gone/labels.mha", 1, "gone"}},
                  {"labels.mha", "labels.html", "page.json"});
-  EXPECT_EQ(run("extract mask.nrrd apart --separate 0").exit_code, 2);
+  EXPECT_EQ(run("extract mask.nrrd apart --separate 2").exit_code, 2);
 }
 
 TEST_F(Segment, SaysWhatTheMachineRefuses) {

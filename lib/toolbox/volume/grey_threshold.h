@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,24 @@ namespace wscvt {
 /// Otsu's threshold itself lies nearer to the wider side, and depends on the fractions of the two.
 /// `counts` are for the grey values 0, 1, 2, ...; at least two are above 0.
 double level_between_peaks(const std::vector<std::uint64_t>& counts);
+
+/// A material or void in a histogram.
+struct GreyPeak {
+  std::size_t value = 0;     ///< of the fullest counts
+  std::size_t valley = 0;    ///< the value of the fewest counts between it and the next peak
+  std::uint64_t voxels = 0;  ///< from the valley before it to its own
+};
+
+/// Returns the peaks of a histogram, ascending: each stands out from the valleys beside it by four
+/// tenths of its height, and has at least one voxel of a thousand.
+std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts);
+
+/// Returns the value up to which a fraction of all counts lies.
+std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fraction);
+
+/// Returns the level half way between two neighbouring peaks, the second of which is `upper`.
+double level_below(const std::vector<std::uint64_t>& counts, const std::vector<GreyPeak>& peaks,
+                   std::size_t upper);
 
 /// Returns Otsu's threshold: the grey value in the histogram for which the values below and from it
 /// on have the largest variance between their means.

@@ -39,8 +39,8 @@ void fill_holes(std::vector<std::uint8_t>&, const FilterCounts&, const Execution
   require_filters();
 }
 
-std::vector<std::uint32_t> basins_of(const std::vector<std::uint8_t>&, const FilterCounts&,
-                                     const std::array<double, 3>&, double, const Execution&) {
+Basins basins_of(const std::vector<std::uint8_t>&, const FilterCounts&,
+                 const std::array<double, 3>&, double, const Execution&) {
   require_filters();
   return {};
 }
@@ -185,13 +185,14 @@ void fill_holes(std::vector<std::uint8_t>& mask, const FilterCounts& counts,
   std::copy_n(filter->GetOutput()->GetBufferPointer(), mask.size(), mask.begin());
 }
 
-std::vector<std::uint32_t> basins_of(const std::vector<std::uint8_t>& mask,
-                                     const FilterCounts& counts,
-                                     const std::array<double, 3>& spacing, double depth,
-                                     const Execution& execution) {
+Basins basins_of(const std::vector<std::uint8_t>& mask, const FilterCounts& counts,
+                 const std::array<double, 3>& spacing, double depth, const Execution& execution) {
   // Without material or without void there is no distance.
-  if (std::find(mask.begin(), mask.end(), 0) == mask.end()) return {mask.begin(), mask.end()};
-  if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return {mask.begin(), mask.end()};
+  const auto one_basin = [&] {
+    return Basins{{mask.begin(), mask.end()}, std::vector<std::uint16_t>(mask.size(), 0)};
+  };
+  if (std::find(mask.begin(), mask.end(), 0) == mask.end()) return one_basin();
+  if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return one_basin();
   use_one_thread();
   // Depths below the highest maximum, in steps of a small fraction of `depth`. They fit in 16 bits,
   // and ITK's watershed copies them several times.
@@ -222,9 +223,12 @@ std::vector<std::uint32_t> basins_of(const std::vector<std::uint8_t>& mask,
   filter->SetFullyConnected(false);
   run(*filter, &execution, "Separating grains");
   const std::uint32_t* const found = filter->GetOutput()->GetBufferPointer();
-  std::vector<std::uint32_t> labels(mask.size());
-  for (std::size_t k = 0; k < mask.size(); ++k) labels[k] = mask[k] == 0 ? 0 : found[k];
-  return labels;
+  Basins basins;
+  basins.labels.resize(mask.size());
+  for (std::size_t k = 0; k < mask.size(); ++k) basins.labels[k] = mask[k] == 0 ? 0 : found[k];
+  for (std::uint16_t& height : heights) height = std::numeric_limits<std::uint16_t>::max() - height;
+  basins.distances = std::move(heights);
+  return basins;
 }
 
 #endif

@@ -29,13 +29,16 @@ std::vector<std::uint16_t> median_of(const std::vector<std::uint16_t>& grey,
 void fill_holes(std::vector<std::uint8_t>& mask, const FilterCounts& counts,
                 const Execution& execution);
 
+/// Basins of distances to the nearest voxel of 0.
+struct Basins {
+  std::vector<std::uint32_t> labels;     ///< from 1; 0 for voxels of 0
+  std::vector<std::uint16_t> distances;  ///< in steps of one length for all voxels
+};
+
 /// Returns the watershed basins of the distance to the nearest voxel of 0: one for each maximum
-/// that is at least `depth` above the passes to higher maxima. Voxels of 1 get the number of their
-/// basin, from 1; voxels of 0 get 0. `spacing`: edge lengths of a voxel; `depth`: a length. Parts
-/// of the mask that do not touch may share a number. Runs on one thread.
-std::vector<std::uint32_t> basins_of(const std::vector<std::uint8_t>& mask,
-                                     const FilterCounts& counts,
-                                     const std::array<double, 3>& spacing, double depth,
-                                     const Execution& execution);
+/// that is at least `depth` above the passes to higher maxima. `spacing`: edge lengths of a voxel;
+/// `depth`: a length. Parts of the mask that do not touch may share a number. Runs on one thread.
+Basins basins_of(const std::vector<std::uint8_t>& mask, const FilterCounts& counts,
+                 const std::array<double, 3>& spacing, double depth, const Execution& execution);
 
 }  // namespace wscvt

@@ -8,6 +8,8 @@
 
 #include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/neck_join.h"
+#include "toolbox/volume/scanned_region.h"
 #include "toolbox/volume/volume_parts.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/portable_math.h"
@@ -84,17 +86,22 @@ struct GreyRange {
   double equal_neighbours = 0.0;  ///< fraction of equal neighbours along x
 };
 
-GreyRange range_of(LabelVolume& volume, const Execution& execution) {
+/// `outside`: 1 for voxels that were not scanned, which are ignored; empty: none.
+GreyRange range_of(LabelVolume& volume, const std::vector<std::uint8_t>& outside,
+                   const Execution& execution) {
   GreyRange range;
   std::vector<float> sample;
   std::uint64_t count = 0;
   std::uint64_t equal = 0;
   std::optional<float> other;
+  std::size_t voxel = 0;
   for_each_row(volume, execution, [&](const std::vector<Label>& row) {
     float before = std::numeric_limits<float>::quiet_NaN();
     for (const Label code : row) {
       const float value = grey_value(code);
-      if (!std::isfinite(value)) continue;
+      const bool is_outside = !outside.empty() && outside[voxel] != 0;
+      ++voxel;
+      if (is_outside || !std::isfinite(value)) continue;
       if (value == before) ++equal;
       constexpr std::uint64_t sampled = 61;  // no common factor with usual row lengths
       if (count++ % sampled == 0) sample.push_back(value);
@@ -138,10 +145,72 @@ std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& executio
   return mask;
 }
 
+std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
+  return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
+}
+
+/// Returns the histogram of the voxels whose six neighbours are alike. Voxels at the surface of
+/// grains are not: their values lie between two phases, and would look like a third one.
+std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
+                                         const std::vector<std::uint8_t>& outside,
+                                         const VoxelCounts& sizes,
+                                         const std::vector<std::uint64_t>& counts) {
+  const auto width = static_cast<std::size_t>(sizes[0]);
+  const std::size_t slice = width * static_cast<std::size_t>(sizes[1]);
+  const auto difference = [&](std::size_t a, std::size_t b) {
+    return static_cast<std::size_t>(std::abs(int{grey[a]} - int{grey[b]}));
+  };
+  std::vector<std::uint64_t> differences(counts.size(), 0);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (k % width > 0) ++differences[difference(k, k - 1)];
+  }
+  // Most neighbours differ by noise only. Surfaces differ by a third of the contrast and more.
+  const std::size_t noise = quantile_of(differences, 0.5);
+  constexpr double rare = 0.001;
+  const std::size_t range = quantile_of(counts, 1.0 - rare) - quantile_of(counts, rare);
+  const std::size_t alike = std::max<std::size_t>({1, 4 * noise, range / 16});
+  std::vector<std::uint8_t> is_inside(grey.size(), 1);
+  const auto look = [&](std::size_t a, std::size_t b) {
+    if (difference(a, b) > alike) is_inside[a] = is_inside[b] = 0;
+  };
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (k % width > 0) look(k, k - 1);
+    if (k % slice >= width) look(k, k - width);
+    if (k >= slice) look(k, k - slice);
+  }
+  std::vector<std::uint64_t> inside(counts.size(), 0);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (is_inside[k] != 0 && (outside.empty() || outside[k] == 0)) ++inside[grey[k]];
+  }
+  return inside;
+}
+
+/// Chooses the level of the material from the histogram of all voxels and of those inside of
+/// phases. Sets `peaks` to those of the latter.
+double level_of(const std::vector<std::uint64_t>& counts, const std::vector<std::uint64_t>& inside,
+                const SegmentationOptions& options, std::vector<GreyPeak>& peaks) {
+  const auto is_some = [](std::uint64_t count) { return count > 0; };
+  if (std::count_if(counts.begin(), counts.end(), is_some) < 2) {
+    refuse("All voxels have one grey value after smoothing. Give " + mention("threshold") + ".");
+  }
+  if (std::count_if(inside.begin(), inside.end(), is_some) >= 2) peaks = peaks_of(inside);
+  const auto found = static_cast<int>(peaks.size());
+  if (found < 3 && !options.phases) return level_between_peaks(counts);
+  const int phases = options.phases.value_or(found - 1);
+  if (phases >= found) {
+    refuse("The grey values have " + std::to_string(found) + (found == 1 ? " peak" : " peaks") +
+           ", so at most " + std::to_string(found - 1) + " can be material. Give " +
+           mention("threshold") + ", or a lower " + mention("phases") + ".");
+  }
+  return level_below(inside, peaks,
+                     static_cast<std::size_t>(options.dark ? phases : found - phases));
+}
+
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
-/// given.
+/// given, and the peaks of `result`.
 std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
-                                      std::optional<double>& threshold,
+                                      const std::vector<std::uint8_t>& outside,
+                                      const SegmentationOptions& options, Segmentation& result,
                                       const Execution& execution) {
   constexpr double most = std::numeric_limits<std::uint16_t>::max();
   // Whole numbers of 16 bits are used as they are. Other values are quantized; a few outliers must
@@ -153,47 +222,87 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   grey.reserve(voxels_of(scan.geometry().counts));
   for_each_row(scan, execution.part(0.0, 0.2), [&](const std::vector<Label>& row) {
     for (const Label code : row) {
-      // NaN lies outside the scanned region.
       const float value = code == 0 ? range.least : grey_value(code);
       grey.push_back(
           static_cast<std::uint16_t>(std::clamp(std::round((value - base) / step), 0.0, most)));
     }
   });
   grey = median_of(grey, scan.geometry().counts, execution.part(0.2, 1.0));
-  if (!threshold) {
+  const auto is_outside = [&](std::size_t k) { return !outside.empty() && outside[k] != 0; };
+  result.threshold = options.threshold.value_or(0.0);
+  if (!options.threshold) {
     std::vector<std::uint64_t> counts(static_cast<std::size_t>(most) + 1, 0);
-    for (const std::uint16_t value : grey) ++counts[value];
-    const auto is_some = [](std::uint64_t count) { return count > 0; };
-    if (std::count_if(counts.begin(), counts.end(), is_some) < 2) {
-      refuse("All voxels have one grey value after smoothing. Give " + mention("threshold") + ".");
+    for (std::size_t k = 0; k < grey.size(); ++k) {
+      if (!is_outside(k)) ++counts[grey[k]];
     }
-    threshold = base + step * level_between_peaks(counts);
+    std::vector<GreyPeak> peaks;
+    result.threshold =
+        base + step * level_of(counts, counts_inside(grey, outside, scan.geometry().counts, counts),
+                               options, peaks);
+    for (const GreyPeak& peak : peaks) {
+      result.peaks.push_back(base + step * static_cast<double>(peak.value));
+    }
   }
-  const double level = (*threshold - base) / step;
+  const double level = (result.threshold - base) / step;
   std::vector<std::uint8_t> mask(grey.size());
-  for (std::size_t k = 0; k < grey.size(); ++k) mask[k] = grey[k] >= level ? 1 : 0;
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    const bool is_material = options.dark ? grey[k] <= level : grey[k] >= level;
+    mask[k] = is_material && !is_outside(k) ? 1 : 0;
+  }
   return mask;
 }
 
-std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
-  return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
+/// Returns whether each label of a volume is within two voxels of one that was not scanned.
+std::vector<char> labels_beside(LabelVolume& labels, const std::vector<std::uint8_t>& outside,
+                                const Execution& execution) {
+  std::vector<char> beside;
+  if (outside.empty()) return beside;
+  const VoxelCounts& counts = labels.geometry().counts;
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
+  std::size_t k = 0;
+  for_each_row(labels, execution, [&](const std::vector<Label>& row) {
+    for (std::size_t x = 0; x < row.size(); ++x, ++k) {
+      const Label label = row[x];
+      if (label == 0) continue;
+      // The median takes a voxel away beside what was not scanned.
+      bool touches = false;
+      for (const std::size_t away : {1, 2}) {
+        touches = touches || (x >= away && outside[k - away] != 0) ||
+                  (x + away < width && outside[k + away] != 0) ||
+                  (k % slice >= away * width && outside[k - away * width] != 0) ||
+                  (k % slice + away * width < slice && outside[k + away * width] != 0) ||
+                  (k >= away * slice && outside[k - away * slice] != 0) ||
+                  (k + away * slice < outside.size() && outside[k + away * slice] != 0);
+      }
+      if (!touches) continue;
+      if (label >= beside.size()) beside.resize(label + std::size_t{1}, 0);
+      beside[label] = 1;
+    }
+  });
+  return beside;
 }
 
 /// Returns the parts of a mask, with touching parts separated.
 std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
-                                           const VolumeGeometry& geometry, double depth,
+                                           const VolumeGeometry& geometry, double neck,
                                            const Execution& execution) {
+  // Small enough to cut every neck; steps of voxels make false maxima of up to half a voxel.
+  constexpr double depth = 0.5;
   const Vector3 spacing = geometry.axes.colwise().norm();
   const double voxel = portable::cbrt(spacing.prod());
-  std::vector<Label> basins = basins_of(mask, geometry.counts, {spacing[0], spacing[1], spacing[2]},
-                                        depth * voxel, execution.part(0.0, 0.9));
+  Basins basins = basins_of(mask, geometry.counts, {spacing[0], spacing[1], spacing[2]},
+                            depth * voxel, execution.part(0.0, 0.9));
   mask = {};
-  return parts_of(std::make_unique<HeldVolume>(geometry, std::move(basins)), 0,
+  join_wide_necks(basins.labels, basins.distances, geometry.counts, neck);
+  basins.distances = {};
+  return parts_of(std::make_unique<HeldVolume>(geometry, std::move(basins.labels)), 0,
                   execution.part(0.9, 1.0));
 }
 
-/// Numbers the grains from 1, and gives one more number to all that are too small.
-void drop_small(Segmentation& result, std::int64_t smallest, const Execution& execution) {
+/// Numbers the grains from 1, and gives one more number to all that are too small or cut.
+void drop_small(Segmentation& result, std::int64_t smallest, const std::vector<char>& cut,
+                const Execution& execution) {
   const std::vector<LabelExtent> all = label_census(*result.labels, 0, execution);
   std::vector<Label> numbers(all.size() + 1, 0);  // parts are numbered without gaps
   for (const LabelExtent& part : all) {
@@ -202,11 +311,15 @@ void drop_small(Segmentation& result, std::int64_t smallest, const Execution& ex
       result.dropped += part.voxels;
       continue;
     }
+    if (part.label < cut.size() && cut[part.label] != 0) {
+      ++result.cut;
+      continue;
+    }
     result.grains.push_back(part);
     result.grains.back().label = static_cast<Label>(result.grains.size());
     numbers[part.label] = result.grains.back().label;
   }
-  if (result.grains.empty()) {
+  if (result.grains.empty() && result.cut == 0) {
     refuse("No grain is left: all " + std::to_string(all.size()) + " parts of material from " +
            format_number(result.threshold) + " on have fewer than " + std::to_string(smallest) +
            " voxels. Give another " + mention("threshold") + ", or a lower " + mention("smallest") +
@@ -236,32 +349,49 @@ auto with_memory(const VoxelCounts& counts, const Work& work) {
 Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
                        const Execution& execution) {
   if (options.threshold) require_in_range(*options.threshold, threshold_option);
+  if (options.phases) require_in_range(*options.phases, phases_option);
+  if (options.phases && options.threshold) {
+    refuse(mention("phases") + " chooses a threshold, but " + mention("threshold") +
+           " gives one. Leave one of them out.");
+  }
   require_in_range(options.separate, separate_option);
   require_in_range(options.smallest, smallest_kept_option);
   require_filters();
   const VolumeGeometry& geometry = scan.geometry();
   scan.read_grey_values();
-  const GreyRange range = range_of(scan, execution.part(0.0, 0.1));
+  const std::vector<std::uint8_t> outside = not_scanned(scan, execution.part(0.0, 0.05));
+  const GreyRange range = range_of(scan, outside, execution.part(0.05, 0.1));
   Segmentation result;
+  result.not_scanned = material_count(outside);
+  result.is_dark = options.dark;
   result.is_mask = range.are_two;
   result.is_flat = !range.are_two && range.equal_neighbours > 0.9;
   result.voxels = voxels_of(geometry.counts);
-  std::optional<double> threshold = options.threshold;
-  if (result.is_mask && !threshold) threshold = range.largest;
   std::vector<std::uint8_t> mask;
   const Execution reading = execution.part(0.1, 0.4);
   if (result.is_mask) {
-    mask = mask_of(scan, reading, [&](Label code) { return grey_value(code) >= *threshold; });
+    if (options.phases && *options.phases > 1) {
+      refuse("The volume is a mask of two values, so one phase is material. Leave " +
+             mention("phases") + " out.");
+    }
+    result.threshold = options.threshold.value_or(options.dark ? range.least : range.largest);
+    mask = mask_of(scan, reading, [&](Label code) {
+      const float value = grey_value(code);
+      return options.dark ? value <= result.threshold : value >= result.threshold;
+    });
+    for (std::size_t k = 0; k < outside.size(); ++k) {
+      if (outside[k] != 0) mask[k] = 0;
+    }
   } else {
-    mask = material_of(scan, range, threshold, reading);
+    mask = material_of(scan, range, outside, options, result, reading);
   }
-  result.threshold = *threshold;
   const std::uint64_t open = material_count(mask);
   fill_holes(mask, geometry.counts, execution.part(0.4, 0.5));
   result.filled = material_count(mask) - open;
   result.labels =
       parts_of_mask(std::move(mask), geometry, options.separate, execution.part(0.5, 0.95));
-  drop_small(result, options.smallest, execution.part(0.95, 1.0));
+  const std::vector<char> cut = labels_beside(*result.labels, outside, execution.part(0.95, 0.97));
+  drop_small(result, options.smallest, cut, execution.part(0.97, 1.0));
   return result;
 }
 
@@ -272,10 +402,10 @@ Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
   return with_memory(scan.geometry().counts, [&] { return segmented(scan, options, execution); });
 }
 
-std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double depth,
+std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double neck,
                                        const Execution& execution) {
   require_filters();
-  require_in_range(depth, separate_option);
+  require_in_range(neck, separate_option);
   std::optional<Label> material;
   const auto is_material = [&](Label value) {
     if (value == background) return false;
@@ -290,7 +420,7 @@ std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, doub
   std::unique_ptr<LabelVolume> parts = with_memory(mask.geometry().counts, [&] {
     std::vector<std::uint8_t> voxels = mask_of(mask, execution.part(0.0, 0.2), is_material);
     fill_holes(voxels, mask.geometry().counts, execution.part(0.2, 0.3));
-    return parts_of_mask(std::move(voxels), mask.geometry(), depth, execution.part(0.3, 1.0));
+    return parts_of_mask(std::move(voxels), mask.geometry(), neck, execution.part(0.3, 1.0));
   });
   parts->take_notes_of(mask);
   return parts;

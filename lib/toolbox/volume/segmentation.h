@@ -18,11 +18,15 @@ namespace wscvt {
 // per voxel. The result does not depend on the number of threads.
 
 struct SegmentationOptions {
-  /// Smallest grey value of material; empty: see level_between_peaks.
+  /// Smallest grey value of material (largest if it is dark); empty: half way between two peaks of
+  /// the histogram, see `phases`.
   std::optional<double> threshold;
-  /// See separate_option; a voxel's edge is the cube root of its volume. Steps of voxels make false
-  /// maxima of up to half a voxel. True necks between touching grains begin a little above.
-  double separate = 0.75;
+  /// Number of peaks of the histogram that are material, from the brightest on (from the darkest on
+  /// if it is dark); empty: all but one.
+  std::optional<int> phases;
+  bool dark = false;       ///< the material is darker than the rest
+  double separate = 0.75;  ///< see separate_option
+
   /// Voxels of the smallest grain to keep: a grain of 6 voxels across has no measurable shape.
   std::int64_t smallest = 100;
 };
@@ -30,14 +34,25 @@ struct SegmentationOptions {
 inline constexpr NumberOption<double> threshold_option = {
     "threshold", "smallest grey value of the material", -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity()};
+inline constexpr NumberOption<int> phases_option = {
+    "phases",
+    "number of phases that are material",
+    1,
+    100,
+    Ends::Both,
+    "peaks of the grey values, from the brightest on (with --dark from the darkest on). Default: "
+    "all but one"};
+inline constexpr FlagOption dark_option = {
+    "dark", "the material is darker than the rest",
+    "The threshold is then the largest grey value of the material"};
 inline constexpr NumberOption<double> separate_option = {
     "separate",
-    "depth of the neck between two grains",
+    "widest neck between two grains",
     0.0,
-    std::numeric_limits<double>::infinity(),
-    Ends::Neither,
-    "in voxels. It says how much closer to the surface the neck's middle is than the smaller "
-    "grain's middle. Larger values join parts, smaller values cut them"};
+    1.0,
+    Ends::Both,
+    "as a fraction of the smaller one's width (radii of the largest balls inside). Parts with a "
+    "wider neck are one grain. Larger values cut more: 0 cuts nowhere, 1 everywhere"};
 inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
     "smallest", "number of voxels of the smallest grain",
     1,          std::numeric_limits<std::int64_t>::max(),
@@ -51,16 +66,24 @@ struct Segmentation {
   std::vector<LabelExtent> grains;  ///< by their labels
   bool is_mask = false;             ///< two values only: not smoothed, no threshold computed
   bool is_flat = false;             ///< most neighbours are equal, as in a volume of labels
+  bool is_dark = false;             ///< as in the options
   double threshold = 0.0;           ///< as used
+  std::vector<double> peaks;        ///< grey values of the histogram's peaks; empty for a mask
+  std::uint64_t not_scanned = 0;    ///< voxels outside of what was scanned, see not_scanned
+  std::size_t cut = 0;              ///< grains that touch them; not among `grains`
   std::uint64_t voxels = 0;         ///< of the volume
   std::uint64_t material = 0;       ///< voxels of grains, including dropped ones
   std::uint64_t dropped = 0;        ///< voxels of grains smaller than the smallest
   std::uint64_t filled = 0;         ///< voxels of holes, which count as material
 };
 
+/// Grains that touch voxels that were not scanned (see scanned_region.h) are cut. They are left out
+/// as the dropped ones are, because a file of labels cannot tell them from whole ones.
+///
 /// Segments a scan, which gives grey values from then on (see LabelVolume) and may be read again:
 /// the median of each voxel and its 26 neighbours, the threshold, holes in the material filled,
-/// touching parts separated. A volume of two values is a mask; the larger value is the material.
+/// touching parts separated. A volume of two values is a mask; the larger value is the material, or
+/// the smaller one if it is dark.
 /// Throws Error: InvalidInput for options out of range, without ITK, for a volume of one value, and
 /// if no grain is left; Cancelled, and what the volume throws.
 Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
@@ -69,7 +92,7 @@ Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
 /// Separates touching grains of a mask, all that is not background, as segment does. Returns its
 /// parts with labels from 1, without dropping any. Throws as segment does, and for a volume of
 /// several labels.
-std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double depth,
+std::unique_ptr<LabelVolume> separated(LabelVolume& mask, Label background, double neck,
                                        const Execution& execution);
 
 }  // namespace wscvt

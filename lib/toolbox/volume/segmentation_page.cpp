@@ -49,6 +49,50 @@ void read_slices(LabelVolume& volume, std::vector<ShownSlice>& slices,
   }
 }
 
+/// Returns the place of the slice across x, y and z with the most boundary of grains in it.
+VoxelCounts fullest_slices(LabelVolume& labels, Label grains, const Execution& execution) {
+  const VoxelCounts& counts = labels.geometry().counts;
+  std::array<std::vector<std::uint64_t>, 3> boundary;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    boundary[axis].resize(static_cast<std::size_t>(counts[axis]), 0);
+  }
+  const auto width = static_cast<std::size_t>(counts[0]);
+  std::vector<Label> slice_before(width * static_cast<std::size_t>(counts[1]), 0);
+  labels.rewind();
+  for (std::size_t z = 0; z < boundary[2].size(); ++z) {
+    execution.report(static_cast<double>(z) / counts[2], "Choosing slices");
+    for (std::size_t y = 0; y < boundary[1].size(); ++y) {
+      std::vector<Label> row = labels.next_row();
+      for (std::size_t x = 0; x < width; ++x) {
+        if (row[x] > grains) row[x] = 0;
+        Label& before = slice_before[y * width + x];
+        const bool along_x = x > 0 && row[x] != row[x - 1];
+        const bool along_y = y > 0 && row[x] != slice_before[(y - 1) * width + x];
+        const bool along_z = z > 0 && row[x] != before;
+        boundary[0][x] += (along_y ? 1U : 0U) + (along_z ? 1U : 0U);
+        boundary[1][y] += (along_x ? 1U : 0U) + (along_z ? 1U : 0U);
+        boundary[2][z] += (along_x ? 1U : 0U) + (along_y ? 1U : 0U);
+        before = row[x];
+      }
+    }
+  }
+  VoxelCounts places = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Of equal slices the one nearest to the middle.
+    places[axis] = counts[axis] / 2;
+    const auto at = [&](std::int32_t place) {
+      return boundary[axis][static_cast<std::size_t>(place)];
+    };
+    for (std::int32_t step = 1; step < counts[axis]; ++step) {
+      for (const std::int32_t place : {counts[axis] / 2 - step, counts[axis] / 2 + step}) {
+        if (place < 0 || place >= counts[axis]) continue;
+        if (at(place) > at(places[axis])) places[axis] = place;
+      }
+    }
+  }
+  return places;
+}
+
 /// Returns the values shown as black and white: all but a few at each end.
 std::pair<double, double> shown_range(const std::vector<ShownSlice>& slices) {
   std::vector<double> values;
@@ -120,8 +164,8 @@ double share_of(std::uint64_t part, std::uint64_t all) {
 }
 
 /// Returns sentences about signs of a wrong segmentation.
-std::vector<std::string> doubts_of(const Segmentation& segmentation) {
-  std::vector<std::string> doubts;
+std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
+  std::vector<Sentence> doubts;
   if (segmentation.is_flat) {
     doubts.push_back(
         "Most voxels have the value of their neighbour: these may be labels already. wscvt batch "
@@ -132,8 +176,37 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   if (is_full && segmentation.filled > 0) {
     doubts.push_back("The material fills the volume, with holes of " +
                      format_percent(share_of(segmentation.filled, segmentation.material)) +
-                     " of it: the grains seem to be darker than the rest. Invert the grey values, "
-                     "in Fiji by Edit > Invert, and segment them again.");
+                     " of it: the grains seem to be " +
+                     (segmentation.is_dark
+                          ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
+                          : "darker than the rest. Give " + mention("dark", "true") + "."));
+  }
+  const std::size_t peaks = segmentation.peaks.size();
+  if (peaks == 1) {
+    doubts.push_back("The grey values have one peak, at " +
+                     format_number(segmentation.peaks[0], 4) +
+                     ": grains and the space between them do not differ much. Give " +
+                     mention("threshold") + " if the outlines are wrong.");
+  } else if (peaks > 2) {
+    std::string values;
+    for (std::size_t k = 0; k < peaks; ++k) {
+      values += (k == 0           ? ""
+                 : k + 1 == peaks ? " and "
+                                  : ", ") +
+                format_number(segmentation.peaks[k], 4);
+    }
+    doubts.push_back("The grey values have " + std::to_string(peaks) + " peaks, at " + values +
+                     ", as of several minerals. The material is all " +
+                     (segmentation.is_dark ? "up to " : "from ") +
+                     format_number(segmentation.threshold, 4) +
+                     (segmentation.is_dark ? "" : " on") + ". If the grains are only the " +
+                     (segmentation.is_dark ? "darkest, give " : "brightest, give ") +
+                     mention("phases", "1") + ".");
+  }
+  if (segmentation.cut > 0) {
+    doubts.push_back(std::to_string(segmentation.cut) +
+                     (segmentation.cut == 1 ? " grain touches " : " grains touch ") +
+                     "voxels that were not scanned and may be cut. The labels do not have them.");
   }
   if (share_of(segmentation.dropped, segmentation.material) > much) {
     doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
@@ -146,7 +219,7 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
   constexpr double most = 0.75;
   if (segmentation.grains.size() != 2 && share_of(largest, segmentation.material) > most) {
     doubts.push_back("One grain has " + format_percent(share_of(largest, segmentation.material)) +
-                     " of the material: it may be several. Give a smaller " + mention("separate") +
+                     " of the material: it may be several. Give a larger " + mention("separate") +
                      ", or a higher " + mention("threshold") + ".");
   }
   return doubts;
@@ -155,10 +228,14 @@ std::vector<std::string> doubts_of(const Segmentation& segmentation) {
 }  // namespace
 
 std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
-  const std::size_t count = segmentation.grains.size();
+  const std::size_t count = segmentation.grains.size() + segmentation.cut;
   std::vector<std::string> lines = {
       std::to_string(count) + (count == 1 ? " grain, " : " grains, ") +
-      std::to_string(grains_at_border(segmentation)) + " of them at the border"};
+      std::to_string(grains_at_border(segmentation) + segmentation.cut) + " of them at the border"};
+  if (segmentation.not_scanned > 0) {
+    lines.push_back(format_percent(share_of(segmentation.not_scanned, segmentation.voxels)) +
+                    " of the volume was not scanned: it is constant, or not a number");
+  }
   lines.push_back(
       (segmentation.is_mask
            ? "The volume is a mask; its material is "
@@ -168,19 +245,22 @@ std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
       format_percent(share_of(segmentation.filled, segmentation.material)) + " of it were filled");
   lines.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
                   " of the material is in parts that are too small and was dropped");
-  for (const std::string& doubt : doubts_of(segmentation)) lines.push_back("Look: " + doubt);
+  for (const Sentence& doubt : doubts_of(segmentation)) lines.push_back("Look: " + doubt.text());
   return lines;
 }
 
-std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
-                                     const Execution& execution) {
+OutlinedSlices outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
+                               const Execution& execution) {
   const VolumeGeometry& geometry = scan.geometry();
-  std::vector<ShownSlice> slices = {{2, 0, 1, geometry.counts[2] / 2, {}, {}},
-                                    {1, 0, 2, geometry.counts[1] / 2, {}, {}},
-                                    {0, 1, 2, geometry.counts[0] / 2, {}, {}}};
+  const auto grains = static_cast<Label>(segmentation.grains.size());
+  OutlinedSlices result;
+  result.places = fullest_slices(*segmentation.labels, grains, execution.part(0.0, 0.3));
+  std::vector<ShownSlice> slices = {{2, 0, 1, result.places[2], {}, {}},
+                                    {1, 0, 2, result.places[1], {}, {}},
+                                    {0, 1, 2, result.places[0], {}, {}}};
   scan.read_grey_values();
-  read_slices(scan, slices, &ShownSlice::values, execution.part(0.0, 0.5));
-  read_slices(*segmentation.labels, slices, &ShownSlice::labels, execution.part(0.5, 1.0));
+  read_slices(scan, slices, &ShownSlice::values, execution.part(0.3, 0.6));
+  read_slices(*segmentation.labels, slices, &ShownSlice::labels, execution.part(0.6, 1.0));
   double longest = 0.0;
   for (Eigen::Index k = 0; k < 3; ++k) {
     longest = std::max(longest,
@@ -188,12 +268,10 @@ std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segm
   }
   constexpr double pixels = 600.0;
   const std::pair<double, double> range = shown_range(slices);
-  std::vector<Picture> pictures;
   for (const ShownSlice& slice : slices) {
-    pictures.push_back(picture_of(slice, geometry, longest / pixels,
-                                  static_cast<Label>(segmentation.grains.size()), range));
+    result.pictures.push_back(picture_of(slice, geometry, longest / pixels, grains, range));
   }
-  return pictures;
+  return result;
 }
 
 std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentation,
@@ -201,20 +279,24 @@ std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentatio
   const VolumeGeometry& geometry = scan.geometry();
   HtmlDocument page("Grains of a scan: " + std::to_string(segmentation.grains.size()));
   page.add_paragraph(origin_sentence(origin));
-  for (const std::string& doubt : doubts_of(segmentation)) page.add_warning(doubt);
-  const std::vector<Picture> pictures = outlined_slices(scan, segmentation, execution);
-  const std::array<const char*, 3> captions = {"In the middle of z: x to the right, y down.",
-                                               "In the middle of y: x to the right, z down.",
-                                               "In the middle of x: y to the right, z down."};
+  for (const Sentence& doubt : doubts_of(segmentation)) page.add_warning(doubt);
+  const OutlinedSlices slices = outlined_slices(scan, segmentation, execution);
+  const auto place = [&](const char* axis, std::size_t k) {
+    return std::string(axis) + " = " + std::to_string(slices.places[k]) + " of " +
+           std::to_string(geometry.counts[k]) + " voxels: ";
+  };
+  const std::array<std::string, 3> captions = {place("z", 2) + "x to the right, y down.",
+                                               place("y", 1) + "x to the right, z down.",
+                                               place("x", 0) + "y to the right, z down."};
   std::vector<Figure> figures;
-  for (std::size_t k = 0; k < pictures.size(); ++k) {
-    figures.push_back({image_element(pictures[k], captions[k]), captions[k]});
+  for (std::size_t k = 0; k < slices.pictures.size(); ++k) {
+    figures.push_back({image_element(slices.pictures[k], captions[k]), captions[k]});
   }
   page.add_figures(figures);
   page.add_paragraph("Each grain has its own outline. If an outline goes around two grains, make " +
-                     mention("separate") + " smaller. If a line cuts through a grain, make " +
+                     mention("separate") + " larger. If a line cuts through a grain, make " +
                      mention("separate") +
-                     " larger. If outlines are off the edges of the grains, give " +
+                     " smaller. If outlines are off the edges of the grains, give " +
                      mention("threshold") + ". Red parts were dropped.");
   page.add_lines(segmentation_lines(segmentation));
   std::vector<double> diameters;

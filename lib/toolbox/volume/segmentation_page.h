@@ -15,11 +15,18 @@ namespace wscvt {
 /// threshold.
 std::vector<std::string> segmentation_lines(const Segmentation& segmentation);
 
-/// Draws the middle slice across each axis, x, y, z: grey values with the outlines of the grains in
-/// a few colours, dropped parts in red. Voxels keep their proportions; pictures are 300 to 900
-/// pixels wide and high, as far as the proportions allow. Reads scan and labels once.
-std::vector<Picture> outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
-                                     const Execution& execution);
+/// Slices across z, y and x.
+struct OutlinedSlices {
+  std::vector<Picture> pictures;
+  VoxelCounts places = {};  ///< of the slices across x, y and z; voxels
+};
+
+/// Draws the slice across each axis that has the most boundary of grains: grey values with the
+/// outlines of the grains in a few colours, dropped parts in red. Voxels keep their proportions;
+/// pictures are 300 to 900 pixels wide and high, as far as the proportions allow. Reads the scan
+/// once, the labels twice.
+OutlinedSlices outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
+                               const Execution& execution);
 
 /// Returns an HTML page for checking a segmentation: the slices, the lines, the sizes of the
 /// grains.

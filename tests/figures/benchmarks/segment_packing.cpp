@@ -54,7 +54,7 @@ void write_picture(const std::string& path, const std::string& scan_path) {
   const std::unique_ptr<wscvt::LabelVolume> scan = wscvt::open_volume(scan_path);
   const wscvt::Segmentation found = wscvt::segment(*scan, {}, wscvt::Execution());
   const std::vector<wscvt::Picture> slices =
-      wscvt::outlined_slices(*scan, found, wscvt::Execution());
+      wscvt::outlined_slices(*scan, found, wscvt::Execution()).pictures;
   constexpr int gap = 12;
   wscvt::Picture all;
   for (const wscvt::Picture& slice : slices) {

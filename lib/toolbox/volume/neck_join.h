@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "toolbox/volume/label_volume.h"
+
+namespace wscvt {
+
+/// Joins parts of grains that a watershed has cut. `labels`: of basins, from 1, and 0 for void, x
+/// fastest; changed to one label for the parts joined. `distances`: from each voxel to the
+/// void, in any unit. The neck of two basins that touch by faces of voxels is the largest distance
+/// at their common border. They are one grain if it is larger than `neck` times the inscribed
+/// radius, the largest distance, of the smaller one. Wide necks are joined first.
+void join_wide_necks(std::vector<std::uint32_t>& labels,
+                     const std::vector<std::uint16_t>& distances, const VoxelCounts& counts,
+                     double neck);
+
+}  // namespace wscvt
