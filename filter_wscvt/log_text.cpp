@@ -74,15 +74,19 @@ std::vector<std::string> log_table(const std::vector<std::vector<std::string>>& 
 }
 
 std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
-                            const std::vector<std::string>& lines) {
+                            const std::vector<std::string>& lines, const std::string& verdict) {
   constexpr std::size_t longest_line = 4000;
   std::vector<LogLine> log = {{""}};
   for (const std::string& line : lines) log.push_back({line.substr(0, longest_line)});
-  // Warnings are last, because MeshLab scrolls its log to the end.
+  // Warnings are at the end, because MeshLab scrolls its log to the end.
   std::size_t rows = 0;
   for (const std::string& warning : warnings) {
     log.push_back({warning.substr(0, longest_line), true});
     rows += broken(log.back().text + "Warning: ", log_width).size();
+  }
+  if (!verdict.empty()) {
+    log.push_back({verdict});
+    return log;
   }
   // On a screen of 1366 x 768 the panel has five rows, and MeshLab itself writes the last two.
   constexpr std::size_t rows_in_view = 3;

@@ -25,11 +25,11 @@ constexpr std::size_t log_width = 55;
 std::vector<std::string> log_table(const std::vector<std::vector<std::string>>& rows);
 
 /// Returns a log: an empty line, because the host's progress text may lack a line end; the lines;
-/// then the warnings, because MeshLab scrolls to the end. A last line gives the number of warnings
-/// if they need more rows than a small panel has. Lines are cut slightly before the hosts' limit of
-/// 4096 characters.
+/// then the warnings, because MeshLab scrolls to the end; then the verdict, if there is one.
+/// Without a verdict, a last line gives the number of warnings if they need more rows than a small
+/// panel has. Lines are cut slightly before the hosts' limit of 4096 characters.
 std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
-                            const std::vector<std::string>& lines);
+                            const std::vector<std::string>& lines, const std::string& verdict = "");
 
 /// Returns a line for a host that shows its log as HTML. Columns keep their width, and special
 /// characters are escaped.

@@ -18,7 +18,8 @@ namespace {
 const std::map<std::string, std::string> short_labels = {{"volume", "volume"},
                                                          {"area", "surface area"},
                                                          {"sphericity_wadell", "sphericity"},
-                                                         {"aspect_ratio_inertia", "aspect ratio"}};
+                                                         {"aspect_ratio_inertia", "aspect ratio"},
+                                                         {"sdq_invariant", "Sdq"}};
 
 /// Appends the lines of the library's report on these topics.
 void append_topics(std::vector<std::string>& lines, const std::vector<std::string>& report,
@@ -75,7 +76,7 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds) {
   lines.push_back(seconds_line(seconds));
   std::vector<std::string> warnings;
   for (const Sentence& warning : result.warnings) warnings.push_back(shown_words(warning));
-  return as_log(warnings, lines);
+  return as_log(warnings, lines, verdict_line(result));
 }
 
 }  // namespace wscvt::filter

@@ -14,6 +14,10 @@ void add_threads_argument(CLI::App& app, int& threads) {
   add_number(app, "-t,--threads", threads, threads_option);
 }
 
+void add_verbose_argument(CLI::App& app, bool& verbose) {
+  app.add_flag("-v,--verbose", verbose, "Print the whole report, not only its summary");
+}
+
 void add_folder_argument(CLI::App& app, std::string& folder) {
   app.add_option("-o,--output", folder, "Output folder")->type_name("OUT")->required();
 }

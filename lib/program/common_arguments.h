@@ -15,12 +15,16 @@ struct CommonArguments {
   int threads = 0;                   ///< 0: all
   bool overwrite = false;            ///< an output may replace an input
   bool quiet = false;
+  bool verbose = false;  ///< the whole report
 };
 
 /// Adds the arguments. Parsing changes `arguments`, which must outlive `app`. If the report is a
 /// command's only output, it is also -o.
 void add_common_arguments(CLI::App& app, CommonArguments& arguments,
                           const std::string& names_of_report = "--report");
+
+/// Adds -v, the whole log of a remesh.
+void add_verbose_argument(CLI::App& app, bool& verbose);
 
 /// Adds only the number of threads.
 void add_threads_argument(CLI::App& app, int& threads);

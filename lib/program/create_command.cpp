@@ -73,7 +73,8 @@ CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
              arguments.surface.coefficient_degree, coefficient_degree_option);
   add_remesh_arguments(app, arguments.options, Remeshed::Surface);
   add_common_arguments(app, arguments.common);
-  for (const char* name : {"--threads", "--overwrite", "--quiet"}) {
+  add_verbose_argument(app, arguments.common.verbose);
+  for (const char* name : {"--threads", "--overwrite", "--quiet", "--verbose"}) {
     app.get_option(name)->group(finer_settings);
   }
   return app;
@@ -107,7 +108,7 @@ int run(const CreateArguments& arguments) {
       write_report(path, result, origin, execution);
     });
   }
-  work.print(result.warnings, report_lines(result));
+  work.print_log(result, common.verbose);
   return Done;
 }
 

@@ -39,10 +39,11 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   add_remesh_arguments(app, arguments.options);
   add_simulation_arguments(app, arguments.simulation);
   add_common_arguments(app, arguments.common);
+  add_verbose_argument(app, arguments.common.verbose);
   add_file_argument(
       app, "--coefficients", arguments.coefficients,
       "Write the coefficients of the SH series to this file: .json, or .sh (SHTOOLS, 4pi)");
-  for (const char* name : {"--threads", "--overwrite", "--quiet", "--coefficients"}) {
+  for (const char* name : {"--threads", "--overwrite", "--quiet", "--verbose", "--coefficients"}) {
     app.get_option(name)->group(finer_settings);
   }
   return app;
@@ -139,7 +140,7 @@ int run(const RemeshArguments& arguments) {
       write_coefficients(path, result);
     });
   }
-  work.print(result.warnings, report_lines(result));
+  work.print_log(result, common.verbose);
   return Done;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "work.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 
@@ -8,6 +9,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/readable_text.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt::program {
 
@@ -57,6 +59,23 @@ void Work::print(const std::vector<Sentence>& warnings, const std::vector<std::s
     std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());
   }
   program::print(lines, quiet_);
+}
+
+void Work::print_log(const RemeshResult& result, bool verbose) {
+  std::vector<std::string> lines = verbose ? report_lines(result) : summary_lines(result);
+  // Warnings are printed once, before.
+  lines.erase(
+      std::remove_if(lines.begin(), lines.end(),
+                     [](const std::string& line) { return line.rfind("Warning ", 0) == 0; }),
+      lines.end());
+  for (const std::string& path : written_) {
+    lines.push_back((&path == &written_.front() ? "Files       \"" : "            \"") + path +
+                    "\"");
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin_;
+  lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
+  lines.push_back(verdict_line(result));
+  print(result.warnings, lines);
 }
 
 void print(const std::vector<std::string>& lines, bool quiet) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,13 @@ class Work {
   /// output unless quiet.
   void print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines);
 
+  /// Prints the log of a remesh: the warnings, a summary or the whole report, the files written,
+  /// the seconds since the work began, and the verdict.
+  void print_log(const RemeshResult& result, bool verbose);
+
  private:
   bool quiet_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   ProgressLine line_;
   std::vector<std::string> written_;
   Execution execution_;

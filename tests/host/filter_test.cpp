@@ -727,6 +727,8 @@ TEST(Filter, LogBeginsEmptyAndHoldsTheTableAndTheTime) {
   ASSERT_FALSE(lines.isEmpty());
   EXPECT_EQ(lines.front(), "");
   for (const QString& line : lines) {
+    // The verdict is a sentence, which wraps.
+    if (line == lines.back()) continue;
     EXPECT_LT(line.size(), 60) << "wider than the panel: " << line.toStdString();
     EXPECT_FALSE(line.contains('\n')) << line.toStdString();
   }
@@ -792,6 +794,27 @@ TEST(Filter, LogTablesAreNoWiderThanThePanel) {
   // A word that is too long stays whole.
   const std::string word(70, 'w');
   EXPECT_EQ(filter::log_table({{"a " + word, "1"}}).back(), "  " + word + "  1");
+}
+
+TEST(Filter, LogOfARemeshEndsByItsVerdict) {
+  RemeshOptions options;
+  options.node_count = 200;
+  const auto log_of = [&](int nodes) {
+    options.node_count = nodes;
+    return filter::log_lines(remesh(grain(), options, Execution(1)), 0.1);
+  };
+  const std::vector<filter::LogLine> good = log_of(400);
+  EXPECT_FALSE(good.back().warning);
+  EXPECT_EQ(good.back().text.rfind("400 nodes, volume exact, area ", 0), 0U) << good.back().text;
+  EXPECT_EQ(good.back().text.substr(good.back().text.size() - 6), ": good") << good.back().text;
+  const std::vector<filter::LogLine> bad = log_of(10);
+  EXPECT_NE(bad.back().text.find("look at the warning above"), std::string::npos)
+      << bad.back().text;
+  EXPECT_TRUE(bad[bad.size() - 2].warning);
+  const auto names_sdq = [](const filter::LogLine& line) {
+    return line.text.find("Sdq") != std::string::npos;
+  };
+  EXPECT_TRUE(std::any_of(good.begin(), good.end(), names_sdq));
 }
 
 TEST(Filter, LogEndsByTheNumberOfWarningsThatThePanelDoesNotHold) {
@@ -1189,7 +1212,7 @@ TEST(Filter, CountsTheIntersectionsOfTheLayer) {
   MeshDocument document;
   // A plate of about the thickness of a float's step where it lies, .0039.
   const IndexedMesh plate = mapped_sphere(40, 80, [](const Vector3& u) {
-    return Vector3(u.x(), u.y() + 0.3 * u.x(), 0.004 * u.z() + 0.2 * u.x() - 0.3 * u.y());
+    return Vector3(u.x(), u.y() + 0.3 * u.x(), 0.0015 * u.z() + 0.2 * u.x() - 0.3 * u.y());
   });
   add_layer(document, moved(plate, Vector3::Constant(std::ldexp(1.0, 15))));
   RichParameterList parameters = loaded.parameters(document);
@@ -1197,14 +1220,15 @@ TEST(Filter, CountsTheIntersectionsOfTheLayer) {
   set_from_text(parameters, "ReportFile", folder.filePath("report.json").toStdString());
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   const std::size_t pairs = self_intersections(filter::to_indexed_mesh(document.mm()->cm)).size();
-  EXPECT_GT(pairs, 0U);
+  // Layers of doubles are not rounded.
+  if (sizeof(Scalarm) == sizeof(float)) EXPECT_GT(pairs, 0U);
   QFile report(folder.filePath("report.json"));
   ASSERT_TRUE(report.open(QIODevice::ReadOnly));
   EXPECT_EQ(QJsonDocument::fromJson(report.readAll())["on_scan"]["self_intersections"].toInt(),
             static_cast<int>(pairs));
 }
 
-TEST(Filter, LogsWarningsAsWarningsAndLast) {
+TEST(Filter, LogsWarningsAsWarningsAboveTheVerdict) {
   LoadedFilter loaded;
   MeshDocument document;
   add_layer(document, grain());
@@ -1214,10 +1238,11 @@ TEST(Filter, LogsWarningsAsWarningsAndLast) {
   ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
   const auto& lines = loaded.log_entries();
   ASSERT_GE(lines.size(), 3);
-  // MeshLab scrolls its log to the end: behind a warning there are only warnings.
-  EXPECT_EQ(lines.back().first, GLLogStream::WARNING) << lines.back().second.toStdString();
+  // MeshLab scrolls its log to the end: behind a warning there are warnings and the verdict.
+  EXPECT_TRUE(lines.back().second.contains("look at the warning above"));
   bool warned = false;
   for (const auto& [level, line] : lines) {
+    if (line == lines.back().second) continue;
     warned = warned || level == GLLogStream::WARNING;
     EXPECT_EQ(level == GLLogStream::WARNING, warned) << line.toStdString();
     EXPECT_EQ(line.startsWith("Warning: "), warned) << line.toStdString();

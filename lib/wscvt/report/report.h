@@ -30,6 +30,15 @@ std::string origin_sentence(const ReportOrigin& origin);
 /// descriptor / scan / remesh / error %, warnings. The decimal sign is a point in every locale.
 std::vector<std::string> report_lines(const RemeshResult& result);
 
+/// Returns the lines that a person reads first: scan, repairs, node count search, remesh, errors of
+/// the paper's descriptors (volume, area, aspect ratio, sphericity, Sdq) and the rms distance. At
+/// most 80 columns; five lines if nothing was repaired. Without warnings.
+std::vector<std::string> summary_lines(const RemeshResult& result);
+
+/// Returns one line for the end of a log: "1000 nodes, volume exact, area -0.323 %, rms 0.332 % of
+/// the radius: good", or "...: look at the 2 warnings above".
+std::string verdict_line(const RemeshResult& result);
+
 /// Returns a JSON document (UTF-8, two-space indent, keys in a fixed order). Options have their
 /// command-line names and values. Numbers that are not finite and results that were not requested
 /// become null.

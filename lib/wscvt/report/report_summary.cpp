@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_table.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t summary_width = 80;
+constexpr std::size_t summary_topic_width = 12;
+
+/// Appends a topic and its text, broken at spaces. Further lines are indented as the text.
+void append_topic(std::vector<std::string>& lines, const std::string& topic, std::string text) {
+  std::string begin = topic;
+  begin.resize(summary_topic_width, ' ');
+  while (begin.size() + text.size() > summary_width) {
+    const std::size_t space = text.rfind(' ', summary_width - summary_topic_width);
+    if (space == std::string::npos) break;
+    lines.push_back(begin + text.substr(0, space));
+    text.erase(0, space + 1);
+    begin.assign(summary_topic_width, ' ');
+  }
+  lines.push_back(begin + text);
+}
+
+/// "area -0.323 %" or "volume exact".
+std::string error_text(const std::string& label, double percent) {
+  const std::string error = format_error(percent);
+  return label + " " + error + (error == "exact" || error == "-" ? "" : " %");
+}
+
+/// The errors of the paper's descriptors, in its order.
+std::vector<std::string> descriptor_errors(const RemeshResult& result) {
+  constexpr std::array<std::pair<const char*, const char*>, 5> shown = {
+      {{"volume", "volume"},
+       {"area", "area"},
+       {"aspect_ratio_inertia", "aspect ratio"},
+       {"sphericity_wadell", "sphericity"},
+       {"sdq_invariant", "Sdq"}}};
+  const std::vector<DescriptorComparison> rows =
+      compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
+  std::vector<std::string> errors;
+  for (const auto& [key, label] : shown) {
+    for (const DescriptorComparison& row : rows) {
+      if (row.key == key) errors.push_back(error_text(label, row.error_percent));
+    }
+  }
+  return errors;
+}
+
+std::string listed(const std::vector<std::string>& parts, std::size_t count) {
+  std::string text;
+  for (std::size_t k = 0; k < std::min(count, parts.size()); ++k) {
+    text += (k == 0 ? "" : ", ") + parts[k];
+  }
+  return text;
+}
+
+std::string percent_of_radius(const RemeshResult& result, double length) {
+  return format_number(100.0 * length / result.input.equivalent_radius, 3) + " %";
+}
+
+}  // namespace
+
+std::string verdict_line(const RemeshResult& result) {
+  const std::string measured = std::to_string(result.mesh.points.size()) + " nodes, " +
+                               listed(descriptor_errors(result), 2) + ", rms " +
+                               percent_of_radius(result, result.rms_distance) + " of the radius: ";
+  const std::size_t warnings = result.warnings.size();
+  if (warnings == 0) return measured + "good";
+  return measured + (warnings == 1 ? std::string("look at the warning above")
+                                   : "look at the " + std::to_string(warnings) + " warnings above");
+}
+
+std::vector<std::string> summary_lines(const RemeshResult& result) {
+  std::vector<std::string> lines;
+  // Of the whole report, what was read, repaired and searched.
+  for (const std::string& line : report_lines(result)) {
+    const bool is_shown = line.rfind("Scan ", 0) == 0 || line.rfind("Repairs ", 0) == 0 ||
+                          line.rfind("Handles ", 0) == 0 || line.rfind("Node count ", 0) == 0;
+    if (!is_shown || line.find("none needed") != std::string::npos) continue;
+    const std::size_t gap = line.find_first_of(' ', line.rfind("Node", 0) == 0 ? 5 : 0);
+    const std::size_t text = line.find_first_not_of(' ', gap);
+    append_topic(lines, line.substr(0, gap), line.substr(text));
+  }
+  append_topic(lines, "Remesh",
+               std::to_string(result.mesh.points.size()) + " nodes, " +
+                   std::to_string(result.mesh.triangles.size()) + " faces, mean edge ratio " +
+                   format_number(result.quality.edge_ratio.mean, 4) + ", smallest angle " +
+                   format_number(result.quality.smallest_angle, 3) + " degrees");
+  append_topic(lines, "Errors", listed(descriptor_errors(result), 5));
+  append_topic(lines, "Distance",
+               "rms " + percent_of_radius(result, result.rms_distance) +
+                   " of the equivalent radius " + format_number(result.input.equivalent_radius));
+  return lines;
+}
+
+}  // namespace wscvt
