@@ -94,6 +94,10 @@ int run(int argc, char** argv) {
          },
          "Write a manual page per command into this folder, and exit")
       ->type_name("FOLDER");
+  if (argc < 2) {
+    wscvt::write_file("/dev/stdout", app.help());
+    return program::WrongArguments;
+  }
   try {
     std::vector<std::string> names;
     for (const Command& command : commands) names.push_back(command.app->get_name());

@@ -101,7 +101,7 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
       app, name_of(separate_option.key),
       [&options](std::string_view text) { options.separate = from_typed(text, separate_option); })
       ->description("Separate touching grains of a mask, as wscvt segment does; " +
-                    std::string(separate_option.subject) + ", such as 0.75")
+                    std::string(separate_option.subject) + ", such as 0.85")
       ->type_name("N")
       ->group(heading);
   add_choice_arguments(app, options.choice, heading);
@@ -145,7 +145,7 @@ void print_notes(const LabelGrains& grains, const std::string& command, bool qui
                 " in several parts. Only the largest part of each label is used. The others, " +
                 share + " of all voxels, are left out.";
   std::fprintf(stderr,
-               "Warning: %s To make each part a grain: %s --parts. --separate 0.75 also separates "
+               "Warning: %s To make each part a grain: %s --parts. --separate 0.85 also separates "
                "grains that touch.\n",
                what.c_str(), command.c_str());
 }

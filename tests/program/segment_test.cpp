@@ -70,13 +70,13 @@ TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
 TEST_F(Segment, SeparatesMasksOnTheWayToMeshes) {
   const Outcome whole = run("extract mask.nrrd whole");
   EXPECT_EQ(whole.exit_code, 3);
-  EXPECT_NE(whole.errors.find("--separate 0.75 also separates"), std::string::npos) << whole.errors;
+  EXPECT_NE(whole.errors.find("--separate 0.85 also separates"), std::string::npos) << whole.errors;
   EXPECT_NE(run("extract mask.nrrd parts --parts").output.find("2 labels: 2 written\n"),
             std::string::npos);
-  const Outcome apart = run("extract mask.nrrd apart --separate 0.75");
+  const Outcome apart = run("extract mask.nrrd apart --separate 0.85");
   EXPECT_EQ(apart.exit_code, 0) << apart.errors;
   EXPECT_NE(apart.output.find("3 labels: 3 written\n"), std::string::npos) << apart.output;
-  EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 0.75").exit_code, 0);
+  EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 0.85").exit_code, 0);
   EXPECT_TRUE(exists("out/3.ply"));
   // What it was called with belongs to the batch.
   EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 0.6").exit_code, 2);

@@ -160,7 +160,7 @@ TEST_F(SegmentationOfAPacking, TakesMasksAsTheyAre) {
   EXPECT_EQ(all_of(*segment(*volume, {}, Execution(1)).labels), labels);
 
   VolumeOptions options;
-  options.separate = 0.75;
+  options.separate = 0.85;
   options.smallest = 1;
   const LabelGrains grains(path("one_bit.tif"), options, Execution(1));
   EXPECT_EQ(grains.labels().size(), found.grains.size());

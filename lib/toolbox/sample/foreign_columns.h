@@ -11,7 +11,7 @@ namespace wscvt {
 /// A column of another program's table, in the words and the definition of this project.
 struct ForeignColumn {
   std::string name;
-  std::string unit;  ///< empty: none
+  std::string unit;     ///< empty: none
   double factor = 1.0;  ///< our value = factor * (their value)^exponent
   double exponent = 1.0;
 };

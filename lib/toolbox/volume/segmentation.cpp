@@ -221,8 +221,12 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   std::vector<std::uint16_t> grey;
   grey.reserve(voxels_of(scan.geometry().counts));
   for_each_row(scan, execution.part(0.0, 0.2), [&](const std::vector<Label>& row) {
+    // What was not scanned gets the value before it, so that smoothing does not change its
+    // neighbours.
+    float value = range.least;
     for (const Label code : row) {
-      const float value = code == 0 ? range.least : grey_value(code);
+      const bool is_scanned = code != 0 && (outside.empty() || outside[grey.size()] == 0);
+      if (is_scanned) value = grey_value(code);
       grey.push_back(
           static_cast<std::uint16_t>(std::clamp(std::round((value - base) / step), 0.0, most)));
     }

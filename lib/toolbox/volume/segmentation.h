@@ -25,7 +25,7 @@ struct SegmentationOptions {
   /// if it is dark); empty: all but one.
   std::optional<int> phases;
   bool dark = false;       ///< the material is darker than the rest
-  double separate = 0.75;  ///< see separate_option
+  double separate = 0.85;  ///< see separate_option
 
   /// Voxels of the smallest grain to keep: a grain of 6 voxels across has no measurable shape.
   std::int64_t smallest = 100;

@@ -36,7 +36,8 @@ std::vector<std::string> report_lines(const RemeshResult& result);
 std::vector<std::string> summary_lines(const RemeshResult& result);
 
 /// Returns one line for the end of a log: "1000 nodes, volume exact, area -0.323 %, rms 0.332 % of
-/// the radius: good", or "...: look at the 2 warnings above".
+/// the radius: good", or "...: see above" if there are warnings. At most 80 columns for N up to a
+/// million.
 std::string verdict_line(const RemeshResult& result);
 
 /// Returns a JSON document (UTF-8, two-space indent, keys in a fixed order). Options have their

@@ -73,10 +73,7 @@ std::string verdict_line(const RemeshResult& result) {
   const std::string measured = std::to_string(result.mesh.points.size()) + " nodes, " +
                                listed(descriptor_errors(result), 2) + ", rms " +
                                percent_of_radius(result, result.rms_distance) + " of the radius: ";
-  const std::size_t warnings = result.warnings.size();
-  if (warnings == 0) return measured + "good";
-  return measured + (warnings == 1 ? std::string("look at the warning above")
-                                   : "look at the " + std::to_string(warnings) + " warnings above");
+  return measured + (result.warnings.empty() ? "good" : "see above");
 }
 
 std::vector<std::string> summary_lines(const RemeshResult& result) {
@@ -92,7 +89,7 @@ std::vector<std::string> summary_lines(const RemeshResult& result) {
   }
   append_topic(lines, "Remesh",
                std::to_string(result.mesh.points.size()) + " nodes, " +
-                   std::to_string(result.mesh.triangles.size()) + " faces, mean edge ratio " +
+                   std::to_string(result.mesh.triangles.size()) + " faces, edge ratio " +
                    format_number(result.quality.edge_ratio.mean, 4) + ", smallest angle " +
                    format_number(result.quality.smallest_angle, 3) + " degrees");
   append_topic(lines, "Errors", listed(descriptor_errors(result), 5));

@@ -100,10 +100,10 @@ void run(const std::string& path, const wscvt::test::PackingOptions& options,
                 100.0 * score.volume_bias, seconds);
     std::fflush(stdout);
   };
-  for (const double depth : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0}) {
+  for (const double neck : {0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9}) {
     wscvt::SegmentationOptions how;
-    how.separate = depth;
-    try_it(how, "--separate " + std::to_string(depth).substr(0, 4));
+    how.separate = neck;
+    try_it(how, "--separate " + std::to_string(neck).substr(0, 4));
   }
   wscvt::SegmentationOptions how;
   how.threshold = wscvt::otsu_level(smoothed_histogram(grey, voxels));
