@@ -41,7 +41,7 @@ TEST(FitRelocations, BringNodesFromWhereTheyGainLittleToWhereTheyGainMuch) {
   EXPECT_LE(moved, 18);  // six in a hundred
   EXPECT_EQ(state.mesh.points.size(), 300u);
   EXPECT_EQ(state.mesh.triangles.size(), 596u);
-  EXPECT_GE(northern(state), north + moved - 2);
+  EXPECT_GE(northern(state), north + moved - 3);
   EXPECT_LT(test::mean_square(state), 0.95 * before);
   test::expect_in_step(state);
   EXPECT_TRUE(self_intersections({state.mesh.points, state.mesh.triangles}).empty());
@@ -93,7 +93,9 @@ TEST(FitRelocations, KeepTheSpacingOfNodesWithThem) {
   ASSERT_GT(relocate_nodes(state, Execution(1)), 0);
   for (std::size_t i = 0; i < 300; ++i) {
     if (state.mesh.points[i] == before[i]) continue;
-    EXPECT_LT(state.spacing[i], 0.9);  // all go north
+    const double z = state.mesh.points[i].z();
+    if (std::abs(z) < 0.3) continue;
+    EXPECT_NEAR(state.spacing[i], z > 0.0 ? 0.8 : 1.2, 0.1);
     EXPECT_LT(state.ring_edges[i], 0.8 * state.edge);
   }
 }

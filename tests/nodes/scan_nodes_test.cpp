@@ -296,9 +296,9 @@ TEST(ScanNodes, AreRefusedOutOfRange) {
   ScanNodesOptions options;
   options.edge_ratio = 1.07;
   EXPECT_ERROR(ScanRemesher(sand(), options, 100, Execution(1)), InvalidInput);
-  options.edge_ratio = 1.71;
+  options.edge_ratio = 1.61;
   EXPECT_ERROR(ScanRemesher(sand(), options, 100, Execution(1)), InvalidInput);
-  options.edge_ratio = 1.7;
+  options.edge_ratio = 1.6;
   options.curvature_alpha = -3.1;
   EXPECT_ERROR(ScanRemesher(sand(), options, 100, Execution(1)), InvalidInput);
   EXPECT_ERROR(place(sand(), 3), InvalidInput);

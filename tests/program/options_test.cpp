@@ -46,7 +46,7 @@ const std::vector<OptionCase>& option_cases() {
       {"shrink-wrap", 25.0, "51", "from 0 to 50"},
       {"contact-radius", 1.2, "0", "above 0 and 100"},
       {"placement", "on-surface", "off", "fitted, on-surface or contact-fit"},
-      {"edge-ratio", 1.25, "1", "from 1.08 to 1.7"},
+      {"edge-ratio", 1.25, "1", "from 1.08 to 1.6"},
       {"distances", true, "perhaps", "distances"},
       {"max-repaired-area", 12.5, "101", "from 0 to 100"},
       {"max-handle-loop", 0.25, "-1", "0 or more"},

@@ -178,7 +178,7 @@ inline OnScanOptions random_scan_options(Choices& choices) {
   o.curvature_alpha = choices.one_in(2) ? 1.0 : choices.real(-3.0, 3.0);
   o.placement = static_cast<ScanPlacement>(choices.whole(0, 2));
   if (choices.one_in(2)) o.contact_radius = choices.real(0.1, 6.0);
-  if (choices.one_in(2)) o.edge_ratio = choices.real(1.08, 1.7);
+  if (choices.one_in(2)) o.edge_ratio = choices.real(1.08, 1.6);
   o.handles.action = static_cast<HandleAction>(choices.whole(0, 2));
   if (choices.one_in(4)) o.handles.length_limit = choices.real(0.0, 3.0);
   return o;

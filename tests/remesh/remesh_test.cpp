@@ -417,8 +417,8 @@ TEST(Remesh, RefusesOptionsOutOfRangeWithTheRange) {
     refused([&](RemeshOptions& o) { o.method = on_scan; }, sentence);
   };
   refused_on_scan([](OnScanOptions& o) { o.curvature_alpha = 4.0; }, "from -3 to 3");
-  refused_on_scan([](OnScanOptions& o) { o.edge_ratio = 1.0; }, "from 1.08 to 1.7");
-  refused_on_scan([](OnScanOptions& o) { o.edge_ratio = std::nan(""); }, "from 1.08 to 1.7");
+  refused_on_scan([](OnScanOptions& o) { o.edge_ratio = 1.0; }, "from 1.08 to 1.6");
+  refused_on_scan([](OnScanOptions& o) { o.edge_ratio = std::nan(""); }, "from 1.08 to 1.6");
   refused_on_scan([](OnScanOptions& o) { o.contact_radius = 0.0; }, "above 0");
   refused_on_scan([](OnScanOptions& o) { o.weighting = CellWeighting{17}; }, "weighting");
   refused_on_scan([](OnScanOptions& o) { o.placement = ScanPlacement{9}; }, "placement");

@@ -21,7 +21,7 @@ class GrainSettings(bpy.types.PropertyGroup):
         name="Nodes are", items=grain.PLACEMENTS, default="fitted",
         description="Where the nodes are put")
     edge_ratio: FloatProperty(
-        name="Edge ratio", default=1.105, min=1.08, max=1.7, precision=3, step=1,
+        name="Edge ratio", default=1.105, min=1.08, max=1.6, precision=3, step=1,
         description="Mean of longest / shortest edge of the triangles. Larger values give a smaller "
                     "distance to the scan and less even triangles")
     shrink_wrap: FloatProperty(

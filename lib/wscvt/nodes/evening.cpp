@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "wscvt/base/smooth_step.h"
 #include "wscvt/surface/delaunay_flips.h"
 #include "wscvt/surface/star_shape.h"
 #include "wscvt/surface/triangle_place.h"
@@ -17,8 +18,12 @@ namespace {
 constexpr double momentum = 0.95;
 /// Longest step, in mean edges.
 constexpr double longest_evening_step = 0.3;
-/// How far nodes at a rim are pushed out, in mean edges.
+/// How far nodes at a rim are pushed out, in mean edges. Without it, rims of thin bodies are up to
+/// ten times as far off; .35 or .7 change nothing in the mean of 19.
 constexpr double rim_push = 0.5;
+/// The push is complete for a node that stands out from its ring by this much of its edges. In the
+/// creases of rough grains nodes lie below their rings, and a push would tangle them.
+constexpr double complete_height = 0.3;
 /// Smaller cells count as this fraction of the mean, because obtuse triangles reduce the area.
 constexpr double least_cell = 0.3;
 /// Smallest barycentric weight of a circumcentre; farther out the cell would turn over.
@@ -239,9 +244,14 @@ class Evening {
 
   void plan_node(std::size_t i, double mean, double share_of_last) {
     CellPart cell;
+    Vector3 ring = Vector3::Zero();
+    double spokes = 0.0;
     nodes_.around(static_cast<std::int32_t>(i), [&](std::int32_t h) {
       cell.mass += parts_[h].mass;
       cell.moment += parts_[h].moment;
+      const Vector3 spoke = nodes_.points[i] - nodes_.points[nodes_.target(h)];
+      ring += spoke;
+      spokes += spoke.norm();
     });
     const StarShape shape = star_shape([&](const auto& visit) {
       nodes_.around(static_cast<std::int32_t>(i),
@@ -256,7 +266,8 @@ class Evening {
     const double length = step.norm();
     if (length > longest_evening_step * edge) step *= longest_evening_step * edge / length;
     steps_[i] = step;
-    pushes_[i] = rim_push * edge * shape.rim * shape.normal;
+    const double height = shape.normal.dot(ring) / (spokes + 1e-300);
+    pushes_[i] = rim_push * edge * shape.rim * smooth_step(height / complete_height) * shape.normal;
     shares_[i] = 1.0;
   }
 

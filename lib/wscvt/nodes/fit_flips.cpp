@@ -126,7 +126,7 @@ class FitFlips {
       ring += 0.25 * state_.ring_edges[v];
       spacing += 0.25 * state_.node_spacing(v);
     }
-    return (1.0 - state_.local_share()) * state_.edge * spacing + state_.local_share() * ring;
+    return (1.0 - state_.dial.local_share) * state_.edge * spacing + state_.dial.local_share * ring;
   }
 
   double small_angle(double sharpness) const {

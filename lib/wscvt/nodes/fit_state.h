@@ -31,12 +31,17 @@ struct FitDial {
   double ratio_slope = 0.0;       ///< fall of the ratio as the evenness grows by a factor e
   double plain_springs = 1.0;     ///< fraction of the springs that pull edges to their rest lengths
   double triangle_springs = 0.0;  ///< of springs between a triangle's edges
+  double spring_stiffness = 0.0;  ///< of an edge at full evenness, in weights of a node's samples
+  double ring_stiffness = 0.0;    ///< of a node towards the middle of its ring, in the same unit
+  double local_share = 0.0;       ///< weight of the surrounding mean edge in a rest length, against
+                                  ///< the mesh's mean edge
   double damping = 0.0;           ///< of steps
   bool polishes = false;          ///< whether single nodes are moved after a round
 };
 
-/// `ratio` in [least_edge_ratio, most_edge_ratio], which is not checked.
-FitDial fit_dial(double ratio);
+/// `ratio` in [least_edge_ratio, most_edge_ratio], which is not checked. `weighted`: whether a
+/// density is wanted.
+FitDial fit_dial(double ratio, bool weighted = false);
 
 /// A point of the scan to which a mesh is fitted, and its nearest point on the mesh.
 struct FitSample {
@@ -60,19 +65,10 @@ struct SampledScan {
 /// it. Deterministic.
 std::vector<FitSample> draw_fit_samples(const SampledScan& scan, std::size_t count, double cell);
 
-/// Stiffness of an edge as a spring at full evenness, in weights of a node's samples.
-inline constexpr double spring_stiffness = 0.04;
-/// Stiffness of a node towards the middle of its ring, in the same unit.
-inline constexpr double ring_stiffness = 0.13;
 /// A sample at the root mean square distance counts 1 + this, a more distant sample up to 1 + 9
 /// times this, so that a cone's tip is not lost to the mean.
 inline constexpr double robust_weight = 0.3;
 inline constexpr double most_robust = 9.0;
-/// Weight of the surrounding mean edge in a rest length, against the mesh's mean edge. Only local
-/// means would let density drift; only the mesh's mean would cost distance. With a wanted density
-/// the local weight is smaller, so that the fit does not even the density out.
-inline constexpr double even_local_share = 0.9;
-inline constexpr double weighted_local_share = 0.5;
 /// A face agrees with the scan if its normal is within 60 degrees of its samples'.
 inline constexpr double face_agreement = 0.5;
 
@@ -117,11 +113,10 @@ struct FitState {
   double share() const {
     return static_cast<double>(mesh.points.size()) / static_cast<double>(samples.size());
   }
-  double spring() const { return spring_stiffness * round.evenness; }
-  double ring() const { return ring_stiffness * round.evenness; }
+  double spring() const { return dial.spring_stiffness * round.evenness; }
+  double ring() const { return dial.ring_stiffness * round.evenness; }
   double ring_edge(std::int32_t v) const { return ring_edges.empty() ? edge : ring_edges[v]; }
   double node_spacing(std::int32_t v) const { return spacing.empty() ? 1.0 : spacing[v]; }
-  double local_share() const { return spacing.empty() ? even_local_share : weighted_local_share; }
   /// Returns the weight of a neighbour in the middle of a node's ring: inverse to their wanted
   /// distance, so that the middle lies right between denser and sparser sides.
   double ring_weight(std::int32_t v, std::int32_t w) const {

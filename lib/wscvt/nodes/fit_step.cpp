@@ -319,7 +319,7 @@ class FitEquations {
     const double wanted =
         0.5 * state_.edge *
         (state_.node_spacing(static_cast<std::int32_t>(i)) + state_.node_spacing(j));
-    const double local = state_.local_share();
+    const double local = state_.dial.local_share;
     const double rest =
         (1.0 - local) * wanted + local * 0.5 * (state_.ring_edges[i] + state_.ring_edges[j]);
     const double weight = state_.dial.plain_springs * state_.spring();

@@ -61,7 +61,7 @@ constexpr int heap_vertices_a_node = 2;
 void check_scan_options(const ScanNodesOptions& options) {
   if (!(options.edge_ratio >= least_edge_ratio && options.edge_ratio <= most_edge_ratio)) {
     refuse("The wanted mean edge ratio is " + std::to_string(options.edge_ratio) +
-           ". Give a number from 1.08 to 1.7.");
+           ". Give a number from 1.08 to 1.6.");
   }
   if (!(std::abs(options.curvature_alpha) <= 3.0)) {
     refuse("The strength alpha of the curvature weighting is " +
@@ -301,7 +301,7 @@ std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& pla
 template <class Parts>
 EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing& placing,
              ScanNodesReport& report, const Execution& execution) {
-  const FitDial dial = fit_dial(options.edge_ratio);
+  const FitDial dial = fit_dial(options.edge_ratio, !placing.surface.density.empty());
   std::vector<std::int32_t> near;
   std::vector<FitSample> samples = samples_near_nodes(parts, placing, dial, near);
   FitState state(placing.nodes, std::move(samples), near, dial, execution);

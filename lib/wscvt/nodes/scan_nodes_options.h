@@ -13,14 +13,14 @@ enum class CellWeighting {
 
 /// Range and default of the wanted mean edge ratio.
 inline constexpr double least_edge_ratio = 1.08;
-inline constexpr double most_edge_ratio = 1.7;
+inline constexpr double most_edge_ratio = 1.6;
 inline constexpr double default_edge_ratio = 1.105;
 
 /// Options of the nodes on a scan.
 struct ScanNodesOptions {
   CellWeighting weighting = CellWeighting::Area;
   double curvature_alpha = 1.0;  ///< alpha of WSCVT-C, -3 to 3
-  /// Wanted mean of longest / shortest edge of a triangle, 1.08 to 1.7. Small values give even
+  /// Wanted mean of longest / shortest edge of a triangle, 1.08 to 1.6. Small values give even
   /// triangles, large values a mesh closer to the scan.
   double edge_ratio = default_edge_ratio;
   bool fitted = true;  ///< false: nodes stay on the scan after edge-length equalization, and

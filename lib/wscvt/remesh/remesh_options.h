@@ -83,7 +83,7 @@ struct OnScanOptions {
   /// for nodes against the surface of another grain, 1.3 for nodes of both grains, 5 for flat
   /// walls.
   double contact_radius = 0.4;
-  /// Wanted mean of longest / shortest edge of a triangle, 1.08 to 1.7: small values give even
+  /// Wanted mean of longest / shortest edge of a triangle, 1.08 to 1.6: small values give even
   /// triangles, large values a mesh closer to the scan.
   double edge_ratio = default_edge_ratio;
   HandleOptions handles;
