@@ -14,6 +14,7 @@
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/remesh/target_search.h"
+#include "wscvt/repair/closing_advice.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/scaled_surface.h"
@@ -35,6 +36,25 @@ RemeshResult remesh_to_options(const PreparedGrain& grain, const RemeshOptions& 
       execution);
 }
 
+/// Returns an opening whose shrink-wrap of a scan has no intersecting triangles if it is remeshed
+/// with these options; 0 if neither tried one has.
+double clean_wrap(const IndexedMesh& scan, RemeshOptions options, int node_count,
+                  const Execution& execution) {
+  options.node_count = node_count;
+  options.target = {};
+  options.measures = {};
+  for (const double percent : {2.0, usual_opening_percent}) {
+    options.envelope.opening_percent = percent;
+    try {
+      const RemeshResult wrapped = remesh(scan, options, execution);
+      if (on_scan_report(wrapped)->nodes.self_intersections == 0) return percent;
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::Cancelled) throw;
+    }
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
@@ -45,6 +65,13 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   IndexedMesh kept = options.measures.repaired_scan ? repaired.checked.mesh : IndexedMesh();
   prepare(std::move(repaired.checked), options, execution.part(0.1, 0.3), grain);
   RemeshResult result = remesh_to_options(grain, options, execution.part(0.3, 1.0));
+  const OnScanReport* on_scan = on_scan_report(result);
+  if (on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0 &&
+      options.envelope.opening_percent == 0.0) {
+    result.clean_wrap_percent =
+        clean_wrap(grain.scan.mesh, options, static_cast<int>(result.mesh.points.size()),
+                   execution.part(1.0, 1.0));
+  }
   result.warnings = remesh_warnings(result, repaired.precision_warning);
   result.repaired_scan = std::move(kept);
   execution.report(1.0, "Done");

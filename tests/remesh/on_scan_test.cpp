@@ -277,6 +277,63 @@ TEST(OnScan, WhatIsNotAccurateIsSaidWithWhatHelps) {
   EXPECT_FALSE(is_inaccurate(remesh(box, options_of(800))));
 }
 
+TEST(OnScan, TheDistanceToldIsTheLargerOfBothWaysWithTheLargestBesideIt) {
+  const IndexedMesh mushroom = body("mushroom");
+  RemeshOptions options = options_of(200);
+  const RemeshResult told = remesh(mushroom, options);
+  options.measures.distances = true;
+  const RemeshResult measured = remesh(mushroom, options);
+  ASSERT_TRUE(measured.distances);
+  EXPECT_EQ(measured.rms_distance, measured.distances->root_mean_square);
+  EXPECT_EQ(measured.largest_distance, measured.distances->largest);
+  // 5,000 points of each against 100,000: some per cent, and never a larger maximum.
+  EXPECT_NEAR(told.rms_distance / measured.rms_distance, 1.0, 0.05);
+  EXPECT_LE(told.largest_distance, measured.largest_distance * (1.0 + 1e-9));
+  EXPECT_GT(told.largest_distance, 0.7 * measured.largest_distance);
+}
+
+TEST(OnScan, TheLargestDistanceAloneIsInaccurateToo) {
+  RemeshResult result = remesh(body("hook"), options_of(1500));
+  ASSERT_FALSE(is_inaccurate(result));
+  result.largest_distance = 0.051 * result.input.equivalent_radius;
+  EXPECT_TRUE(is_inaccurate(result));
+  EXPECT_TRUE(says(remesh_warnings(result, ""), "largest 5.1 %, area error"));
+}
+
+TEST(OnScan, MoreNodesThanTheScanHasVerticesAreTold) {
+  const IndexedMesh ball = test::sphere(2);  // 162
+  EXPECT_TRUE(says(remesh(ball, options_of(163)).warnings, "The scan has 162 vertices, fewer"));
+  EXPECT_FALSE(says(remesh(ball, options_of(162)).warnings, "no such detail"));
+}
+
+TEST(OnScan, AScanThatMeetsItselfIsToldAShrinkWrapThatWasTried) {
+  // A ball whose one side is pushed through the other.
+  IndexedMesh ball = test::sphere(4);
+  for (Vector3& p : ball.points) {
+    const double pushed = std::exp(-3.0 * (p - Vector3::UnitZ()).squaredNorm());
+    p.z() -= 2.3 * pushed;
+  }
+  const RemeshResult result = remesh(ball, options_of(1000));
+  ASSERT_GT(report_of(result).nodes.self_intersections, 0u);
+  ASSERT_GT(report_of(result).nodes.scan_self_intersections, 0u);
+  ASSERT_GT(result.clean_wrap_percent, 0.0);
+  EXPECT_TRUE(says(result.warnings, "Its shrink-wrap was tried"));
+  RemeshOptions followed = options_of(1000);
+  followed.envelope.opening_percent = result.clean_wrap_percent;
+  EXPECT_EQ(report_of(remesh(ball, followed)).nodes.self_intersections, 0u);
+}
+
+TEST(OnScan, AsPublishedOfAPlateIsCalledAnotherBodyFirst) {
+  const IndexedMesh plate = test::scaled(test::sphere(4), Vector3(1.0, 1.0, 0.02));
+  RemeshOptions published = options_of(300);
+  published.method = AsPublishedOptions();
+  const RemeshResult result = remesh(plate, published);
+  ASSERT_GT(std::abs(result.remesh.area / result.original.area - 1.0), 0.2);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.front().text().find("another body: its area is"), std::string::npos);
+  EXPECT_FALSE(says(remesh(plate, options_of(300)).warnings, "another body"));
+}
+
 // The steps' area is not the grain's, so a remesh that misses them is not inaccurate.
 TEST(OnScan, AScanInVoxelStepsIsToldAsSuchAndIsNotCalledInaccurate) {
   const double radius = 12.0;

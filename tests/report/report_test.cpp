@@ -241,9 +241,10 @@ TEST(Report, TellsOfSearchAndLevels) {
 TEST(Report, TellsScanFitAndDistance) {
   RemeshResult result = example();
   result.rms_distance = 0.25;
+  result.largest_distance = 0.5;
   result.input.equivalent_radius = 2.0;
   EXPECT_EQ(line_of(result, "Distance"),
-            "rms from scan to remesh 0.25 (12.5 % of the equivalent radius)");
+            "rms 0.25 (12.5 % of the equivalent radius), largest 0.5 (25 %), two-sided");
   published(result).fit.residual = 0.01;
   EXPECT_EQ(line_of(result, "Fit"),
             "SH series of degree 20, residual 0.01 (0.5 % of the equivalent radius)");
@@ -510,7 +511,8 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
     set(of + "/mean_smallest_angle_degrees", quality->mean_smallest_angle);
     set(of + "/valence_six_fraction", quality->valence_six_share);
   }
-  set("/rms_distance/scan_to_remesh", result.rms_distance);
+  set("/rms_distance/two_sided", result.rms_distance);
+  set("/largest_distance/two_sided", result.largest_distance);
   result.distances.emplace();
   set("/distances/from_remesh/maximum", result.distances->to_reference.maximum);
   set("/distances/from_remesh/root_mean_square", result.distances->to_reference.root_mean_square);

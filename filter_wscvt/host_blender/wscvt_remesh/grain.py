@@ -87,7 +87,7 @@ def properties(report):
         "wscvt_scan": report["source"],
         "wscvt_made_by": report["made_by"],
         "wscvt_nodes": report["result"]["vertices"],
-        "wscvt_rms_distance": report["rms_distance"]["scan_to_remesh"],
+        "wscvt_rms_distance": report["rms_distance"]["two_sided"],
         "wscvt_rms_distance_percent": report["rms_distance"]["percent_of_equivalent_radius"],
         "wscvt_smallest_angle": report["quality"]["remesh"]["smallest_angle_degrees"],
         "wscvt_mean_edge_ratio": report["quality"]["remesh"]["edge_ratio"]["mean"],

@@ -48,7 +48,7 @@ struct GrainShape {
 
 // The table of shapes of a sample: CSV (RFC 4180) with one row per grain, for read_grain_table. Its
 // columns are "grain", "status" and "error" as in the sample's table; "file", the remesh's file
-// name; "nodes"; "rms_distance [length]" from scan to remesh; if contacts are measured,
+// name; "nodes"; "rms_distance [length]" two-sided; if contacts are measured,
 // "contact_error_mean [%]" and "contact_error_scatter [%]" of the equivalent radius, see
 // ContactError. Then, with the prefix "scan." or "remesh." for each described mesh: the keys of
 // list_descriptors, the principal frame (centroid, principal moments at unit density, unit

@@ -142,10 +142,16 @@ DistanceSums sums_of(const std::vector<double>& distances, const Execution& exec
                                 });
 }
 
+OneSidedDistance of_samples(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
+                            const Execution& execution) {
+  const DistanceSums sums =
+      sums_of(to.distances(area_uniform_samples(from, samples), execution), execution);
+  const auto count = static_cast<double>(samples);
+  return {sums.maximum, std::sqrt(sums.squares / count), sums.sum / count};
+}
+
 OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
                            const Execution& execution) {
-  const DistanceSums spread =
-      sums_of(to.distances(area_uniform_samples(from, samples), execution), execution);
   std::vector<char> used(from.points.size(), 0);
   for (const Triangle& t : from.triangles) {
     for (const std::int32_t v : t) used[v] = 1;
@@ -155,13 +161,15 @@ OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std:
   for (std::size_t i = 0; i < from.points.size(); ++i) {
     if (used[i] != 0) vertices.push_back(from.points[i]);
   }
+  OneSidedDistance result = of_samples(from, to, samples, execution);
   const DistanceSums corners = sums_of(to.distances(vertices, execution), execution);
-  const auto count = static_cast<double>(samples);
-  OneSidedDistance result;
-  result.maximum = std::max(spread.maximum, corners.maximum);
-  result.root_mean_square = std::sqrt(spread.squares / count);
-  result.mean = spread.sum / count;
+  result.maximum = std::max(result.maximum, corners.maximum);
   return result;
+}
+
+MeshDistances both_of(const OneSidedDistance& to, const OneSidedDistance& from) {
+  return {to, from, std::max(to.maximum, from.maximum),
+          std::max(to.root_mean_square, from.root_mean_square)};
 }
 
 }  // namespace
@@ -181,25 +189,28 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
                                 const MeshDistance& to_reference, const DistanceOptions& options,
                                 const Execution& execution) {
   check_distance_options(options);
-  MeshDistances result;
   execution.report(0.0, distance_stage);
-  result.to_reference = one_sided(mesh, to_reference, options.samples, execution);
+  const OneSidedDistance to = one_sided(mesh, to_reference, options.samples, execution);
   execution.report(0.5, distance_stage);
-  result.from_reference =
+  const OneSidedDistance from =
       one_sided(reference, MeshDistance(mesh, execution), options.samples, execution);
   execution.report(1.0, distance_stage);
-  result.largest = std::max(result.to_reference.maximum, result.from_reference.maximum);
-  result.root_mean_square =
-      std::max(result.to_reference.root_mean_square, result.from_reference.root_mean_square);
-  return result;
+  return both_of(to, from);
+}
+
+MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
+                                std::size_t samples, const Execution& execution) {
+  check_distance_options({samples});
+  const MeshDistance to_reference(reference, execution);
+  const MeshDistance to_mesh(mesh, execution);
+  return both_of(of_samples(mesh, to_reference, samples, execution),
+                 of_samples(reference, to_mesh, samples, execution));
 }
 
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
                     const Execution& execution) {
   check_distance_options({samples});
-  const std::vector<double> distances =
-      MeshDistance(to, execution).distances(area_uniform_samples(from, samples), execution);
-  return std::sqrt(sums_of(distances, execution).squares / static_cast<double>(samples));
+  return of_samples(from, MeshDistance(to, execution), samples, execution).root_mean_square;
 }
 
 void scale(MeshDistances& distances, double unit) {

@@ -102,6 +102,11 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
                                 const MeshDistance& to_reference, const DistanceOptions& options,
                                 const Execution& execution);
 
+/// Measures the distances between two surfaces as measure_distances does, but without the vertices,
+/// which a scan may have many more of than `samples`: the maxima are those of the samples.
+MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
+                                std::size_t samples, const Execution& execution);
+
 /// Returns the root mean square of the distances from `samples` points spread evenly over one
 /// surface to another; length. Unlike measure_distances, it builds a tree of the second mesh only.
 /// Throws as measure_distances.

@@ -58,9 +58,14 @@ struct RemeshResult {
   std::variant<OnScanReport, AsPublishedReport> method;
   /// As published of a scan; on the scan what `measures.series` returned.
   SeriesCoefficients coefficients;
-  /// Rms distance from the scan to the remesh; length. Measured at the samples of `distances`, or
-  /// at 5,000 points of the scan without `distances`.
+  /// Rms distance between scan and remesh, the larger of both ways, and the largest sampled;
+  /// length. Measured at the samples of `distances`, or at 5,000 points of each without
+  /// `distances`.
   double rms_distance = 0.0;
+  double largest_distance = 0.0;
+  /// Opening, in % of the bounding box' diagonal, of a shrink-wrap that was remeshed with these
+  /// options without intersecting triangles, if the scan and the result have such; else 0.
+  double clean_wrap_percent = 0.0;
   std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for
   std::optional<NodeCountSearch> search;   ///< the error of each N tried, %; with an error target
   MeshQuality original_quality;            ///< of the repaired scan

@@ -15,6 +15,7 @@ void to_input_units(double unit, const Vector3& centre, RemeshResult& result) {
     for (double& coefficient : coordinate) coefficient *= unit;
   }
   result.rms_distance *= unit;
+  result.largest_distance *= unit;
   scale(result.original, unit, centre);
   scale(result.remesh, unit, centre);
   scale(result.original_quality, unit);

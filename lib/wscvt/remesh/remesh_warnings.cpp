@@ -80,12 +80,16 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
   const std::string nodes = std::to_string(result.mesh.points.size()) + " nodes";
   const std::size_t pairs = report->nodes.self_intersections;
   if (pairs == 0) return;
-  std::string text = std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
-                     " of triangles of the remesh intersect. ";
+  Sentence text = std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
+                  " of triangles of the remesh intersect. ";
   const std::size_t of_scan = report->nodes.scan_self_intersections;
   if (of_scan > 0) {
-    text +=
-        "The scan has " + std::to_string(of_scan) + " such pairs itself. Repair the scan first.";
+    text += "The scan has " + std::to_string(of_scan) + " such pairs itself. ";
+    text += result.clean_wrap_percent > 0.0
+                ? "Its shrink-wrap was tried with as many nodes and has none: use " +
+                      mention(envelope_option, result.clean_wrap_percent) +
+                      ", and check the result against the scan."
+                : Sentence("Repair the scan first.");
   } else {
     text += "Parts of the grain are closer together than " + nodes + " can follow. ";
     text += report->nodes.enough_nodes > 0 ? "Use " + std::to_string(report->nodes.enough_nodes) +
@@ -181,8 +185,29 @@ void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
   const double area = result.remesh.area / result.original.area - 1.0;
   warnings.push_back("The remesh is not accurate: rms distance " +
                      format_percent(result.rms_distance / result.input.equivalent_radius) +
-                     " of the equivalent radius, area error " + (area < 0.0 ? "-" : "+") +
+                     " of the equivalent radius, largest " +
+                     format_percent(result.largest_distance / result.input.equivalent_radius) +
+                     ", area error " + (area < 0.0 ? "-" : "+") +
                      format_percent(std::abs(area)) + ". " + closer_by(result.options));
+}
+
+/// Warns of nodes that have nothing to follow.
+void warn_of_detail(const RemeshResult& result, Sentences& warnings) {
+  const std::size_t vertices = result.input.input_vertices;
+  if (vertices == 0 || result.options.points || result.mesh.points.size() <= vertices) return;
+  warnings.push_back("The scan has " + std::to_string(vertices) + " vertices, fewer than the " +
+                     std::to_string(result.mesh.points.size()) +
+                     " nodes. It has no such detail: nodes between its vertices only follow its "
+                     "flat faces.");
+}
+
+Sentence other_body_sentence(const RemeshResult& result) {
+  const double area = result.remesh.area / result.original.area - 1.0;
+  if (as_published_report(result) == nullptr || std::abs(area) <= other_body_limit) return "";
+  return "The remesh is another body: its area is " + format_percent(std::abs(area)) +
+         (area < 0.0 ? " smaller" : " larger") +
+         " than the scan's. The published method does not suit long, flat or sharp grains. Use " +
+         mention(Method::OnScan) + ".";
 }
 
 /// Warns of angles below 20 degrees. On the scan, ordinary grains have angles above 35 degrees.
@@ -212,6 +237,7 @@ bool is_inaccurate(const RemeshResult& result) {
   if (on_scan != nullptr && on_scan->placement == ScanPlacement::ContactFit) return false;
   if (result.input.has_voxel_steps) return false;
   return result.rms_distance > distance_warning_limit * result.input.equivalent_radius ||
+         result.largest_distance > largest_warning_limit * result.input.equivalent_radius ||
          std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
 }
 
@@ -252,6 +278,9 @@ std::vector<Sentence> scan_warnings(const RemeshResult& result) {
 std::vector<Sentence> remesh_warnings(const RemeshResult& result, const std::string& of_precision) {
   Sentences warnings = scan_warnings(result);
   if (!of_precision.empty()) warnings.insert(warnings.begin(), of_precision);
+  const Sentence other_body = other_body_sentence(result);
+  if (!other_body.empty()) warnings.insert(warnings.begin(), other_body);
+  warn_of_detail(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_distance(result, warnings);
   const std::string clipped = sdq_clip_sentence("the scan", result.original);

@@ -282,9 +282,12 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
                                      ", placement: " + placement_label(result.options)));
   lines.push_back(
       line("Distance",
-           "rms from scan to remesh " + format_number(result.rms_distance, 3) + " (" +
+           "rms " + format_number(result.rms_distance, 3) + " (" +
                format_number(100.0 * result.rms_distance / result.input.equivalent_radius, 3) +
-               " % of the equivalent radius)"));
+               " % of the equivalent radius), largest " +
+               format_number(result.largest_distance, 3) + " (" +
+               format_number(100.0 * result.largest_distance / result.input.equivalent_radius, 3) +
+               " %), two-sided"));
   append_distances(result, lines);
   append_quality(result, lines);
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
