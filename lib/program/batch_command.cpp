@@ -2,21 +2,16 @@
 #include "batch_command.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
 
-#include "batch_grains.h"
-#include "batch_output.h"
 #include "command.h"
 #include "common_arguments.h"
 #include "exit_code.h"
-#include "grain_run.h"
+#include "grain_job.h"
 #include "remesh_arguments.h"
 #include "signals.h"
 #include "toolbox/clump/first_contact.h"
@@ -40,7 +35,6 @@ namespace wscvt::program {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -261,37 +255,21 @@ int run(const BatchArguments& arguments) {
     }
   });
   BatchGrains inputs(files, arguments.volume, arguments.shard, arguments.quiet);
-  const std::vector<std::string>& grains = inputs.names();
-  BatchOutput output(arguments);
-  checked([&] { output.check_meshes(grains); });
-  std::error_code error;
-  fs::create_directories(output.whole().path(), error);
-  checked([&] { check_call(output.whole().call(), call_text(arguments), output.is_begun()); });
-  for (const OutputFolder& level : output.levels()) fs::create_directories(level.path(), error);
-  const std::size_t first = checked([&] { return output.open_tables(grains, arguments); });
-  output.remove_parts(grains, first);
-
-  const std::string labels = inputs.label_table(
-      [&](const std::string& grain) { return output.levels().front().mesh_name(grain); });
-  if (!labels.empty()) write_file(output.whole().labels(), labels);
-  inputs.begin(first);
-
-  GrainRun all;
-  all.first = first;
-  all.failed = output.failed_rows();
-  all.count = grains.size();
-  all.threads = arguments.threads;
-  all.quiet = arguments.quiet;
-  all.when_stopped = "The same call continues from there.";
-  all.name = [&](std::size_t k) { return grains[k]; };
-  all.work = [&](std::size_t k, const Execution& execution) {
+  BatchOutput output(arguments.folder, arguments.format, arguments.shard, arguments.levels);
+  GrainJob job;
+  job.call = call_text(arguments);
+  job.headers = {sample_header(arguments.seconds)};
+  if (arguments.shapes.described != Described::None) {
+    job.headers.push_back(shape_header(arguments.shapes));
+  }
+  job.writes_labels = true;
+  job.threads = arguments.threads;
+  job.quiet = arguments.quiet;
+  job.work = [&](std::size_t k, const Execution& execution) {
     return remeshed_row(arguments, output, inputs, k, execution);
   };
-  all.take = [&](std::size_t, const GrainRow& row) { output.append(row); };
-  const GrainRunEnd end = run_grains(all);
-  if (end.was_cancelled) {
-    return 128 + noted_signal();
-  }
+  const GrainRunEnd end = run_job(job, inputs, output);
+  if (end.was_cancelled) return 128 + noted_signal();
   if (arguments.shard.count == 1) {
     for (const OutputFolder& level : output.levels()) write_summaries(level, arguments.quiet);
   }

@@ -17,11 +17,10 @@ namespace wscvt::program {
 
 namespace fs = std::filesystem;
 
-OutputFolder::OutputFolder(fs::path folder, const BatchArguments& arguments)
-    : folder_(std::move(folder)), ending_("." + arguments.format) {
-  if (arguments.shard.count > 1) {
-    part_ = "-" + std::to_string(arguments.shard.index) + "-of-" +
-            std::to_string(arguments.shard.count);
+OutputFolder::OutputFolder(fs::path folder, const std::string& format, const Shard& shard)
+    : folder_(std::move(folder)), ending_("." + format) {
+  if (shard.count > 1) {
+    part_ = "-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count);
   }
 }
 
@@ -39,9 +38,11 @@ std::string OutputFolder::file(const std::string& name, const std::string& endin
   return (folder_ / (name + part_ + ending)).string();
 }
 
-BatchOutput::BatchOutput(const BatchArguments& arguments) : whole_(arguments.folder, arguments) {
-  for (const int nodes : arguments.levels) {
-    levels_.emplace_back(fs::path(arguments.folder) / ("n" + std::to_string(nodes)), arguments);
+BatchOutput::BatchOutput(const std::string& folder, const std::string& format, const Shard& shard,
+                         const std::vector<int>& levels)
+    : whole_(folder, format, shard) {
+  for (const int nodes : levels) {
+    levels_.emplace_back(fs::path(folder) / ("n" + std::to_string(nodes)), format, shard);
   }
   if (levels_.empty()) levels_.push_back(whole_);
 }
@@ -64,17 +65,15 @@ void BatchOutput::check_meshes(const std::vector<std::string>& grains) const {
 }
 
 std::size_t BatchOutput::open_tables(const std::vector<std::string>& grains,
-                                     const BatchArguments& arguments) {
+                                     const std::vector<std::string>& headers) {
   std::size_t rows = grains.size();
   const auto open = [&](const std::string& path, const std::string& header) {
     tables_.push_back(std::make_unique<SampleTable>(path, header, grains));
     rows = std::min(rows, tables_.back()->rows());
   };
   for (const OutputFolder& level : levels_) {
-    open(level.table(), sample_header(arguments.seconds));
-    if (arguments.shapes.described != Described::None) {
-      open(level.shapes(), shape_header(arguments.shapes));
-    }
+    open(level.table(), headers.front());
+    if (headers.size() > 1) open(level.shapes(), headers.back());
   }
   for (const auto& table : tables_) table->keep(rows);
   return rows;

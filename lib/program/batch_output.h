@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "batch_command.h"
+#include "batch_inputs.h"
 #include "grain_queue.h"
 #include "toolbox/report/sample_table.h"
 
@@ -16,7 +16,8 @@ namespace wscvt::program {
 /// Names of the files of a batch with one number of nodes.
 class OutputFolder {
  public:
-  OutputFolder(std::filesystem::path folder, const BatchArguments& arguments);
+  /// `format`: ending of the meshes, without the point.
+  OutputFolder(std::filesystem::path folder, const std::string& format, const Shard& shard);
 
   std::string path() const { return folder_.string(); }
   std::string mesh(const std::string& grain) const;
@@ -40,7 +41,9 @@ class OutputFolder {
 /// n100, which is a sample of its own.
 class BatchOutput {
  public:
-  explicit BatchOutput(const BatchArguments& arguments);
+  /// `levels`: several numbers of nodes; empty for one.
+  BatchOutput(const std::string& folder, const std::string& format, const Shard& shard,
+              const std::vector<int>& levels);
 
   const OutputFolder& whole() const { return whole_; }
   const std::vector<OutputFolder>& levels() const { return levels_; }
@@ -50,7 +53,9 @@ class BatchOutput {
 
   /// Opens or creates the tables and cuts all to the length of the shortest, because a killed batch
   /// may have added a row to only some of them. Returns the number of rows. Throws as SampleTable.
-  std::size_t open_tables(const std::vector<std::string>& grains, const BatchArguments& arguments);
+  /// `headers`: of grains.csv and, if shapes are described, shape.csv.
+  std::size_t open_tables(const std::vector<std::string>& grains,
+                          const std::vector<std::string>& headers);
 
   /// Whether the folder has tables of this shard, with one or several numbers of nodes.
   bool is_begun() const;

@@ -5,11 +5,9 @@
 #include <system_error>
 #include <utility>
 
-#include "batch_grains.h"
-#include "batch_output.h"
 #include "command.h"
 #include "exit_code.h"
-#include "grain_run.h"
+#include "grain_job.h"
 #include "output_paths.h"
 #include "signals.h"
 #include "toolbox/clump/clump.h"
@@ -144,9 +142,6 @@ GrainRow clump_row(const ClumpArguments& arguments, const OutputFolder& folder, 
 /// interruption.
 int run_sample(const ClumpArguments& arguments) {
   const bool quiet = arguments.common.quiet;
-  BatchArguments batch;
-  batch.format = arguments.format;
-  batch.shard = arguments.shard;
   const std::vector<std::string> files = checked([&] {
     if (arguments.outputs.size() != 1 || is_clump_name(arguments.outputs.front())) {
       refuse("Several scans are given. Give one folder with -o, and --format for the clumps.");
@@ -163,38 +158,20 @@ int run_sample(const ClumpArguments& arguments) {
     }
     return found;
   });
-  batch.folder = arguments.outputs.front();
   BatchGrains inputs(files, {}, arguments.shard, quiet);
-  const std::vector<std::string>& grains = inputs.names();
-  const BatchOutput output(batch);
-  const OutputFolder& folder = output.whole();
-  checked([&] { output.check_meshes(grains); });
-  std::error_code error;
-  fs::create_directories(folder.path(), error);
-  checked(
-      [&] { check_call(folder.call(), call_text(arguments), fs::exists(folder.table(), error)); });
-  SampleTable table = checked([&] {
-    return SampleTable(folder.table(), sample_header(clump_csv(ClumpResult()), false), grains);
-  });
-  const std::size_t first = table.rows();
-  output.remove_parts(grains, first);
-  inputs.begin(first);
-  GrainRun all;
-  all.first = first;
-  all.failed = table.failed_rows();
-  all.count = grains.size();
-  all.threads = arguments.common.threads;
-  all.quiet = quiet;
-  all.when_stopped = "The same call continues from there.";
-  all.name = [&](std::size_t k) { return grains[k]; };
-  all.work = [&](std::size_t k, const Execution& execution) {
-    return clump_row(arguments, folder, inputs, k, execution);
+  BatchOutput output(arguments.outputs.front(), arguments.format, arguments.shard, {});
+  GrainJob job;
+  job.call = call_text(arguments);
+  job.headers = {sample_header(clump_csv(ClumpResult()), false)};
+  job.threads = arguments.common.threads;
+  job.quiet = quiet;
+  job.work = [&](std::size_t k, const Execution& execution) {
+    return clump_row(arguments, output.whole(), inputs, k, execution);
   };
-  all.take = [&](std::size_t, const GrainRow& row) { table.append(row.record); };
-  const GrainRunEnd end = run_grains(all);
+  const GrainRunEnd end = run_job(job, inputs, output);
   if (end.was_cancelled) return 128 + noted_signal();
   print({std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
-         " failed: " + folder.table()},
+         " failed: " + output.whole().table()},
         quiet);
   return end.failed == 0 && !inputs.is_much_left_out() ? Done : SomeFailed;
 }

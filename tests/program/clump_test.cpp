@@ -64,6 +64,15 @@ TEST_F(ClumpProgram, ASampleGoesOnAndIsParted) {
   EXPECT_EQ(run("clump scans -k 2 -o molecules -q --format molecule").exit_code, 2);
 }
 
+TEST_F(ClumpProgram, TheFolderOfABatchWithSeveralNumbersOfNodesIsRefused) {
+  write_sample();
+  ASSERT_EQ(run("batch scans -n 30,40 -o out -q").exit_code, 3);
+  const std::string call = content("out/call.json");
+  EXPECT_EQ(run("clump scans -k 2 -o out -q").exit_code, 2);
+  EXPECT_EQ(content("out/call.json"), call);
+  EXPECT_FALSE(exists("out/grains.csv"));
+}
+
 TEST_F(ClumpProgram, WrongCallsAreRefused) {
   write_sample();
   expect_refused("clump",
